@@ -1,0 +1,24 @@
+# Warnings, sanitizers and the compiler cache, for every target of the project.
+find_program(CCACHE ccache)
+if(CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(gnomon_options INTERFACE)
+target_compile_options(gnomon_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                -Wnon-virtual-dtor -Woverloaded-virtual)
+if(GNOMON_WERROR)
+    target_compile_options(gnomon_options INTERFACE -Werror)
+endif()
+# Bit-for-bit the same plan on every compiler: no fused multiply-add unless the code says so.
+target_compile_options(gnomon_options INTERFACE -ffp-contract=off)
+if(GNOMON_SANITIZE)
+    add_compile_options(-fsanitize=${GNOMON_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=${GNOMON_SANITIZE})
+endif()
+
+# gnomon_library(NAME SOURCES...): a static library with the project's options.
+function(gnomon_library name)
+    add_library(${name} STATIC ${ARGN})
+    target_link_libraries(${name} PRIVATE gnomon_options)
+endfunction()

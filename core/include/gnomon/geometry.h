@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounds, planes, frustums and convex bodies. World units are metres; angles are radians.
+// A suffix names a vector's space: _ws world, _ls light, _vs view. A matrix `b_from_a` takes a to b.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// Axis-aligned box. Default-constructed it is empty (min > max) and is the identity of `merge`.
+struct Aabb {
+    glm::vec3 min{std::numeric_limits<float>::infinity()};
+    glm::vec3 max{-std::numeric_limits<float>::infinity()};
+
+    [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    [[nodiscard]] glm::vec3 centre() const { return (min + max) * 0.5F; }
+    /// Full edge lengths; meaningless for an empty box.
+    [[nodiscard]] glm::vec3 extent() const { return max - min; }
+    [[nodiscard]] bool overlaps(const Aabb& other) const
+    {
+        return min.x <= other.max.x && max.x >= other.min.x && min.y <= other.max.y && max.y >= other.min.y &&
+               min.z <= other.max.z && max.z >= other.min.z;
+    }
+    [[nodiscard]] bool contains(const Aabb& other) const
+    {
+        return min.x <= other.min.x && max.x >= other.max.x && min.y <= other.min.y && max.y >= other.max.y &&
+               min.z <= other.min.z && max.z >= other.max.z;
+    }
+    /// Corner i in 0..7: bit 0 picks x, bit 1 y, bit 2 z (0 = min, 1 = max).
+    [[nodiscard]] glm::vec3 corner(int i) const
+    {
+        return {(i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y, (i & 4) != 0 ? max.z : min.z};
+    }
+};
+
+/// Smallest box around both; an empty argument changes nothing.
+[[nodiscard]] Aabb merge(const Aabb& a, const Aabb& b);
+[[nodiscard]] Aabb merge(const Aabb& a, const glm::vec3& point);
+/// Box around the eight transformed corners, tight for the transformed box (Arvo 1990, "Transforming
+/// axis-aligned bounding boxes"); affine transforms only.
+[[nodiscard]] Aabb transform(const glm::mat4& b_from_a, const Aabb& box_a);
+
+/// Half-space dot(normal, p) + d >= 0 is inside. `normal` is unit length, so the value is a distance in metres.
+struct Plane {
+    glm::dvec3 normal{0.0, 0.0, 1.0};
+    double d = 0.0;
+
+    [[nodiscard]] double distance(const glm::dvec3& p) const { return glm::dot(normal, p) + d; }
+};
+
+/// Six inward planes, in the order left, right, bottom, top, near, far.
+struct Frustum {
+    std::array<Plane, 6> planes;
+};
+
+/// Planes of a clip volume -w <= x,y <= w, 0 <= z <= w (Gribb & Hartmann 2001, "Fast extraction of viewing
+/// frustum planes"). Works for perspective and orthographic matrices with near at z = 0.
+[[nodiscard]] Frustum frustumFromClip(const glm::dmat4& clip_from_world);
+
+enum class Containment : std::uint8_t { outside, intersects, inside };
+/// Conservative: `intersects` may be said of a box just outside an edge, never `outside` of one that is not.
+[[nodiscard]] Containment classify(std::span<const Plane> planes, const Aabb& box);
+
+/// A bounded convex polyhedron, as polygons with outward counter-clockwise winding. Empty when it has no face.
+/// Used in double precision, because it is clipped many times and thin slivers decide a fit.
+class ConvexBody {
+public:
+    ConvexBody() = default;
+    [[nodiscard]] static ConvexBody fromAabb(const Aabb& box);
+    /// The eight corners of a clip volume (near at z = 0) taken to world space. A singular matrix gives an empty body.
+    [[nodiscard]] static ConvexBody fromClip(const glm::dmat4& clip_from_world);
+    /// Convex hull of `points` (at most a few hundred). Fewer than four points, or points all within 1e-9 of the
+    /// extent of a plane, give an empty body.
+    [[nodiscard]] static ConvexBody hull(std::span<const glm::dvec3> points);
+
+    [[nodiscard]] bool empty() const { return face_sizes_.empty(); }
+    /// Keeps the part inside `plane`. Returns *this, for chaining.
+    ConvexBody& clip(const Plane& plane);
+    ConvexBody& clip(std::span<const Plane> planes);
+    /// Sweeps the body by `offset`: the convex hull of it and its translate. With the reverse light direction this is
+    /// the body from which casters can reach it.
+    [[nodiscard]] ConvexBody swept(const glm::dvec3& offset) const;
+    /// Inward planes of all faces.
+    [[nodiscard]] std::vector<Plane> planes() const;
+
+    /// Vertices of all faces, face after face (a corner appears once per face it is on).
+    [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
+    /// Number of vertices of each face.
+    [[nodiscard]] std::span<const std::uint32_t> faceSizes() const { return face_sizes_; }
+    [[nodiscard]] bool contains(const glm::dvec3& p, double tolerance_m = 0.0) const;
+    [[nodiscard]] double volume() const;
+
+private:
+    std::vector<glm::dvec3> points_;
+    std::vector<std::uint32_t> face_sizes_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene model: what a file or a built-in world holds, as plain data. Right-handed, +y up, metres, radians,
+// linear colour, as glTF 2.0 has it. Indices are into the vectors of `Scene`; `kNone` says "none".
+#pragma once
+
+#include <gnomon/geometry.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::scene {
+
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+/// 8-bit RGBA, rows from the top, width * height * 4 bytes. Colour images hold sRGB-encoded values; whoever uses
+/// one knows by its role (base colour and emissive are colour; normal, metallic-roughness, occlusion are data).
+struct Image {
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+
+struct Texture {
+    std::uint32_t image = kNone;
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    bool magnify_linear = true;
+    bool minify_linear = true;
+    bool mipmaps = true;
+};
+
+/// Use of a texture by a material. uv' = offset + rotation(counter-clockwise, radians) * scale * uv, as
+/// KHR_texture_transform defines it.
+struct TextureUse {
+    std::uint32_t texture = kNone;
+    std::uint32_t uv_set = 0; // 0 or 1
+    glm::vec2 offset{0.0F};
+    glm::vec2 scale{1.0F};
+    float rotation_rad = 0.0F;
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+enum class ShadingModel : std::uint8_t { metallic_roughness, phong, unlit };
+
+struct Material {
+    std::string name;
+    ShadingModel model = ShadingModel::metallic_roughness;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5F;
+    bool double_sided = false;
+    glm::vec4 base_colour{1.0F}; // linear, alpha is coverage
+    float metallic = 1.0F;
+    float roughness = 1.0F;
+    float phong_exponent = 8.0F; // for ShadingModel::phong only
+    glm::vec3 emissive{0.0F};    // linear, KHR_materials_emissive_strength multiplied in
+    float normal_scale = 1.0F;
+    float occlusion_strength = 1.0F;
+    TextureUse base_colour_texture;
+    TextureUse metallic_roughness_texture; // G roughness, B metallic
+    TextureUse normal_texture;
+    TextureUse occlusion_texture; // R
+    TextureUse emissive_texture;
+};
+
+/// Differences that a morph target adds; each vector is empty or as long as the primitive's positions.
+struct MorphTarget {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;
+};
+
+/// Triangles of one material. Every vector but `positions` and `indices` may be empty; what is there is as long as
+/// `positions`. `normals` is always filled (the reader makes flat normals where a file has none). Quantised
+/// attributes are already expanded. Indices are a triangle list, each below positions.size().
+struct Primitive {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents; // w = handedness
+    std::vector<glm::vec2> uv0;
+    std::vector<glm::vec2> uv1;
+    std::vector<glm::vec4> colours; // linear RGBA
+    std::vector<glm::u16vec4> joints;
+    std::vector<glm::vec4> weights; // sum 1
+    std::vector<std::uint32_t> indices;
+    std::vector<MorphTarget> morph_targets;
+    std::uint32_t material = kNone; // kNone: the default material
+    Aabb bounds;                    // of the undeformed positions, object space
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+    std::vector<float> morph_weights; // defaults, one per target
+};
+
+/// Translation, then rotation, then scale, applied to a point in reverse order. A node given as a matrix that has no
+/// such parts keeps the matrix, and no animation may target it.
+struct Transform {
+    glm::vec3 translation{0.0F};
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec3 scale{1.0F};
+
+    [[nodiscard]] glm::mat4 matrix() const;
+};
+
+struct Node {
+    std::string name;
+    std::uint32_t parent = kNone; // always a smaller index than the node's own, or kNone
+    Transform transform;
+    glm::mat4 matrix{1.0F};
+    bool use_matrix = false; // `matrix` holds instead of `transform`
+    std::uint32_t mesh = kNone;
+    std::uint32_t skin = kNone;
+    std::uint32_t camera = kNone;
+    std::uint32_t light = kNone;
+    std::vector<float> morph_weights;     // empty: the mesh's
+    std::vector<glm::mat4> instances;     // node_from_instance; empty: the node's mesh once at the node
+    bool casts = true;                    // per-object flags of the shadow system
+    bool receives = true;
+    bool dynamic = false; // hint: moves by a procedural animator or an animation channel (filled by finishScene)
+};
+
+struct Skin {
+    std::string name;
+    std::vector<std::uint32_t> joints; // nodes
+    std::vector<glm::mat4> inverse_bind; // joint_from_mesh, as many as joints
+};
+
+enum class AnimationPath : std::uint8_t { translation, rotation, scale, weights };
+enum class Interpolation : std::uint8_t { step, linear, cubic_spline };
+
+/// `values` holds floats: 3, 4 (x y z w) or target-count components per key; three times as many for cubic_spline
+/// (in-tangent, value, out-tangent). Times are strictly increasing, in seconds.
+struct AnimationChannel {
+    std::uint32_t node = kNone;
+    AnimationPath path = AnimationPath::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<float> times_s;
+    std::vector<float> values;
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationChannel> channels;
+    float duration_s = 0.0F;
+};
+
+/// Perspective (vertical field of view) or orthographic, looking down the node's -z.
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    float fov_y_rad = 0.8F;
+    float half_height_m = 1.0F; // orthographic only
+    float near_m = 0.1F;
+    float far_m = 0.0F; // 0: infinite; whoever renders picks one from the scene's bounds
+};
+
+enum class LightType : std::uint8_t { directional, spot, point };
+
+/// KHR_lights_punctual, shining down the node's -z, with what shadows need besides.
+struct Light {
+    std::string name;
+    LightType type = LightType::directional;
+    glm::vec3 colour{1.0F};         // linear
+    float intensity = 1.0F;         // lux for directional, candela for spot and point
+    float range_m = 0.0F;           // 0: unlimited
+    float inner_cone_rad = 0.0F;    // half angles
+    float outer_cone_rad = 0.7853982F;
+    float angular_diameter_rad = 0.00925025F; // directional: 0.53 degrees, the sun
+    float radius_m = 0.0F;          // spot and point: sphere radius of the emitter
+    std::uint32_t cookie = kNone;   // spot: an image projected down its cone, or kNone
+    bool casts_shadow = true;
+};
+
+/// Sky and ambient of a world; files get the defaults.
+struct Environment {
+    glm::vec3 sky_zenith{0.18F, 0.34F, 0.62F};  // linear radiance
+    glm::vec3 sky_horizon{0.62F, 0.72F, 0.82F};
+    glm::vec3 ground{0.22F, 0.20F, 0.17F};
+    float ambient = 0.35F; // multiplies the hemisphere light
+    float exposure = 1.0F;
+};
+
+/// A view by name: a camera that is not part of the node tree (built-in worlds).
+struct NamedView {
+    std::string name;
+    glm::vec3 eye{0.0F};
+    glm::vec3 target{0.0F, 0.0F, -1.0F};
+    float fov_y_rad = 0.8F;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes; // parents before children
+    std::vector<Skin> skins;
+    std::vector<Animation> animations; // the first plays, unless another is asked for by name
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<NamedView> views;
+    Environment environment;
+    /// Built-in worlds move their nodes here: sets transforms of `nodes` for a time in seconds. Must be a pure
+    /// function of the time (frames may be drawn in any order). Null for files.
+    std::function<void(double time_s, std::vector<Node>& nodes)> procedural;
+    std::vector<std::string> notices; // what was read but has no effect, a sentence each
+};
+
+} // namespace gnomon::scene
