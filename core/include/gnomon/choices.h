@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The six independent choices that make up a shadow technique, as closed sets. Any combination works or is refused up
+// front with a sentence that says why. A new technique is one new value here, one line in a table, and one file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace gnomon {
+
+enum class LightType : std::uint8_t { directional, spot, point };
+enum class Partition : std::uint8_t { single, cascades, sdsm, cube, multi };
+enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm };
+enum class Filter : std::uint8_t { hard, pcf, pcss, vsm, lvsm, esm, evsm, msm, id, depth_id };
+enum class Soften : std::uint8_t { none, blur, smoothies };
+enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
+
+/// The kernel of Filter::pcf.
+enum class PcfKernel : std::uint8_t { bilinear_2x2, gaussian_3x3, gaussian_5x5, gaussian_7x7, poisson, vogel };
+
+/// What a map texel is stored as. Which filter can use which is filterTraits().formats.
+enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f };
+
+/// One value each of the choices that a user makes (the light brings its own).
+struct Technique {
+    Partition partition = Partition::single;
+    Fit fit = Fit::uniform;
+    Filter filter = Filter::pcf;
+    Soften soften = Soften::none;
+    Motion motion = Motion::free;
+};
+
+/// One row of the table of all values: what `gnomon list` prints and every parser reads.
+struct ChoiceValue {
+    std::string_view choice;  // "light", "partition", "fit", "filter", "soften", "motion"
+    std::string_view name;    // as typed on the command line, unique over all choices
+    std::uint8_t value;       // of the choice's enum
+    bool available;           // false: known, but this version refuses it
+    std::string_view summary; // one line
+    std::string_view source;  // author, title, year
+};
+/// All values of all choices, in the order of the enums.
+[[nodiscard]] std::span<const ChoiceValue> choiceValues();
+/// The row of a name, or null.
+[[nodiscard]] const ChoiceValue* findChoice(std::string_view choice, std::string_view name);
+/// The name of an enum's value.
+[[nodiscard]] std::string_view nameOf(LightType value);
+[[nodiscard]] std::string_view nameOf(Partition value);
+[[nodiscard]] std::string_view nameOf(Fit value);
+[[nodiscard]] std::string_view nameOf(Filter value);
+[[nodiscard]] std::string_view nameOf(Soften value);
+[[nodiscard]] std::string_view nameOf(Motion value);
+[[nodiscard]] std::string_view nameOf(PcfKernel value);
+[[nodiscard]] std::string_view nameOf(MapFormat value);
+[[nodiscard]] std::optional<PcfKernel> findPcfKernel(std::string_view name);
+[[nodiscard]] std::optional<MapFormat> findMapFormat(std::string_view name);
+
+/// Facts of a filter that planning and the backend need; one row per available filter.
+struct FilterTraits {
+    Filter filter;
+    std::span<const MapFormat> formats; // usable, the default first
+    bool depth_only;                    // a bare depth attachment can hold it
+};
+/// Null for a filter that is not available.
+[[nodiscard]] const FilterTraits* filterTraits(Filter filter);
+
+/// A combination of choices that is refused, with the reason as a sentence.
+struct Refusal {
+    LightType light;
+    Technique technique;
+    std::string_view reason;
+};
+/// Why this combination cannot be had, as a sentence; nothing when it can.
+[[nodiscard]] std::optional<std::string_view> refusal(LightType light, const Technique& technique);
+/// Why this filter cannot use this format; nothing when it can.
+[[nodiscard]] std::optional<std::string_view> refusal(Filter filter, MapFormat format);
+
+} // namespace gnomon

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a host knows about one frame: camera, lights and the bounds of its objects. Plain data; nothing is kept.
+#pragma once
+
+#include <gnomon/choices.h>
+#include <gnomon/geometry.h>
+#include <gnomon/object_set.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace gnomon {
+
+/// The viewer. Any projection whose clip space has z in [0, w], near or far first.
+struct Camera {
+    glm::dvec3 eye_ws{0.0};
+    glm::dmat4 clip_from_world{1.0};
+    bool reversed_z = true; // depth 1 at the near plane, 0 at the far plane and where nothing was drawn
+};
+
+/// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light.
+struct Light {
+    std::uint32_t key = 0;
+    LightType type = LightType::directional;
+    glm::dvec3 position_ws{0.0};               // spot, point
+    glm::dvec3 direction_ws{0.0, -1.0, 0.0};   // directional, spot: unit, the way light travels
+    double outer_half_angle_rad = 0.7853981634; // spot: (0, 1.0471] (60 degrees: a single frustum holds 120)
+    double range_m = 0.0;                      // spot, point: reach, > 0; 0 means "as far as the scene goes"
+    double near_m = 0.0;                       // spot, point: nothing nearer casts; 0 picks 1/1000 of the reach
+    double angular_diameter_rad = 0.00925025;  // directional: 0.53 degrees is the sun
+    double radius_m = 0.0;                     // spot, point: radius of the emitting sphere
+    bool casts_shadow = true;                  // false: no map; its mask channel reads 1
+};
+
+struct Frame {
+    std::uint64_t index = 0;
+    double time_s = 0.0;
+    Camera camera;
+    glm::uvec2 size_px{1280, 720}; // of the picture; >= 1
+    std::span<const Light> lights;
+    const ObjectSet* objects = nullptr; // not null
+};
+
+} // namespace gnomon

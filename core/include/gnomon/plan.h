@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan of one frame: which maps to draw, with which matrices, where in the atlas, and who draws in them. Plain
+// data: a host without our backend can do the GPU work from it alone.
+#pragma once
+
+#include <gnomon/choices.h>
+#include <gnomon/geometry.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU;
+
+/// What became of a light, as a value with a reason. Never an exception, never a silent fallback.
+enum class OutcomeKind : std::uint8_t {
+    ok,
+    fallback,         // drawn, but not as asked; the reason says what was done instead
+    no_shadow_wanted, // Light::casts_shadow is false
+    no_receiver,      // nothing that the camera sees is in the light's reach
+    no_caster,        // nothing can throw a shadow on what the camera sees
+    degenerate,       // the numbers do not describe a light or a view (not finite, zero direction …)
+    refused,          // the combination of choices is refused (refusal())
+    atlas_full,       // no room for its maps
+};
+[[nodiscard]] std::string_view nameOf(OutcomeKind kind);
+
+struct Outcome {
+    OutcomeKind kind = OutcomeKind::ok;
+    std::string_view reason; // a sentence with static lifetime; empty for ok
+
+    /// Its mask channel comes from a map (ok, fallback); otherwise it is `unshadowed visibility`, which is 1.
+    [[nodiscard]] bool hasMap() const { return kind == OutcomeKind::ok || kind == OutcomeKind::fallback; }
+};
+
+/// A rectangle of one layer of the atlas, in texels.
+struct Tile {
+    std::uint32_t layer = 0;
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near), d in metres along the axis.
+struct DepthMetric {
+    glm::dvec4 metric_ws{0.0};
+    double near_m = 0.0;
+    double far_m = 1.0;
+};
+
+/// One map to draw: a frustum of one light.
+struct View {
+    std::uint32_t light = 0;          // index into Frame::lights
+    glm::dmat4 clip_from_world{1.0};  // z in [0, w] in front of the near plane; y down, as Vulkan has it
+    DepthMetric metric;
+    bool orthographic = true;         // then the rasteriser's z is the metric itself, up to rounding
+    bool clamp_near = true;           // casters before the near plane are to be clamped onto it, not cut
+    double texel_m = 0.0;             // side of a texel: metres across the light (orthographic), or metres at 1 m distance
+    Tile tile;
+    std::uint32_t first_caster = 0;   // range of Plan::casters
+    std::uint32_t caster_count = 0;
+    bool redraw = true;               // false: the map of the last frame still holds
+};
+
+struct LightPlan {
+    std::uint32_t first_view = 0; // range of Plan::views
+    std::uint32_t view_count = 0;
+    std::uint32_t mask_layer = 0;   // of the mask image
+    std::uint32_t mask_channel = 0; // 0..3
+    Outcome outcome;
+};
+
+/// Size of the map image that all tiles are in.
+struct AtlasSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t layers = 0;
+};
+
+struct Plan {
+    std::uint64_t frame = 0;
+    Technique technique;
+    std::vector<LightPlan> lights; // one per light of the frame, in its order
+    std::vector<View> views;
+    std::vector<std::uint32_t> casters;   // object handles, ascending within a view
+    std::vector<std::uint32_t> receivers; // object handles that the camera sees, ascending
+    AtlasSize atlas;
+    std::uint32_t mask_layers = 0; // (lights + 3) / 4
+};
+
+/// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).
+[[nodiscard]] std::string toJson(const Plan& plan);
+
+} // namespace gnomon

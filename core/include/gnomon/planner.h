@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a Frame to a Plan. Keeps the last plan (to know what may be reused) and its scratch memory, nothing else.
+#pragma once
+
+#include <gnomon/choices.h>
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace gnomon {
+
+struct PlanOptions {
+    Technique technique;
+    std::uint32_t map_size = 2048; // texels on a side of one map; 16 .. 16384
+    /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
+    double max_distance_m = 0.0;
+    /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64.
+    double border_texels = 4.0;
+};
+
+/// Deterministic: the same frames and options give the same plans, bit for bit. Not thread-safe; make one per thread.
+class Planner {
+public:
+    /// Precondition: no refusal() for the technique and the lights' types is needed here; lights it concerns get
+    /// Outcome refused. map_size in range (assert).
+    explicit Planner(const PlanOptions& options);
+    ~Planner();
+    Planner(Planner&&) noexcept;
+    Planner& operator=(Planner&&) noexcept;
+
+    /// The plan holds until the next call. Allocates nothing once warm (same counts as before).
+    [[nodiscard]] const Plan& plan(const Frame& frame);
+    /// Forgets the last plan: every view of the next one says `redraw`.
+    void reset();
+    [[nodiscard]] const PlanOptions& options() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon
