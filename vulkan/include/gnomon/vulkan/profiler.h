@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// GPU time and pipeline statistics per named pass. Used by the backend and by hosts alike.
+#pragma once
+
+#include <gnomon/vulkan/device_view.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+struct PassRecord {
+    const char* name = "";           // static
+    double milliseconds = 0.0;       // GPU timestamps
+    bool has_statistics = false;     // the fields below hold
+    std::uint64_t vertex_invocations = 0;
+    std::uint64_t primitives = 0;          // that reached rasterisation (clipping output)
+    std::uint64_t fragment_invocations = 0;
+    std::uint64_t compute_invocations = 0;
+    std::uint32_t draws = 0;         // as counted by addDraws
+};
+
+/// Passes must not nest. Not thread-safe.
+class Profiler {
+public:
+    Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes);
+    ~Profiler();
+    Profiler(const Profiler&) = delete;
+    Profiler& operator=(const Profiler&) = delete;
+
+    /// First call of a frame, outside rendering. `slot` as in ShadowRenderer.
+    void beginFrame(VkCommandBuffer commands, std::uint32_t slot);
+    void beginPass(VkCommandBuffer commands, const char* name); // outside rendering; static string
+    void addDraws(std::uint32_t count);
+    void endPass(VkCommandBuffer commands);
+    /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame.
+    [[nodiscard]] std::span<const PassRecord> results(std::uint32_t slot);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a Plan to a visibility mask: records shadow-map passes and the mask pass into the caller's command buffer.
+// Never submits, never waits, never owns the device.
+#pragma once
+
+#include <gnomon/bias.h>
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+#include <gnomon/vulkan/device_view.h>
+#include <gnomon/vulkan/profiler.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+struct FilterOptions {
+    Filter filter = Filter::pcf;
+    MapFormat format = MapFormat::d32f;
+    PcfKernel pcf_kernel = PcfKernel::gaussian_3x3;
+    std::uint32_t disc_taps = 16;     // poisson, vogel: 4 .. 64
+    float disc_radius_texels = 2.5F;  // poisson, vogel: 0.5 .. 16
+    float gaussian_sigma_texels = 0.0F; // gaussian kernels: 0 picks width / 4; 0.3 .. 4
+    BiasOptions bias;
+};
+
+struct ShadowRendererOptions {
+    FilterOptions filter;
+    std::uint32_t frames_in_flight = 2;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+};
+
+/// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
+/// DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads by the host.
+struct MaskInputs {
+    VkExtent2D extent{};                  // of depth, normal and the mask
+    VkImageView depth = VK_NULL_HANDLE;   // the camera's depth, D32F or R32F, one sample
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    /// Geometric world-space normals, octahedral in RG (snorm or float), or VK_NULL_HANDLE: then taken from depth.
+    VkImageView normal = VK_NULL_HANDLE;
+    /// Object id + 1 in R32_UINT, 0 where a receiver wants no shadow at all; VK_NULL_HANDLE: everything receives.
+    VkImageView object_id = VK_NULL_HANDLE;
+};
+
+/// One map to draw, given to the host's callback. Rendering has begun, viewport and scissor are set. The callback binds its
+/// pipelines (made for `formats`) and draws the casters; it must not end rendering.
+struct MapPass {
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    const Plan* plan = nullptr;
+    const View* view = nullptr;
+    std::uint32_t view_index = 0;
+    std::span<const std::uint32_t> casters; // object handles
+    glm::mat4 clip_from_world{1.0F};
+    glm::vec4 metric_ws{0.0F}; // d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl
+};
+using DrawCasters = std::function<void(const MapPass&)>;
+
+/// What the host's caster pipelines must be made for.
+struct MapPassFormats {
+    VkFormat colour = VK_FORMAT_UNDEFINED; // UNDEFINED: depth only
+    VkFormat depth = VK_FORMAT_D32_SFLOAT;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool write_frag_depth = false; // perspective view into a depth-only map: gl_FragDepth = metric (caster.glsl)
+};
+
+struct ImageRef {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE; // all layers, 2D array
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+    std::uint32_t layers = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // after record()
+};
+
+struct MemoryUse {
+    const char* purpose = ""; // static
+    VkDeviceSize bytes = 0;
+};
+
+class ShadowRenderer {
+public:
+    /// Throws Error when a function is missing, the format is refused for the filter or memory runs out.
+    ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
+    ~ShadowRenderer();
+    ShadowRenderer(const ShadowRenderer&) = delete;
+    ShadowRenderer& operator=(const ShadowRenderer&) = delete;
+
+    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, then everything that was
+    /// recorded earlier must have finished on the GPU, and views that the plan would reuse are drawn again. Throws Error
+    /// for sizes beyond the device's limits or memory.
+    bool prepare(const Plan& plan, VkExtent2D screen);
+
+    /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in
+    /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
+    void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                    const DrawCasters& draw, Profiler* profiler = nullptr);
+    /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1.
+    /// Afterwards mask() is readable by FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER.
+    void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                    const MaskInputs& inputs, Profiler* profiler = nullptr);
+
+    [[nodiscard]] MapPassFormats mapFormats(bool orthographic) const;
+    [[nodiscard]] ImageRef mask() const; // R8 for one light, else RGBA8, one layer per four lights
+    [[nodiscard]] ImageRef maps() const;
+    [[nodiscard]] std::span<const MemoryUse> memory() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan
