@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our own small renderer: uploads a scene, draws a G-buffer, asks the library for the mask, shades. A host like any
+// other: it knows the library by its public headers alone.
+#pragma once
+
+#include "host/gpu.h"
+#include "image/image.h"
+#include "scene/state.h"
+
+#include <gnomon/planner.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::host {
+
+/// Where the picture is taken from; perspective.
+struct Eye {
+    glm::dvec3 position_ws{0.0};
+    glm::dvec3 target_ws{0.0, 0.0, -1.0};
+    glm::dvec3 up_ws{0.0, 1.0, 0.0};
+    double fov_y_rad = 0.8; // vertical; (0, pi)
+    double near_m = 0.0;    // 0: 1/20000 of the scene's diagonal, at least 1 mm of a metre-sized scene
+    double far_m = 0.0;     // 0: behind everything
+};
+
+/// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
+struct ShadedLight {
+    std::string name;
+    Light caster;                   // gnomon/frame.h
+    glm::vec3 colour{1.0F};         // linear, times intensity: lux (directional) or candela
+    double inner_half_angle_rad = 0.0; // spot
+    glm::vec3 up_ws{0.0F, 0.0F, 1.0F}; // orients the cookie
+    std::uint32_t cookie = scene::kNone; // image of the scene
+};
+[[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
+
+enum class AntiAliasing : std::uint8_t { none, fxaa, msaa4 };
+
+struct RenderOptions {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    PlanOptions plan;
+    vulkan::FilterOptions filter;
+    AntiAliasing anti_aliasing = AntiAliasing::none;
+    bool shadows = true;          // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
+    bool reuse_maps = true;       // false: every map is drawn every frame whatever the plan says
+};
+
+/// CPU stages and GPU passes of one frame, milliseconds.
+struct FrameTimes {
+    double advance_ms = 0.0; // ObjectSet update + transform upload
+    double plan_ms = 0.0;
+    double record_ms = 0.0;
+    double frame_ms = 0.0; // from the start of the frame's work to the GPU being done, without read-back
+    std::vector<vulkan::PassRecord> passes;
+};
+
+/// A frame read back.
+struct Picture {
+    Image8 colour;             // RGB, sRGB-encoded, tone-mapped
+    ImageF linear;             // RGB, linear radiance before the tone curve; only if asked for
+    std::vector<ImageF> masks; // one 1-channel image per light, in the order of the lights given
+    ImageF depth;              // camera depth, reversed z
+    ImageOf<std::uint32_t> object_ids; // index into State::objects + 1; 0 background
+    ImageF normals;            // geometric, world space, xyz
+};
+struct WantedImages {
+    bool colour = true;
+    bool linear = false;
+    bool masks = false;
+    bool geometry = false; // depth, ids, normals
+};
+
+class Renderer {
+public:
+    /// Uploads the scene. Throws Error (limits, memory, device).
+    Renderer(Gpu& gpu, const scene::Scene& scene, const scene::State& state, const RenderOptions& options);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Draws one frame of `state` (same scene, any time). `masks_instead`: use these visibility masks (one per light, as
+    /// Picture::masks) instead of the library's, e.g. the ray tracer's.
+    FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                    const std::vector<ImageF>* masks_instead = nullptr);
+    /// Reads back the last frame drawn.
+    [[nodiscard]] Picture read(const WantedImages& wanted);
+
+    /// The plan of the last frame.
+    [[nodiscard]] const Plan& plan() const;
+    /// Bytes of every image and buffer, by purpose: the scene's, the host's own and the library's.
+    [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
+    /// The map's texels of one layer, as stored, for tests and debug views.
+    [[nodiscard]] ImageF readMap(std::uint32_t layer);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
+[[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
+/// Fills an ObjectSet with a state's objects (handle = index) or updates it.
+void fillObjectSet(const scene::State& state, ObjectSet& objects);
+
+} // namespace gnomon::host

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG and EXR files. Writers write to a temporary name in the same folder, flush, then rename: either the whole file is
+// there or none of it. All throw Error with one line.
+#pragma once
+
+#include "image/image.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace gnomon {
+
+/// 1 to 4 channels, 8 bit. Values are written as they are (pictures: sRGB-encoded already; tagged sRGB when 3 or 4).
+void writePng(const std::filesystem::path& file, const Image8& image);
+/// 16-bit, tagged linear (gAMA 1.0).
+void writePng(const std::filesystem::path& file, const Image16& image);
+/// Half or full float, lossless (ZIP). 1 channel is named Y; 3 and 4 R, G, B, A.
+void writeExr(const std::filesystem::path& file, const ImageF& image, bool half = false);
+
+/// Any PNG (8- or 16-bit, any colour type) as [0, 1] values without colour conversion, or any EXR with Y or RGB(A).
+/// Untrusted input: sizes are checked against `max_side` before memory is taken.
+[[nodiscard]] ImageF readImage(const std::filesystem::path& file, std::uint32_t max_side = 16384);
+
+/// Writes any bytes the same safe way (JSON, SVG).
+void writeFile(const std::filesystem::path& file, std::string_view bytes);
+
+} // namespace gnomon
