@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws casters for hosts with ordinary meshes: a ready-made DrawCasters callback. Hosts with vertex formats of their
+// own write their callback and shaders instead (shaders/lib/caster.glsl).
+#pragma once
+
+#include <gnomon/vulkan/draw_batcher.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+/// An affine transform: its three rows. p_ws[i] = dot(row i, (p, 1)).
+struct Rows3x4 {
+    glm::vec4 x{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec4 y{0.0F, 1.0F, 0.0F, 0.0F};
+    glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F};
+};
+
+/// A batch of DrawParts, by DrawPart::batch.
+struct CasterBatch {
+    bool two_sided = true; // matters only with CasterDrawerOptions::cull_back_faces
+    /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
+    /// VK_NULL_HANDLE: opaque.
+    VkDescriptorSet texture = VK_NULL_HANDLE;
+    float cutoff = 0.5F; // kept where alpha >= cutoff; divide by the material's own alpha factor
+    glm::vec2 uv_scale{1.0F};
+    glm::vec2 uv_offset{0.0F};
+    float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
+};
+
+/// Buffers that are read while drawing. They may differ from slot to slot (skinned meshes).
+struct CasterGeometry {
+    VkBuffer positions = VK_NULL_HANDLE; // 3 floats a vertex, tightly packed
+    VkDeviceSize positions_offset = 0;
+    VkBuffer uvs = VK_NULL_HANDLE; // 2 floats a vertex, tightly packed; may be null when no batch is masked
+    VkDeviceSize uvs_offset = 0;
+    VkBuffer indices = VK_NULL_HANDLE; // 32 bits
+    VkDeviceSize indices_offset = 0;
+};
+
+struct CasterDrawerOptions {
+    MapPassFormats orthographic; // ShadowRenderer::mapFormats(true)
+    MapPassFormats perspective;  // ShadowRenderer::mapFormats(false)
+    std::uint32_t frames_in_flight = 2;
+    /// Leave out triangles that face away from the light (of batches that are not two-sided). Off, because thin and
+    /// open geometry casts too; counter-clockwise triangles face front.
+    bool cull_back_faces = false;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+};
+
+/// Not thread-safe. Needs the features drawIndirectFirstInstance and multiDrawIndirect.
+class CasterDrawer {
+public:
+    /// Throws Error when a function is missing or memory runs out.
+    CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
+    ~CasterDrawer();
+    CasterDrawer(const CasterDrawer&) = delete;
+    CasterDrawer& operator=(const CasterDrawer&) = delete;
+
+    /// What the object handles of the plans draw. May allocate. `batches` is indexed by DrawPart::batch (assert).
+    void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
+                  std::span<const CasterBatch> batches);
+
+    /// Before recordMaps() of a frame. `world_from_object` is indexed by object handle and read until the frame is
+    /// recorded, then no more. Grows the slot's buffers when the plan's lists are longer than any before; else
+    /// allocates nothing. Throws Error when memory runs out.
+    void beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
+                    std::span<const Rows3x4> world_from_object);
+    /// Draws one view; to be called from the DrawCasters callback. Returns the number of indirect draws it recorded,
+    /// for Profiler::addDraws.
+    std::uint32_t draw(const MapPass& pass);
+
+    [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame()
+    /// The layout that CasterBatch::texture sets must be compatible with. A layout of the host's own that is defined
+    /// alike serves as well.
+    [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const;
+    [[nodiscard]] std::span<const MemoryUse> memory() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan

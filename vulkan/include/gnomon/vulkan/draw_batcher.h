@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a list of objects to instanced indirect draws, grouped by material batch. No GPU work: it writes plain arrays,
+// which are usually mapped memory. Serves shadow casters (caster_drawer.h) and a host's own passes alike.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// One triangle list inside the shared index and vertex buffers.
+struct MeshRange {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    std::int32_t vertex_offset = 0;
+};
+
+/// A mesh drawn with one material. `batch` is whatever the caller groups by (material, pipeline); batches come out in
+/// ascending order.
+struct DrawPart {
+    MeshRange mesh;
+    std::uint32_t batch = 0;
+};
+
+/// What an object handle draws: a range of parts. Objects that name the same parts become instances of one draw. A
+/// count of 0 draws nothing.
+struct DrawObject {
+    std::uint32_t first_part = 0;
+    std::uint32_t part_count = 0;
+};
+
+/// Consecutive commands of one batch: one vkCmdDrawIndexedIndirect.
+struct BatchDraws {
+    std::uint32_t batch = 0;
+    std::uint32_t first_command = 0; // counted from the first command of the build() call
+    std::uint32_t command_count = 0;
+};
+
+struct DrawLists {
+    std::span<const BatchDraws> batches; // ascending by batch; valid until the next call of the batcher
+    std::uint32_t command_count = 0;
+    std::uint32_t instance_count = 0;
+    std::uint64_t index_count = 0; // over all instances: three times the triangles
+};
+
+/// Deterministic; allocates in setScene() alone. Not thread-safe.
+class DrawBatcher {
+public:
+    /// Copies what it needs. Ranges of `objects` must lie inside `parts` (assert).
+    void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects);
+
+    /// Instances that build() will write for this list. O(list).
+    [[nodiscard]] std::uint32_t instanceCount(std::span<const std::uint32_t> list) const;
+    /// Commands that build() writes at most, for any list.
+    [[nodiscard]] std::uint32_t maxCommands() const { return static_cast<std::uint32_t>(parts_.size()); }
+
+    /// Writes one command per part in use and, for each of its instances, the object's handle; instances of a part are
+    /// consecutive and in the list's order. Command i of the result starts at instance `first_instance` + its place, so
+    /// several lists can share one buffer. Handles beyond setScene()'s objects draw nothing. `commands` and `instances`
+    /// must be large enough (assert); the caller binds instance data from them as it likes: as an instance-rate
+    /// attribute, or as a storage buffer read at gl_InstanceIndex.
+    DrawLists build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
+                    std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances);
+
+private:
+    std::vector<DrawPart> parts_;
+    std::vector<DrawObject> objects_;
+    std::vector<std::uint32_t> order_;  // part indices, ascending by batch
+    std::vector<std::uint32_t> cursor_; // per part: instances counted, then where the next one goes
+    std::vector<BatchDraws> batches_;
+};
+
+} // namespace gnomon::vulkan

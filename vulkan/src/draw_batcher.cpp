@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A counting sort of (part, object) pairs: linear in the list and in the number of parts.
+#include <gnomon/vulkan/draw_batcher.h>
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace gnomon::vulkan {
+
+void DrawBatcher::setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects)
+{
+    parts_.assign(parts.begin(), parts.end());
+    objects_.assign(objects.begin(), objects.end());
+    for ([[maybe_unused]] const DrawObject& object : objects_) {
+        assert(object.first_part <= parts.size() && object.part_count <= parts.size() - object.first_part);
+    }
+    order_.resize(parts.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return parts_[a].batch < parts_[b].batch; });
+    cursor_.assign(parts.size(), 0U);
+    batches_.clear();
+    batches_.reserve(parts.size());
+}
+
+std::uint32_t DrawBatcher::instanceCount(std::span<const std::uint32_t> list) const
+{
+    std::uint32_t count = 0;
+    for (const std::uint32_t handle : list) {
+        count += handle < objects_.size() ? objects_[handle].part_count : 0U;
+    }
+    return count;
+}
+
+DrawLists DrawBatcher::build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
+                             std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances)
+{
+    std::fill(cursor_.begin(), cursor_.end(), 0U);
+    for (const std::uint32_t handle : list) {
+        if (handle < objects_.size()) {
+            const DrawObject object = objects_[handle];
+            for (std::uint32_t i = 0; i < object.part_count; ++i) {
+                ++cursor_[object.first_part + i];
+            }
+        }
+    }
+
+    DrawLists result;
+    batches_.clear();
+    for (const std::uint32_t part : order_) {
+        const std::uint32_t count = cursor_[part];
+        cursor_[part] = result.instance_count;
+        if (count == 0 || parts_[part].mesh.index_count == 0) {
+            continue;
+        }
+        if (batches_.empty() || batches_.back().batch != parts_[part].batch) {
+            batches_.push_back({parts_[part].batch, result.command_count, 0});
+        }
+        ++batches_.back().command_count;
+        assert(result.command_count < commands.size());
+        const MeshRange mesh = parts_[part].mesh;
+        commands[result.command_count++] = {mesh.index_count, count, mesh.first_index, mesh.vertex_offset,
+                                            first_instance + result.instance_count};
+        result.instance_count += count;
+        result.index_count += std::uint64_t{mesh.index_count} * count;
+    }
+    assert(result.instance_count <= instances.size());
+
+    for (const std::uint32_t handle : list) {
+        if (handle < objects_.size()) {
+            const DrawObject object = objects_[handle];
+            for (std::uint32_t i = 0; i < object.part_count; ++i) {
+                const std::uint32_t part = object.first_part + i;
+                if (parts_[part].mesh.index_count != 0) {
+                    instances[cursor_[part]++] = handle;
+                }
+            }
+        }
+    }
+    result.batches = batches_;
+    return result;
+}
+
+} // namespace gnomon::vulkan
