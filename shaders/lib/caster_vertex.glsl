@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: body of the caster vertex shaders. An instance brings the rows that take its own points to the map, multiplied
+// out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 row_x;
+layout(location = 3) in vec4 row_y;
+layout(location = 4) in vec4 row_z;
+#ifdef PERSPECTIVE
+layout(location = 5) in vec4 row_w;
+layout(location = 6) in vec4 row_metric;
+#endif
+layout(location = 0) out float metric;
+#ifdef MASKED
+layout(location = 1) in vec2 uv_in;
+layout(location = 1) out vec2 uv;
+layout(push_constant) uniform Material
+{
+    vec4 uv_u; // rows of the texture's transform: u = dot(uv_u.xyz, (uv, 1))
+    vec4 uv_v;
+    float cutoff;
+};
+#endif
+
+void main()
+{
+    vec4 p = vec4(position, 1.0);
+    vec4 clip = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
+#ifdef PERSPECTIVE
+    clip.w = dot(row_w, p);
+    metric = dot(row_metric, p);
+#else
+    metric = clip.z;
+#endif
+    gl_Position = clip;
+#ifdef MASKED
+    vec3 t = vec3(uv_in, 1.0);
+    uv = vec2(dot(uv_u.xyz, t), dot(uv_v.xyz, t));
+#endif
+}

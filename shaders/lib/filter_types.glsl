@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every filter is given. A filter is a function `real name(MapPoint point, FilterInput f)` in a file of its own.
+//
+// The includer gives access to the map's texels beforehand, because GLSL and a test on the CPU have them in different
+// places. Texel (i, j) is centred on (i + 0.5, j + 0.5); a gather has the four texels that meet at a corner with integer
+// coordinates, in the order of textureGather: x: left low, y: right low, z: right high, w: left high, where "low" is the larger y.
+//   real mapTexel(real2 texel, real layer);    // texel: integer coordinates
+//   real4 mapGather(real2 corner, real layer); // corner: integer coordinates
+#ifndef GNOMON_FILTER_TYPES_GLSL
+#define GNOMON_FILTER_TYPES_GLSL
+#include "../shared/bias.h"
+GN_BEGIN
+
+struct FilterInput {
+    real layer;
+    int kernel_width;   // 1, 3, 5, 7: separable; 0: disc
+    int disc_taps;      // > 0: Vogel; < 0: Poisson
+    real disc_radius;   // texels
+    real4 kernel;       // gaussianWeights(kernel_width, sigma)
+    real2 pixel;        // of the screen, for noise
+};
+
+// 1 where the receiver is lit by what one texel holds, else 0. `centre`: of the texel, relative to the receiver.
+GN_FN real compareTexel(MapPoint point, real2 centre, real stored)
+{
+    real2 reference = referenceAt(point, centre);
+    return step(min(reference.x, reference.y), stored * reference.y);
+}
+
+// The same for the four texels of a gather. `centre`: of the top left one (component w), relative to the receiver.
+GN_FN real4 compareGather(MapPoint point, real2 centre, real4 stored)
+{
+    real2 at = referenceAt(point, centre);
+    real2 d = point.depth_slope;
+    real4 depth = real4(at.x) + real4(d.y, d.x + d.y, d.x, real(0.0));
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    return step(min(depth, real4(1.0)), stored);
+#else
+    real2 s = point.w_slope;
+    real4 w = max(real4(at.y) + real4(s.y, s.x + s.y, s.x, real(0.0)), real4(real(0.05)));
+    return step(min(depth, w), stored * w);
+#endif
+}
+
+GN_END
+#endif

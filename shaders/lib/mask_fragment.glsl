@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: body of the mask pass. Up to four lights of one layer of the mask, for the pixel's surface.
+#include "../shared/gpu_structs.h"
+#include "../shared/octahedral.h"
+
+layout(constant_id = 0) const int kFilter = 1;      // gnomon::Filter
+layout(constant_id = 1) const int kKernelWidth = 3; // see FilterInput
+layout(constant_id = 2) const int kDiscTaps = 16;
+layout(constant_id = 3) const bool kHasNormals = true;
+
+layout(set = 0, binding = 0, std140) uniform Constants
+{
+    GpuMaskLayer mask;
+};
+#define GNOMON_MAP_SET 0
+#define GNOMON_MAP_BINDING 1
+#define GNOMON_MAP_TEXEL_SIZE mask.atlas.xy
+#include "map_texture.glsl"
+#include "visibility.glsl"
+layout(set = 0, binding = 2) uniform sampler2D depths;
+layout(set = 0, binding = 3) uniform sampler2D normals;
+#ifdef GNOMON_OBJECT_IDS
+layout(set = 0, binding = 4) uniform usampler2D object_ids;
+#endif
+layout(location = 0) out vec4 visibility;
+
+// Eye-relative position of a pixel.
+vec3 positionAt(ivec2 pixel, float depth)
+{
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * mask.screen.zw * 2.0 - 1.0, depth, 1.0);
+    vec4 p = vec4(dot(mask.eye_x, ndc), dot(mask.eye_y, ndc), dot(mask.eye_z, ndc), dot(mask.eye_w, ndc));
+    return p.xyz / p.w;
+}
+
+vec3 neighbour(ivec2 pixel, ivec2 step_px)
+{
+    ivec2 at = clamp(pixel + step_px, ivec2(0), ivec2(mask.screen.xy) - 1);
+    return positionAt(at, texelFetch(depths, at, 0).r);
+}
+
+// The nearer of the neighbours on both sides is on the same surface more often than not.
+vec3 shorter(vec3 a, vec3 b)
+{
+    // A clamped neighbour is the pixel itself, which says nothing.
+    float la = dot(a, a);
+    float lb = dot(b, b);
+    return (la > 0.0 && la < lb) || lb == 0.0 ? a : b;
+}
+
+vec3 normalFromDepth(ivec2 pixel, vec3 p)
+{
+    vec3 dx = shorter(neighbour(pixel, ivec2(1, 0)) - p, p - neighbour(pixel, ivec2(-1, 0)));
+    vec3 dy = shorter(neighbour(pixel, ivec2(0, 1)) - p, p - neighbour(pixel, ivec2(0, -1)));
+    vec3 n = cross(dx, dy);
+    float l = length(n);
+    n = l > 0.0 ? n / l : normalize(-p);
+    return dot(n, p) > 0.0 ? -n : n; // towards the eye
+}
+
+float lightVisibility(int index, vec3 p, vec3 n)
+{
+    GpuLight light = mask.lights[index];
+    if (light.views.z == 0) {
+        return 1.0;
+    }
+    if (dot(n, directionToLight(light, p)) <= 0.0) {
+        return 0.0;
+    }
+    FilterInput f;
+    f.layer = 0.0;
+    f.kernel_width = kKernelWidth;
+    f.disc_taps = kDiscTaps;
+    f.disc_radius = mask.disc.x;
+    f.kernel = mask.kernel;
+    f.pixel = gl_FragCoord.xy;
+    for (uint i = light.views.x; i < light.views.x + light.views.y; ++i) {
+        if (viewContains(mask.views[i], p)) {
+            return viewVisibility(kFilter, mask.views[i], biasOf(mask.bias, mask.bias_more), f, p, n);
+        }
+    }
+    return 1.0;
+}
+
+void main()
+{
+    visibility = vec4(1.0);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depths, pixel, 0).r;
+    if (depth == mask.atlas.z) {
+        return;
+    }
+#ifdef GNOMON_OBJECT_IDS
+    if (texelFetch(object_ids, pixel, 0).r == 0) {
+        return;
+    }
+#endif
+    vec3 p = positionAt(pixel, depth);
+    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, p);
+    int count = int(mask.atlas.w);
+    visibility.r = lightVisibility(0, p, n);
+    if (count > 1) {
+        visibility.g = lightVisibility(1, p, n);
+    }
+    if (count > 2) {
+        visibility.b = lightVisibility(2, p, n);
+    }
+    if (count > 3) {
+        visibility.a = lightVisibility(3, p, n);
+    }
+}

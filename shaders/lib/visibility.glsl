@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light's visibility at a point: what the mask pass calls, and what a host that shades from the maps itself includes
+// (with gpu_structs.h as its uniform buffer and the two functions of filter_types.glsl defined before).
+#ifndef GNOMON_VISIBILITY_GLSL
+#define GNOMON_VISIBILITY_GLSL
+#include "../shared/gpu_structs.h"
+#include "filters.glsl"
+GN_BEGIN
+
+GN_FN MapRows rowsOf(GpuView view)
+{
+    MapRows rows;
+    rows.x = real4(view.x);
+    rows.y = real4(view.y);
+    rows.w = real4(view.w);
+    rows.metric = real4(view.metric);
+    rows.texel_m = real(view.scale.x);
+    rows.range_m = real(view.scale.y);
+    return rows;
+}
+
+GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
+{
+    BiasRule rule;
+    rule.automatic = real(bias.x);
+    rule.constant_m = real(bias.y);
+    rule.slope = real(bias.z);
+    rule.normal_texels = real(bias.w);
+    rule.receiver_plane = real(more.x);
+    rule.reach_texels = real(more.y);
+    rule.quantum = real(more.z);
+    return rule;
+}
+
+// From a light to a point, both eye-relative: unit vector towards the light.
+GN_FN real3 directionToLight(GpuLight light, real3 p)
+{
+    real3 place = real3(real(light.place.x), real(light.place.y), real(light.place.z));
+    return light.place.w > 0.0F ? normalize(place - p) : place;
+}
+
+// Is a point in this view, so far from its tile's edge that no tap leaves the tile?
+GN_FN bool viewContains(GpuView view, real3 p)
+{
+    real w = dotRow(real4(view.w), p);
+    real x = dotRow(real4(view.x), p);
+    real y = dotRow(real4(view.y), p);
+    real4 tile = real4(view.tile) * w;
+    return w > real(0.0) && x >= tile.x && y >= tile.y && x <= tile.z && y <= tile.w;
+}
+
+// Never outside [0, 1]; what is not a number is lit.
+GN_FN real boundedVisibility(real v)
+{
+    return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));
+}
+
+// `p` eye-relative and inside the view, `n` its unit geometric normal. f.layer is filled in here.
+GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, FilterInput f, real3 p, real3 n)
+{
+    FilterInput input_here = f;
+    input_here.layer = real(view.scale.z);
+    MapPoint point = projectReceiver(rowsOf(view), rule, p, n);
+    return boundedVisibility(applyFilter(filter_number, point, input_here));
+}
+
+GN_END
+#endif

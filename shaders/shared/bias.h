@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a receiver is on a map, and what depth each tap is compared with, so that a surface does not shadow itself.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (depth aliasing); J. Isidoro, "Shadow Mapping: GPU-based
+// Tips and Techniques", GDC 2006 (receiver plane depth bias). We take the plane from the geometric normal, not from
+// screen-space derivatives, which are wrong at silhouettes; and we take it exactly in perspective maps too.
+#ifndef GNOMON_BIAS_H
+#define GNOMON_BIAS_H
+#include "portability.h"
+GN_BEGIN
+
+// Rows that take a point (p, 1) to the map: atlas texels (x / w, y / w) and the depth metric. w is (0, 0, 0, 1) for an
+// orthographic map, the distance along the axis in metres for a perspective one.
+struct MapRows {
+    real4 x;
+    real4 y;
+    real4 w;
+    real4 metric;
+    real texel_m; // a texel's width in metres at w = 1
+    real range_m; // metres from metric 0 to metric 1
+};
+
+struct BiasRule {
+    real automatic;      // 1: derive everything; the next four are ignored
+    real constant_m;     // towards the light
+    real slope;          // times the depth that a texel spans on the receiver
+    real normal_texels;  // moves the receiver along its normal
+    real receiver_plane; // 1: taps compare with the receiver's plane
+    real reach_texels;   // how far from the receiver, per axis, a tap's texel centre can be
+    real quantum;        // error of a stored depth, as a metric difference
+};
+
+// A receiver on a map. At d texels from it, its reference depth is
+// (depth + dot(depth_slope, d)) / (1 + dot(w_slope, d)): the exact depth of the receiver's plane, less the bias.
+struct MapPoint {
+    real2 texel; // atlas coordinates; texel centres are at halves
+    real depth;
+    real2 depth_slope;
+    real2 w_slope;
+    real w; // > 0 in front of a perspective light; 1 for an orthographic one
+};
+
+// A plane is followed up to this tangent of the angle between its normal and the light. Beyond it (87 degrees) the
+// Lambert term is below 5 %, and neighbours would be compared at depths that have nothing to do with the receiver.
+GN_CONST real kSteepest = real(20.0);
+// What curvature and creases of a receiver may differ from its plane, in texels of depth: this, and this per texel of reach.
+GN_CONST real kRoughness = real(0.2);
+GN_CONST real kRoughnessPerTexel = real(0.1);
+// Vertices snap to 1/256 of a texel when a map is drawn, so its depths are those of a point up to this far away, texels.
+GN_CONST real kSnap = real(0.015625);
+// Error of a normal, radians: 16-bit octahedral storage and the arithmetic before it.
+GN_CONST real kNormalError = real(0.0002);
+
+GN_FN real dotRow(real4 row, real3 p)
+{
+    return dot(real3(row.x, row.y, row.z), p) + row.w;
+}
+GN_FN real3 gradientOf(real4 row)
+{
+    return real3(row.x, row.y, row.z);
+}
+
+// Derivation. Moving from texel (u, v) to (u + du, v + dv) on the plane dot(n, dp) = 0 means
+//   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,  with X = x - u w, Y = y - v w (gradients of the rows), w' = w + dot(W, dp),
+// so dp = w' (du A + dv B) with A = Y x n / det, B = n x X / det, det = dot(X, Y x n). Solving w' = w + w'(du W.A + dv W.B):
+//   w' = w / (1 + dot(s, d)),  s = -(W.A, W.B)
+// and the metric m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)). For an orthographic map W = 0.
+GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
+                         GN_OUT(real2) w_slope)
+{
+    real3 gw = gradientOf(map.w);
+    real3 gx = gradientOf(map.x) - gw * texel.x;
+    real3 gy = gradientOf(map.y) - gw * texel.y;
+    real3 a = cross(gy, n);
+    real3 b = cross(n, gx);
+    real det = dot(gx, a);
+    // Edge-on, the slope is without bound; keep it finite and let the steepness limit deal with it.
+    real tiny = real(1e-6) * length(gx) * length(gy);
+    real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
+    w_slope = real2(dot(gw, a), dot(gw, b)) * -inverse;
+    real3 gm = gradientOf(map.metric) * w;
+    depth_slope = w_slope * m + real2(dot(gm, a), dot(gm, b)) * inverse;
+}
+
+// `p` in the space of the rows, `n` its unit geometric normal, which faces the light.
+GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
+{
+    MapPoint r;
+    real offset_texels = rule.automatic > real(0.0) ? real(0.0) : rule.normal_texels;
+    real3 moved = p + n * (offset_texels * map.texel_m * dotRow(map.w, p));
+    r.w = dotRow(map.w, moved);
+    r.texel = real2(dotRow(map.x, moved), dotRow(map.y, moved)) / r.w;
+    real m = dotRow(map.metric, moved);
+
+    real2 plane_slope;
+    real2 w_slope;
+    receiverPlane(map, n, r.texel, r.w, m, plane_slope, w_slope);
+    // The slope of depth itself, in metric per texel, at the receiver.
+    real2 slope = plane_slope - w_slope * m;
+    real texel_m = map.texel_m * r.w;
+    real texel_depth = texel_m / map.range_m; // a texel's width, as a metric difference
+    real steepness = length(slope) / texel_depth;
+
+    real follow = real(0.0);
+    real bias = real(0.0);
+    if (rule.automatic > real(0.0)) {
+        follow = min(real(1.0), kSteepest / max(steepness, real(1e-6)));
+        real lost = (real(1.0) - follow) * (abs(slope.x) + abs(slope.y)); // per texel, where the plane is not followed
+        real bounded = min(steepness, real(1000.0));
+        bias = rule.quantum + texel_depth * (kRoughness + kRoughnessPerTexel * rule.reach_texels +
+                                             kSnap * bounded +
+                                             kNormalError * rule.reach_texels * (real(1.0) + bounded * bounded));
+        bias = bias + lost * rule.reach_texels;
+    } else {
+        follow = rule.receiver_plane;
+        bias = rule.constant_m / map.range_m + rule.slope * length(slope);
+    }
+    r.w_slope = w_slope * follow;
+    r.depth_slope = r.w_slope * m + slope * follow;
+    r.depth = m - bias;
+    // The bias is along with the depth at every tap: (depth + ..) / (1 + ..) - bias needs its share of the slope.
+    r.depth_slope = r.depth_slope - r.w_slope * bias;
+    return r;
+}
+
+// The reference depth at `offset` texels from the receiver, as numerator x and denominator y. A stored depth s is lit
+// when s * y >= min(x, y): comparing with at most 1 keeps texels that nothing was drawn to (1) lit.
+GN_FN real2 referenceAt(MapPoint r, real2 offset)
+{
+    return real2(r.depth + dot(r.depth_slope, offset),
+                 max(real(1.0) + dot(r.w_slope, offset), real(0.05)));
+}
+
+GN_END
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mask pass reads from its uniform buffer, declared once for both sides. Everything is made of 16-byte members,
+// so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which keeps single
+// precision exact near the camera wherever in the world it is.
+#ifndef GNOMON_GPU_STRUCTS_H
+#define GNOMON_GPU_STRUCTS_H
+
+#ifdef __cplusplus
+#include <glm/vec4.hpp>
+#define GN_VEC4 glm::vec4
+#define GN_UVEC4 glm::uvec4
+namespace gnomon::shared {
+inline constexpr int kLightsPerLayer = 4;
+inline constexpr int kViewsPerLayer = 64;
+#else
+#define GN_VEC4 vec4
+#define GN_UVEC4 uvec4
+const int kLightsPerLayer = 4;
+const int kViewsPerLayer = 64;
+#endif
+
+struct GpuView {
+    GN_VEC4 x; // rows that take an eye-relative point to the atlas, see MapRows
+    GN_VEC4 y;
+    GN_VEC4 w;
+    GN_VEC4 metric;
+    GN_VEC4 tile;  // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
+    GN_VEC4 scale; // x: texel_m, y: range_m, z: layer
+};
+
+struct GpuLight {
+    GN_VEC4 place; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+    GN_UVEC4 views; // x: first, y: count, of GpuMaskLayer::views; z: 0 when the light has no map (then visibility is 1)
+};
+
+struct GpuMaskLayer {
+    GN_VEC4 eye_x; // rows of eye_from_ndc: (x, y, depth, 1) to eye-relative homogeneous
+    GN_VEC4 eye_y;
+    GN_VEC4 eye_z;
+    GN_VEC4 eye_w;
+    GN_VEC4 screen; // xy: size in pixels, zw: one over it
+    GN_VEC4 atlas;  // xy: one over its size in texels; z: the depth of the background (0 or 1); w: number of lights
+    GN_VEC4 bias;   // automatic, constant_m, slope, normal_texels
+    GN_VEC4 bias_more; // receiver_plane, reach_texels, quantum
+    GN_VEC4 kernel; // gaussianWeights
+    GN_VEC4 disc;   // x: radius, texels
+    GpuLight lights[kLightsPerLayer];
+    GpuView views[kViewsPerLayer];
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(GpuView) == 96 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 4 * 32 + 64 * 96);
+} // namespace gnomon::shared
+#endif
+#endif
