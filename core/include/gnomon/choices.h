@@ -62,17 +62,12 @@ struct FilterTraits {
     Filter filter;
     std::span<const MapFormat> formats; // usable, the default first
     bool depth_only;                    // a bare depth attachment can hold it
+    bool clamps_near;                   // a caster before the near plane may be clamped onto it: only order matters
 };
 /// Null for a filter that is not available.
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);
 
-/// A combination of choices that is refused, with the reason as a sentence.
-struct Refusal {
-    LightType light;
-    Technique technique;
-    std::string_view reason;
-};
-/// Why this combination cannot be had, as a sentence; nothing when it can.
+/// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.
 [[nodiscard]] std::optional<std::string_view> refusal(LightType light, const Technique& technique);
 /// Why this filter cannot use this format; nothing when it can.
 [[nodiscard]] std::optional<std::string_view> refusal(Filter filter, MapFormat format);

@@ -3,6 +3,7 @@
 // A suffix names a vector's space: _ws world, _ls light, _vs view. A matrix `b_from_a` takes a to b.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -62,7 +63,8 @@ struct Frustum {
 };
 
 /// Planes of a clip volume -w <= x,y <= w, 0 <= z <= w (Gribb & Hartmann 2001, "Fast extraction of viewing
-/// frustum planes"). Works for perspective and orthographic matrices with near at z = 0.
+/// frustum planes"). Works for perspective and orthographic matrices; the plane z >= 0 is called near, z <= w far (a
+/// reversed-z camera has them the other way round). A plane at infinity gets a zero normal and d = 1: all is inside it.
 [[nodiscard]] Frustum frustumFromClip(const glm::dmat4& clip_from_world);
 
 enum class Containment : std::uint8_t { outside, intersects, inside };
@@ -75,21 +77,27 @@ class ConvexBody {
 public:
     ConvexBody() = default;
     [[nodiscard]] static ConvexBody fromAabb(const Aabb& box);
-    /// The eight corners of a clip volume (near at z = 0) taken to world space. A singular matrix gives an empty body.
+    /// The eight corners of a clip volume taken to world space. A singular matrix, or a volume without end (a far plane
+    /// at infinity), gives an empty body: clip a box by frustumFromClip() then.
     [[nodiscard]] static ConvexBody fromClip(const glm::dmat4& clip_from_world);
     /// Convex hull of `points` (at most a few hundred). Fewer than four points, or points all within 1e-9 of the
     /// extent of a plane, give an empty body.
     [[nodiscard]] static ConvexBody hull(std::span<const glm::dvec3> points);
 
     [[nodiscard]] bool empty() const { return face_sizes_.empty(); }
-    /// Keeps the part inside `plane`. Returns *this, for chaining.
+    /// Becomes `box`, keeping its memory.
+    void reset(const Aabb& box);
+    /// Keeps the part inside `plane`; what is less than 1e-12 of the coordinates' size thick counts as nothing. A plane
+    /// with a zero normal keeps all (d >= 0) or nothing. Returns *this, for chaining. Allocates nothing once warm.
     ConvexBody& clip(const Plane& plane);
     ConvexBody& clip(std::span<const Plane> planes);
     /// Sweeps the body by `offset`: the convex hull of it and its translate. With the reverse light direction this is
     /// the body from which casters can reach it.
     [[nodiscard]] ConvexBody swept(const glm::dvec3& offset) const;
-    /// Inward planes of all faces.
+    /// Inward planes of all faces that are not slivers, each once.
     [[nodiscard]] std::vector<Plane> planes() const;
+    /// The same into `out`, which is cleared first.
+    void planes(std::vector<Plane>& out) const;
 
     /// Vertices of all faces, face after face (a corner appears once per face it is on).
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
@@ -99,8 +107,16 @@ public:
     [[nodiscard]] double volume() const;
 
 private:
+    void clipFaces();
+    void closeCut(const Plane& plane, double tolerance_m);
+
     std::vector<glm::dvec3> points_;
     std::vector<std::uint32_t> face_sizes_;
+    // Scratch of clip(), kept so that repeated clipping allocates nothing.
+    std::vector<double> distances_;
+    std::vector<glm::dvec3> next_points_;
+    std::vector<std::uint32_t> next_sizes_;
+    std::vector<glm::dvec4> cut_;
 };
 
 } // namespace gnomon

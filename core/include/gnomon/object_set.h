@@ -39,11 +39,14 @@ public:
     [[nodiscard]] bool alive(std::uint32_t object) const;
     [[nodiscard]] const Aabb& bounds(std::uint32_t object) const;
     [[nodiscard]] ObjectFlags flags(std::uint32_t object) const;
-    /// Box around all live objects; empty when there are none. Grows at once, shrinks when asked.
+    /// Box around all live objects; empty when there are none. Exact; the first call after an object left the rim
+    /// looks at all of them, so it is not for several threads at once (query() is).
     [[nodiscard]] Aabb bounds() const;
     /// Counts up at every add, update, touch and remove; `changed(object)` is the count at the object's last change.
     [[nodiscard]] std::uint64_t version() const;
     [[nodiscard]] std::uint64_t changed(std::uint32_t object) const;
+    /// Differs between any two sets of a process, so that a planner notices when it is handed another one.
+    [[nodiscard]] std::uint64_t identity() const;
 
     enum class Want : std::uint8_t { casters, receivers, all };
     /// Appends, in ascending order, every live object whose bounds the convex region `planes` (inward) may touch. No

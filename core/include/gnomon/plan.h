@@ -7,6 +7,8 @@
 #include <gnomon/geometry.h>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstdint>
@@ -57,16 +59,20 @@ struct DepthMetric {
 
 /// One map to draw: a frustum of one light.
 struct View {
-    std::uint32_t light = 0;          // index into Frame::lights
-    glm::dmat4 clip_from_world{1.0};  // z in [0, w] in front of the near plane; y down, as Vulkan has it
+    std::uint32_t light = 0;         // index into Frame::lights
+    glm::dmat4 clip_from_world{1.0}; // z in [0, w] in front of the near plane; y down, as Vulkan has it
     DepthMetric metric;
-    bool orthographic = true;         // then the rasteriser's z is the metric itself, up to rounding
-    bool clamp_near = true;           // casters before the near plane are to be clamped onto it, not cut
-    double texel_m = 0.0;             // side of a texel: metres across the light (orthographic), or metres at 1 m distance
+    bool orthographic = true; // then the rasteriser's z is the metric itself, up to rounding
+    bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
+    double texel_m = 0.0;     // side of a texel: metres across the light (orthographic), or metres at 1 m distance
     Tile tile;
-    std::uint32_t first_caster = 0;   // range of Plan::casters
+    std::uint32_t first_caster = 0; // range of Plan::casters
     std::uint32_t caster_count = 0;
-    bool redraw = true;               // false: the map of the last frame still holds
+    bool redraw = true;         // false: the map of the last frame still holds
+    glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
+    /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
+    /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
+    glm::dvec3 light_place_ws{0.0};
 };
 
 struct LightPlan {

@@ -17,7 +17,9 @@ struct PlanOptions {
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
     /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64.
-    double border_texels = 4.0;
+    double border_texels = 4.0; // at most a quarter of map_size is used, so that half of the map is left
+    /// Layers that the atlas may have: 1 .. 2048. Lights that find none get Outcome atlas_full.
+    std::uint32_t max_layers = 64;
 };
 
 /// Deterministic: the same frames and options give the same plans, bit for bit. Not thread-safe; make one per thread.
@@ -30,7 +32,8 @@ public:
     Planner(Planner&&) noexcept;
     Planner& operator=(Planner&&) noexcept;
 
-    /// The plan holds until the next call. Allocates nothing once warm (same counts as before).
+    /// The plan holds until the next call. Allocates nothing once warm (same counts as before). View::redraw takes for
+    /// granted that the last plan was drawn: call reset() when it was not, or when the map image was made anew.
     [[nodiscard]] const Plan& plan(const Frame& frame);
     /// Forgets the last plan: every view of the next one says `redraw`.
     void reset();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera_view.h"
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+Outcome checkCamera(const Camera& camera)
+{
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(camera.clip_from_world[column][row]))
+                return {OutcomeKind::degenerate, "the camera's matrix is not finite"};
+    if (!std::isfinite(camera.eye_ws.x) || !std::isfinite(camera.eye_ws.y) || !std::isfinite(camera.eye_ws.z))
+        return {OutcomeKind::degenerate, "the camera's eye is not finite"};
+    const double determinant = glm::determinant(camera.clip_from_world);
+    if (!std::isfinite(determinant) || determinant == 0.0)
+        return {OutcomeKind::degenerate, "the camera's matrix is singular"};
+    return {};
+}
+
+/// Half-spaces around the ball of what is near enough to be shadowed.
+void addDistancePlanes(const Camera& camera, double max_distance_m, std::vector<Plane>& planes)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0}) {
+            glm::dvec3 normal(0.0);
+            normal[axis] = sign;
+            planes.push_back({normal, max_distance_m - glm::dot(normal, camera.eye_ws)});
+        }
+    // Of a perspective camera w grows along the view axis.
+    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
+    const glm::dvec3 forward(rows[3]);
+    if (const double length = glm::length(forward); length > 0.0) {
+        const glm::dvec3 normal = -forward / length;
+        planes.push_back({normal, max_distance_m - glm::dot(normal, camera.eye_ws)});
+    }
+}
+
+} // namespace
+
+void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std::uint32_t>& receivers)
+{
+    receivers.clear();
+    planes.clear();
+    scene_ws = frame.objects->bounds();
+    outcome = checkCamera(frame.camera);
+    if (outcome.kind != OutcomeKind::ok || scene_ws.empty())
+        return;
+    const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(scene_ws.min)), glm::abs(glm::dvec3(scene_ws.max)));
+    pad_m = 1e-6 * std::max({largest.x, largest.y, largest.z}) + 1e-5;
+
+    for (const Plane& plane : frustumFromClip(frame.camera.clip_from_world).planes)
+        if (plane.normal != glm::dvec3(0.0))
+            planes.push_back(plane);
+    if (max_distance_m > 0.0)
+        addDistancePlanes(frame.camera, max_distance_m, planes);
+    frame.objects->query(planes, ObjectSet::Want::receivers, receivers);
+    if (max_distance_m > 0.0)
+        std::erase_if(receivers, [&](std::uint32_t object) {
+            const Aabb& box = frame.objects->bounds(object);
+            const glm::dvec3 nearest = glm::clamp(frame.camera.eye_ws, glm::dvec3(box.min), glm::dvec3(box.max));
+            return glm::distance(nearest, frame.camera.eye_ws) > max_distance_m;
+        });
+}
+
+} // namespace gnomon

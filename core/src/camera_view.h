@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the camera sees: the convex region that it can see into, and the receivers in it.
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <vector>
+
+namespace gnomon {
+
+struct CameraView {
+    Outcome outcome;           // degenerate: the camera's numbers describe no view
+    std::vector<Plane> planes; // inward; planes at infinity are left out
+    double pad_m = 0.0;        // what a float coordinate of this scene may be off
+    Aabb scene_ws;
+
+    /// Fills this and `receivers` (ascending, cleared first), keeping memory.
+    void look(const Frame& frame, double max_distance_m, std::vector<std::uint32_t>& receivers);
+};
+
+} // namespace gnomon

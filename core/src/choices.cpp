@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of all choices and what is made from it. To add a technique, turn its row to available here and give it
+// its line in the table of its folder (fit/fits.cpp, partition/partitions.cpp, motion/motions.cpp, kFilters below).
+#include <gnomon/choices.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+template <class Enum>
+constexpr std::uint8_t number(Enum value)
+{
+    return static_cast<std::uint8_t>(value);
+}
+
+constexpr std::string_view kMarinescu =
+    "A. Marinescu, Achieving real-time soft shadows using layered variance shadow maps (LVSM) in a real-time strategy "
+    "(RTS) game, 2011";
+constexpr std::string_view kForsyth = "T. Forsyth, Extremely Practical Shadows, GDC 2006";
+constexpr std::string_view kShastry = "A. S. Shastry, Soft-Edged Shadows, 2005";
+constexpr std::string_view kKiteLightning = "Kite & Lightning, Variance Shadow Maps, 2014";
+constexpr std::string_view kIceFall = "P. Fortier (IceFall Games), Shadow maps for moving light sources, 2013";
+constexpr std::string_view kWilliams = "L. Williams, Casting Curved Shadows on Curved Surfaces, 1978";
+
+constexpr std::string_view kLight = "light";
+constexpr std::string_view kPartition = "partition";
+constexpr std::string_view kFit = "fit";
+constexpr std::string_view kFilter = "filter";
+constexpr std::string_view kSoften = "soften";
+constexpr std::string_view kMotion = "motion";
+
+constexpr std::array kValues{
+    ChoiceValue{kLight, "directional", number(LightType::directional), true, "a sun: parallel rays", kMarinescu},
+    ChoiceValue{kLight, "spot", number(LightType::spot), true, "a cone of at most 120 degrees, with a cookie texture",
+                kShastry},
+    ChoiceValue{kLight, "point", number(LightType::point), true, "shines all around", kForsyth},
+
+    ChoiceValue{kPartition, "single", number(Partition::single), true, "one frustum for all receivers of a light",
+                kMarinescu},
+    ChoiceValue{kPartition, "cascades", number(Partition::cascades), false,
+                "slices of the camera's frustum by the practical split",
+                "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
+    ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), false, "slices fitted to the depth buffer",
+                "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
+    ChoiceValue{kPartition, "cube", number(Partition::cube), false, "six faces around a point light", kForsyth},
+    ChoiceValue{kPartition, "multi", number(Partition::multi), false, "frustums grown around groups of receivers",
+                kForsyth},
+
+    ChoiceValue{kFit, "uniform", number(Fit::uniform), true, "the light-space box of what matters", kMarinescu},
+    ChoiceValue{kFit, "lispsm", number(Fit::lispsm), false, "perspective perpendicular to the light",
+                "M. Wimmer, D. Scherzer, W. Purgathofer, Light Space Perspective Shadow Maps, 2004"},
+    ChoiceValue{kFit, "lispsm-simple", number(Fit::lispsm_simple), false, "affine distortion along the viewer's depth",
+                kForsyth},
+    ChoiceValue{kFit, "tsm", number(Fit::tsm), false, "a trapezoid around the visible frustum",
+                "T. Martin, T.-S. Tan, Anti-aliasing and Continuity with Trapezoidal Shadow Maps, 2004"},
+    ChoiceValue{kFit, "psm", number(Fit::psm), false, "drawn in post-perspective space",
+                "M. Stamminger, G. Drettakis, Perspective Shadow Maps, 2002"},
+
+    ChoiceValue{kFilter, "hard", number(Filter::hard), true, "one depth comparison per pixel", kWilliams},
+    ChoiceValue{kFilter, "pcf", number(Filter::pcf), true, "weighted mean of the comparisons in a kernel",
+                "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
+    ChoiceValue{kFilter, "pcss", number(Filter::pcss), false, "penumbra as wide as the blocker's distance asks",
+                "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
+    ChoiceValue{kFilter, "vsm", number(Filter::vsm), false, "two moments and Chebyshev's bound", kKiteLightning},
+    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), false, "variance maps in layers of depth", kMarinescu},
+    ChoiceValue{kFilter, "esm", number(Filter::esm), false, "an exponential of depth", kKiteLightning},
+    ChoiceValue{kFilter, "evsm", number(Filter::evsm), false, "moments of two exponential warps",
+                "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008"},
+    ChoiceValue{kFilter, "msm", number(Filter::msm), false, "four moments",
+                "C. Peters, R. Klein, Moment Shadow Mapping, 2015"},
+    ChoiceValue{kFilter, "id", number(Filter::id), false, "object ids instead of depth", kForsyth},
+    ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), false, "object id, then depth inside the object",
+                kForsyth},
+
+    ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
+    ChoiceValue{kSoften, "blur", number(Soften::blur), false, "separable Gaussian in screen space", kShastry},
+    ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), false, "edges widened by the ratio of distances",
+                "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
+
+    ChoiceValue{kMotion, "free", number(Motion::free), true, "the map follows camera and sun exactly", kMarinescu},
+    ChoiceValue{kMotion, "snap", number(Motion::snap), false, "the map moves by whole texels", kIceFall},
+    ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), false, "the sun steps, the shadows jump", kIceFall},
+    ChoiceValue{kMotion, "step-band", number(Motion::step_band), false, "each step sweeps over the screen in a band",
+                kIceFall},
+    ChoiceValue{kMotion, "step-blend", number(Motion::step_blend), false, "two steps blended over time", kIceFall},
+    ChoiceValue{kMotion, "step-alternate", number(Motion::step_alternate), false, "two steps drawn in alternate frames",
+                kIceFall},
+};
+
+template <class Enum>
+struct Named {
+    Enum value;
+    std::string_view name;
+};
+
+constexpr std::array kKernels{
+    Named<PcfKernel>{PcfKernel::bilinear_2x2, "2x2"}, Named<PcfKernel>{PcfKernel::gaussian_3x3, "3x3"},
+    Named<PcfKernel>{PcfKernel::gaussian_5x5, "5x5"}, Named<PcfKernel>{PcfKernel::gaussian_7x7, "7x7"},
+    Named<PcfKernel>{PcfKernel::poisson, "poisson"},  Named<PcfKernel>{PcfKernel::vogel, "vogel"},
+};
+constexpr std::array kFormats{
+    Named<MapFormat>{MapFormat::d16, "d16"},         Named<MapFormat>{MapFormat::d32f, "d32f"},
+    Named<MapFormat>{MapFormat::r32f, "r32f"},       Named<MapFormat>{MapFormat::rg16, "rg16"},
+    Named<MapFormat>{MapFormat::rg16f, "rg16f"},     Named<MapFormat>{MapFormat::rg32f, "rg32f"},
+    Named<MapFormat>{MapFormat::rgba16, "rgba16"},   Named<MapFormat>{MapFormat::rgba16f, "rgba16f"},
+    Named<MapFormat>{MapFormat::rgba32f, "rgba32f"},
+};
+
+// d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
+constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
+constexpr std::array kFilters{
+    FilterTraits{Filter::hard, kDepthFormats, true, true},
+    FilterTraits{Filter::pcf, kDepthFormats, true, true},
+};
+
+/// A combination of available values that makes no sense.
+struct Rule {
+    bool (*applies)(LightType light, const Technique& technique);
+    std::string_view reason;
+};
+constexpr std::array kRules{
+    Rule{[](LightType light, const Technique& t) {
+             return light == LightType::point && t.partition == Partition::single;
+         },
+         "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or multi"},
+};
+
+template <class Enum>
+std::string_view nameIn(std::string_view choice, Enum value)
+{
+    for (const ChoiceValue& row : kValues)
+        if (row.choice == choice && row.value == number(value))
+            return row.name;
+    return "?";
+}
+
+template <class Enum, std::size_t n>
+std::string_view nameIn(const std::array<Named<Enum>, n>& table, Enum value)
+{
+    for (const Named<Enum>& row : table)
+        if (row.value == value)
+            return row.name;
+    return "?";
+}
+
+template <class Enum, std::size_t n>
+std::optional<Enum> findIn(const std::array<Named<Enum>, n>& table, std::string_view name)
+{
+    for (const Named<Enum>& row : table)
+        if (row.name == name)
+            return row.value;
+    return std::nullopt;
+}
+
+/// "hard and pcf"; "a, b and c".
+std::string availableNames(std::string_view choice)
+{
+    std::vector<std::string_view> names;
+    for (const ChoiceValue& row : kValues)
+        if (row.choice == choice && row.available)
+            names.push_back(row.name);
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i != 0)
+            text += i + 1 == names.size() ? " and " : ", ";
+        text += names[i];
+    }
+    return text;
+}
+
+/// One sentence per row of kValues, empty for available ones; made once, so that a reason lives as long as the program.
+const std::array<std::string, kValues.size()>& unavailableSentences()
+{
+    static const auto sentences = [] {
+        std::array<std::string, kValues.size()> made;
+        for (std::size_t i = 0; i < kValues.size(); ++i)
+            if (const ChoiceValue& row = kValues[i]; !row.available)
+                made[i] = std::string(row.choice) + " " + std::string(row.name) + " is not in this version; it has " +
+                          availableNames(row.choice);
+        return made;
+    }();
+    return sentences;
+}
+
+template <class Enum>
+std::optional<std::string_view> unavailable(std::string_view choice, Enum value)
+{
+    for (std::size_t i = 0; i < kValues.size(); ++i)
+        if (kValues[i].choice == choice && kValues[i].value == number(value)) {
+            if (kValues[i].available)
+                return std::nullopt;
+            return unavailableSentences()[i];
+        }
+    return "the value is not one of its choice's";
+}
+
+} // namespace
+
+std::span<const ChoiceValue> choiceValues()
+{
+    return kValues;
+}
+
+const ChoiceValue* findChoice(std::string_view choice, std::string_view name)
+{
+    for (const ChoiceValue& row : kValues)
+        if (row.choice == choice && row.name == name)
+            return &row;
+    return nullptr;
+}
+
+std::string_view nameOf(LightType value)
+{
+    return nameIn(kLight, value);
+}
+std::string_view nameOf(Partition value)
+{
+    return nameIn(kPartition, value);
+}
+std::string_view nameOf(Fit value)
+{
+    return nameIn(kFit, value);
+}
+std::string_view nameOf(Filter value)
+{
+    return nameIn(kFilter, value);
+}
+std::string_view nameOf(Soften value)
+{
+    return nameIn(kSoften, value);
+}
+std::string_view nameOf(Motion value)
+{
+    return nameIn(kMotion, value);
+}
+std::string_view nameOf(PcfKernel value)
+{
+    return nameIn(kKernels, value);
+}
+std::string_view nameOf(MapFormat value)
+{
+    return nameIn(kFormats, value);
+}
+
+std::optional<PcfKernel> findPcfKernel(std::string_view name)
+{
+    return findIn(kKernels, name);
+}
+
+std::optional<MapFormat> findMapFormat(std::string_view name)
+{
+    return findIn(kFormats, name);
+}
+
+const FilterTraits* filterTraits(Filter filter)
+{
+    for (const FilterTraits& row : kFilters)
+        if (row.filter == filter)
+            return &row;
+    return nullptr;
+}
+
+std::optional<std::string_view> refusal(LightType light, const Technique& technique)
+{
+    if (const auto reason = unavailable(kLight, light))
+        return reason;
+    if (const auto reason = unavailable(kPartition, technique.partition))
+        return reason;
+    if (const auto reason = unavailable(kFit, technique.fit))
+        return reason;
+    if (const auto reason = unavailable(kFilter, technique.filter))
+        return reason;
+    if (const auto reason = unavailable(kSoften, technique.soften))
+        return reason;
+    if (const auto reason = unavailable(kMotion, technique.motion))
+        return reason;
+    for (const Rule& rule : kRules)
+        if (rule.applies(light, technique))
+            return rule.reason;
+    return std::nullopt;
+}
+
+std::optional<std::string_view> refusal(Filter filter, MapFormat format)
+{
+    if (const auto reason = unavailable(kFilter, filter))
+        return reason;
+    const FilterTraits* traits = filterTraits(filter);
+    if (traits != nullptr)
+        for (const MapFormat usable : traits->formats)
+            if (usable == format)
+                return std::nullopt;
+    return "this filter compares one depth per texel; it stores d32f, r32f or d16";
+}
+
+} // namespace gnomon

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: J. R. Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012.
+#include "light_space.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr double kWidestHalfAngle_rad = 1.0472; // 60 degrees and a rounding
+
+bool finite(const glm::dvec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Outcome checkPlacedLight(const Light& light)
+{
+    if (!finite(light.position_ws))
+        return {OutcomeKind::degenerate, "the light's position is not finite"};
+    if (!std::isfinite(light.range_m) || light.range_m < 0.0)
+        return {OutcomeKind::degenerate, "the light's range is negative or not finite"};
+    if (!std::isfinite(light.near_m) || light.near_m < 0.0)
+        return {OutcomeKind::degenerate, "the light's near distance is negative or not finite"};
+    if (light.range_m > 0.0 && light.near_m >= light.range_m)
+        return {OutcomeKind::degenerate, "the light's near distance is not before its range"};
+    return {};
+}
+
+} // namespace
+
+Outcome checkLight(const Light& light)
+{
+    if (light.type != LightType::directional)
+        if (const Outcome outcome = checkPlacedLight(light); outcome.kind != OutcomeKind::ok)
+            return outcome;
+    if (light.type == LightType::point)
+        return {};
+    if (!finite(light.direction_ws))
+        return {OutcomeKind::degenerate, "the light's direction is not finite"};
+    const double length = glm::length(light.direction_ws);
+    if (!std::isfinite(length) || !(length > 1e-9))
+        return {OutcomeKind::degenerate, "the light's direction has no length"};
+    if (light.type == LightType::spot) {
+        if (!(light.outer_half_angle_rad > 0.0))
+            return {OutcomeKind::degenerate, "the spot light's angle is not greater than zero"};
+        if (light.outer_half_angle_rad > kWidestHalfAngle_rad)
+            return {OutcomeKind::refused, "a spot light wider than 120 degrees does not fit one frustum"};
+    }
+    return {};
+}
+
+void axesAcross(const glm::dvec3& forward_ws, glm::dvec3& right_ws, glm::dvec3& up_ws)
+{
+    // The axes turn with the light alone, never with the camera, so that a camera that turns leaves the texels'
+    // directions as they are. No field of axes is continuous all over the sphere; Frisvad's has its one flaw where we
+    // put it: at a light that shines straight up. At noon, straight down, nothing jumps: right is +x and up is -z.
+    const glm::dvec3 n = -forward_ws;
+    const double k = 1.0 + n.y;
+    right_ws = {1.0, 0.0, 0.0};
+    if (k > 1e-9)
+        right_ws = {1.0 - n.x * n.x / k, -n.x, -n.x * n.z / k};
+    right_ws = glm::normalize(right_ws - n * glm::dot(n, right_ws));
+    up_ws = glm::cross(n, right_ws);
+}
+
+LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad, const Aabb& scene_ws)
+{
+    LightSpace space;
+    space.forward_ws = axis_ws;
+    axesAcross(axis_ws, space.right_ws, space.up_ws);
+    if (light.type == LightType::directional)
+        return space;
+    space.perspective = true;
+    space.origin_ws = light.position_ws;
+    space.tangent = std::tan(std::min(half_angle_rad, kWidestHalfAngle_rad));
+    space.reach_m = light.range_m;
+    if (!(space.reach_m > 0.0)) {
+        const glm::dvec3 low = glm::abs(glm::dvec3(scene_ws.min) - light.position_ws);
+        const glm::dvec3 high = glm::abs(glm::dvec3(scene_ws.max) - light.position_ws);
+        space.reach_m = std::max(glm::length(glm::max(low, high)), 2.0 * light.near_m);
+        if (!(space.reach_m > 0.0))
+            space.reach_m = 1.0;
+    }
+    space.near_m = light.near_m > 0.0 ? light.near_m : 0.001 * space.reach_m;
+    return space;
+}
+
+} // namespace gnomon

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tightest rectangle in every frame: the finest texels, which crawl over the ground as the camera moves.
+#include "motion/motion.h"
+
+namespace gnomon {
+
+LightRect moveFreely(const LightRect& wanted, const MotionInput& /*input*/)
+{
+    return wanted;
+}
+
+} // namespace gnomon

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/plan.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+/// Just enough JSON for a plan: no file, no locale, numbers in their shortest form that reads back the same.
+class Writer {
+public:
+    std::string take() { return std::move(text_) + "\n"; }
+
+    void open(std::string_view key, char bracket)
+    {
+        begin(key);
+        text_ += bracket;
+        ++depth_;
+        first_ = true;
+    }
+    void close(char bracket)
+    {
+        --depth_;
+        if (!first_ && inline_ == 0)
+            newLine();
+        text_ += bracket;
+        first_ = false;
+    }
+    /// Everything up to the matching closeLine() is on one line.
+    void openLine(std::string_view key, char bracket)
+    {
+        begin(key);
+        text_ += bracket;
+        ++depth_;
+        ++inline_;
+        first_ = true;
+    }
+    void closeLine(char bracket)
+    {
+        close(bracket);
+        --inline_;
+    }
+    void value(std::string_view key, double number)
+    {
+        begin(key);
+        if (!std::isfinite(number)) {
+            text_ += "null";
+            return;
+        }
+        append(number == 0.0 ? 0.0 : number); // -0 and 0 are one number
+    }
+    void value(std::string_view key, std::unsigned_integral auto number)
+    {
+        begin(key);
+        append(number);
+    }
+    void value(std::string_view key, std::string_view string)
+    {
+        begin(key);
+        quote(string);
+    }
+    void flag(std::string_view key, bool set)
+    {
+        begin(key);
+        text_ += set ? "true" : "false";
+    }
+    void vector(std::string_view key, const auto& components, int count)
+    {
+        openLine(key, '[');
+        for (int i = 0; i < count; ++i)
+            value({}, components[i]);
+        closeLine(']');
+    }
+
+private:
+    void begin(std::string_view key)
+    {
+        if (!first_)
+            text_ += inline_ != 0 ? ", " : ",";
+        if (inline_ == 0 && depth_ > 0)
+            newLine();
+        first_ = false;
+        if (!key.empty()) {
+            quote(key);
+            text_ += ": ";
+        }
+    }
+    void newLine()
+    {
+        text_ += '\n';
+        text_.append(2 * depth_, ' ');
+    }
+    void append(auto number)
+    {
+        std::array<char, 32> digits;
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+        text_.append(digits.data(), end);
+    }
+    void quote(std::string_view string)
+    {
+        text_ += '"';
+        for (const char c : string) {
+            if (c == '"' || c == '\\')
+                text_ += '\\';
+            text_ += c;
+        }
+        text_ += '"';
+    }
+
+    std::string text_;
+    std::size_t depth_ = 0;
+    int inline_ = 0;
+    bool first_ = true;
+};
+
+void writeTechnique(Writer& json, const Technique& technique)
+{
+    json.openLine("technique", '{');
+    json.value("partition", nameOf(technique.partition));
+    json.value("fit", nameOf(technique.fit));
+    json.value("filter", nameOf(technique.filter));
+    json.value("soften", nameOf(technique.soften));
+    json.value("motion", nameOf(technique.motion));
+    json.closeLine('}');
+}
+
+void writeLight(Writer& json, const LightPlan& light)
+{
+    json.openLine({}, '{');
+    json.value("outcome", nameOf(light.outcome.kind));
+    json.value("reason", light.outcome.reason);
+    json.value("first_view", light.first_view);
+    json.value("view_count", light.view_count);
+    json.value("mask_layer", light.mask_layer);
+    json.value("mask_channel", light.mask_channel);
+    json.closeLine('}');
+}
+
+void writeView(Writer& json, const Plan& plan, const View& view)
+{
+    json.open({}, '{');
+    json.value("light", view.light);
+    json.openLine("tile", '{');
+    json.value("layer", view.tile.layer);
+    json.value("x", view.tile.x);
+    json.value("y", view.tile.y);
+    json.value("width", view.tile.width);
+    json.value("height", view.tile.height);
+    json.closeLine('}');
+    json.flag("redraw", view.redraw);
+    json.flag("orthographic", view.orthographic);
+    json.flag("clamp_near", view.clamp_near);
+    json.value("texel_m", view.texel_m);
+    json.vector("texel_xy_m", view.texel_xy_m, 2);
+    json.vector("light_place_ws", view.light_place_ws, 3);
+    json.open("clip_from_world_rows", '[');
+    for (int row = 0; row < 4; ++row) {
+        json.openLine({}, '[');
+        for (int column = 0; column < 4; ++column)
+            json.value({}, view.clip_from_world[column][row]);
+        json.closeLine(']');
+    }
+    json.close(']');
+    json.openLine("metric", '{');
+    json.value("near_m", view.metric.near_m);
+    json.value("far_m", view.metric.far_m);
+    json.vector("metric_ws", view.metric.metric_ws, 4);
+    json.closeLine('}');
+    json.openLine("casters", '[');
+    for (std::uint32_t i = 0; i < view.caster_count; ++i)
+        json.value({}, plan.casters[view.first_caster + i]);
+    json.closeLine(']');
+    json.close('}');
+}
+
+/// One line per object that is seen or casts: who it is, whether the camera sees it, which views it is drawn in.
+void writeObjects(Writer& json, const Plan& plan)
+{
+    std::vector<std::pair<std::uint32_t, bool>> objects;
+    for (const std::uint32_t object : plan.receivers)
+        objects.emplace_back(object, true);
+    for (const std::uint32_t object : plan.casters)
+        objects.emplace_back(object, false);
+    std::sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first < b.first : a.second > b.second;
+    });
+    objects.erase(
+        std::unique(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+        objects.end());
+    json.open("objects", '[');
+    for (const auto& [object, seen] : objects) {
+        json.openLine({}, '{');
+        json.value("object", object);
+        json.flag("seen", seen);
+        json.openLine("casts_in_views", '[');
+        for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+            const auto first = plan.casters.begin() + plan.views[i].first_caster;
+            if (std::binary_search(first, first + plan.views[i].caster_count, object))
+                json.value({}, i);
+        }
+        json.closeLine(']');
+        json.closeLine('}');
+    }
+    json.close(']');
+}
+
+} // namespace
+
+std::string_view nameOf(OutcomeKind kind)
+{
+    switch (kind) {
+    case OutcomeKind::ok:
+        return "ok";
+    case OutcomeKind::fallback:
+        return "fallback";
+    case OutcomeKind::no_shadow_wanted:
+        return "no_shadow_wanted";
+    case OutcomeKind::no_receiver:
+        return "no_receiver";
+    case OutcomeKind::no_caster:
+        return "no_caster";
+    case OutcomeKind::degenerate:
+        return "degenerate";
+    case OutcomeKind::refused:
+        return "refused";
+    case OutcomeKind::atlas_full:
+        return "atlas_full";
+    }
+    return "?";
+}
+
+std::string toJson(const Plan& plan)
+{
+    Writer json;
+    json.open({}, '{');
+    json.value("frame", plan.frame);
+    writeTechnique(json, plan.technique);
+    json.openLine("atlas", '{');
+    json.value("width", plan.atlas.width);
+    json.value("height", plan.atlas.height);
+    json.value("layers", plan.atlas.layers);
+    json.closeLine('}');
+    json.value("mask_layers", plan.mask_layers);
+    json.open("lights", '[');
+    for (const LightPlan& light : plan.lights)
+        writeLight(json, light);
+    json.close(']');
+    json.open("views", '[');
+    for (const View& view : plan.views)
+        writeView(json, plan, view);
+    json.close(']');
+    writeObjects(json, plan);
+    json.close('}');
+    return json.take();
+}
+
+} // namespace gnomon

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// One light after the other: is it fit to be planned, how is it divided, what matters to each slice, how is that put
+// into a map, and does the map of the last frame still hold.
+#include "atlas/layers.h"
+#include "camera_view.h"
+#include "fit/fit.h"
+#include "motion/motion.h"
+#include "partition/partition.h"
+#include "region.h"
+
+#include <gnomon/planner.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+struct DepthRange {
+    double near_m = 0.0; // along the light's axis from LightSpace::origin_ws
+    double far_m = 1.0;
+};
+
+/// As tight as the filter allows: precision is shared out between near and far (Marinescu 2011, eq. 1).
+DepthRange depthRangeOf(const Region& region, const LightSpace& space, bool clamp_near, double pad_m)
+{
+    DepthRange range{region.casterNear_m(), region.receiverFar_m()};
+    // What hangs above all receivers is clamped onto the near plane: there it is before all of them still.
+    if (clamp_near)
+        range.near_m = std::max(range.near_m, region.receiverNear_m());
+    range.near_m = std::min(range.near_m, range.far_m);
+    const double margin_m = 1e-4 * (range.far_m - range.near_m) + pad_m;
+    range.near_m -= margin_m;
+    range.far_m += margin_m;
+    if (space.perspective)
+        range.near_m = std::max(range.near_m, space.near_m);
+    range.far_m = std::max(range.far_m, range.near_m + std::max(margin_m, 1e-9 * std::abs(range.near_m)));
+    return range;
+}
+
+/// Eq. 6 of Marinescu 2011: the centre of the box, backed out against the light until everything that can cast is in
+/// front. A light that has a place stays there.
+glm::dvec3 lightPlaceOf(const Region& region, const LightSpace& space, double near_m)
+{
+    if (space.perspective)
+        return space.origin_ws;
+    const double first_m = std::min({region.casterNear_m(), region.receiverNear_m(), near_m});
+    const double centre_m = space.coordinates(region.centre_ws()).z;
+    return region.centre_ws() - space.forward_ws * (centre_m - first_m);
+}
+
+bool sameTile(const Tile& a, const Tile& b)
+{
+    return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
+bool sameSize(const AtlasSize& a, const AtlasSize& b)
+{
+    return a.width == b.width && a.height == b.height && a.layers == b.layers;
+}
+
+} // namespace
+
+struct Planner::Impl {
+    PlanOptions options;
+    PartitionFunction partition = nullptr;
+    FitFunction fit = nullptr;
+    MotionFunction motion = nullptr;
+    const FilterTraits* filter = nullptr;
+    double border_texels = 0.0;
+
+    std::array<Plan, 2> plans; // this one and the last
+    std::size_t current = 0;
+    bool have_last = false;
+    std::uint64_t last_version = 0;
+    std::uint64_t last_identity = 0;
+
+    CameraView view;
+    Region region;
+    LayerAtlas atlas;
+    std::vector<Slice> slices;
+
+    Outcome check(const Light& light) const
+    {
+        if (!light.casts_shadow)
+            return {OutcomeKind::no_shadow_wanted, "the light casts no shadow"};
+        if (const auto reason = refusal(light.type, options.technique))
+            return {OutcomeKind::refused, *reason};
+        return checkLight(light);
+    }
+
+    void planLight(const Frame& frame, std::uint32_t index, Plan& plan);
+    Outcome planView(const Frame& frame, std::uint32_t light, const Slice& slice, std::uint32_t layer, Plan& plan);
+    void decideRedraws(const Frame& frame, Plan& plan, const Plan& last) const;
+    bool stillHolds(const View& view, const Plan& plan, const Plan& last, const ObjectSet& objects) const;
+};
+
+Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
+{
+    assert(options.map_size >= 16 && options.map_size <= 16384);
+    assert(options.border_texels >= 0.0 && options.border_texels <= 64.0);
+    Impl& s = *impl_;
+    s.options = options;
+    s.partition = partitionFunction(options.technique.partition);
+    s.fit = fitFunction(options.technique.fit);
+    s.motion = motionFunction(options.technique.motion);
+    s.filter = filterTraits(options.technique.filter);
+    s.border_texels = usableBorder(options.border_texels, options.map_size);
+}
+
+Planner::~Planner() = default;
+Planner::Planner(Planner&&) noexcept = default;
+Planner& Planner::operator=(Planner&&) noexcept = default;
+
+void Planner::reset()
+{
+    impl_->have_last = false;
+}
+
+const PlanOptions& Planner::options() const
+{
+    return impl_->options;
+}
+
+const Plan& Planner::plan(const Frame& frame)
+{
+    assert(frame.objects != nullptr);
+    Impl& s = *impl_;
+    const Plan& last = s.plans[s.current];
+    s.current = 1 - s.current;
+    Plan& plan = s.plans[s.current];
+    plan.frame = frame.index;
+    plan.technique = s.options.technique;
+    plan.lights.clear();
+    plan.views.clear();
+    plan.casters.clear();
+    plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
+
+    s.atlas.begin(s.options.map_size, s.options.max_layers);
+    s.view.look(frame, s.options.max_distance_m, plan.receivers);
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
+        s.planLight(frame, light, plan);
+    plan.atlas = s.atlas.size();
+    s.decideRedraws(frame, plan, last);
+
+    s.have_last = true;
+    s.last_version = frame.objects->version();
+    s.last_identity = frame.objects->identity();
+    return plan;
+}
+
+void Planner::Impl::planLight(const Frame& frame, std::uint32_t index, Plan& plan)
+{
+    LightPlan light;
+    light.first_view = static_cast<std::uint32_t>(plan.views.size());
+    light.mask_layer = index / 4;
+    light.mask_channel = index % 4;
+    light.outcome = check(frame.lights[index]);
+    std::optional<std::uint32_t> first_layer;
+    if (light.outcome.kind == OutcomeKind::ok) {
+        slices.clear();
+        partition({frame.lights[index], frame.camera, view}, slices);
+        first_layer = atlas.take(static_cast<std::uint32_t>(slices.size()));
+        if (!first_layer)
+            light.outcome = {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
+        else if (view.outcome.kind != OutcomeKind::ok)
+            light.outcome = view.outcome;
+        else if (plan.receivers.empty())
+            light.outcome = {OutcomeKind::no_receiver, "the camera sees nothing that receives shadow"};
+    }
+    if (light.outcome.kind == OutcomeKind::ok) {
+        // A slice without receivers or casters needs no map; the light has one when any slice does.
+        Outcome best;
+        for (std::uint32_t i = 0; i < slices.size(); ++i) {
+            const Outcome outcome = planView(frame, index, slices[i], *first_layer + i, plan);
+            const bool more = i == 0 || (outcome.hasMap() && !best.hasMap()) ||
+                              (outcome.kind == OutcomeKind::fallback && best.kind == OutcomeKind::ok);
+            if (more)
+                best = outcome;
+        }
+        light.outcome = best;
+    }
+    light.view_count = static_cast<std::uint32_t>(plan.views.size()) - light.first_view;
+    plan.lights.push_back(light);
+}
+
+Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const Slice& slice, std::uint32_t layer,
+                                Plan& plan)
+{
+    const LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
+    const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
+    const Outcome found = region.gather(
+        {space, slice, view, *frame.objects, plan.receivers, options.map_size, border_texels}, plan.casters);
+    if (found.kind != OutcomeKind::ok)
+        return found;
+
+    View made;
+    made.light = light;
+    // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
+    made.clamp_near = filter->clamps_near && !space.perspective;
+    const DepthRange range = depthRangeOf(region, space, made.clamp_near, view.pad_m);
+    const std::span casters = std::span(plan.casters).subspan(first_caster);
+    const FitResult fitted = fit({space, region.body(), motion(region.rect(), {options.map_size, border_texels}),
+                                  range.near_m, range.far_m, space.perspective ? 1e-4 : 1e-3 + view.pad_m,
+                                  *frame.objects, casters, frame.camera, options.map_size, border_texels});
+    made.clip_from_world = fitted.clip_from_world;
+    made.orthographic = fitted.orthographic;
+    made.texel_xy_m = fitted.texel_xy;
+    made.texel_m = std::max(fitted.texel_xy.x, fitted.texel_xy.y);
+    made.light_place_ws = lightPlaceOf(region, space, range.near_m);
+    const double place_m = space.coordinates(made.light_place_ws).z;
+    made.metric.near_m = range.near_m - place_m;
+    made.metric.far_m = range.far_m - place_m;
+    const glm::dvec4 depth(space.forward_ws, -glm::dot(space.forward_ws, space.origin_ws) - range.near_m);
+    made.metric.metric_ws = depth / (range.far_m - range.near_m);
+    made.tile = atlas.tile(layer);
+    made.first_caster = first_caster;
+    made.caster_count = static_cast<std::uint32_t>(casters.size());
+    plan.views.push_back(made);
+    return fitted.outcome;
+}
+
+void Planner::Impl::decideRedraws(const Frame& frame, Plan& plan, const Plan& last) const
+{
+    const bool comparable = have_last && last_identity == frame.objects->identity() && sameSize(plan.atlas, last.atlas);
+    for (View& made : plan.views)
+        made.redraw = !(comparable && stillHolds(made, plan, last, *frame.objects));
+}
+
+/// A tile's content depends on the view and its casters alone, so whose light it was last time does not matter.
+bool Planner::Impl::stillHolds(const View& made, const Plan& plan, const Plan& last, const ObjectSet& objects) const
+{
+    const auto same = [&](const View& old) {
+        return sameTile(old.tile, made.tile) && old.clip_from_world == made.clip_from_world &&
+               old.metric.metric_ws == made.metric.metric_ws && old.orthographic == made.orthographic &&
+               old.clamp_near == made.clamp_near && old.caster_count == made.caster_count;
+    };
+    const auto old = std::find_if(last.views.begin(), last.views.end(), same);
+    if (old == last.views.end())
+        return false;
+    const std::span now = std::span(plan.casters).subspan(made.first_caster, made.caster_count);
+    const std::span then = std::span(last.casters).subspan(old->first_caster, old->caster_count);
+    return std::equal(now.begin(), now.end(), then.begin()) &&
+           std::none_of(now.begin(), now.end(), [&](std::uint32_t c) { return objects.changed(c) > last_version; });
+}
+
+} // namespace gnomon

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (only receivers that camera and light both see count;
+// unseen casters still cast); convex body clipping instead of boxes of boxes.
+#include "region.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The square pyramid of a light with a place, from its near distance to its reach.
+void makeConePlanes(const LightSpace& space, std::vector<Plane>& out)
+{
+    out.clear();
+    if (!space.perspective)
+        return;
+    const auto through = [&](const glm::dvec3& normal, double offset) {
+        out.push_back({normal, offset - glm::dot(normal, space.origin_ws)});
+    };
+    for (const glm::dvec3& side : {space.right_ws, -space.right_ws, space.up_ws, -space.up_ws})
+        through(glm::normalize(side + space.forward_ws * space.tangent), 0.0);
+    through(space.forward_ws, -space.near_m);
+    through(-space.forward_ws, space.reach_m);
+}
+
+double cross2(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
+{
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/// Convex outline, counter-clockwise. Based on: A. M. Andrew, "Another efficient algorithm for convex hulls in two
+/// dimensions", 1979. Sorts `points`.
+void outlineOf(std::vector<glm::dvec2>& points, std::vector<glm::dvec2>& outline)
+{
+    std::sort(points.begin(), points.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    outline.clear();
+    const auto chain = [&](auto first, auto last) {
+        const std::size_t start = outline.size();
+        for (auto p = first; p != last; ++p) {
+            while (outline.size() >= start + 2 &&
+                   cross2(outline[outline.size() - 2], outline[outline.size() - 1], *p) <= 0.0)
+                outline.pop_back();
+            outline.push_back(*p);
+        }
+        outline.pop_back(); // the other chain begins with it
+    };
+    chain(points.begin(), points.end());
+    chain(points.rbegin(), points.rend());
+}
+
+Aabb grown(const Aabb& box, double by_m)
+{
+    const glm::vec3 by(static_cast<float>(by_m));
+    return {box.min - by, box.max + by};
+}
+
+} // namespace
+
+Outcome Region::gatherReceivers(const RegionInput& input)
+{
+    const LightSpace& space = input.space;
+    const glm::dmat3 axes(space.right_ws, space.up_ws, space.forward_ws);
+    const glm::dmat3 sizes(glm::abs(axes[0]), glm::abs(axes[1]), glm::abs(axes[2]));
+    makeConePlanes(space, cone_planes_);
+    Aabb receivers_ws;
+    glm::dvec3 low(kInfinity);
+    glm::dvec3 high(-kInfinity);
+    boxes_measured_ = true;
+    for (const std::uint32_t object : input.seen) {
+        const Aabb& box = input.objects.bounds(object);
+        if (space.perspective && classify(cone_planes_, box) == Containment::outside)
+            continue;
+        receivers_ws = merge(receivers_ws, box);
+        if (!space.perspective) {
+            const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
+            const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
+            // A vector times a matrix: its dot product with each axis.
+            low = glm::min(low, centre * axes - half * sizes);
+            high = glm::max(high, centre * axes + half * sizes);
+            continue;
+        }
+        for (int i = 0; i < 8 && boxes_measured_; ++i) {
+            const glm::dvec3 c = space.coordinates(glm::dvec3(box.corner(i)));
+            // A box that reaches behind the light has no bounded image.
+            boxes_measured_ = c.z >= space.near_m;
+            const glm::dvec3 p(c.x / c.z, c.y / c.z, c.z);
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    if (receivers_ws.empty())
+        return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    // Directional coordinates are from the world's origin, which is where LightSpace puts its own.
+    boxes_rect_ = {glm::dvec2(low), glm::dvec2(high)};
+    boxes_near_m_ = low.z;
+    boxes_far_m_ = high.z;
+
+    // From a box inwards, because a camera's frustum may have no end.
+    body_.reset(grown(receivers_ws, input.view.pad_m));
+    body_.clip(input.view.planes);
+    body_.clip(std::span(input.slice.cut).first(input.slice.cut_count));
+    body_.clip(cone_planes_);
+    if (!measureBody(space))
+        return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    narrowToBoxes(space);
+    return {};
+}
+
+bool Region::measureBody(const LightSpace& space)
+{
+    if (body_.empty())
+        return false;
+    glm::dvec3 low(kInfinity);
+    glm::dvec3 high(-kInfinity);
+    glm::dvec3 low_ws(kInfinity);
+    glm::dvec3 high_ws(-kInfinity);
+    outline_points_.clear();
+    for (const glm::dvec3& corner : body_.points()) {
+        const glm::dvec3 p = space.project(corner);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+        low_ws = glm::min(low_ws, corner);
+        high_ws = glm::max(high_ws, corner);
+        outline_points_.emplace_back(p.x, p.y);
+    }
+    rect_ = {glm::dvec2(low), glm::dvec2(high)};
+    receiver_near_m_ = low.z;
+    receiver_far_m_ = high.z;
+    centre_ws_ = (low_ws + high_ws) * 0.5;
+    return true;
+}
+
+void Region::narrowToBoxes(const LightSpace& space)
+{
+    if (!boxes_measured_)
+        return;
+    // The body is cut from the box of all boxes; seen from the light the boxes themselves may take less room.
+    rect_.low = glm::max(rect_.low, boxes_rect_.low);
+    rect_.high = glm::max(glm::min(rect_.high, boxes_rect_.high), rect_.low);
+    receiver_near_m_ = std::max(receiver_near_m_, boxes_near_m_);
+    receiver_far_m_ = std::max(std::min(receiver_far_m_, boxes_far_m_), receiver_near_m_);
+    if (space.perspective)
+        receiver_near_m_ = std::max(receiver_near_m_, space.near_m);
+}
+
+void Region::addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad)
+{
+    // normal . xy + offset + pad >= 0, as a plane along the rays of light.
+    const glm::dvec3 across = space.right_ws * normal.x + space.up_ws * normal.y;
+    if (!space.perspective) {
+        caster_planes_.push_back({across, offset + pad - glm::dot(across, space.origin_ws)});
+        return;
+    }
+    const glm::dvec3 side = across + space.forward_ws * (offset + pad);
+    const glm::dvec3 unit = glm::normalize(side);
+    caster_planes_.push_back({unit, -glm::dot(unit, space.origin_ws)});
+}
+
+/// The body swept toward the light: the sides of its outline along the rays, and those of its faces that look away
+/// from the light. Wider by the map's border, because a filter's kernel looks that far.
+void Region::makeCasterPlanes(const RegionInput& input)
+{
+    const LightSpace& space = input.space;
+    const glm::dvec2 size = rect_.high - rect_.low;
+    const double rounding = space.perspective ? 1e-7 : input.view.pad_m;
+    const double texels = static_cast<double>(input.map_size) - 2.0 * input.border_texels;
+    const double pad = (input.border_texels + 1.0) * std::max(size.x, size.y) / texels + rounding;
+
+    caster_planes_.clear();
+    addSidePlane(space, {1.0, 0.0}, -rect_.low.x, pad);
+    addSidePlane(space, {-1.0, 0.0}, rect_.high.x, pad);
+    addSidePlane(space, {0.0, 1.0}, -rect_.low.y, pad);
+    addSidePlane(space, {0.0, -1.0}, rect_.high.y, pad);
+    const double pad_m = (space.perspective ? pad * receiver_far_m_ : pad) + input.view.pad_m;
+    caster_planes_.push_back(
+        {-space.forward_ws, receiver_far_m_ + pad_m + glm::dot(space.forward_ws, space.origin_ws)});
+    if (space.perspective)
+        caster_planes_.push_back({space.forward_ws, -space.near_m - glm::dot(space.forward_ws, space.origin_ws)});
+
+    body_.planes(body_planes_);
+    for (const Plane& face : body_planes_) {
+        const bool looks_away =
+            space.perspective ? face.distance(space.origin_ws) > 0.0 : glm::dot(face.normal, space.forward_ws) < -1e-6;
+        if (looks_away)
+            caster_planes_.push_back({face.normal, face.d + pad_m});
+    }
+    outlineOf(outline_points_, outline_);
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+        const glm::dvec2 edge = outline_[(i + 1) % outline_.size()] - outline_[i];
+        const double length = glm::length(edge);
+        if (!(length > rounding))
+            continue;
+        const glm::dvec2 normal(-edge.y / length, edge.x / length);
+        double offset = -glm::dot(normal, outline_[i]);
+        for (const glm::dvec2& p : outline_)
+            offset = std::max(offset, -glm::dot(normal, p));
+        addSidePlane(space, normal, offset, pad);
+    }
+}
+
+Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& casters)
+{
+    if (const Outcome outcome = gatherReceivers(input); outcome.kind != OutcomeKind::ok)
+        return outcome;
+    makeCasterPlanes(input);
+    const std::size_t first = casters.size();
+    input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
+    if (casters.size() == first)
+        return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
+    const glm::dvec3 forward = input.space.forward_ws;
+    const glm::dvec3 size = glm::abs(forward);
+    caster_near_m_ = kInfinity;
+    for (std::size_t i = first; i < casters.size(); ++i) {
+        const Aabb& box = input.objects.bounds(casters[i]);
+        const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
+        const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
+        caster_near_m_ =
+            std::min(caster_near_m_, glm::dot(forward, centre - input.space.origin_ws) - glm::dot(size, half));
+    }
+    return {};
+}
+
+} // namespace gnomon

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What matters to one frustum of a light: the body that the camera sees and the light reaches, and who can cast on it.
+#pragma once
+
+#include "light_space.h"
+#include "partition/partition.h"
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+struct RegionInput {
+    const LightSpace& space;
+    const Slice& slice;
+    const CameraView& view;
+    const ObjectSet& objects;
+    std::span<const std::uint32_t> seen; // receivers that the camera sees
+    std::uint32_t map_size = 0;
+    double border_texels = 0.0;
+};
+
+class Region {
+public:
+    /// ok, no_receiver or no_caster. Appends the casters to `casters`, ascending. Keeps its memory.
+    Outcome gather(const RegionInput& input, std::vector<std::uint32_t>& casters);
+
+    /// Valid after gather() said ok, until the next one.
+    [[nodiscard]] const ConvexBody& body() const { return body_; }
+    [[nodiscard]] const LightRect& rect() const { return rect_; }
+    /// Depths along the light's axis from LightSpace::origin_ws.
+    [[nodiscard]] double receiverNear_m() const { return receiver_near_m_; }
+    [[nodiscard]] double receiverFar_m() const { return receiver_far_m_; }
+    [[nodiscard]] double casterNear_m() const { return caster_near_m_; }
+    [[nodiscard]] glm::dvec3 centre_ws() const { return centre_ws_; }
+
+private:
+    Outcome gatherReceivers(const RegionInput& input);
+    bool measureBody(const LightSpace& space);
+    void narrowToBoxes(const LightSpace& space);
+    void makeCasterPlanes(const RegionInput& input);
+    void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);
+
+    ConvexBody body_;
+    LightRect rect_;
+    LightRect boxes_rect_;
+    bool boxes_measured_ = false;
+    double receiver_near_m_ = 0.0;
+    double receiver_far_m_ = 0.0;
+    double boxes_near_m_ = 0.0;
+    double boxes_far_m_ = 0.0;
+    double caster_near_m_ = 0.0;
+    glm::dvec3 centre_ws_{0.0};
+    std::vector<Plane> cone_planes_;
+    std::vector<Plane> body_planes_;
+    std::vector<Plane> caster_planes_;
+    std::vector<glm::dvec2> outline_;
+    std::vector<glm::dvec2> outline_points_;
+};
+
+} // namespace gnomon
