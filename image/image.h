@@ -31,8 +31,8 @@ struct ImageOf {
     }
 };
 
-using Image8 = ImageOf<std::uint8_t>;   // sRGB-encoded when it is a picture
+using Image8 = ImageOf<std::uint8_t>; // sRGB-encoded when it is a picture
 using Image16 = ImageOf<std::uint16_t>;
-using ImageF = ImageOf<float>;          // linear
+using ImageF = ImageOf<float>; // linear
 
 } // namespace gnomon

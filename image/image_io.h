@@ -21,7 +21,11 @@ void writeExr(const std::filesystem::path& file, const ImageF& image, bool half 
 /// Untrusted input: sizes are checked against `max_side` before memory is taken.
 [[nodiscard]] ImageF readImage(const std::filesystem::path& file, std::uint32_t max_side = 16384);
 
-/// Writes any bytes the same safe way (JSON, SVG).
+/// Throws the Error that writeFile() would throw for a directory, a missing folder or a lack of rights, so that a
+/// program can say so before an hour's work. Creates nothing.
+void requireWritable(const std::filesystem::path& file);
+
+/// Writes any bytes the same safe way (JSON, SVG). Devices and pipes are written to in place.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
 } // namespace gnomon
