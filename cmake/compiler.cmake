@@ -7,6 +7,8 @@ endif()
 add_library(gnomon_options INTERFACE)
 target_compile_options(gnomon_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                 -Wnon-virtual-dtor -Woverloaded-virtual)
+# What an initialiser leaves out is zero in C++, and Vulkan's structs are made to be filled in that way.
+target_compile_options(gnomon_options INTERFACE -Wno-missing-field-initializers)
 if(GNOMON_WERROR)
     target_compile_options(gnomon_options INTERFACE -Werror)
 endif()
