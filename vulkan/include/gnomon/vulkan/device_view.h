@@ -38,8 +38,8 @@ struct DeviceView {
 
 /// The features of decisions.md that the backend relies on, chained for VkDeviceCreateInfo::pNext. Static lifetime.
 [[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures();
-/// Names of the required features that a physical device lacks, separated by ", "; empty when it has all. Writes at most
-/// `capacity` bytes and a zero to `text`.
+/// Names of the required features that a physical device lacks, separated by ", "; empty when it has all. Writes at
+/// most `capacity` bytes and a zero to `text`.
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity);
 
 } // namespace gnomon::vulkan

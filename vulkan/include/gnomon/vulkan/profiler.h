@@ -11,14 +11,14 @@
 namespace gnomon::vulkan {
 
 struct PassRecord {
-    const char* name = "";           // static
-    double milliseconds = 0.0;       // GPU timestamps
-    bool has_statistics = false;     // the fields below hold
+    const char* name = "";       // static
+    double milliseconds = 0.0;   // GPU timestamps
+    bool has_statistics = false; // the fields below hold
     std::uint64_t vertex_invocations = 0;
-    std::uint64_t primitives = 0;          // that reached rasterisation (clipping output)
+    std::uint64_t primitives = 0; // that reached rasterisation (clipping output)
     std::uint64_t fragment_invocations = 0;
     std::uint64_t compute_invocations = 0;
-    std::uint32_t draws = 0;         // as counted by addDraws
+    std::uint32_t draws = 0; // as counted by addDraws
 };
 
 /// Passes must not nest. Not thread-safe.

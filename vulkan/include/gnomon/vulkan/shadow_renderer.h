@@ -23,8 +23,8 @@ struct FilterOptions {
     Filter filter = Filter::pcf;
     MapFormat format = MapFormat::d32f;
     PcfKernel pcf_kernel = PcfKernel::gaussian_3x3;
-    std::uint32_t disc_taps = 16;     // poisson, vogel: 4 .. 64
-    float disc_radius_texels = 2.5F;  // poisson, vogel: 0.5 .. 16
+    std::uint32_t disc_taps = 16;       // poisson, vogel: 4 .. 64
+    float disc_radius_texels = 2.5F;    // poisson, vogel: 0.5 .. 16
     float gaussian_sigma_texels = 0.0F; // gaussian kernels: 0 picks width / 4; 0.3 .. 4
     BiasOptions bias;
 };
@@ -38,8 +38,8 @@ struct ShadowRendererOptions {
 /// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
 /// DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads by the host.
 struct MaskInputs {
-    VkExtent2D extent{};                  // of depth, normal and the mask
-    VkImageView depth = VK_NULL_HANDLE;   // the camera's depth, D32F or R32F, one sample
+    VkExtent2D extent{};                // of depth, normal and the mask
+    VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     /// Geometric world-space normals, octahedral in RG (snorm or float), or VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
@@ -47,8 +47,8 @@ struct MaskInputs {
     VkImageView object_id = VK_NULL_HANDLE;
 };
 
-/// One map to draw, given to the host's callback. Rendering has begun, viewport and scissor are set. The callback binds its
-/// pipelines (made for `formats`) and draws the casters; it must not end rendering.
+/// One map to draw, given to the host's callback. Rendering has begun, viewport and scissor are set. The callback binds
+/// its pipelines (made for `formats`) and draws the casters; it must not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     const Plan* plan = nullptr;
@@ -90,9 +90,9 @@ public:
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;
 
-    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, then everything that was
-    /// recorded earlier must have finished on the GPU, and views that the plan would reuse are drawn again. Throws Error
-    /// for sizes beyond the device's limits or memory.
+    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, then everything
+    /// that was recorded earlier must have finished on the GPU, and views that the plan would reuse are drawn again.
+    /// Throws Error for sizes beyond the device's limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in

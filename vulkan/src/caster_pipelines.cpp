@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "caster_pipelines.h"
+
+#include "graphics_pipeline.h"
+
+#include <gnomon_spirv.h>
+
+namespace gnomon::vulkan {
+namespace {
+
+std::span<const std::uint32_t> vertexCode(CasterPipelineKey key)
+{
+    if (key.perspective) {
+        return key.masked ? spirv::caster_perspective_masked_vert : spirv::caster_perspective_vert;
+    }
+    return key.masked ? spirv::caster_orthographic_masked_vert : spirv::caster_orthographic_vert;
+}
+
+// Empty where the rasteriser alone does the work.
+std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked)
+{
+    if (formats.colour != VK_FORMAT_UNDEFINED) {
+        return masked ? spirv::caster_colour_masked_frag : spirv::caster_colour_frag;
+    }
+    if (formats.write_frag_depth) {
+        return masked ? spirv::caster_depth_masked_frag : spirv::caster_depth_frag;
+    }
+    return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
+}
+
+struct VertexInput {
+    std::array<VkVertexInputBindingDescription, 3> bindings{};
+    std::array<VkVertexInputAttributeDescription, 7> attributes{};
+    std::uint32_t binding_count = 0;
+    std::uint32_t attribute_count = 0;
+};
+
+VertexInput vertexInput(CasterPipelineKey key)
+{
+    constexpr std::uint32_t kRowBytes = sizeof(glm::vec4);
+    const std::uint32_t rows = instanceRows(key.perspective);
+    VertexInput input;
+    input.bindings[input.binding_count++] = {0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
+    input.bindings[input.binding_count++] = {2, rows * kRowBytes, VK_VERTEX_INPUT_RATE_INSTANCE};
+    input.attributes[input.attribute_count++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    for (std::uint32_t i = 0; i < rows; ++i) {
+        input.attributes[input.attribute_count++] = {2 + i, 2, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
+    }
+    if (key.masked) {
+        input.bindings[input.binding_count++] = {1, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
+        input.attributes[input.attribute_count++] = {1, 1, VK_FORMAT_R32G32_SFLOAT, 0};
+    }
+    return input;
+}
+
+} // namespace
+
+CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& options)
+    : device_(device), options_(options)
+{
+    const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                                               VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+    const VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0, 1,
+                                                   &binding};
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    check(device.vk.CreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout),
+          "create a descriptor set layout");
+    set_layout_ = {device, set_layout};
+    const VkPushConstantRange range{kMaterialStages, 0, sizeof(CasterMaterial)};
+    const VkPipelineLayoutCreateInfo layout_info{
+        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device.vk.CreatePipelineLayout(device.handle(), &layout_info, nullptr, &layout), "create a pipeline layout");
+    layout_ = {device, layout};
+}
+
+void CasterPipelines::ensure(CasterPipelineKey key)
+{
+    Pipeline& pipeline = pipelines_[key.index()];
+    if (!pipeline) {
+        pipeline = make(key);
+    }
+}
+
+Pipeline CasterPipelines::make(CasterPipelineKey key)
+{
+    const MapPassFormats& formats = key.perspective ? options_.perspective : options_.orthographic;
+    const ShaderModule vertex = makeShader(device_, vertexCode(key));
+    const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
+    ShaderModule fragment;
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    stages[0].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = vertex.get();
+    stages[0].pName = "main";
+    if (!fragment_code.empty()) {
+        fragment = makeShader(device_, fragment_code);
+        stages[1] = stages[0];
+        stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+        stages[1].module = fragment.get();
+    }
+    const VertexInput input = vertexInput(key);
+
+    GraphicsState state;
+    state.stages = std::span(stages).first(fragment ? 2 : 1);
+    state.layout = layout_.get();
+    state.bindings = std::span(input.bindings).first(input.binding_count);
+    state.attributes = std::span(input.attributes).first(input.attribute_count);
+    state.colour_format = formats.colour;
+    state.depth_format = formats.depth;
+    state.samples = formats.samples;
+    state.cull = key.cull ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+    state.depth_clamp = key.clamp;
+    state.cache = options_.pipeline_cache;
+    state.name = key.masked ? "masked casters" : "casters";
+    return makeGraphicsPipeline(device_, state);
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device.h"
+
+#include <gnomon/error.h>
+
+#include <cstring>
+
+namespace gnomon::vulkan {
+namespace {
+
+std::string resultName(VkResult result)
+{
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "out of host memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "out of device memory";
+    case VK_ERROR_DEVICE_LOST:
+        return "the device was lost";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+        return "the format is not supported";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "too many objects";
+    default:
+        return "VkResult " + std::to_string(static_cast<int>(result));
+    }
+}
+
+bool isMemoryFailure(VkResult result)
+{
+    return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+} // namespace
+
+void check(VkResult result, const char* tried)
+{
+    if (result != VK_SUCCESS) {
+        throw Error(tried, resultName(result),
+                    isMemoryFailure(result) ? "use smaller or fewer shadow maps, or a smaller picture" : "");
+    }
+}
+
+void MemoryAccount::add(const char* purpose, VkDeviceSize bytes)
+{
+    for (MemoryUse& use : uses_) {
+        if (std::strcmp(use.purpose, purpose) == 0) {
+            use.bytes += bytes;
+            return;
+        }
+    }
+    uses_.push_back({purpose, bytes});
+}
+
+void MemoryAccount::remove(const char* purpose, VkDeviceSize bytes)
+{
+    for (MemoryUse& use : uses_) {
+        if (std::strcmp(use.purpose, purpose) == 0) {
+            use.bytes -= bytes;
+        }
+    }
+}
+
+Device::Device(const DeviceView& view) : vk(loadFunctions(view)), view_(view)
+{
+    VkPhysicalDeviceProperties properties{};
+    vk.GetPhysicalDeviceProperties(view.physical_device, &properties);
+    limits_ = properties.limits;
+    vk.GetPhysicalDeviceMemoryProperties(view.physical_device, &memory_);
+}
+
+VkFormatFeatureFlags Device::features(VkFormat format) const
+{
+    VkFormatProperties properties{};
+    vk.GetPhysicalDeviceFormatProperties(view_.physical_device, format, &properties);
+    return properties.optimalTilingFeatures;
+}
+
+MemoryBlock Device::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose)
+{
+    MemoryBlock block;
+    const std::string tried = std::string("allocate memory for ") + purpose;
+    if (view_.memory.allocate != nullptr) {
+        check(view_.memory.allocate(view_.memory.user, needs, properties, purpose, &block), tried.c_str());
+        account_.add(purpose, needs.size);
+        return block;
+    }
+    std::uint32_t type = memory_.memoryTypeCount;
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+        if ((needs.memoryTypeBits & (1U << i)) != 0 &&
+            (memory_.memoryTypes[i].propertyFlags & properties) == properties) {
+            type = i;
+            break;
+        }
+    }
+    if (type == memory_.memoryTypeCount) {
+        throw Error(tried, "the device has no memory type with the properties it needs");
+    }
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
+    check(vk.AllocateMemory(view_.device, &info, nullptr, &block.memory), tried.c_str());
+    if ((properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+        const VkResult mapped = vk.MapMemory(view_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped);
+        if (mapped != VK_SUCCESS) {
+            vk.FreeMemory(view_.device, block.memory, nullptr);
+            check(mapped, tried.c_str());
+        }
+    }
+    account_.add(purpose, needs.size);
+    return block;
+}
+
+void Device::release(const MemoryBlock& block, const char* purpose, VkDeviceSize bytes)
+{
+    account_.remove(purpose, bytes);
+    if (view_.memory.allocate != nullptr) {
+        view_.memory.release(view_.memory.user, block);
+    } else {
+        vk.FreeMemory(view_.device, block.memory, nullptr);
+    }
+}
+
+void Device::name(VkObjectType type, std::uint64_t handle, const char* text) const
+{
+    if (vk.SetDebugUtilsObjectNameEXT != nullptr) {
+        const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type,
+                                                 handle, text};
+        vk.SetDebugUtilsObjectNameEXT(view_.device, &info);
+    }
+}
+
+void Device::beginLabel(VkCommandBuffer commands, const char* text) const
+{
+    if (vk.CmdBeginDebugUtilsLabelEXT != nullptr) {
+        const VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, text, {}};
+        vk.CmdBeginDebugUtilsLabelEXT(commands, &label);
+    }
+}
+
+void Device::endLabel(VkCommandBuffer commands) const
+{
+    if (vk.CmdEndDebugUtilsLabelEXT != nullptr) {
+        vk.CmdEndDebugUtilsLabelEXT(commands);
+    }
+}
+
+Memory::Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose)
+    : device_(&device), block_(device.allocate(needs, properties, purpose)), purpose_(purpose), bytes_(needs.size)
+{
+}
+
+Memory::Memory(Memory&& other) noexcept
+    : device_(std::exchange(other.device_, nullptr)), block_(other.block_), purpose_(other.purpose_),
+      bytes_(other.bytes_)
+{
+}
+
+Memory& Memory::operator=(Memory&& other) noexcept
+{
+    std::swap(device_, other.device_);
+    std::swap(block_, other.block_);
+    std::swap(purpose_, other.purpose_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+Memory::~Memory()
+{
+    if (device_ != nullptr) {
+        device_->release(block_, purpose_, bytes_);
+    }
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caller's device with its functions, limits and memory policy; and the two kinds of resource that live in memory.
+#pragma once
+
+#include "functions.h"
+
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// Throws Error("tried", name of the result, advice) unless the result is VK_SUCCESS.
+void check(VkResult result, const char* tried);
+
+/// Which purposes hold how many bytes. The device hands its owner's account to every resource.
+class MemoryAccount {
+public:
+    void add(const char* purpose, VkDeviceSize bytes);
+    void remove(const char* purpose, VkDeviceSize bytes);
+    [[nodiscard]] std::span<const MemoryUse> uses() const { return uses_; }
+
+private:
+    std::vector<MemoryUse> uses_;
+};
+
+class Device {
+public:
+    explicit Device(const DeviceView& view);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    [[nodiscard]] VkDevice handle() const { return view_.device; }
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
+    [[nodiscard]] const MemoryAccount& account() const { return account_; }
+
+    /// Throws Error when there is none.
+    [[nodiscard]] MemoryBlock allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
+                                       const char* purpose);
+    void release(const MemoryBlock& block, const char* purpose, VkDeviceSize bytes);
+
+    void name(VkObjectType type, std::uint64_t handle, const char* text) const;
+    void beginLabel(VkCommandBuffer commands, const char* text) const;
+    void endLabel(VkCommandBuffer commands) const;
+
+    Functions vk;
+
+private:
+    DeviceView view_;
+    VkPhysicalDeviceLimits limits_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    MemoryAccount account_;
+};
+
+template <class Handle>
+std::uint64_t handleBits(Handle handle)
+{
+    return reinterpret_cast<std::uint64_t>(handle);
+}
+
+/// Owns one handle; `Destroy` is a member of Functions.
+template <class Handle, auto Destroy>
+class Owned {
+public:
+    Owned() = default;
+    Owned(Device& device, Handle handle) : device_(&device), handle_(handle) {}
+    Owned(Owned&& other) noexcept
+        : device_(other.device_), handle_(std::exchange(other.handle_, Handle{VK_NULL_HANDLE}))
+    {
+    }
+    Owned& operator=(Owned&& other) noexcept
+    {
+        std::swap(device_, other.device_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Owned()
+    {
+        if (handle_ != VK_NULL_HANDLE) {
+            (device_->vk.*Destroy)(device_->handle(), handle_, nullptr);
+        }
+    }
+    [[nodiscard]] Handle get() const { return handle_; }
+    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+
+private:
+    Device* device_ = nullptr;
+    Handle handle_ = VK_NULL_HANDLE;
+};
+
+using ShaderModule = Owned<VkShaderModule, &Functions::DestroyShaderModule>;
+using PipelineLayout = Owned<VkPipelineLayout, &Functions::DestroyPipelineLayout>;
+using Pipeline = Owned<VkPipeline, &Functions::DestroyPipeline>;
+using SetLayout = Owned<VkDescriptorSetLayout, &Functions::DestroyDescriptorSetLayout>;
+using DescriptorPool = Owned<VkDescriptorPool, &Functions::DestroyDescriptorPool>;
+using Sampler = Owned<VkSampler, &Functions::DestroySampler>;
+using QueryPool = Owned<VkQueryPool, &Functions::DestroyQueryPool>;
+using ImageView = Owned<VkImageView, &Functions::DestroyImageView>;
+
+/// A block of memory that goes back to where it came from.
+class Memory {
+public:
+    Memory() = default;
+    Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose);
+    Memory(Memory&& other) noexcept;
+    Memory& operator=(Memory&& other) noexcept;
+    ~Memory();
+    [[nodiscard]] const MemoryBlock& block() const { return block_; }
+
+private:
+    Device* device_ = nullptr;
+    MemoryBlock block_;
+    const char* purpose_ = "";
+    VkDeviceSize bytes_ = 0;
+};
+
+struct ImageInfo {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+    std::uint32_t layers = 1;
+    VkImageUsageFlags usage = 0;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    const char* purpose = "";
+};
+
+/// A 2D array image with a view of all layers and one view of each.
+class Image {
+public:
+    Image() = default;
+    /// Throws Error beyond the device's limits or memory.
+    Image(Device& device, const ImageInfo& info);
+    [[nodiscard]] VkImage image() const { return image_.get(); }
+    [[nodiscard]] VkImageView view() const { return all_.get(); }
+    [[nodiscard]] VkImageView layer(std::uint32_t index) const { return layers_[index].get(); }
+    [[nodiscard]] const ImageInfo& info() const { return info_; }
+    explicit operator bool() const { return static_cast<bool>(image_); }
+
+private:
+    ImageInfo info_;
+    Memory memory_; // declared first: freed after the image that is bound to it
+    Owned<VkImage, &Functions::DestroyImage> image_;
+    ImageView all_;
+    std::vector<ImageView> layers_;
+};
+
+/// Mapped for as long as it lives; coherent.
+class HostBuffer {
+public:
+    HostBuffer() = default;
+    HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
+    [[nodiscard]] VkBuffer buffer() const { return buffer_.get(); }
+    [[nodiscard]] void* data() const { return memory_.block().mapped; }
+    [[nodiscard]] VkDeviceSize size() const { return size_; }
+
+private:
+    Memory memory_;
+    Owned<VkBuffer, &Functions::DestroyBuffer> buffer_;
+    VkDeviceSize size_ = 0;
+};
+
+[[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
+
+/// One image barrier, sent at once.
+struct ImageBarrier {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    std::uint32_t first_layer = 0;
+    std::uint32_t layer_count = 1;
+    VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkPipelineStageFlags2 source_stages = 0;
+    VkAccessFlags2 source_access = 0;
+    VkPipelineStageFlags2 target_stages = 0;
+    VkAccessFlags2 target_access = 0;
+};
+void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBarrier& barrier);
+
+} // namespace gnomon::vulkan

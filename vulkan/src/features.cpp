@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The device features that the backend uses: asked for, and looked for, from the same chain.
+#include "functions.h"
+
+#include <cstddef>
+#include <cstring>
+
+namespace gnomon::vulkan {
+namespace {
+
+struct Chain {
+    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+
+    Chain()
+    {
+        core.pNext = &v12;
+        v12.pNext = &v13;
+    }
+    Chain(const Chain&) = delete;
+    Chain& operator=(const Chain&) = delete;
+};
+
+struct Feature {
+    const char* name;
+    VkBool32& (*of)(Chain&);
+};
+
+// Indirect drawing of instances · casters clamped onto the near plane · the profiler · passes and barriers.
+constexpr Feature kFeatures[] = {
+    {"multiDrawIndirect",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.multiDrawIndirect;
+     }},
+    {"drawIndirectFirstInstance",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.drawIndirectFirstInstance;
+     }},
+    {"depthClamp",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.depthClamp;
+     }},
+    {"pipelineStatisticsQuery",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.pipelineStatisticsQuery;
+     }},
+    {"hostQueryReset",
+     [](Chain& c) -> VkBool32& {
+         return c.v12.hostQueryReset;
+     }},
+    {"dynamicRendering",
+     [](Chain& c) -> VkBool32& {
+         return c.v13.dynamicRendering;
+     }},
+    {"synchronization2",
+     [](Chain& c) -> VkBool32& {
+         return c.v13.synchronization2;
+     }},
+};
+
+} // namespace
+
+const VkPhysicalDeviceFeatures2& requiredFeatures()
+{
+    static Chain chain;
+    static const bool filled = [] {
+        for (const Feature& feature : kFeatures) {
+            feature.of(chain) = VK_TRUE;
+        }
+        return true;
+    }();
+    (void)filled;
+    return chain.core;
+}
+
+void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
+{
+    if (capacity == 0) {
+        return;
+    }
+    text[0] = '\0';
+    const auto query = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+        view.get_instance_proc_addr(view.instance, "vkGetPhysicalDeviceFeatures2"));
+    Chain have;
+    if (query != nullptr) {
+        query(view.physical_device, &have.core);
+    }
+    std::uint32_t length = 0;
+    for (const Feature& feature : kFeatures) {
+        const char* separator = length == 0 ? "" : ", ";
+        const std::size_t more = std::strlen(separator) + std::strlen(feature.name);
+        if (feature.of(have) == VK_FALSE && length + more < capacity) {
+            std::strcpy(text + length, separator);
+            std::strcpy(text + length + std::strlen(separator), feature.name);
+            length += static_cast<std::uint32_t>(more);
+        }
+    }
+}
+
+} // namespace gnomon::vulkan

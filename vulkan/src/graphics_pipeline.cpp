@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "graphics_pipeline.h"
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
+{
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(state.bindings.size());
+    input.pVertexBindingDescriptions = state.bindings.data();
+    input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(state.attributes.size());
+    input.pVertexAttributeDescriptions = state.attributes.data();
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.depthClampEnable = state.depth_clamp ? VK_TRUE : VK_FALSE;
+    raster.cullMode = state.cull;
+    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    raster.lineWidth = 1.0F;
+    VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    multisample.rasterizationSamples = state.samples;
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+    depth.depthWriteEnable = depth.depthTestEnable;
+    depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
+    VkPipelineColorBlendAttachmentState attachment{};
+    attachment.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    const std::uint32_t colours = state.colour_format != VK_FORMAT_UNDEFINED ? 1U : 0U;
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = colours;
+    blend.pAttachments = &attachment;
+    const std::array<VkDynamicState, 2> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
+    dynamic.pDynamicStates = dynamic_states.data();
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = colours;
+    rendering.pColorAttachmentFormats = &state.colour_format;
+    rendering.depthAttachmentFormat = state.depth_format;
+
+    VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+    create.stageCount = static_cast<std::uint32_t>(state.stages.size());
+    create.pStages = state.stages.data();
+    create.pVertexInputState = &input;
+    create.pInputAssemblyState = &assembly;
+    create.pViewportState = &viewport;
+    create.pRasterizationState = &raster;
+    create.pMultisampleState = &multisample;
+    create.pDepthStencilState = &depth;
+    create.pColorBlendState = &blend;
+    create.pDynamicState = &dynamic;
+    create.layout = state.layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(device.vk.CreateGraphicsPipelines(device.handle(), state.cache, 1, &create, nullptr, &pipeline),
+          "create a graphics pipeline");
+    device.name(VK_OBJECT_TYPE_PIPELINE, handleBits(pipeline), state.name);
+    return {device, pipeline};
+}
+
+} // namespace gnomon::vulkan

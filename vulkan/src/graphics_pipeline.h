@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Graphics pipelines for dynamic rendering, with what all of ours have in common filled in.
+#pragma once
+
+#include "device.h"
+
+namespace gnomon::vulkan {
+
+struct GraphicsState {
+    std::span<const VkPipelineShaderStageCreateInfo> stages;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    std::span<const VkVertexInputBindingDescription> bindings;
+    std::span<const VkVertexInputAttributeDescription> attributes;
+    VkFormat colour_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no colour attachment
+    VkFormat depth_format = VK_FORMAT_UNDEFINED;  // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE; // counter-clockwise is front
+    bool depth_clamp = false;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    const char* name = "";
+};
+
+/// Viewport and scissor are dynamic.
+[[nodiscard]] Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state);
+
+} // namespace gnomon::vulkan

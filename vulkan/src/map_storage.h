@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// How each MapFormat is stored. A new format is one line of the table in map_storage.cpp.
+#pragma once
+
+#include <gnomon/choices.h>
+
+#include <vulkan/vulkan_core.h>
+
+namespace gnomon::vulkan {
+
+struct MapStorage {
+    MapFormat format;
+    VkFormat colour; // UNDEFINED: the depth image is the map
+    VkFormat depth;
+    float quantum; // bound on the error of a stored depth: storage and the arithmetic that led to it
+
+    [[nodiscard]] bool depthOnly() const { return colour == VK_FORMAT_UNDEFINED; }
+    [[nodiscard]] VkFormat mapFormat() const { return depthOnly() ? depth : colour; }
+    [[nodiscard]] VkImageAspectFlags aspect() const
+    {
+        return depthOnly() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    }
+};
+
+/// Null for a format that no pass of this version writes.
+[[nodiscard]] const MapStorage* findMapStorage(MapFormat format);
+
+} // namespace gnomon::vulkan

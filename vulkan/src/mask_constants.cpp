@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mask_constants.h"
+
+#include <pcf_weights.h>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cassert>
+
+namespace gnomon::vulkan {
+namespace {
+
+// What the mask shows of a light's views; nothing for a light without a map.
+std::uint32_t shownViews(const LightPlan& light)
+{
+    return light.outcome.hasMap() ? light.view_count : 0U;
+}
+
+// How far from its tile's edge a receiver must be, so that no texel outside is read.
+double edgeMargin(const FilterOptions& filter)
+{
+    constexpr double kRounding = 1e-3; // a receiver on the far edge itself is in the next texel
+    const int width = kernelWidth(filter);
+    if (filter.filter == Filter::hard) {
+        return kRounding;
+    }
+    return kRounding + (width > 0 ? width * 0.5 : static_cast<double>(filter.disc_radius_texels) + 0.5);
+}
+
+shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
+{
+    const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
+    const glm::dvec4 w = glm::row(clip_from_eye, 3);
+    const auto texels = [&](int axis, double first, double size) {
+        return glm::row(clip_from_eye, axis) * (0.5 * size) + w * (0.5 * size + first);
+    };
+    const Tile& tile = view.tile;
+    const double x0 = tile.x;
+    const double y0 = tile.y;
+    shared::GpuView gpu{};
+    gpu.x = texels(0, x0, tile.width);
+    gpu.y = texels(1, y0, tile.height);
+    gpu.w = w;
+    gpu.metric = view.metric.metric_ws * world_from_eye; // a row vector
+    gpu.tile = glm::dvec4(x0 + margin, y0 + margin, x0 + tile.width - margin, y0 + tile.height - margin);
+    gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer, 0.0);
+    return gpu;
+}
+
+shared::GpuLight gpuLight(const Light& light, const glm::dvec3& eye_ws)
+{
+    shared::GpuLight gpu{};
+    gpu.place = light.type == LightType::directional ? glm::vec4(glm::vec3(glm::normalize(-light.direction_ws)), 0.0F)
+                                                     : glm::vec4(glm::vec3(light.position_ws - eye_ws), 1.0F);
+    return gpu;
+}
+
+void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer& out)
+{
+    const BiasOptions& bias = filter.bias;
+    out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
+    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, filterReachTexels(filter), quantum, 0.0F};
+    out.kernel = shared::gaussianWeights(std::max(kernelWidth(filter), 1), filter.gaussian_sigma_texels);
+    out.disc = {filter.disc_radius_texels, 0.0F, 0.0F, 0.0F};
+}
+
+} // namespace
+
+int kernelWidth(const FilterOptions& filter)
+{
+    switch (filter.pcf_kernel) {
+    case PcfKernel::bilinear_2x2:
+        return 1;
+    case PcfKernel::gaussian_3x3:
+        return 3;
+    case PcfKernel::gaussian_5x5:
+        return 5;
+    case PcfKernel::gaussian_7x7:
+        return 7;
+    case PcfKernel::poisson:
+    case PcfKernel::vogel:
+        return 0;
+    }
+    return 0;
+}
+
+float filterReachTexels(const FilterOptions& filter)
+{
+    if (filter.filter == Filter::hard) {
+        return 0.5F;
+    }
+    const int width = kernelWidth(filter);
+    return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;
+}
+
+std::uint32_t countMaskLayerViews(const Plan& plan, std::uint32_t layer)
+{
+    std::uint32_t count = 0;
+    for (const LightPlan& light : plan.lights) {
+        count += light.mask_layer == layer ? shownViews(light) : 0U;
+    }
+    return count;
+}
+
+bool isLayerOrthographic(const Plan& plan, std::uint32_t layer)
+{
+    for (const LightPlan& light : plan.lights) {
+        for (std::uint32_t i = 0; light.mask_layer == layer && i < shownViews(light); ++i) {
+            if (!plan.views[light.first_view + i].orthographic) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const FilterOptions& filter,
+                   float quantum, VkExtent2D screen, VkExtent2D atlas, shared::GpuMaskLayer& out)
+{
+    const Camera& camera = frame.camera;
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
+    const glm::dmat4 eye_from_ndc = glm::inverse(camera.clip_from_world * world_from_eye);
+    out.eye_x = glm::row(eye_from_ndc, 0);
+    out.eye_y = glm::row(eye_from_ndc, 1);
+    out.eye_z = glm::row(eye_from_ndc, 2);
+    out.eye_w = glm::row(eye_from_ndc, 3);
+    const glm::vec2 size(screen.width, screen.height);
+    out.screen = {size, 1.0F / size};
+    fillFilter(filter, quantum, out);
+
+    const double margin = edgeMargin(filter);
+    std::uint32_t channels = 0;
+    std::uint32_t views = 0;
+    for (shared::GpuLight& light : out.lights) {
+        light = {}; // no map
+    }
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        if (light.mask_layer != layer) {
+            continue;
+        }
+        assert(light.mask_channel < shared::kLightsPerLayer);
+        channels = std::max(channels, light.mask_channel + 1);
+        const std::uint32_t count = shownViews(light);
+        if (count == 0) {
+            continue;
+        }
+        shared::GpuLight& gpu = out.lights[light.mask_channel];
+        gpu = gpuLight(frame.lights[i], camera.eye_ws);
+        gpu.views = {views, count, 1U, 0U};
+        for (std::uint32_t v = 0; v < count; ++v) {
+            assert(views < shared::kViewsPerLayer);
+            out.views[views++] = gpuView(plan.views[light.first_view + v], world_from_eye, margin);
+        }
+    }
+    out.atlas = {1.0F / static_cast<float>(atlas.width), 1.0F / static_cast<float>(atlas.height),
+                 camera.reversed_z ? 0.0F : 1.0F, static_cast<float>(channels)};
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mask pass's layouts, descriptor sets and pipelines.
+#include "graphics_pipeline.h"
+#include "mask_constants.h"
+#include "mask_pass.h"
+
+#include <array>
+#include <cstddef>
+
+namespace gnomon::vulkan {
+namespace {
+
+enum Binding : std::uint32_t { kConstants, kMaps, kDepth, kNormal, kObjectId, kBindingCount };
+
+// The constant_ids of mask_fragment.glsl.
+struct Specialisation {
+    std::int32_t filter;
+    std::int32_t kernel_width;
+    std::int32_t disc_taps;
+    VkBool32 has_normals;
+};
+
+Specialisation specialise(const FilterOptions& filter, bool normals)
+{
+    const auto taps = static_cast<std::int32_t>(filter.disc_taps);
+    return {static_cast<std::int32_t>(filter.filter), kernelWidth(filter),
+            filter.pcf_kernel == PcfKernel::poisson ? -taps : taps, normals ? VK_TRUE : VK_FALSE};
+}
+
+VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
+{
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &image;
+    return write;
+}
+
+} // namespace
+
+void MaskPassRecorder::makeLayouts()
+{
+    std::array<VkDescriptorSetLayoutBinding, kBindingCount> bindings{};
+    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType =
+            i == kConstants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
+    }
+    const VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0,
+                                                   kBindingCount, bindings.data()};
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    check(device_.vk.CreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout),
+          "create a descriptor set layout");
+    set_layout_ = {device_, set_layout};
+
+    VkPipelineLayoutCreateInfo layout_info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout_info.setLayoutCount = 1;
+    layout_info.pSetLayouts = &set_layout;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device_.vk.CreatePipelineLayout(device_.handle(), &layout_info, nullptr, &layout),
+          "create a pipeline layout");
+    layout_ = {device_, layout};
+
+    VkSamplerCreateInfo sampler_info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    sampler_info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    sampler_info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    sampler_info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(device_.vk.CreateSampler(device_.handle(), &sampler_info, nullptr, &sampler), "create a sampler");
+    sampler_ = {device_, sampler};
+}
+
+void MaskPassRecorder::makeSlots()
+{
+    const std::uint32_t count = options_.frames_in_flight;
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, count},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kBindingCount - 1)}}};
+    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = count;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(device_.vk.CreateDescriptorPool(device_.handle(), &pool_info, nullptr, &pool), "create a descriptor pool");
+    pool_ = {device_, pool};
+
+    slots_.resize(count);
+    const VkDescriptorSetLayout set_layout = set_layout_.get();
+    for (Slot& slot : slots_) {
+        const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool, 1,
+                                               &set_layout};
+        check(device_.vk.AllocateDescriptorSets(device_.handle(), &info, &slot.set), "allocate a descriptor set");
+        device_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleBits(slot.set), "mask");
+    }
+}
+
+void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps)
+{
+    if (slot.maps == maps && slot.depth == inputs.depth && slot.depth_layout == inputs.depth_layout &&
+        slot.normal == inputs.normal && slot.object_id == inputs.object_id) {
+        return;
+    }
+    constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkSampler sampler = sampler_.get();
+    const VkDescriptorImageInfo map_image{sampler, maps, kRead};
+    const VkDescriptorImageInfo depth_image{sampler, inputs.depth, inputs.depth_layout};
+    // The shaders name the normals whether they read them or not, so the binding must hold something of that type.
+    const VkDescriptorImageInfo normal_image =
+        inputs.normal != VK_NULL_HANDLE ? VkDescriptorImageInfo{sampler, inputs.normal, kRead} : depth_image;
+    const VkDescriptorImageInfo id_image{sampler, inputs.object_id, kRead};
+    const std::array<VkWriteDescriptorSet, 4> writes{
+        imageWrite(slot.set, kMaps, map_image), imageWrite(slot.set, kDepth, depth_image),
+        imageWrite(slot.set, kNormal, normal_image), imageWrite(slot.set, kObjectId, id_image)};
+    device_.vk.UpdateDescriptorSets(device_.handle(), inputs.object_id != VK_NULL_HANDLE ? 4U : 3U, writes.data(), 0,
+                                    nullptr);
+    slot.maps = maps;
+    slot.depth = inputs.depth;
+    slot.depth_layout = inputs.depth_layout;
+    slot.normal = inputs.normal;
+    slot.object_id = inputs.object_id;
+}
+
+VkPipeline MaskPassRecorder::pipeline(Variant variant)
+{
+    Pipeline& pipeline = pipelines_[variant.index()];
+    if (!pipeline) {
+        pipeline = makePipeline(variant);
+    }
+    return pipeline.get();
+}
+
+Pipeline MaskPassRecorder::makePipeline(Variant variant)
+{
+    const Specialisation values = specialise(options_.filter, variant.normals);
+    const std::array<VkSpecializationMapEntry, 4> entries{{{0, offsetof(Specialisation, filter), 4},
+                                                           {1, offsetof(Specialisation, kernel_width), 4},
+                                                           {2, offsetof(Specialisation, disc_taps), 4},
+                                                           {3, offsetof(Specialisation, has_normals), 4}}};
+    const VkSpecializationInfo specialisation{4, entries.data(), sizeof values, &values};
+    const std::size_t fragment = (variant.orthographic ? 1U : 0U) + (variant.ids ? 2U : 0U);
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (VkPipelineShaderStageCreateInfo& stage : stages) {
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.pName = "main";
+    }
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = vertex_.get();
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    stages[1].module = fragments_[fragment].get();
+    stages[1].pSpecializationInfo = &specialisation;
+
+    GraphicsState state;
+    state.stages = stages;
+    state.layout = layout_.get();
+    state.colour_format = mask_.info().format;
+    state.cache = options_.pipeline_cache;
+    state.name = "mask";
+    return makeGraphicsPipeline(device_, state);
+}
+
+} // namespace gnomon::vulkan

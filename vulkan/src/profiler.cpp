@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device.h"
+
+#include <gnomon/vulkan/profiler.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace gnomon::vulkan {
+namespace {
+
+// In the order of their bits, which is the order of the results.
+constexpr VkQueryPipelineStatisticFlags kStatistics = VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+                                                      VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
+                                                      VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
+                                                      VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
+constexpr std::size_t kStatisticCount = 4;
+
+QueryPool makePool(Device& device, VkQueryType type, std::uint32_t count, VkQueryPipelineStatisticFlags statistics)
+{
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = type;
+    info.queryCount = count;
+    info.pipelineStatistics = statistics;
+    VkQueryPool pool = VK_NULL_HANDLE;
+    check(device.vk.CreateQueryPool(device.handle(), &info, nullptr, &pool), "create a query pool");
+    return {device, pool};
+}
+
+} // namespace
+
+struct Profiler::Impl {
+    struct Slot {
+        QueryPool times;
+        QueryPool statistics;
+        std::vector<PassRecord> passes;
+        bool read = false;
+    };
+
+    Impl(const DeviceView& view, std::uint32_t frames, std::uint32_t passes) : device(view), max_passes(passes)
+    {
+        ticks.resize(std::size_t{2} * passes);
+        counts.resize(kStatisticCount * passes);
+        slots.resize(frames);
+        for (Slot& slot : slots) {
+            slot.times = makePool(device, VK_QUERY_TYPE_TIMESTAMP, 2 * passes, 0);
+            slot.statistics = makePool(device, VK_QUERY_TYPE_PIPELINE_STATISTICS, passes, kStatistics);
+            slot.passes.reserve(passes);
+        }
+    }
+
+    void fetch(Slot& slot);
+
+    Device device;
+    std::uint32_t max_passes;
+    std::vector<Slot> slots;
+    std::vector<std::uint64_t> ticks;
+    std::vector<std::uint64_t> counts;
+    Slot* current = nullptr;
+    bool in_pass = false;
+    bool measured = false; // this pass has queries; those beyond max_passes do not
+};
+
+void Profiler::Impl::fetch(Slot& slot)
+{
+    const auto n = static_cast<std::uint32_t>(slot.passes.size());
+    constexpr VkQueryResultFlags kFlags = VK_QUERY_RESULT_64_BIT;
+    const bool timed =
+        device.vk.GetQueryPoolResults(device.handle(), slot.times.get(), 0, 2 * n, ticks.size() * sizeof ticks[0],
+                                      ticks.data(), sizeof ticks[0], kFlags) == VK_SUCCESS;
+    const bool counted =
+        device.vk.GetQueryPoolResults(device.handle(), slot.statistics.get(), 0, n, counts.size() * sizeof counts[0],
+                                      counts.data(), kStatisticCount * sizeof counts[0], kFlags) == VK_SUCCESS;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        PassRecord& pass = slot.passes[i];
+        if (timed) {
+            const auto elapsed = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
+            pass.milliseconds = elapsed * static_cast<double>(device.limits().timestampPeriod) * 1e-6;
+        }
+        if (counted) {
+            const std::uint64_t* values = &counts[kStatisticCount * i];
+            pass.has_statistics = true;
+            pass.vertex_invocations = values[0];
+            pass.primitives = values[1];
+            pass.fragment_invocations = values[2];
+            pass.compute_invocations = values[3];
+        }
+    }
+}
+
+Profiler::Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes)
+    : impl_(std::make_unique<Impl>(device, frames_in_flight, max_passes))
+{
+}
+
+Profiler::~Profiler() = default;
+
+void Profiler::beginFrame([[maybe_unused]] VkCommandBuffer commands, std::uint32_t slot)
+{
+    assert(slot < impl_->slots.size() && !impl_->in_pass);
+    impl_->current = &impl_->slots[slot];
+    impl_->current->passes.clear();
+    impl_->current->read = false;
+    // From the host: the slot's last frame has finished, and a reset recorded outside would order against nothing else.
+    impl_->device.vk.ResetQueryPool(impl_->device.handle(), impl_->current->times.get(), 0, 2 * impl_->max_passes);
+    impl_->device.vk.ResetQueryPool(impl_->device.handle(), impl_->current->statistics.get(), 0, impl_->max_passes);
+}
+
+void Profiler::beginPass(VkCommandBuffer commands, const char* name)
+{
+    assert(impl_->current != nullptr && !impl_->in_pass);
+    Impl::Slot& slot = *impl_->current;
+    impl_->in_pass = true;
+    impl_->device.beginLabel(commands, name);
+    impl_->measured = slot.passes.size() < impl_->max_passes;
+    if (impl_->measured) {
+        const auto i = static_cast<std::uint32_t>(slot.passes.size());
+        slot.passes.push_back({});
+        slot.passes.back().name = name;
+        impl_->device.vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.times.get(), 2 * i);
+        impl_->device.vk.CmdBeginQuery(commands, slot.statistics.get(), i, 0);
+    }
+}
+
+void Profiler::addDraws(std::uint32_t count)
+{
+    if (impl_->in_pass && impl_->measured) {
+        impl_->current->passes.back().draws += count;
+    }
+}
+
+void Profiler::endPass(VkCommandBuffer commands)
+{
+    assert(impl_->in_pass);
+    if (impl_->measured) {
+        Impl::Slot& slot = *impl_->current;
+        const auto i = static_cast<std::uint32_t>(slot.passes.size() - 1);
+        impl_->device.vk.CmdEndQuery(commands, slot.statistics.get(), i);
+        impl_->device.vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.times.get(),
+                                            2 * i + 1);
+    }
+    impl_->device.endLabel(commands);
+    impl_->in_pass = false;
+}
+
+std::span<const PassRecord> Profiler::results(std::uint32_t slot_index)
+{
+    assert(slot_index < impl_->slots.size());
+    Impl::Slot& slot = impl_->slots[slot_index];
+    if (!slot.read && !slot.passes.empty()) {
+        impl_->fetch(slot);
+        slot.read = true;
+    }
+    return slot.passes;
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device.h"
+#include "map_pass.h"
+#include "mask_constants.h"
+#include "mask_pass.h"
+
+#include <gnomon/error.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <cassert>
+
+namespace gnomon::vulkan {
+namespace {
+
+constexpr const char* kCreating = "create the shadow renderer";
+
+const MapStorage& storageFor(const Device& device, const FilterOptions& filter)
+{
+    if (const auto reason = refusal(filter.filter, filter.format)) {
+        throw Error(kCreating, std::string(*reason));
+    }
+    const MapStorage* storage = findMapStorage(filter.format);
+    if (storage == nullptr) {
+        throw Error(kCreating, "no pass writes maps of format " + std::string(nameOf(filter.format)));
+    }
+    const VkFormatFeatureFlags attachment =
+        storage->depthOnly() ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+    const VkFormatFeatureFlags needed = attachment | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    if ((device.features(storage->mapFormat()) & needed) != needed) {
+        throw Error(kCreating,
+                    "the device cannot draw to and read maps of format " + std::string(nameOf(filter.format)),
+                    "choose another map format");
+    }
+    return *storage;
+}
+
+class Timed {
+public:
+    Timed(Profiler* profiler, VkCommandBuffer commands, const char* name) : profiler_(profiler), commands_(commands)
+    {
+        if (profiler_ != nullptr) {
+            profiler_->beginPass(commands, name);
+        }
+    }
+    ~Timed()
+    {
+        if (profiler_ != nullptr) {
+            profiler_->endPass(commands_);
+        }
+    }
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+
+private:
+    Profiler* profiler_;
+    VkCommandBuffer commands_;
+};
+
+ImageRef describe(const Image& image)
+{
+    return {image.image(),       image.view(),        image.info().format,
+            image.info().extent, image.info().layers, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+} // namespace
+
+struct ShadowRenderer::Impl {
+    Impl(const DeviceView& view, const ShadowRendererOptions& options)
+        : device(view), storage(storageFor(device, options.filter)), maps(device, storage),
+          mask(device, options, storage.quantum)
+    {
+    }
+
+    Device device;
+    const MapStorage& storage;
+    MapPassRecorder maps;
+    MaskPassRecorder mask;
+};
+
+ShadowRenderer::ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options)
+{
+    assert(options.frames_in_flight > 0);
+    const FilterOptions& filter = options.filter;
+    if (filter.disc_taps < 4 || filter.disc_taps > 64) {
+        throw Error(kCreating, "a disc of " + std::to_string(filter.disc_taps) + " taps", "choose 4 to 64");
+    }
+    impl_ = std::make_unique<Impl>(device, options);
+}
+
+ShadowRenderer::~ShadowRenderer() = default;
+
+bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
+{
+    const bool maps_changed = impl_->maps.prepare(plan.atlas);
+    if (maps_changed) {
+        impl_->mask.forgetMaps();
+    }
+    const bool mask_changed = impl_->mask.prepare(plan, screen);
+    if (mask_changed) {
+        impl_->maps.forget();
+    }
+    return maps_changed || mask_changed;
+}
+
+void ShadowRenderer::recordMaps(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot,
+                                [[maybe_unused]] const Frame& frame, const Plan& plan, const DrawCasters& draw,
+                                Profiler* profiler)
+{
+    const Timed timed(profiler, commands, "shadow maps");
+    impl_->maps.record(commands, plan, draw);
+}
+
+void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                                const MaskInputs& inputs, Profiler* profiler)
+{
+    const Timed timed(profiler, commands, "mask");
+    impl_->maps.makeReadable(commands);
+    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps.maps());
+}
+
+MapPassFormats ShadowRenderer::mapFormats(bool orthographic) const
+{
+    const MapStorage& storage = impl_->storage;
+    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic};
+}
+
+ImageRef ShadowRenderer::mask() const
+{
+    return describe(impl_->mask.mask());
+}
+
+ImageRef ShadowRenderer::maps() const
+{
+    return describe(impl_->maps.maps());
+}
+
+std::span<const MemoryUse> ShadowRenderer::memory() const
+{
+    return impl_->device.account().uses();
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images, buffers, shader modules and barriers.
+#include "device.h"
+
+#include <gnomon/error.h>
+
+namespace gnomon::vulkan {
+namespace {
+
+ImageView makeView(Device& device, VkImage image, const ImageInfo& info, VkImageViewType type, std::uint32_t first,
+                   std::uint32_t count)
+{
+    VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    create.image = image;
+    create.viewType = type;
+    create.format = info.format;
+    create.subresourceRange = {info.aspect, 0, 1, first, count};
+    VkImageView view = VK_NULL_HANDLE;
+    check(device.vk.CreateImageView(device.handle(), &create, nullptr, &view), "create an image view");
+    device.name(VK_OBJECT_TYPE_IMAGE_VIEW, handleBits(view), info.purpose);
+    return {device, view};
+}
+
+void checkLimits(const Device& device, const ImageInfo& info)
+{
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const auto size = [](std::uint32_t w, std::uint32_t h, std::uint32_t layers) {
+        return std::to_string(w) + " x " + std::to_string(h) + " in " + std::to_string(layers) + " layers";
+    };
+    if (info.extent.width > limits.maxImageDimension2D || info.extent.height > limits.maxImageDimension2D ||
+        info.layers > limits.maxImageArrayLayers) {
+        throw Error(std::string("create the image for ") + info.purpose + ", " +
+                        size(info.extent.width, info.extent.height, info.layers),
+                    "the device goes up to " +
+                        size(limits.maxImageDimension2D, limits.maxImageDimension2D, limits.maxImageArrayLayers),
+                    "choose a smaller size");
+    }
+}
+
+} // namespace
+
+Image::Image(Device& device, const ImageInfo& info) : info_(info)
+{
+    checkLimits(device, info);
+    VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    create.imageType = VK_IMAGE_TYPE_2D;
+    create.format = info.format;
+    create.extent = {info.extent.width, info.extent.height, 1};
+    create.mipLevels = 1;
+    create.arrayLayers = info.layers;
+    create.samples = VK_SAMPLE_COUNT_1_BIT;
+    create.tiling = VK_IMAGE_TILING_OPTIMAL;
+    create.usage = info.usage;
+    VkImage image = VK_NULL_HANDLE;
+    check(device.vk.CreateImage(device.handle(), &create, nullptr, &image), "create an image");
+    image_ = {device, image};
+    device.name(VK_OBJECT_TYPE_IMAGE, handleBits(image), info.purpose);
+
+    VkMemoryRequirements needs{};
+    device.vk.GetImageMemoryRequirements(device.handle(), image, &needs);
+    memory_ = Memory(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, info.purpose);
+    check(device.vk.BindImageMemory(device.handle(), image, memory_.block().memory, memory_.block().offset),
+          "bind image memory");
+
+    all_ = makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, info.layers);
+    layers_.reserve(info.layers);
+    for (std::uint32_t i = 0; i < info.layers; ++i) {
+        layers_.push_back(makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D, i, 1));
+    }
+}
+
+HostBuffer::HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose) : size_(bytes)
+{
+    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    create.size = bytes;
+    create.usage = usage;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    check(device.vk.CreateBuffer(device.handle(), &create, nullptr, &buffer), "create a buffer");
+    buffer_ = {device, buffer};
+    device.name(VK_OBJECT_TYPE_BUFFER, handleBits(buffer), purpose);
+
+    VkMemoryRequirements needs{};
+    device.vk.GetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    memory_ =
+        Memory(device, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, purpose);
+    check(device.vk.BindBufferMemory(device.handle(), buffer, memory_.block().memory, memory_.block().offset),
+          "bind buffer memory");
+}
+
+ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
+{
+    const VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, spirv.size_bytes(),
+                                          spirv.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(device.vk.CreateShaderModule(device.handle(), &create, nullptr, &module), "create a shader module");
+    return {device, module};
+}
+
+void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBarrier& barrier)
+{
+    VkImageMemoryBarrier2 image{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    image.srcStageMask = barrier.source_stages;
+    image.srcAccessMask = barrier.source_access;
+    image.dstStageMask = barrier.target_stages;
+    image.dstAccessMask = barrier.target_access;
+    image.oldLayout = barrier.old_layout;
+    image.newLayout = barrier.new_layout;
+    image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    image.image = barrier.image;
+    image.subresourceRange = {barrier.aspect, 0, 1, barrier.first_layer, barrier.layer_count};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &image;
+    device.vk.CmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace gnomon::vulkan
