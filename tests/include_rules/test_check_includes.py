@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Plants one forbidden include at a time in a small made-up tree and expects the checker to name it; the tree without
+them must pass. usage: test_check_includes.py CHECKER"""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECKER = sys.argv.pop(1)
+
+LEGAL = {
+    "shaders/shared/bias.h": '#include "portability.h"\n',
+    "shaders/shared/portability.h": "#include <glm/glm.hpp>\n",
+    "shaders/lib/filter.glsl": '#include "shared/bias.h"\n',
+    "core/include/gnomon/geometry.h": "#include <glm/vec3.hpp>\n#include <vector>\n",
+    "core/include/gnomon/error.h": "#include <string>\n",
+    "core/include/gnomon/plan.h": "#include <gnomon/geometry.h>\n",
+    "core/src/fit/uniform.cpp": '#include <gnomon/plan.h>\n#include "fit/uniform.h"\n#include "bias.h"\n',
+    "core/src/fit/uniform.h": "#pragma once\n",
+    "vulkan/include/gnomon/vulkan/renderer.h": "#include <gnomon/plan.h>\n#include <vulkan/vulkan_core.h>\n",
+    "vulkan/src/memory.h": "#include <gnomon/vulkan/renderer.h>\n",
+    "vulkan/src/memory.cpp": '#include "memory.h"\n#include "gnomon_spirv.h"\n',
+    "image/image.h": "#include <vector>\n",
+    "image/src/png.cpp": '#include "image/image.h"\n#include <png.h>\n#include <gnomon/error.h>\n',
+    "scene/model.h": "#include <gnomon/geometry.h>\n",
+    "scene/src/gltf/reader.h": '#include "scene/model.h"\n',
+    "scene/src/gltf/reader.cpp": '#include "gltf/reader.h"\n#include <fstream>\n',
+    "truth/tracer.h": '#include "scene/model.h"\n#include <gnomon/geometry.h>\n',
+    "host/renderer.h": '#include "scene/model.h"\n#include <gnomon/plan.h>\n#include <gnomon/vulkan/renderer.h>\n',
+    "host/shaders/shade.frag": '#include "lib/filter.glsl"\n',
+    "lab/metrics.h": '#include "image/image.h"\n',
+    "lab/compare.h": '#include "lab/metrics.h"\n#include "host/renderer.h"\n',
+    "app/src/main.cpp": '#include "host/renderer.h"\n#include <CLI/CLI.hpp>\n',
+    "examples/host/main.cpp": "#include <gnomon/vulkan/renderer.h>\n",
+    "tests/vulkan/memory.cpp": '#include "../../vulkan/src/memory.h"\n',
+}
+
+# (file, line to plant, what it breaks)
+ILLEGAL = [
+    ("shaders/shared/bias.h", '#include "../lib/filter.glsl"', "shared includes a shader"),
+    ("shaders/lib/filter.glsl", "#include <vector>", "a shader includes C++"),
+    ("core/include/gnomon/plan.h", "#include <vulkan/vulkan_core.h>", "core includes graphics"),
+    ("core/include/gnomon/plan.h", '#include "../../src/fit/uniform.h"', "a public header includes a private one"),
+    ("core/src/fit/uniform.cpp", "#include <GLFW/glfw3.h>", "core includes a window"),
+    ("core/src/fit/uniform.cpp", "#include <fstream>", "core includes files"),
+    ("core/src/fit/uniform.cpp", "#  include <filesystem>", "core includes files, indented directive"),
+    ("core/src/fit/uniform.cpp", '#include "scene/model.h"', "core includes scene"),
+    ("core/src/fit/uniform.cpp", "#include <gnomon/vulkan/renderer.h>", "core includes the backend"),
+    ("core/src/fit/uniform.cpp", "#include <nlohmann/json.hpp>", "core includes a library besides glm"),
+    ("vulkan/include/gnomon/vulkan/renderer.h", '#include "../../../src/memory.h"', "a public header, a private one"),
+    ("vulkan/src/memory.cpp", '#include "scene/model.h"', "the backend includes scene"),
+    ("image/image.h", "#include <gnomon/plan.h>", "image includes core's plan"),
+    ("scene/model.h", "#include <gnomon/plan.h>", "scene includes more of core than geometry"),
+    ("scene/model.h", "#include <vulkan/vulkan_core.h>", "scene includes graphics"),
+    ("truth/tracer.h", "#include <gnomon/plan.h>", "truth includes core's plan"),
+    ("truth/tracer.h", '#include "bias.h"', "truth includes shared shadow arithmetic"),
+    ("truth/tracer.h", '#include "host/renderer.h"', "truth includes host"),
+    ("host/renderer.h", '#include "../vulkan/src/memory.h"', "host includes the backend's private header"),
+    ("host/renderer.h", '#include "core/src/fit/uniform.h"', "host includes core's private header"),
+    ("host/renderer.h", '#include "scene/src/gltf/reader.h"', "host includes scene's private header"),
+    ("host/renderer.h", '#include "app/src/main.cpp"', "host includes the program"),
+    ("lab/metrics.h", '#include "host/renderer.h"', "metrics include host"),
+    ("lab/metrics.h", '#include "lab/compare.h"', "metrics include the rest of the lab"),
+    ("app/src/main.cpp", '#include "vulkan/src/memory.h"', "the program includes a private header"),
+    ("examples/host/main.cpp", '#include "host/renderer.h"', "an example includes our host"),
+    ("core/src/fit/uniform.cpp", '#include "no/such/header.h"', "a header nobody knows"),
+]
+
+
+def run(tree: dict[str, str]) -> subprocess.CompletedProcess:
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in tree.items():
+            file = Path(root, name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
+        return subprocess.run([sys.executable, CHECKER, root], capture_output=True, text=True, check=False)
+
+
+class IncludeRules(unittest.TestCase):
+    def test_legal_tree_passes(self):
+        result = run(LEGAL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_every_planted_include_is_named(self):
+        for file, line, breaks in ILLEGAL:
+            with self.subTest(breaks):
+                result = run({**LEGAL, file: LEGAL[file] + line + "\n"})
+                self.assertEqual(result.returncode, 1, f"{file}: {line} went unnoticed")
+                where = f"{file}:{LEGAL[file].count(chr(10)) + 1}:"
+                self.assertIn(where, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+    def test_empty_tree_fails(self):
+        self.assertEqual(run({"README.md": "nothing\n"}).returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs what is missing of packages.txt, and says so. Touches nothing (no apt, no network, no root) when all is there.
+# usage: tools/install_packages.sh [packages.txt]
+set -euo pipefail
+list=${1:-$(dirname "$0")/../packages.txt}
+
+mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' "$list" | grep -v '^$')
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "packages: this is not a Debian system, so nothing is installed. Needed are the equivalents of:" >&2
+    echo "  ${wanted[*]}" >&2
+    exit 0
+fi
+
+missing=()
+for name in "${wanted[@]}"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$name")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+install=(apt-get install -y --no-install-recommends "${missing[@]}")
+as_root=(env DEBIAN_FRONTEND=noninteractive)
+if [[ $(id -u) -ne 0 ]]; then
+    # Without a terminal sudo cannot ask for a password: it must work as it is or not at all.
+    if ! command -v sudo >/dev/null || { [[ ! -t 0 ]] && ! sudo -n true 2>/dev/null; }; then
+        echo "packages: missing ${missing[*]}, and there is no right to install them (not root, no usable sudo)." >&2
+        echo "packages: have an administrator run: ${install[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo env DEBIAN_FRONTEND=noninteractive)
+fi
+
+# The package index is fetched only when it does not know a missing package (a fresh container has none at all)
+# or when it is so old that a download fails.
+updated=0
+update() {
+    echo "packages: fetching the package index (apt-get update)"
+    "${as_root[@]}" apt-get -qq update
+    updated=1
+}
+known() {
+    local name
+    for name in "${missing[@]}"; do
+        apt-cache show --no-all-versions "$name" >/dev/null 2>&1 || return 1
+    done
+}
+known || update
+echo "packages: installing ${missing[*]}"
+"${as_root[@]}" "${install[@]}" && exit 0
+if [[ $updated -eq 0 ]]; then
+    update
+    "${as_root[@]}" "${install[@]}" && exit 0
+fi
+echo "packages: could not install ${missing[*]}; see apt's message above." >&2
+exit 1
