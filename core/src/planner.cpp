@@ -41,14 +41,10 @@ DepthRange depthRangeOf(const Region& region, const LightSpace& space, bool clam
 }
 
 /// Eq. 6 of Marinescu 2011: the centre of the box, backed out against the light until everything that can cast is in
-/// front. A light that has a place stays there.
-glm::dvec3 lightPlaceOf(const Region& region, const LightSpace& space, double near_m)
+/// front; as a depth along the light's axis. A light that has a place stays there.
+double lightPlaceOf(const Region& region, const LightSpace& space, double near_m)
 {
-    if (space.perspective)
-        return space.origin_ws;
-    const double first_m = std::min({region.casterNear_m(), region.receiverNear_m(), near_m});
-    const double centre_m = space.coordinates(region.centre_ws()).z;
-    return region.centre_ws() - space.forward_ws * (centre_m - first_m);
+    return space.perspective ? 0.0 : std::min({region.casterNear_m(), region.receiverNear_m(), near_m});
 }
 
 bool sameTile(const Tile& a, const Tile& b)
@@ -209,8 +205,10 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     made.orthographic = fitted.orthographic;
     made.texel_xy_m = fitted.texel_xy;
     made.texel_m = std::max(fitted.texel_xy.x, fitted.texel_xy.y);
-    made.light_place_ws = lightPlaceOf(region, space, range.near_m);
-    const double place_m = space.coordinates(made.light_place_ws).z;
+    const double place_m = lightPlaceOf(region, space, range.near_m);
+    const glm::dvec3 centre_ws = region.centre_ws();
+    made.light_place_ws =
+        space.perspective ? space.origin_ws : centre_ws + space.forward_ws * (place_m - space.coordinates(centre_ws).z);
     made.metric.near_m = range.near_m - place_m;
     made.metric.far_m = range.far_m - place_m;
     const glm::dvec4 depth(space.forward_ws, -glm::dot(space.forward_ws, space.origin_ws) - range.near_m);

@@ -65,6 +65,14 @@ bool Octree::holds(const Node& node, const Aabb& box)
            high.z <= reach;
 }
 
+bool Octree::fitsChild(const Node& node, const Aabb& box)
+{
+    // What moved may have its centre beyond the cell while its box is still inside the loose bounds; a child's loose
+    // bounds would not hold it.
+    const glm::dvec3 offset = glm::abs(centreOf(box) - node.centre);
+    return std::max({offset.x, offset.y, offset.z}) <= node.half && sizeOf(box) <= node.half;
+}
+
 std::uint32_t Octree::newNode(const glm::dvec3& centre, double half, std::uint32_t parent)
 {
     std::uint32_t index = 0;
@@ -178,14 +186,14 @@ void Octree::divide(std::vector<TreeObject>& objects, std::uint32_t index, int d
 {
     bool any_small = false;
     for (std::uint32_t i = nodes_[index].first; i != kNone && !any_small; i = objects[i].next)
-        any_small = sizeOf(objects[i].bounds_ws) <= nodes_[index].half;
+        any_small = fitsChild(nodes_[index], objects[i].bounds_ws);
     if (!any_small)
         return;
     nodes_[index].divided = true;
     std::uint32_t next = kNone;
     for (std::uint32_t i = nodes_[index].first; i != kNone; i = next) {
         next = objects[i].next;
-        if (sizeOf(objects[i].bounds_ws) > nodes_[index].half)
+        if (!fitsChild(nodes_[index], objects[i].bounds_ws))
             continue;
         unlink(objects, i);
         place(objects, i, childFor(index, objects[i].bounds_ws), depth + 1);

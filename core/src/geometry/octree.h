@@ -86,6 +86,7 @@ private:
     };
 
     [[nodiscard]] static bool holds(const Node& node, const Aabb& box);
+    [[nodiscard]] static bool fitsChild(const Node& node, const Aabb& box);
     [[nodiscard]] std::uint32_t newNode(const glm::dvec3& centre, double half, std::uint32_t parent);
     [[nodiscard]] std::uint32_t childFor(std::uint32_t node, const Aabb& box);
     void growRoot(const Aabb& box);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steady-state planning takes nothing from the heap. Replaces operator new for this binary, to count.
+#include "worlds.h"
+
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+// Not inlined: GCC 12 would take a free() that it sees beside a new-expression for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size)
+{
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size))
+        return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept
+{
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
+{
+    std::free(memory);
+}
+
+namespace gnomon {
+namespace {
+
+TEST(Allocation, TheCounterCounts)
+{
+    const std::uint64_t before = allocations;
+    std::vector<int> some(100);
+    EXPECT_EQ(some.size(), 100U);
+    EXPECT_GT(allocations, before);
+}
+
+TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
+{
+    test::Random random(20);
+    ObjectSet set;
+    set.add({{-200, -3, -200}, {200, 5, 200}});
+    std::vector<glm::dvec3> homes;
+    for (int i = 0; i < 2000; ++i) {
+        homes.push_back(random.inBox({-190, 0, -190}, {190, 30, 190}));
+        set.add(test::boxAt(homes.back(), glm::dvec3(1.0)), {true, true, i % 2 == 0});
+    }
+    const std::vector<Light> lights{test::sun({0.4, -1, 0.3}), test::spot({0, 40, 0}, {0.2, -1, 0}, 0.9)};
+    Frame frame;
+    frame.lights = lights;
+    frame.objects = &set;
+    Planner planner({});
+    const auto play = [&](int step) {
+        const double turn = 6.283185307179586 * step / 60.0;
+        for (std::uint32_t i = 0; i < homes.size(); i += 2) {
+            const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
+            set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
+        }
+        frame.camera = test::perspectiveCamera({150 * std::cos(turn), 60, 150 * std::sin(turn)}, {0, 0, 0}, 1.0);
+        return planner.plan(frame).casters.size();
+    };
+    for (int step = 0; step < 120; ++step)
+        (void)play(step % 60);
+    const std::uint64_t before = allocations;
+    std::size_t casters = 0;
+    for (int step = 0; step < 60; ++step)
+        casters += play(step);
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(casters, 10000U);
+}
+
+} // namespace
+} // namespace gnomon

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/choices.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace gnomon {
+namespace {
+
+TEST(Choices, NamesAreUniqueAndRowsComplete)
+{
+    std::set<std::string_view> names;
+    std::map<std::string_view, unsigned> next_value;
+    for (const ChoiceValue& row : choiceValues()) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
+        EXPECT_FALSE(row.summary.empty()) << row.name;
+        EXPECT_FALSE(row.source.empty()) << row.name;
+        EXPECT_EQ(row.value, next_value[row.choice]++) << row.name << " is not in the order of its enum";
+    }
+    EXPECT_EQ(next_value,
+              (std::map<std::string_view, unsigned>{
+                  {"light", 3}, {"partition", 5}, {"fit", 5}, {"filter", 10}, {"soften", 3}, {"motion", 6}}));
+}
+
+TEST(Choices, NamesRoundTrip)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        EXPECT_EQ(findChoice(row.choice, row.name), &row);
+        std::string_view name;
+        if (row.choice == "light")
+            name = nameOf(static_cast<LightType>(row.value));
+        else if (row.choice == "partition")
+            name = nameOf(static_cast<Partition>(row.value));
+        else if (row.choice == "fit")
+            name = nameOf(static_cast<Fit>(row.value));
+        else if (row.choice == "filter")
+            name = nameOf(static_cast<Filter>(row.value));
+        else if (row.choice == "soften")
+            name = nameOf(static_cast<Soften>(row.value));
+        else if (row.choice == "motion")
+            name = nameOf(static_cast<Motion>(row.value));
+        EXPECT_EQ(name, row.name);
+    }
+    EXPECT_EQ(findChoice("filter", "none"), nullptr);
+    EXPECT_EQ(findChoice("fit", "lispsm-simple")->value, static_cast<std::uint8_t>(Fit::lispsm_simple));
+}
+
+TEST(Choices, KernelsAndFormatsRoundTrip)
+{
+    for (int i = 0; i <= static_cast<int>(PcfKernel::vogel); ++i)
+        EXPECT_EQ(findPcfKernel(nameOf(static_cast<PcfKernel>(i))), static_cast<PcfKernel>(i));
+    for (int i = 0; i <= static_cast<int>(MapFormat::rgba32f); ++i)
+        EXPECT_EQ(findMapFormat(nameOf(static_cast<MapFormat>(i))), static_cast<MapFormat>(i));
+    EXPECT_EQ(findPcfKernel("4x4"), std::nullopt);
+    EXPECT_EQ(findMapFormat(""), std::nullopt);
+}
+
+TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        LightType light = LightType::directional;
+        Technique technique;
+        if (row.choice == "light")
+            light = static_cast<LightType>(row.value);
+        else if (row.choice == "partition")
+            technique.partition = static_cast<Partition>(row.value);
+        else if (row.choice == "fit")
+            technique.fit = static_cast<Fit>(row.value);
+        else if (row.choice == "filter")
+            technique.filter = static_cast<Filter>(row.value);
+        else if (row.choice == "soften")
+            technique.soften = static_cast<Soften>(row.value);
+        else
+            technique.motion = static_cast<Motion>(row.value);
+        const auto reason = refusal(light, technique);
+        const bool refused_pair = row.name == "point"; // with partition single
+        EXPECT_EQ(reason.has_value(), !row.available || refused_pair) << row.name;
+        if (reason && !refused_pair) {
+            EXPECT_NE(reason->find(row.name), std::string_view::npos) << *reason;
+        }
+    }
+}
+
+TEST(Choices, RefusalsAreSentences)
+{
+    Technique technique;
+    technique.filter = Filter::vsm;
+    EXPECT_EQ(refusal(LightType::spot, technique), "filter vsm is not in this version; it has hard and pcf");
+    EXPECT_EQ(refusal(LightType::point, Technique{}),
+              "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or "
+              "multi");
+}
+
+TEST(Choices, EveryAvailableFilterHasTraits)
+{
+    for (const ChoiceValue& row : choiceValues())
+        if (row.choice == "filter") {
+            const auto filter = static_cast<Filter>(row.value);
+            const FilterTraits* traits = filterTraits(filter);
+            ASSERT_EQ(traits != nullptr, row.available) << row.name;
+            if (traits == nullptr) {
+                EXPECT_TRUE(refusal(filter, MapFormat::r32f).has_value());
+                continue;
+            }
+            ASSERT_FALSE(traits->formats.empty());
+            for (const MapFormat format : traits->formats)
+                EXPECT_EQ(refusal(filter, format), std::nullopt);
+            EXPECT_TRUE(refusal(filter, MapFormat::rgba16).has_value());
+        }
+}
+
+} // namespace
+} // namespace gnomon
