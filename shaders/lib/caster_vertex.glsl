@@ -2,16 +2,19 @@
 // GLSL only: body of the caster vertex shaders. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
 layout(location = 0) in vec3 position;
-layout(location = 2) in vec4 row_x;
-layout(location = 3) in vec4 row_y;
-layout(location = 4) in vec4 row_z;
+layout(location = 1) in vec4 row_x;
+layout(location = 2) in vec4 row_y;
+layout(location = 3) in vec4 row_z;
 #ifdef PERSPECTIVE
-layout(location = 5) in vec4 row_w;
-layout(location = 6) in vec4 row_metric;
+layout(location = 4) in vec4 row_w;
+layout(location = 5) in vec4 row_metric;
+#define UV_LOCATION 6
+#else
+#define UV_LOCATION 4
 #endif
 layout(location = 0) out float metric;
 #ifdef MASKED
-layout(location = 1) in vec2 uv_in;
+layout(location = UV_LOCATION) in vec2 uv_in;
 layout(location = 1) out vec2 uv;
 layout(push_constant) uniform Material
 {

@@ -175,10 +175,10 @@ void CasterDrawer::Impl::bindGeometry(VkCommandBuffer commands, VkDeviceSize ins
     device.vk.CmdBindIndexBuffer(commands, geometry.indices, geometry.indices_offset, VK_INDEX_TYPE_UINT32);
     device.vk.CmdBindVertexBuffers(commands, 0, 1, &geometry.positions, &geometry.positions_offset);
     if (geometry.uvs != VK_NULL_HANDLE) {
-        device.vk.CmdBindVertexBuffers(commands, 1, 1, &geometry.uvs, &geometry.uvs_offset);
+        device.vk.CmdBindVertexBuffers(commands, 2, 1, &geometry.uvs, &geometry.uvs_offset);
     }
     const VkBuffer instances = slot->instances.buffer();
-    device.vk.CmdBindVertexBuffers(commands, 2, 1, &instances, &instances_offset);
+    device.vk.CmdBindVertexBuffers(commands, 1, 1, &instances, &instances_offset);
 }
 
 void CasterDrawer::Impl::drawBatch(VkCommandBuffer commands, const BatchDraws& draws, CasterPipelineKey key,

@@ -41,14 +41,14 @@ VertexInput vertexInput(CasterPipelineKey key)
     const std::uint32_t rows = instanceRows(key.perspective);
     VertexInput input;
     input.bindings[input.binding_count++] = {0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
-    input.bindings[input.binding_count++] = {2, rows * kRowBytes, VK_VERTEX_INPUT_RATE_INSTANCE};
+    input.bindings[input.binding_count++] = {1, rows * kRowBytes, VK_VERTEX_INPUT_RATE_INSTANCE};
     input.attributes[input.attribute_count++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     for (std::uint32_t i = 0; i < rows; ++i) {
-        input.attributes[input.attribute_count++] = {2 + i, 2, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
+        input.attributes[input.attribute_count++] = {1 + i, 1, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
     }
     if (key.masked) {
-        input.bindings[input.binding_count++] = {1, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
-        input.attributes[input.attribute_count++] = {1, 1, VK_FORMAT_R32G32_SFLOAT, 0};
+        input.bindings[input.binding_count++] = {2, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
+        input.attributes[input.attribute_count++] = {1 + rows, 2, VK_FORMAT_R32G32_SFLOAT, 0};
     }
     return input;
 }

@@ -108,14 +108,17 @@ void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageVi
     const VkSampler sampler = sampler_.get();
     const VkDescriptorImageInfo map_image{sampler, maps, kRead};
     const VkDescriptorImageInfo depth_image{sampler, inputs.depth, inputs.depth_layout};
-    // The shaders name the normals whether they read them or not, so the binding must hold something of that type.
-    const VkDescriptorImageInfo normal_image =
-        inputs.normal != VK_NULL_HANDLE ? VkDescriptorImageInfo{sampler, inputs.normal, kRead} : depth_image;
-    const VkDescriptorImageInfo id_image{sampler, inputs.object_id, kRead};
+    // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
+    // never written even if no shader names it; so what is absent is filled with the depth.
+    const auto orDepth = [&](VkImageView view) {
+        return view != VK_NULL_HANDLE ? VkDescriptorImageInfo{sampler, view, kRead} : depth_image;
+    };
+    const VkDescriptorImageInfo normal_image = orDepth(inputs.normal);
+    const VkDescriptorImageInfo id_image = orDepth(inputs.object_id);
     const std::array<VkWriteDescriptorSet, 4> writes{
         imageWrite(slot.set, kMaps, map_image), imageWrite(slot.set, kDepth, depth_image),
         imageWrite(slot.set, kNormal, normal_image), imageWrite(slot.set, kObjectId, id_image)};
-    device_.vk.UpdateDescriptorSets(device_.handle(), inputs.object_id != VK_NULL_HANDLE ? 4U : 3U, writes.data(), 0,
+    device_.vk.UpdateDescriptorSets(device_.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                                     nullptr);
     slot.maps = maps;
     slot.depth = inputs.depth;

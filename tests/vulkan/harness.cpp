@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "harness.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::test {
+namespace {
+
+void require(VkResult result, const char* what)
+{
+    if (result != VK_SUCCESS) {
+        throw std::runtime_error(std::string(what) + ": VkResult " + std::to_string(result));
+    }
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
+{
+    static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+void recordTransition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, std::uint32_t layer,
+                      VkImageLayout from, VkImageLayout to)
+{
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.image = image;
+    barrier.subresourceRange = {aspect, 0, 1, layer, 1};
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+} // namespace
+
+Gpu& gpu()
+{
+    static Gpu the;
+    return the;
+}
+
+Gpu::Gpu()
+{
+    makeInstance();
+    makeDevice();
+}
+
+void Gpu::makeInstance()
+{
+    std::uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    const char* const layer = "VK_LAYER_KHRONOS_validation";
+    if (std::none_of(layers.begin(), layers.end(), [&](auto& l) { return std::strcmp(l.layerName, layer) == 0; })) {
+        throw std::runtime_error("no VK_LAYER_KHRONOS_validation: install vulkan-validationlayers");
+    }
+    const std::array<const char*, 2> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &enable;
+    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    app.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, &features};
+    create.pApplicationInfo = &app;
+    create.enabledLayerCount = 1;
+    create.ppEnabledLayerNames = &layer;
+    create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
+    require(vkCreateInstance(&create, nullptr, &instance_), "vkCreateInstance");
+
+    VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.pfnUserCallback = onMessage;
+    messenger.pUserData = &messages_;
+    const auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    require(make(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+}
+
+void Gpu::makeDevice()
+{
+    std::uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+    if (count == 0) {
+        throw std::runtime_error("no Vulkan device: install mesa-vulkan-drivers");
+    }
+    std::vector<VkPhysicalDevice> devices(count);
+    vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+    physical_device_ = devices[0];
+    char missing[256];
+    vulkan::missingFeatures(view(), missing, sizeof missing);
+    if (missing[0] != '\0') {
+        throw std::runtime_error(std::string("the device lacks ") + missing);
+    }
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures()};
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    require(vkCreateDevice(physical_device_, &create, nullptr, &device_), "vkCreateDevice");
+    vkGetDeviceQueue(device_, 0, 0, &queue_);
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    require(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
+}
+
+Gpu::~Gpu()
+{
+    vkDestroyCommandPool(device_, pool_, nullptr);
+    for (const TestImage& image : images_) {
+        vkDestroyImageView(device_, image.view, nullptr);
+        vkDestroyImage(device_, image.image, nullptr);
+        vkFreeMemory(device_, image.memory, nullptr);
+    }
+    for (const TestBuffer& buffer : buffers_) {
+        vkDestroyBuffer(device_, buffer.buffer, nullptr);
+        vkFreeMemory(device_, buffer.memory, nullptr);
+    }
+    vkDestroyDevice(device_, nullptr);
+    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+    destroy(instance_, messenger_, nullptr);
+    vkDestroyInstance(instance_, nullptr);
+}
+
+vulkan::DeviceView Gpu::view() const
+{
+    vulkan::DeviceView view;
+    view.instance = instance_;
+    view.physical_device = physical_device_;
+    view.device = device_;
+    view.get_instance_proc_addr = vkGetInstanceProcAddr;
+    view.debug_labels = true;
+    return view;
+}
+
+std::vector<std::string> Gpu::takeMessages()
+{
+    return std::exchange(messages_, {});
+}
+
+void Gpu::run(const std::function<void(VkCommandBuffer)>& record)
+{
+    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    require(vkAllocateCommandBuffers(device_, &info, &commands), "vkAllocateCommandBuffers");
+    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    require(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+    record(commands);
+    require(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    require(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+    require(vkQueueWaitIdle(queue_), "vkQueueWaitIdle");
+    vkFreeCommandBuffers(device_, pool_, 1, &commands);
+}
+
+VkDeviceMemory Gpu::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties)
+{
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(physical_device_, &memory);
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        if ((needs.memoryTypeBits & (1U << i)) != 0 &&
+            (memory.memoryTypes[i].propertyFlags & properties) == properties) {
+            const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, i};
+            VkDeviceMemory result = VK_NULL_HANDLE;
+            require(vkAllocateMemory(device_, &info, nullptr, &result), "vkAllocateMemory");
+            return result;
+        }
+    }
+    throw std::runtime_error("no memory type");
+}
+
+TestBuffer Gpu::makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage)
+{
+    TestBuffer result;
+    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    create.size = bytes;
+    create.usage = usage;
+    require(vkCreateBuffer(device_, &create, nullptr, &result.buffer), "vkCreateBuffer");
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(device_, result.buffer, &needs);
+    result.memory = allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    require(vkBindBufferMemory(device_, result.buffer, result.memory, 0), "vkBindBufferMemory");
+    require(vkMapMemory(device_, result.memory, 0, VK_WHOLE_SIZE, 0, &result.mapped), "vkMapMemory");
+    buffers_.push_back(result);
+    return result;
+}
+
+TestImage Gpu::makeImage(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels)
+{
+    TestImage result;
+    VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    create.imageType = VK_IMAGE_TYPE_2D;
+    create.format = format;
+    create.extent = {extent.width, extent.height, 1};
+    create.mipLevels = 1;
+    create.arrayLayers = 1;
+    create.samples = VK_SAMPLE_COUNT_1_BIT;
+    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    require(vkCreateImage(device_, &create, nullptr, &result.image), "vkCreateImage");
+    VkMemoryRequirements needs{};
+    vkGetImageMemoryRequirements(device_, result.image, &needs);
+    result.memory = allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    require(vkBindImageMemory(device_, result.image, result.memory, 0), "vkBindImageMemory");
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = result.image;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format;
+    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    require(vkCreateImageView(device_, &view, nullptr, &result.view), "vkCreateImageView");
+    images_.push_back(result);
+
+    const TestBuffer staging = makeBuffer(texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    std::memcpy(staging.mapped, texels.data(), texels.size());
+    run([&](VkCommandBuffer commands) {
+        recordTransition(commands, result.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED,
+                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        copy.imageExtent = {extent.width, extent.height, 1};
+        vkCmdCopyBufferToImage(commands, staging.buffer, result.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+        recordTransition(commands, result.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    });
+    return result;
+}
+
+std::vector<std::byte> Gpu::read(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t texel_bytes,
+                                 VkImageAspectFlags aspect)
+{
+    const std::size_t bytes = std::size_t{ref.extent.width} * ref.extent.height * texel_bytes;
+    const TestBuffer buffer = makeBuffer(bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    run([&](VkCommandBuffer commands) {
+        recordTransition(commands, ref.image, aspect, layer, ref.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        VkBufferImageCopy copy{};
+        copy.imageSubresource = {aspect, 0, layer, 1};
+        copy.imageExtent = {ref.extent.width, ref.extent.height, 1};
+        vkCmdCopyImageToBuffer(commands, ref.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer, 1, &copy);
+        recordTransition(commands, ref.image, aspect, layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, ref.layout);
+    });
+    const auto* first = static_cast<const std::byte*>(buffer.mapped);
+    std::vector<std::byte> result(first, first + bytes);
+    vkDestroyBuffer(device_, buffer.buffer, nullptr);
+    vkFreeMemory(device_, buffer.memory, nullptr);
+    buffers_.pop_back();
+    return result;
+}
+
+} // namespace gnomon::test

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real device with the validation layer, synchronization validation included. Any message fails the test that is
+// running.
+#pragma once
+
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <vulkan/vulkan.h>
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::test {
+
+struct TestImage {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+};
+
+struct TestBuffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    void* mapped = nullptr;
+};
+
+class Gpu {
+public:
+    /// Throws std::runtime_error where there is no device or no validation layer: these tests fail then, they do not
+    /// skip.
+    Gpu();
+    ~Gpu();
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    [[nodiscard]] vulkan::DeviceView view() const;
+    /// Records, submits and waits.
+    void run(const std::function<void(VkCommandBuffer)>& record);
+    [[nodiscard]] TestBuffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
+    /// A sampled 2D image with these texels, in SHADER_READ_ONLY_OPTIMAL. Lives as long as the Gpu.
+    [[nodiscard]] TestImage makeImage(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels);
+    /// One layer's texels, tightly packed. The image is in ref.layout before and after.
+    [[nodiscard]] std::vector<std::byte> read(const vulkan::ImageRef& ref, std::uint32_t layer,
+                                              std::uint32_t texel_bytes, VkImageAspectFlags aspect);
+    /// Validation messages since the last call.
+    [[nodiscard]] std::vector<std::string> takeMessages();
+
+private:
+    void makeInstance();
+    void makeDevice();
+    [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties);
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    std::vector<TestImage> images_;
+    std::vector<TestBuffer> buffers_;
+    std::vector<std::string> messages_;
+};
+
+/// The one device of the test program.
+[[nodiscard]] Gpu& gpu();
+
+} // namespace gnomon::test

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GPU's maps and masks against closed forms and against the same shader files run on the CPU.
+#include "reference.h"
+#include "write_pgm.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::CasterDrawer;
+using vulkan::FilterOptions;
+using vulkan::MapPass;
+using vulkan::ShadowRenderer;
+
+constexpr VkExtent2D kScreen{320, 200};
+
+struct Case {
+    const char* name;
+    Filter filter;
+    PcfKernel kernel;
+    MapFormat format;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c)
+{
+    return out << c.name;
+}
+
+// One frame of a scene under a sun and a spot, on the GPU.
+struct Rendered {
+    Scene scene = makeScene();
+    std::vector<Light> lights;
+    Plan plan;
+    Picture picture;
+    std::vector<CpuMap> maps;                  // by layer
+    std::vector<std::vector<std::byte>> masks; // by light, one byte a pixel
+};
+
+std::vector<float> decodeMap(const std::vector<std::byte>& bytes, MapFormat format)
+{
+    std::vector<float> texels;
+    if (format == MapFormat::d16) {
+        for (std::size_t i = 0; i < bytes.size(); i += 2) {
+            std::uint16_t v = 0;
+            std::memcpy(&v, &bytes[i], 2);
+            texels.push_back(static_cast<float>(v) / 65535.0F);
+        }
+    } else {
+        texels.resize(bytes.size() / 4);
+        std::memcpy(texels.data(), bytes.data(), bytes.size());
+    }
+    return texels;
+}
+
+MapFormat formatOf(const FilterOptions& options)
+{
+    return options.format;
+}
+
+void readBack(Gpu& gpu, const ShadowRenderer& renderer, const FilterOptions& options, Rendered& r)
+{
+    const auto maps = renderer.maps();
+    const MapFormat format = formatOf(options);
+    for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
+        const auto bytes = gpu.read(maps, layer, format == MapFormat::d16 ? 2 : 4,
+                                    format == MapFormat::r32f ? VK_IMAGE_ASPECT_COLOR_BIT : VK_IMAGE_ASPECT_DEPTH_BIT);
+        r.maps.push_back({maps.extent.width, maps.extent.height, decodeMap(bytes, format)});
+    }
+    const auto mask = renderer.mask();
+    const std::uint32_t channels = mask.format == VK_FORMAT_R8_UNORM ? 1 : 4;
+    for (const LightPlan& light : r.plan.lights) {
+        const auto bytes = gpu.read(mask, light.mask_layer, channels, VK_IMAGE_ASPECT_COLOR_BIT);
+        std::vector<std::byte>& out = r.masks.emplace_back();
+        for (std::size_t i = light.mask_channel; i < bytes.size(); i += channels) {
+            out.push_back(bytes[i]);
+        }
+    }
+}
+
+vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
+{
+    vulkan::MaskInputs inputs;
+    inputs.extent = picture.extent;
+    inputs.depth = gpu.makeImage(VK_FORMAT_R32_SFLOAT, picture.extent, std::as_bytes(std::span(picture.depth))).view;
+    inputs.normal =
+        gpu.makeImage(VK_FORMAT_R16G16_SNORM, picture.extent, std::as_bytes(std::span(picture.octahedral))).view;
+    return inputs;
+}
+
+Rendered render(Gpu& gpu, const FilterOptions& options, bool reversed_z = true, int frames = 3)
+{
+    Rendered r;
+    r.lights = {makeSun({-0.5, -1.0, -0.3}), makeSpot({6.0, 9.0, 6.0}, {0.0, 0.0, 0.0}, 0.6)};
+    // The sun's tile and the spot's share the second layer with room to spare, so tile offsets count.
+    const Tile tiles[] = {{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
+    r.plan = makePlan(r.scene, r.lights, tiles, {512, 512, 2});
+    Frame frame;
+    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kScreen.width) / kScreen.height, reversed_z);
+    frame.lights = r.lights;
+    r.picture = tracePicture(r.scene, frame.camera, kScreen);
+    const vulkan::MaskInputs inputs = uploadPicture(gpu, r.picture);
+
+    vulkan::ShadowRendererOptions renderer_options;
+    renderer_options.filter = options;
+    renderer_options.frames_in_flight = static_cast<std::uint32_t>(frames);
+    ShadowRenderer renderer(gpu.view(), renderer_options);
+    vulkan::CasterDrawerOptions drawer_options;
+    drawer_options.orthographic = renderer.mapFormats(true);
+    drawer_options.perspective = renderer.mapFormats(false);
+    drawer_options.frames_in_flight = static_cast<std::uint32_t>(frames);
+    CasterDrawer drawer(gpu.view(), drawer_options);
+    const SceneMesh mesh = uploadMesh(gpu, r.scene);
+    drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+    const auto transforms = r.scene.transforms();
+    EXPECT_TRUE(renderer.prepare(r.plan, kScreen));
+    EXPECT_FALSE(renderer.prepare(r.plan, kScreen));
+    // All frames in one submission: the layer checks the order of one frame's reads and the next one's writes.
+    gpu.run([&](VkCommandBuffer commands) {
+        for (std::uint32_t slot = 0; slot < renderer_options.frames_in_flight; ++slot) {
+            drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
+            renderer.recordMaps(commands, slot, frame, r.plan, [&](const MapPass& pass) { drawer.draw(pass); });
+            renderer.recordMask(commands, slot, frame, r.plan, inputs);
+        }
+    });
+    readBack(gpu, renderer, options, r);
+    return r;
+}
+
+void expectSilence(Gpu& gpu)
+{
+    for (const std::string& message : gpu.takeMessages()) {
+        ADD_FAILURE() << message;
+    }
+}
+
+class Parity : public testing::TestWithParam<Case> {};
+
+TEST_P(Parity, maskIsThatOfTheCpu)
+{
+    FilterOptions options;
+    options.filter = GetParam().filter;
+    options.pcf_kernel = GetParam().kernel;
+    options.format = GetParam().format;
+    const Rendered r = render(gpu(), options);
+    for (std::uint32_t light = 0; light < r.lights.size(); ++light) {
+        const CpuMap& map = r.maps[r.plan.views[light].tile.layer];
+        const auto reference = referenceMask(r.picture, r.lights, r.plan, light, map, options);
+        std::size_t different = 0;
+        std::size_t dark = 0;
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            const double v = std::to_integer<int>(r.masks[light][i]) / 255.0;
+            different += std::abs(v - reference[i]) > 1.5 / 255.0 ? 1 : 0;
+            dark += reference[i] < 0.5 ? 1 : 0;
+        }
+        EXPECT_LE(different, reference.size() / 1000) << "light " << light;
+        EXPECT_GT(dark, reference.size() / 100) << "the scene must have shadows for this to mean anything";
+        EXPECT_LT(dark, reference.size() * 9 / 10);
+        writePgm(std::string(GetParam().name) + "_light" + std::to_string(light), r.masks[light], kScreen);
+    }
+    expectSilence(gpu());
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, Parity,
+                         testing::Values(Case{"hard_d32f", Filter::hard, PcfKernel::bilinear_2x2, MapFormat::d32f},
+                                         Case{"hard_d16", Filter::hard, PcfKernel::bilinear_2x2, MapFormat::d16},
+                                         Case{"hard_r32f", Filter::hard, PcfKernel::bilinear_2x2, MapFormat::r32f},
+                                         Case{"pcf_2x2_d32f", Filter::pcf, PcfKernel::bilinear_2x2, MapFormat::d32f},
+                                         Case{"pcf_3x3_d32f", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d32f},
+                                         Case{"pcf_3x3_d16", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d16},
+                                         Case{"pcf_3x3_r32f", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::r32f},
+                                         Case{"pcf_5x5_d32f", Filter::pcf, PcfKernel::gaussian_5x5, MapFormat::d32f},
+                                         Case{"pcf_7x7_d32f", Filter::pcf, PcfKernel::gaussian_7x7, MapFormat::d32f},
+                                         Case{"pcf_poisson_d32f", Filter::pcf, PcfKernel::poisson, MapFormat::d32f},
+                                         Case{"pcf_vogel_d32f", Filter::pcf, PcfKernel::vogel, MapFormat::d32f}),
+                         [](const auto& test_case) { return std::string(test_case.param.name); });
+
+// The depth that the first surface along a texel's ray has.
+double expectedDepth(const Scene& scene, const View& view, double x, double y)
+{
+    const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
+    const glm::dvec2 ndc((x - view.tile.x) / view.tile.width * 2.0 - 1.0,
+                         (y - view.tile.y) / view.tile.height * 2.0 - 1.0);
+    const glm::dvec4 near = world_from_clip * glm::dvec4(ndc, 0.0, 1.0);
+    const glm::dvec4 far = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
+    const glm::dvec3 a = glm::dvec3(near) / near.w;
+    const glm::dvec3 b = glm::dvec3(far) / far.w;
+    const auto hit = scene.trace(a, glm::normalize(b - a));
+    if (!hit) {
+        return 1.0;
+    }
+    const glm::dvec3 p = a + glm::normalize(b - a) * hit->t;
+    return std::min(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
+}
+
+class MapContents : public testing::TestWithParam<MapFormat> {};
+
+TEST_P(MapContents, areTheDepthMetric)
+{
+    FilterOptions options;
+    options.filter = Filter::hard;
+    options.format = GetParam();
+    const Rendered r = render(gpu(), options);
+    const double tolerance = GetParam() == MapFormat::d16 ? 3e-5 : 1e-5;
+    for (const View& view : r.plan.views) {
+        const CpuMap& map = r.maps[view.tile.layer];
+        std::size_t wrong = 0;
+        for (std::uint32_t y = 0; y < view.tile.height; ++y) {
+            for (std::uint32_t x = 0; x < view.tile.width; ++x) {
+                const double expected = expectedDepth(r.scene, view, view.tile.x + x + 0.5, view.tile.y + y + 0.5);
+                const double stored = map.texels[(view.tile.y + y) * std::size_t{map.width} + view.tile.x + x];
+                wrong += std::abs(stored - expected) > tolerance ? 1 : 0;
+            }
+        }
+        // Texels whose centre is within rounding of an edge may go either way.
+        EXPECT_LE(wrong, view.tile.width * view.tile.height / 200) << "light " << view.light;
+    }
+    expectSilence(gpu());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MapContents, testing::Values(MapFormat::d32f, MapFormat::d16, MapFormat::r32f));
+
+} // namespace
+} // namespace gnomon::test

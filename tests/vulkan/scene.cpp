@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene.h"
+
+#include <octahedral.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <cstring>
+
+namespace gnomon::test {
+namespace {
+
+glm::dvec3 turned(const glm::dvec3& v, double angle)
+{
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    return {c * v.x + s * v.z, v.y, -s * v.x + c * v.z};
+}
+
+// Slab test in the box's own frame.
+std::optional<Hit> traceBox(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+    const glm::dvec3 o = turned(origin - box.centre, -box.angle);
+    const glm::dvec3 d = turned(direction, -box.angle);
+    double near = 1e-9;
+    double far = 1e300;
+    glm::dvec3 normal(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (-box.half[axis] - o[axis]) / d[axis];
+        const double b = (box.half[axis] - o[axis]) / d[axis];
+        if (std::min(a, b) > near) {
+            near = std::min(a, b);
+            normal = glm::dvec3(0.0);
+            normal[axis] = d[axis] > 0.0 ? -1.0 : 1.0;
+        }
+        far = std::min(far, std::max(a, b));
+    }
+    if (near > far || normal == glm::dvec3(0.0)) {
+        return std::nullopt;
+    }
+    return Hit{near, turned(normal, box.angle), 0};
+}
+
+glm::dvec3 anyPerpendicular(const glm::dvec3& v)
+{
+    return glm::normalize(glm::cross(v, std::abs(v.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+}
+
+} // namespace
+
+Scene makeScene()
+{
+    Scene scene;
+    scene.boxes = {{{0.0, 1.0, 0.0}, {1.0, 1.0, 1.0}, 0.3},    {{-4.0, 2.0, 1.5}, {0.5, 2.0, 0.5}, 0.8},
+                   {{3.5, 0.5, -2.0}, {1.5, 0.5, 0.4}, -0.5},  {{1.5, 4.0, 2.5}, {1.0, 0.1, 1.0}, 0.2},
+                   {{-2.0, 0.25, -3.0}, {0.25, 0.25, 3.0}, 0}, {{5.0, 1.5, 3.0}, {0.05, 1.5, 1.0}, 1.1}};
+    return scene;
+}
+
+std::optional<Hit> Scene::trace(const glm::dvec3& origin, const glm::dvec3& direction) const
+{
+    std::optional<Hit> best;
+    const double t = -origin.y / direction.y;
+    const glm::dvec3 p = origin + direction * t;
+    if (t > 1e-9 && std::abs(p.x) <= ground_half && std::abs(p.z) <= ground_half) {
+        best = Hit{t, {0.0, origin.y > 0.0 ? 1.0 : -1.0, 0.0}, 0};
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        auto hit = traceBox(boxes[i], origin, direction);
+        if (hit && (!best || hit->t < best->t)) {
+            hit->object = static_cast<std::uint32_t>(i + 1);
+            best = hit;
+        }
+    }
+    return best;
+}
+
+std::vector<vulkan::Rows3x4> Scene::transforms() const
+{
+    std::vector<vulkan::Rows3x4> result;
+    const auto g = static_cast<float>(ground_half);
+    result.push_back({{g, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, g, 0}});
+    for (const Box& box : boxes) {
+        const double c = std::cos(box.angle);
+        const double s = std::sin(box.angle);
+        result.push_back({glm::vec4(glm::dvec4(c * box.half.x, 0.0, s * box.half.z, box.centre.x)),
+                          glm::vec4(glm::dvec4(0.0, box.half.y, 0.0, box.centre.y)),
+                          glm::vec4(glm::dvec4(-s * box.half.x, 0.0, c * box.half.z, box.centre.z))});
+    }
+    return result;
+}
+
+SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
+{
+    std::vector<glm::vec3> positions{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+    std::vector<std::uint32_t> indices{0, 2, 1, 0, 3, 2};
+    for (int i = 0; i < 8; ++i) {
+        positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    }
+    const std::uint32_t cube[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
+                                  1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
+    indices.insert(indices.end(), std::begin(cube), std::end(cube));
+
+    SceneMesh mesh;
+    const TestBuffer vertex_buffer =
+        gpu.makeBuffer(positions.size() * sizeof(glm::vec3), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    std::memcpy(vertex_buffer.mapped, positions.data(), positions.size() * sizeof(glm::vec3));
+    const TestBuffer index_buffer = gpu.makeBuffer(indices.size() * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    std::memcpy(index_buffer.mapped, indices.data(), indices.size() * 4);
+    mesh.geometry.positions = vertex_buffer.buffer;
+    mesh.geometry.indices = index_buffer.buffer;
+    mesh.parts = {{{0, 6, 0}, 0}, {{6, 36, 4}, 0}};
+    mesh.objects.push_back({0, 1});
+    mesh.objects.resize(1 + scene.boxes.size(), {1, 1});
+    mesh.batches.resize(1);
+    return mesh;
+}
+
+Camera makeCamera(glm::dvec3 eye, glm::dvec3 target, double aspect, bool reversed_z)
+{
+    const double near = 0.1;
+    const double far = 200.0;
+    glm::dmat4 clip_from_view =
+        reversed_z ? glm::perspectiveRH_ZO(0.9, aspect, far, near) : glm::perspectiveRH_ZO(0.9, aspect, near, far);
+    clip_from_view[1][1] = -clip_from_view[1][1];
+    Camera camera;
+    camera.eye_ws = eye;
+    camera.clip_from_world = clip_from_view * glm::lookAtRH(eye, target, glm::dvec3(0, 1, 0));
+    camera.reversed_z = reversed_z;
+    return camera;
+}
+
+Picture tracePicture(const Scene& scene, const Camera& camera, VkExtent2D extent)
+{
+    Picture picture;
+    picture.extent = extent;
+    const glm::dmat4 world_from_clip = glm::inverse(camera.clip_from_world);
+    for (std::uint32_t y = 0; y < extent.height; ++y) {
+        for (std::uint32_t x = 0; x < extent.width; ++x) {
+            const glm::dvec4 far = world_from_clip * glm::dvec4((x + 0.5) / extent.width * 2.0 - 1.0,
+                                                                (y + 0.5) / extent.height * 2.0 - 1.0, 0.5, 1.0);
+            const glm::dvec3 direction = glm::normalize(glm::dvec3(far) / far.w - camera.eye_ws);
+            const auto hit = scene.trace(camera.eye_ws, direction);
+            const glm::dvec3 p = hit ? camera.eye_ws + direction * hit->t : glm::dvec3(0.0);
+            const glm::dvec4 clip = camera.clip_from_world * glm::dvec4(p, 1.0);
+            const float background = camera.reversed_z ? 0.0F : 1.0F;
+            picture.depth.push_back(hit ? static_cast<float>(clip.z / clip.w) : background);
+            picture.position.push_back(p);
+            picture.normal.push_back(hit ? hit->normal : glm::dvec3(0.0));
+            picture.object_plus_one.push_back(hit ? hit->object + 1 : 0);
+            const glm::vec2 e = hit ? shared::octahedralEncode(glm::vec3(hit->normal)) : glm::vec2(0.0F);
+            picture.octahedral.push_back(glm::i16vec2(glm::round(e * 32767.0F)));
+        }
+    }
+    return picture;
+}
+
+Light makeSun(glm::dvec3 direction)
+{
+    Light light;
+    light.direction_ws = glm::normalize(direction);
+    return light;
+}
+
+Light makeSpot(glm::dvec3 position, glm::dvec3 target, double half_angle)
+{
+    Light light;
+    light.type = LightType::spot;
+    light.position_ws = position;
+    light.direction_ws = glm::normalize(target - position);
+    light.outer_half_angle_rad = half_angle;
+    return light;
+}
+
+View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile tile)
+{
+    const glm::dvec3 axis = light.direction_ws;
+    const glm::dvec3 up = anyPerpendicular(axis);
+    View view;
+    view.light = index;
+    view.tile = tile;
+    glm::dmat4 clip_from_view;
+    glm::dvec3 origin;
+    if (light.type == LightType::directional) {
+        const double radius = 12.0; // less than the ground: its rim stays outside, and reads lit
+        origin = -axis * 40.0;
+        view.metric.near_m = 25.0;
+        view.metric.far_m = 40.0 + scene.ground_half;
+        clip_from_view = glm::orthoRH_ZO(-radius, radius, -radius, radius, view.metric.near_m, view.metric.far_m);
+        view.texel_m = 2.0 * radius / tile.width;
+    } else {
+        origin = light.position_ws;
+        view.metric.near_m = 0.2;
+        view.metric.far_m = 40.0;
+        clip_from_view =
+            glm::perspectiveRH_ZO(2.0 * light.outer_half_angle_rad, 1.0, view.metric.near_m, view.metric.far_m);
+        view.texel_m = 2.0 * std::tan(light.outer_half_angle_rad) / tile.width;
+        view.orthographic = false;
+        view.clamp_near = false;
+    }
+    clip_from_view[1][1] = -clip_from_view[1][1];
+    view.clip_from_world = clip_from_view * glm::lookAtRH(origin, origin + axis, up);
+    const double range = view.metric.far_m - view.metric.near_m;
+    view.metric.metric_ws = glm::dvec4(axis, -glm::dot(axis, origin) - view.metric.near_m) / range;
+    return view;
+}
+
+Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles, AtlasSize atlas)
+{
+    Plan plan;
+    plan.atlas = atlas;
+    plan.mask_layers = static_cast<std::uint32_t>((lights.size() + 3) / 4);
+    for (std::uint32_t i = 0; i <= scene.boxes.size(); ++i) {
+        plan.casters.push_back(i);
+    }
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        View view = makeView(scene, lights[i], i, tiles[i]);
+        view.caster_count = static_cast<std::uint32_t>(plan.casters.size());
+        plan.views.push_back(view);
+        plan.lights.push_back({i, 1, i / 4, i % 4, {}});
+    }
+    return plan;
+}
+
+} // namespace gnomon::test

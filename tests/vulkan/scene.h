@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes over a ground plane, drawn for the maps by CasterDrawer and seen by the camera through rays, so that depth and
+// normals owe nothing to a rasteriser.
+#pragma once
+
+#include "harness.h"
+
+#include <gnomon/vulkan/caster_drawer.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace gnomon::test {
+
+/// A box: centre, half extents, turned about y.
+struct Box {
+    glm::dvec3 centre{0.0};
+    glm::dvec3 half{1.0};
+    double angle = 0.0;
+};
+
+struct Hit {
+    double t = 0.0;
+    glm::dvec3 normal{0.0};
+    std::uint32_t object = 0; // 0: ground; i + 1: box i
+};
+
+struct Scene {
+    std::vector<Box> boxes;
+    double ground_half = 30.0; // the ground is the square |x|, |z| <= this at y = 0
+
+    [[nodiscard]] std::vector<vulkan::Rows3x4> transforms() const; // by object
+    [[nodiscard]] std::optional<Hit> trace(const glm::dvec3& origin, const glm::dvec3& direction) const;
+};
+[[nodiscard]] Scene makeScene();
+
+/// The scene's mesh (a unit quad and a unit cube) on the GPU and what CasterDrawer needs.
+struct SceneMesh {
+    vulkan::CasterGeometry geometry;
+    std::vector<vulkan::DrawPart> parts;
+    std::vector<vulkan::DrawObject> objects;
+    std::vector<vulkan::CasterBatch> batches;
+};
+[[nodiscard]] SceneMesh uploadMesh(Gpu& gpu, const Scene& scene);
+
+[[nodiscard]] Camera makeCamera(glm::dvec3 eye, glm::dvec3 target, double aspect, bool reversed_z = true);
+
+/// What the camera sees, per pixel.
+struct Picture {
+    VkExtent2D extent{};
+    std::vector<float> depth;
+    std::vector<glm::dvec3> position; // on the surface; meaningless in the background
+    std::vector<glm::dvec3> normal;   // 0 in the background
+    std::vector<std::uint32_t> object_plus_one;
+    std::vector<glm::i16vec2> octahedral;
+};
+[[nodiscard]] Picture tracePicture(const Scene& scene, const Camera& camera, VkExtent2D extent);
+
+/// Lights and their views over the scene, made without the planner.
+[[nodiscard]] Light makeSun(glm::dvec3 direction);
+[[nodiscard]] Light makeSpot(glm::dvec3 position, glm::dvec3 target, double half_angle);
+/// A view that covers the whole scene (sun) or cone (spot). `light` is its index.
+[[nodiscard]] View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile tile);
+/// One view a light; casters: everything.
+[[nodiscard]] Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles,
+                            AtlasSize atlas);
+
+} // namespace gnomon::test
