@@ -58,6 +58,13 @@ struct State {
     std::vector<PlacedLight> lights;
     std::vector<PlacedCamera> cameras;
     Aabb bounds_ws; // of all objects
+
+    // What `advance` visits, in ascending order, and room to work in; made by `evaluate`.
+    std::vector<std::uint32_t> dynamic_nodes;
+    std::vector<std::uint32_t> dynamic_objects;
+    std::vector<std::uint32_t> light_and_camera_nodes;
+    std::vector<glm::mat4> joint_matrices;
+    Aabb static_bounds_ws; // of the objects that never move
 };
 
 /// Builds the objects of `scene` and evaluates it at `time_s`. `animation` names the animation to play; empty plays

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be derived from a scene's data. Tangents based on: E. Lengyel, "Computing Tangent Space Basis Vectors for
+// an Arbitrary Mesh", 2001.
+#include "scene/state.h"
+
+#include <gnomon/error.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace gnomon::scene {
+
+namespace {
+
+template <typename T>
+void spread(std::vector<T>& values, const std::vector<std::uint32_t>& indices)
+{
+    if (values.empty()) {
+        return;
+    }
+    std::vector<T> wide;
+    wide.reserve(indices.size());
+    for (const std::uint32_t index : indices) {
+        wide.push_back(values[index]);
+    }
+    values = std::move(wide);
+}
+
+/// Gives every triangle corner a vertex of its own, so that a flat normal has a place to be.
+void unweld(Primitive& primitive)
+{
+    spread(primitive.positions, primitive.indices);
+    spread(primitive.tangents, primitive.indices);
+    spread(primitive.uv0, primitive.indices);
+    spread(primitive.uv1, primitive.indices);
+    spread(primitive.colours, primitive.indices);
+    spread(primitive.joints, primitive.indices);
+    spread(primitive.weights, primitive.indices);
+    for (MorphTarget& target : primitive.morph_targets) {
+        spread(target.positions, primitive.indices);
+        spread(target.normals, primitive.indices);
+        spread(target.tangents, primitive.indices);
+    }
+    for (std::size_t i = 0; i < primitive.indices.size(); ++i) {
+        primitive.indices[i] = static_cast<std::uint32_t>(i);
+    }
+}
+
+void addFlatNormals(Primitive& primitive)
+{
+    unweld(primitive);
+    primitive.normals.assign(primitive.positions.size(), glm::vec3(0.0F, 1.0F, 0.0F));
+    for (std::size_t i = 0; i + 2 < primitive.positions.size(); i += 3) {
+        const glm::vec3* p = &primitive.positions[i];
+        const glm::vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
+        const float length = glm::length(n);
+        if (length > 0.0F) { // a degenerate triangle keeps "up"; nobody sees it
+            primitive.normals[i] = primitive.normals[i + 1] = primitive.normals[i + 2] = n / length;
+        }
+    }
+}
+
+glm::vec3 anyPerpendicular(const glm::vec3& n)
+{
+    const glm::vec3 axis = std::abs(n.x) < 0.8F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+    return glm::normalize(glm::cross(axis, n));
+}
+
+void addTangents(Primitive& primitive, const std::vector<glm::vec2>& uv)
+{
+    const std::size_t count = primitive.positions.size();
+    std::vector<glm::vec3> along_u(count, glm::vec3(0.0F));
+    std::vector<glm::vec3> along_v(count, glm::vec3(0.0F));
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const std::uint32_t* v = &primitive.indices[i];
+        const glm::vec3 edge1 = primitive.positions[v[1]] - primitive.positions[v[0]];
+        const glm::vec3 edge2 = primitive.positions[v[2]] - primitive.positions[v[0]];
+        const glm::vec2 d1 = uv[v[1]] - uv[v[0]];
+        const glm::vec2 d2 = uv[v[2]] - uv[v[0]];
+        const float determinant = d1.x * d2.y - d2.x * d1.y;
+        if (determinant == 0.0F || !std::isfinite(1.0F / determinant)) {
+            continue;
+        }
+        const glm::vec3 u = (edge1 * d2.y - edge2 * d1.y) / determinant;
+        const glm::vec3 w = (edge2 * d1.x - edge1 * d2.x) / determinant;
+        for (int k = 0; k < 3; ++k) {
+            along_u[v[k]] += u;
+            along_v[v[k]] += w;
+        }
+    }
+    primitive.tangents.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3& n = primitive.normals[i];
+        glm::vec3 t = along_u[i] - n * glm::dot(n, along_u[i]);
+        const float length = glm::length(t);
+        t = length > 1e-12F && std::isfinite(length) ? t / length : anyPerpendicular(n);
+        const float hand = glm::dot(glm::cross(n, t), along_v[i]) < 0.0F ? -1.0F : 1.0F;
+        primitive.tangents[i] = glm::vec4(t, hand);
+    }
+}
+
+void finishPrimitive(const Scene& scene, Primitive& primitive)
+{
+    if (primitive.normals.size() != primitive.positions.size()) {
+        addFlatNormals(primitive);
+        primitive.tangents.clear(); // they belonged to normals that nobody gave
+    }
+    if (primitive.tangents.empty() && primitive.material < scene.materials.size()) {
+        const TextureUse& use = scene.materials[primitive.material].normal_texture;
+        const std::vector<glm::vec2>& uv = use.uv_set == 1 ? primitive.uv1 : primitive.uv0;
+        if (use.texture != kNone && uv.size() == primitive.positions.size()) {
+            addTangents(primitive, uv);
+        }
+    }
+    primitive.bounds = {};
+    for (const glm::vec3& p : primitive.positions) {
+        primitive.bounds.min = glm::min(primitive.bounds.min, p);
+        primitive.bounds.max = glm::max(primitive.bounds.max, p);
+    }
+}
+
+} // namespace
+
+void finishScene(Scene& scene)
+{
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const std::uint32_t parent = scene.nodes[i].parent;
+        if (parent != kNone && parent >= i) {
+            throw Error("finishing scene '" + scene.name + "'",
+                        "node " + std::to_string(i) + " comes before its parent " + std::to_string(parent),
+                        "order the nodes so that parents come first");
+        }
+    }
+    for (Mesh& mesh : scene.meshes) {
+        for (Primitive& primitive : mesh.primitives) {
+            finishPrimitive(scene, primitive);
+        }
+    }
+    for (const Animation& animation : scene.animations) {
+        for (const AnimationChannel& channel : animation.channels) {
+            if (channel.node < scene.nodes.size()) {
+                scene.nodes[channel.node].dynamic = true;
+            }
+        }
+    }
+    for (Node& node : scene.nodes) { // parents come first, so one pass carries the hint all the way down
+        if (node.parent != kNone && scene.nodes[node.parent].dynamic) {
+            node.dynamic = true;
+        }
+    }
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/load.h"
+
+#include "scene/worlds.h"
+
+#include <gnomon/error.h>
+
+#include <array>
+#include <string>
+#include <system_error>
+
+namespace gnomon::scene {
+
+namespace {
+
+constexpr std::array<World, 2> kWorlds{{
+    {"rts", "a strategy game's map: 400 walking units, a camp, groves, floating debris, one sun (Marinescu 2011)",
+     &makeRts},
+    {"planes", "one box above one plane, a sun and a spot light, with closed-form answers", &makePlanes},
+}};
+
+} // namespace
+
+std::span<const World> worlds()
+{
+    return kWorlds;
+}
+
+Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limits)
+{
+    std::string names;
+    for (const World& world : kWorlds) {
+        if (world.name == name_or_file) {
+            return world.make(seed);
+        }
+        names += (names.empty() ? "" : ", ") + std::string(world.name);
+    }
+    const std::filesystem::path file{std::string(name_or_file)};
+    const std::string tried = "loading scene '" + std::string(name_or_file) + "'";
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::is_directory(status)) {
+        throw Error(tried, "it is a directory", "give a .gltf or .glb file, or one of the built-in worlds: " + names);
+    }
+    if (!std::filesystem::exists(status)) {
+        throw Error(tried, "it is no built-in world and no such file exists",
+                    "give a .gltf or .glb file, or one of the built-in worlds: " + names);
+    }
+    return readGltf(file, limits);
+}
+
+} // namespace gnomon::scene

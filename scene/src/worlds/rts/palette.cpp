@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "palette.h"
+
+#include "../scene_maker.h"
+#include "../textures.h"
+
+namespace gnomon::scene::worlds {
+
+Palette addPalette(Scene& scene)
+{
+    const auto surface = [&](const char* name, std::uint32_t texture, float roughness) {
+        return addMaterial(scene, name, {.roughness = roughness, .texture = texture});
+    };
+    const auto foliage = [&](const char* name, Image image) {
+        return addMaterial(scene, name,
+                           {.roughness = 0.85F,
+                            .texture = addTexture(scene, std::move(image), Wrap::clamp_to_edge),
+                            .alpha_mode = AlphaMode::mask,
+                            .double_sided = true});
+    };
+    Palette palette;
+    const std::uint32_t detail = addTexture(scene, groundDetail());
+    palette.ground = surface("ground", detail, 0.95F);
+    palette.water = addMaterial(scene, "water", {.roughness = 0.16F});
+    palette.stone = surface("stone", addTexture(scene, stoneBlocks()), 0.9F);
+    palette.wood = surface("wood", addTexture(scene, planks()), 0.85F);
+    palette.shingle = surface("shingle", addTexture(scene, shingles()), 0.8F);
+    palette.thatch = surface("thatch", addTexture(scene, straw()), 0.95F);
+    palette.plain = addMaterial(scene, "plain", {.roughness = 0.75F});
+    palette.cloth = addMaterial(scene, "cloth", {.roughness = 0.9F, .double_sided = true});
+    palette.rock = surface("rock", detail, 0.9F);
+    palette.fire =
+        addMaterial(scene, "fire", {.base_colour = {1.0F, 0.5F, 0.12F, 1.0F}, .emissive = {5.0F, 1.6F, 0.25F}});
+    palette.crystal = addMaterial(scene, "crystal", {.roughness = 0.22F, .emissive = {0.02F, 0.16F, 0.20F}});
+    palette.leaves = foliage("leaves", leafCluster());
+    palette.needles = foliage("needles", needleBranch());
+    palette.grass = foliage("grass", grassTuft());
+    return palette;
+}
+
+} // namespace gnomon::scene::worlds
