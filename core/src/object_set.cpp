@@ -3,6 +3,7 @@
 
 #include <gnomon/object_set.h>
 
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -29,8 +30,11 @@ std::uint64_t nextIdentity()
 } // namespace
 
 struct ObjectSet::Impl {
-    std::vector<TreeObject> objects;
+    // By handle. Apart from each other, because a plan reads all bounds, then all changes.
+    TreeObjects objects;
+    std::vector<std::uint64_t> changed;
     std::vector<ObjectFlags> flags;
+    std::vector<bool> alive;
     std::vector<std::uint32_t> free_handles; // a heap, the smallest on top: handles stay dense
     std::array<Octree, 2> trees;             // what stands still, what moves: the first one stays as it is
     std::uint64_t version = 0;
@@ -38,13 +42,36 @@ struct ObjectSet::Impl {
     Aabb bounds;
     bool bounds_loose = false; // an object at the rim left it
 
-    void record(std::uint32_t object) { objects[object].changed = ++version; }
+    void record(std::uint32_t object) { changed[object] = ++version; }
+    Octree& treeOf(std::uint32_t object) { return trees[flags[object].dynamic ? 1 : 0]; }
 
+    std::uint32_t newHandle()
+    {
+        if (!free_handles.empty()) {
+            std::pop_heap(free_handles.begin(), free_handles.end(), std::greater<>());
+            const std::uint32_t handle = free_handles.back();
+            free_handles.pop_back();
+            return handle;
+        }
+        const auto handle = static_cast<std::uint32_t>(changed.size());
+        assert(handle <= Octree::kHandleBits);
+        objects.bounds_ws.emplace_back();
+        objects.places.emplace_back();
+        changed.push_back(0);
+        flags.emplace_back();
+        alive.push_back(false);
+        return handle;
+    }
     /// Called before an object's box goes or changes.
     void leave(const Aabb& box)
     {
         bounds_loose |=
             glm::any(glm::lessThanEqual(box.min, bounds.min)) || glm::any(glm::greaterThanEqual(box.max, bounds.max));
+    }
+    void enter(const Aabb& box)
+    {
+        bounds.min = glm::min(bounds.min, box.min);
+        bounds.max = glm::max(bounds.max, box.max);
     }
 };
 
@@ -57,25 +84,13 @@ std::uint32_t ObjectSet::add(const Aabb& bounds_ws, ObjectFlags flags)
 {
     assert(!bounds_ws.empty() && finite(bounds_ws));
     Impl& s = *impl_;
-    std::uint32_t handle = 0;
-    if (s.free_handles.empty()) {
-        handle = static_cast<std::uint32_t>(s.objects.size());
-        s.objects.emplace_back();
-        s.flags.emplace_back();
-    } else {
-        std::pop_heap(s.free_handles.begin(), s.free_handles.end(), std::greater<>());
-        handle = s.free_handles.back();
-        s.free_handles.pop_back();
-    }
-    TreeObject& object = s.objects[handle];
-    object.bounds_ws = bounds_ws;
-    object.tree = flags.dynamic ? 1 : 0;
-    object.alive = true;
-    object.casts = flags.casts;
-    object.receives = flags.receives;
+    const std::uint32_t handle = s.newHandle();
+    s.objects.bounds_ws[handle] = bounds_ws;
     s.flags[handle] = flags;
-    s.trees[object.tree].insert(s.objects, handle);
-    s.bounds = merge(s.bounds, bounds_ws);
+    s.alive[handle] = true;
+    s.treeOf(handle).insert(s.objects,
+                            handle | (flags.casts ? Octree::kCasts : 0U) | (flags.receives ? Octree::kReceives : 0U));
+    s.enter(bounds_ws);
     s.record(handle);
     return handle;
 }
@@ -84,13 +99,13 @@ void ObjectSet::update(std::uint32_t object, const Aabb& bounds_ws)
 {
     assert(alive(object) && !bounds_ws.empty() && finite(bounds_ws));
     Impl& s = *impl_;
-    TreeObject& entry = s.objects[object];
-    if (entry.bounds_ws.min == bounds_ws.min && entry.bounds_ws.max == bounds_ws.max)
+    Aabb& box = s.objects.bounds_ws[object];
+    if (box.min == bounds_ws.min && box.max == bounds_ws.max)
         return;
-    s.leave(entry.bounds_ws);
-    entry.bounds_ws = bounds_ws;
-    s.bounds = merge(s.bounds, bounds_ws);
-    s.trees[entry.tree].moved(s.objects, object);
+    s.leave(box);
+    box = bounds_ws;
+    s.enter(bounds_ws);
+    s.treeOf(object).moved(s.objects, object);
     s.record(object);
 }
 
@@ -104,10 +119,9 @@ void ObjectSet::remove(std::uint32_t object)
 {
     assert(alive(object));
     Impl& s = *impl_;
-    TreeObject& entry = s.objects[object];
-    s.leave(entry.bounds_ws);
-    s.trees[entry.tree].remove(s.objects, object);
-    entry.alive = false;
+    s.leave(s.objects.bounds_ws[object]);
+    s.treeOf(object).remove(s.objects, object);
+    s.alive[object] = false;
     s.record(object);
     s.free_handles.push_back(object);
     std::push_heap(s.free_handles.begin(), s.free_handles.end(), std::greater<>());
@@ -115,21 +129,21 @@ void ObjectSet::remove(std::uint32_t object)
 
 std::uint32_t ObjectSet::size() const
 {
-    std::size_t end = impl_->objects.size();
-    while (end > 0 && !impl_->objects[end - 1].alive)
+    std::size_t end = impl_->alive.size();
+    while (end > 0 && !impl_->alive[end - 1])
         --end;
     return static_cast<std::uint32_t>(end);
 }
 
 bool ObjectSet::alive(std::uint32_t object) const
 {
-    return object < impl_->objects.size() && impl_->objects[object].alive;
+    return object < impl_->alive.size() && impl_->alive[object];
 }
 
 const Aabb& ObjectSet::bounds(std::uint32_t object) const
 {
     assert(alive(object));
-    return impl_->objects[object].bounds_ws;
+    return impl_->objects.bounds_ws[object];
 }
 
 ObjectFlags ObjectSet::flags(std::uint32_t object) const
@@ -143,9 +157,9 @@ Aabb ObjectSet::bounds() const
     Impl& s = *impl_;
     if (s.bounds_loose) {
         s.bounds = {};
-        for (const TreeObject& object : s.objects)
-            if (object.alive)
-                s.bounds = merge(s.bounds, object.bounds_ws);
+        for (std::size_t i = 0; i < s.alive.size(); ++i)
+            if (s.alive[i])
+                s.enter(s.objects.bounds_ws[i]);
         s.bounds_loose = false;
     }
     return s.bounds;
@@ -158,8 +172,8 @@ std::uint64_t ObjectSet::version() const
 
 std::uint64_t ObjectSet::changed(std::uint32_t object) const
 {
-    assert(object < impl_->objects.size());
-    return impl_->objects[object].changed;
+    assert(object < impl_->changed.size());
+    return impl_->changed[object];
 }
 
 std::uint64_t ObjectSet::identity() const
@@ -173,13 +187,13 @@ void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std:
     // Marking bits and reading them in order costs a step per object and sorts by the way. Per thread, so that a const
     // set can be asked from several.
     static thread_local std::vector<std::uint64_t> bits;
-    bits.assign((s.objects.size() + 63) / 64, 0);
+    bits.assign((s.alive.size() + 63) / 64, 0);
     const RegionTest region(planes);
-    const auto wanted = want == Want::casters     ? Octree::Want::casters
-                        : want == Want::receivers ? Octree::Want::receivers
-                                                  : Octree::Want::all;
+    const std::uint32_t flags = want == Want::casters     ? Octree::kCasts
+                                : want == Want::receivers ? Octree::kReceives
+                                                          : 0U;
     for (const Octree& tree : s.trees)
-        tree.query(s.objects, region, wanted, bits);
+        tree.query(s.objects, region, flags, bits);
     for (std::size_t word = 0; word < bits.size(); ++word)
         for (std::uint64_t left = bits[word]; left != 0; left &= left - 1)
             out.push_back(static_cast<std::uint32_t>(64 * word + static_cast<std::size_t>(std::countr_zero(left))));

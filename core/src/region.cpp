@@ -76,7 +76,8 @@ Outcome Region::gatherReceivers(const RegionInput& input)
         const Aabb& box = input.objects.bounds(object);
         if (space.perspective && classify(cone_planes_, box) == Containment::outside)
             continue;
-        receivers_ws = merge(receivers_ws, box);
+        receivers_ws.min = glm::min(receivers_ws.min, box.min);
+        receivers_ws.max = glm::max(receivers_ws.max, box.max);
         if (!space.perspective) {
             const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
             const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;

@@ -4,7 +4,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace gnomon {
@@ -22,39 +21,6 @@ double sizeOf(const Aabb& box)
 }
 
 } // namespace
-
-RegionTest::RegionTest(std::span<const Plane> planes)
-{
-    std::size_t count = 0;
-    for (const Plane& plane : planes.first(std::min(planes.size(), kMaxPlanes)))
-        planes_[count++] = {plane.normal, plane.d, glm::abs(plane.normal)};
-    all_ = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-}
-
-bool RegionTest::narrow(const glm::dvec3& centre, const glm::dvec3& half, std::uint32_t& mask) const
-{
-    for (std::uint32_t left = mask; left != 0; left &= left - 1) {
-        const TestPlane& plane = planes_[static_cast<std::size_t>(std::countr_zero(left))];
-        const double distance = glm::dot(plane.normal, centre) + plane.d;
-        // Rounding must not push out what touches the plane.
-        const double reach =
-            glm::dot(plane.size, half) + 1e-12 * (std::abs(plane.d) + glm::dot(plane.size, glm::abs(centre)));
-        if (distance < -reach)
-            return false;
-        if (distance > reach)
-            mask &= ~(left & (~left + 1));
-    }
-    return true;
-}
-
-bool RegionTest::touches(const Aabb& box, std::uint32_t mask) const
-{
-    if (mask == 0)
-        return true;
-    const glm::dvec3 low(box.min);
-    const glm::dvec3 high(box.max);
-    return narrow((low + high) * 0.5, (high - low) * 0.5, mask);
-}
 
 bool Octree::holds(const Node& node, const Aabb& box)
 {
@@ -91,6 +57,21 @@ std::uint32_t Octree::newNode(const glm::dvec3& centre, double half, std::uint32
     node.half = half;
     node.parent = parent;
     node.children.fill(kNone);
+    return index;
+}
+
+std::uint32_t Octree::newBlock(std::uint32_t next)
+{
+    std::uint32_t index = 0;
+    if (free_blocks_.empty()) {
+        index = static_cast<std::uint32_t>(blocks_.size());
+        blocks_.emplace_back();
+        free_blocks_.reserve(blocks_.capacity());
+    } else {
+        index = free_blocks_.back();
+        free_blocks_.pop_back();
+    }
+    blocks_[index].next = next;
     return index;
 }
 
@@ -140,70 +121,79 @@ void Octree::growRoot(const Aabb& box)
     }
 }
 
-void Octree::link(std::vector<TreeObject>& objects, std::uint32_t object, std::uint32_t index)
+void Octree::link(TreeObjects& objects, std::uint32_t item, std::uint32_t index)
 {
+    std::uint32_t slot = nodes_[index].inFirst();
+    if (nodes_[index].count == 0 || slot == kBlockItems) {
+        const std::uint32_t block = newBlock(nodes_[index].first);
+        nodes_[index].first = block;
+        slot = 0;
+    }
     Node& node = nodes_[index];
-    TreeObject& entry = objects[object];
-    entry.node = index;
-    entry.previous = kNone;
-    entry.next = node.first;
-    if (node.first != kNone)
-        objects[node.first].previous = object;
-    node.first = object;
+    blocks_[node.first].items[slot] = item;
     ++node.count;
+    objects.places[item & kHandleBits] = {index, node.first, slot};
 }
 
-void Octree::unlink(std::vector<TreeObject>& objects, std::uint32_t object)
+/// Fills the gap with the node's last item. Returns the item taken out.
+std::uint32_t Octree::unlink(TreeObjects& objects, std::uint32_t handle)
 {
-    TreeObject& entry = objects[object];
-    Node& node = nodes_[entry.node];
-    if (entry.previous != kNone)
-        objects[entry.previous].next = entry.next;
-    else
-        node.first = entry.next;
-    if (entry.next != kNone)
-        objects[entry.next].previous = entry.previous;
+    TreePlace& gap = objects.places[handle];
+    Node& node = nodes_[gap.node];
+    const std::uint32_t item = blocks_[gap.block].items[gap.slot];
+    const std::uint32_t last = blocks_[node.first].items[node.inFirst() - 1];
+    blocks_[gap.block].items[gap.slot] = last;
+    objects.places[last & kHandleBits] = {gap.node, gap.block, gap.slot};
+    if (node.inFirst() == 1) {
+        free_blocks_.push_back(node.first);
+        node.first = blocks_[node.first].next;
+    }
     --node.count;
-    entry.node = kNone;
-    entry.next = kNone;
-    entry.previous = kNone;
+    gap = {};
+    return item;
 }
 
-void Octree::place(std::vector<TreeObject>& objects, std::uint32_t object, std::uint32_t index, int depth)
+void Octree::place(TreeObjects& objects, std::uint32_t item, std::uint32_t index, int depth)
 {
-    const Aabb& box = objects[object].bounds_ws;
+    const Aabb& box = objects.bounds_ws[item & kHandleBits];
     const double size = sizeOf(box);
     while (nodes_[index].divided && size <= nodes_[index].half) {
         index = childFor(index, box);
         ++depth;
     }
-    link(objects, object, index);
+    link(objects, item, index);
     if (!nodes_[index].divided && nodes_[index].count > kSplitAbove && depth < kMaxDepth)
         divide(objects, index, depth);
 }
 
-void Octree::divide(std::vector<TreeObject>& objects, std::uint32_t index, int depth)
+void Octree::divide(TreeObjects& objects, std::uint32_t index, int depth)
 {
-    bool any_small = false;
-    for (std::uint32_t i = nodes_[index].first; i != kNone && !any_small; i = objects[i].next)
-        any_small = fitsChild(nodes_[index], objects[i].bounds_ws);
-    if (!any_small)
-        return;
-    nodes_[index].divided = true;
-    std::uint32_t next = kNone;
-    for (std::uint32_t i = nodes_[index].first; i != kNone; i = next) {
-        next = objects[i].next;
-        if (!fitsChild(nodes_[index], objects[i].bounds_ws))
-            continue;
-        unlink(objects, i);
-        place(objects, i, childFor(index, objects[i].bounds_ws), depth + 1);
+    // Taken out whole and put back one by one: what goes to a child, what stays here.
+    std::uint32_t block = nodes_[index].first;
+    std::uint32_t in_block = nodes_[index].inFirst();
+    nodes_[index].first = kNone;
+    nodes_[index].count = 0;
+    while (block != kNone) {
+        const Block taken = blocks_[block];
+        free_blocks_.push_back(block);
+        for (std::uint32_t i = 0; i < in_block; ++i) {
+            const Aabb& box = objects.bounds_ws[taken.items[i] & kHandleBits];
+            if (fitsChild(nodes_[index], box)) {
+                nodes_[index].divided = true;
+                place(objects, taken.items[i], childFor(index, box), depth + 1);
+            } else {
+                link(objects, taken.items[i], index);
+            }
+        }
+        block = taken.next;
+        in_block = kBlockItems;
     }
 }
 
-void Octree::insert(std::vector<TreeObject>& objects, std::uint32_t object)
+void Octree::insert(TreeObjects& objects, std::uint32_t item)
 {
-    growRoot(objects[object].bounds_ws);
-    place(objects, object, root_, 0);
+    growRoot(objects.bounds_ws[item & kHandleBits]);
+    place(objects, item, root_, 0);
 }
 
 void Octree::prune(std::uint32_t index)
@@ -222,29 +212,44 @@ void Octree::prune(std::uint32_t index)
     }
 }
 
-void Octree::remove(std::vector<TreeObject>& objects, std::uint32_t object)
+void Octree::remove(TreeObjects& objects, std::uint32_t handle)
 {
-    const std::uint32_t node = objects[object].node;
-    unlink(objects, object);
+    const std::uint32_t node = objects.places[handle].node;
+    unlink(objects, handle);
     prune(node);
 }
 
-void Octree::moved(std::vector<TreeObject>& objects, std::uint32_t object)
+void Octree::moved(TreeObjects& objects, std::uint32_t handle)
 {
-    if (holds(nodes_[objects[object].node], objects[object].bounds_ws))
+    const std::uint32_t node = objects.places[handle].node;
+    if (holds(nodes_[node], objects.bounds_ws[handle]))
         return;
     // Placed before the old node is pruned: the two often share most of their path.
-    const std::uint32_t node = objects[object].node;
-    unlink(objects, object);
-    insert(objects, object);
+    insert(objects, unlink(objects, handle));
     prune(node);
 }
 
-void Octree::query(const std::vector<TreeObject>& objects, const RegionTest& region, Want want,
+void Octree::query(const TreeObjects& objects, const RegionTest& region, std::uint32_t want,
                    std::span<std::uint64_t> bits) const
 {
     if (root_ != kNone)
         visit({objects, region, want, bits}, root_, region.allPlanes());
+}
+
+void Octree::mark(const Walk& walk, const Node& node, std::uint32_t mask) const
+{
+    std::uint32_t in_block = node.inFirst();
+    for (std::uint32_t block = node.first; block != kNone; block = blocks_[block].next) {
+        for (std::uint32_t i = 0; i < in_block; ++i) {
+            const std::uint32_t item = blocks_[block].items[i];
+            const std::uint32_t handle = item & kHandleBits;
+            bool wanted = (item & walk.want) == walk.want;
+            if (mask != 0 && wanted)
+                wanted = walk.region.touches(walk.objects.bounds_ws[handle], mask);
+            walk.bits[handle / 64] |= std::uint64_t{wanted} << (handle % 64);
+        }
+        in_block = kBlockItems;
+    }
 }
 
 void Octree::visit(const Walk& walk, std::uint32_t index, std::uint32_t mask) const
@@ -252,12 +257,7 @@ void Octree::visit(const Walk& walk, std::uint32_t index, std::uint32_t mask) co
     const Node& node = nodes_[index];
     if (mask != 0 && !walk.region.narrow(node.centre, glm::dvec3(2.0 * node.half), mask))
         return;
-    for (std::uint32_t i = node.first; i != kNone; i = walk.objects[i].next) {
-        const TreeObject& object = walk.objects[i];
-        const bool wanted = walk.want == Want::all || (walk.want == Want::casters ? object.casts : object.receives);
-        if (wanted && walk.region.touches(object.bounds_ws, mask))
-            walk.bits[i / 64] |= std::uint64_t{1} << (i % 64);
-    }
+    mark(walk, node, mask);
     if (node.child_count != 0)
         for (const std::uint32_t child : node.children)
             if (child != kNone)

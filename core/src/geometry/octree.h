@@ -6,99 +6,95 @@
 // more than a few objects (Ulrich divides by size alone), and the root grows by doubling toward what lies outside it.
 #pragma once
 
+#include "geometry/region_test.h"
+
 #include <gnomon/geometry.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace gnomon {
 
-/// What the tree knows of one object: 48 bytes, so that following a node's list touches one cache line each.
-struct TreeObject {
-    Aabb bounds_ws;
-    std::uint32_t next = 0xFFFFFFFFU;
-    std::uint32_t previous = 0xFFFFFFFFU;
+/// Where an object hangs. Written by its tree alone.
+struct TreePlace {
     std::uint32_t node = 0xFFFFFFFFU;
-    std::uint8_t tree = 0; // which of its owner's trees
-    bool alive = false;
-    bool casts = false;
-    bool receives = false;
-    std::uint64_t changed = 0;
+    std::uint32_t block = 0;
+    std::uint32_t slot = 0;
 };
 
-/// The planes of a query, made ready for testing boxes.
-class RegionTest {
-public:
-    /// More than 32 planes: the rest is left out, which only makes the region larger.
-    explicit RegionTest(std::span<const Plane> planes);
-
-    [[nodiscard]] std::uint32_t allPlanes() const { return all_; }
-    /// Drops from `mask` the planes that the box is inside of; false when it is outside one.
-    [[nodiscard]] bool narrow(const glm::dvec3& centre, const glm::dvec3& half, std::uint32_t& mask) const;
-    /// The same for a box that is only kept or not.
-    [[nodiscard]] bool touches(const Aabb& box, std::uint32_t mask) const;
-
-private:
-    static constexpr std::size_t kMaxPlanes = 32;
-    struct TestPlane {
-        glm::dvec3 normal;
-        double d;
-        glm::dvec3 size; // |normal|
-    };
-    std::array<TestPlane, kMaxPlanes> planes_;
-    std::uint32_t all_ = 0;
+/// What its owner keeps of all objects, by handle; several trees may share it.
+struct TreeObjects {
+    std::vector<Aabb> bounds_ws;
+    std::vector<TreePlace> places;
 };
 
 class Octree {
 public:
-    /// Objects are named by their index in `objects`; its links are the tree's to write.
-    void insert(std::vector<TreeObject>& objects, std::uint32_t object);
-    void remove(std::vector<TreeObject>& objects, std::uint32_t object);
-    /// After `bounds_ws` of an object in the tree changed.
-    void moved(std::vector<TreeObject>& objects, std::uint32_t object);
+    /// An object's flags ride in the two upper bits of what a node lists, so that a query reads them without a detour.
+    static constexpr std::uint32_t kCasts = 1U << 30;
+    static constexpr std::uint32_t kReceives = 1U << 31;
+    static constexpr std::uint32_t kHandleBits = kCasts - 1;
 
-    /// Sets the bit of every object that the region may touch and whose flag `want` names is set.
-    enum class Want : std::uint8_t { casters, receivers, all };
-    void query(const std::vector<TreeObject>& objects, const RegionTest& region, Want want,
+    /// `item` is the handle with its flags.
+    void insert(TreeObjects& objects, std::uint32_t item);
+    void remove(TreeObjects& objects, std::uint32_t handle);
+    /// After the bounds of an object in the tree changed.
+    void moved(TreeObjects& objects, std::uint32_t handle);
+
+    /// Sets the bit of every object that the region may touch and that has all flags of `want`.
+    void query(const TreeObjects& objects, const RegionTest& region, std::uint32_t want,
                std::span<std::uint64_t> bits) const;
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-    static constexpr std::uint32_t kSplitAbove = 12; // objects in an undivided cell
+    static constexpr std::uint32_t kSplitAbove = 24; // objects in an undivided cell
     static constexpr int kMaxDepth = 24;
+    static constexpr std::uint32_t kBlockItems = 15;
 
+    /// One cache line of a node's list.
+    struct Block {
+        std::array<std::uint32_t, kBlockItems> items{};
+        std::uint32_t next = kNone;
+    };
     struct Node {
         glm::dvec3 centre{0.0};
         double half = 0.0; // of the cell, not of its loose bounds
         std::array<std::uint32_t, 8> children{};
         std::uint32_t parent = kNone;
-        std::uint32_t first = kNone; // its own objects
-        std::uint32_t count = 0;
+        std::uint32_t first = kNone; // block; it alone may have room left
+        std::uint32_t count = 0;     // of its own objects
         std::uint8_t child_count = 0;
         bool divided = false;
+
+        [[nodiscard]] std::uint32_t inFirst() const { return count == 0 ? 0 : (count - 1) % kBlockItems + 1; }
     };
     struct Walk {
-        const std::vector<TreeObject>& objects;
+        const TreeObjects& objects;
         const RegionTest& region;
-        Want want;
+        std::uint32_t want;
         std::span<std::uint64_t> bits;
     };
 
     [[nodiscard]] static bool holds(const Node& node, const Aabb& box);
     [[nodiscard]] static bool fitsChild(const Node& node, const Aabb& box);
     [[nodiscard]] std::uint32_t newNode(const glm::dvec3& centre, double half, std::uint32_t parent);
+    [[nodiscard]] std::uint32_t newBlock(std::uint32_t next);
     [[nodiscard]] std::uint32_t childFor(std::uint32_t node, const Aabb& box);
     void growRoot(const Aabb& box);
-    void place(std::vector<TreeObject>& objects, std::uint32_t object, std::uint32_t node, int depth);
-    void divide(std::vector<TreeObject>& objects, std::uint32_t node, int depth);
-    void link(std::vector<TreeObject>& objects, std::uint32_t object, std::uint32_t node);
-    void unlink(std::vector<TreeObject>& objects, std::uint32_t object);
+    void place(TreeObjects& objects, std::uint32_t item, std::uint32_t node, int depth);
+    void divide(TreeObjects& objects, std::uint32_t node, int depth);
+    void link(TreeObjects& objects, std::uint32_t item, std::uint32_t node);
+    std::uint32_t unlink(TreeObjects& objects, std::uint32_t handle);
     void prune(std::uint32_t node);
     void visit(const Walk& walk, std::uint32_t node, std::uint32_t mask) const;
+    void mark(const Walk& walk, const Node& node, std::uint32_t mask) const;
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> free_nodes_;
+    std::vector<Block> blocks_;
+    std::vector<std::uint32_t> free_blocks_;
     std::uint32_t root_ = kNone;
 };
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// What planning costs, and how that grows with the number of objects. Scenes keep their density: ten times the objects
+// cover ten times the ground, and the camera rises until it sees all of it.
+#include <gnomon/planner.h>
+
+#include <benchmark/benchmark.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using namespace gnomon;
+
+constexpr double kArea_m2 = 25.0; // of ground for each object
+constexpr int kFrames = 64;
+
+double noise(std::uint64_t n)
+{
+    n = (n ^ (n >> 30)) * 0xBF58476D1CE4E5B9U;
+    n = (n ^ (n >> 27)) * 0x94D049BB133111EBU;
+    return static_cast<double>((n ^ (n >> 31)) >> 11) * 0x1.0p-53;
+}
+
+/// A terrain and small things on it, of which some walk in circles.
+struct World {
+    ObjectSet set;
+    std::vector<glm::dvec3> homes;
+    std::uint32_t moving_every = 10;
+    double half_m = 0.0;
+    std::array<Light, 1> lights;
+    Frame frame;
+
+    World(std::int64_t count, std::uint32_t moving_one_in) : moving_every(moving_one_in)
+    {
+        half_m = 0.5 * std::sqrt(kArea_m2 * static_cast<double>(count));
+        const float half = static_cast<float>(half_m);
+        set.add({{-half, -4, -half}, {half, 9, half}});
+        for (std::uint64_t i = 1; i < static_cast<std::uint64_t>(count); ++i) {
+            homes.emplace_back((2.0 * noise(3 * i) - 1.0) * half_m, 6.0 * noise(3 * i + 1),
+                               (2.0 * noise(3 * i + 2) - 1.0) * half_m);
+            set.add(box(homes.back()), {true, true, i % moving_every == 0});
+        }
+        lights[0].direction_ws = glm::normalize(glm::dvec3(0.4, -1.0, 0.25));
+        const glm::dvec3 eye(0.0, 1.4 * half_m, 1.9 * half_m);
+        frame.camera.eye_ws = eye;
+        frame.camera.clip_from_world = glm::perspectiveRH_ZO(1.0, 1.6, 10.0 * half_m, 0.1) *
+                                       glm::lookAtRH(eye, glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
+        frame.lights = lights;
+        frame.objects = &set;
+    }
+    static Aabb box(const glm::dvec3& centre) { return {glm::vec3(centre - 0.8), glm::vec3(centre + 0.8)}; }
+    void move(int step)
+    {
+        const double turn = 6.283185307179586 * step / kFrames;
+        for (std::uint32_t i = moving_every; i <= homes.size(); i += moving_every)
+            set.update(i, box(homes[i - 1] + glm::dvec3(5.0 * std::cos(turn), 0.0, 5.0 * std::sin(turn))));
+    }
+};
+
+/// Updates of the moving objects and the plan: what a frame costs.
+void frameOf(benchmark::State& state, std::uint32_t moving_one_in)
+{
+    World world(state.range(0), moving_one_in);
+    Planner planner({});
+    int step = 0;
+    for (; step < kFrames; ++step) {
+        world.move(step);
+        benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    }
+    std::size_t casters = 0;
+    for (auto _ : state) {
+        world.move(++step % kFrames);
+        casters = planner.plan(world.frame).casters.size();
+    }
+    state.counters["casters"] = static_cast<double>(casters);
+    state.SetComplexityN(state.range(0));
+}
+
+void planOneInTenMoving(benchmark::State& state)
+{
+    frameOf(state, 10);
+}
+BENCHMARK(planOneInTenMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+/// As many objects as the `rts` world has, three of four of them moving.
+void planRtsSize(benchmark::State& state)
+{
+    World world(state.range(0), 1);
+    Planner planner({});
+    int step = 0;
+    for (auto _ : state) {
+        const double turn = 6.283185307179586 * (++step % kFrames) / kFrames;
+        const glm::dvec3 away(5.0 * std::cos(turn), 0.0, 5.0 * std::sin(turn));
+        for (std::uint32_t i = 1; i <= 4400; ++i)
+            world.set.update(i, World::box(world.homes[i - 1] + away));
+        benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    }
+}
+BENCHMARK(planRtsSize)->Arg(6000)->Unit(benchmark::kMicrosecond);
+
+void planNothingMoving(benchmark::State& state)
+{
+    World world(state.range(0), 10);
+    Planner planner({});
+    for (auto _ : state)
+        benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(planNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+/// A frustum that sees about a tenth of the world.
+void querySmallRegion(benchmark::State& state)
+{
+    World world(state.range(0), 10);
+    const glm::dvec3 eye(0.0, 0.5 * world.half_m, 0.5 * world.half_m);
+    const Frustum frustum = frustumFromClip(glm::perspectiveRH_ZO(0.5, 1.6, 0.1, 10.0 * world.half_m) *
+                                            glm::lookAtRH(eye, glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0)));
+    std::vector<std::uint32_t> found;
+    for (auto _ : state) {
+        found.clear();
+        world.set.query(frustum.planes, ObjectSet::Want::all, found);
+    }
+    state.counters["found"] = static_cast<double>(found.size());
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(querySmallRegion)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+void updateAll(benchmark::State& state)
+{
+    World world(state.range(0), 1);
+    int step = 0;
+    for (auto _ : state)
+        world.move(++step % kFrames);
+    state.SetItemsProcessed(state.iterations() * (state.range(0) - 1));
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(updateAll)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+} // namespace
+
+BENCHMARK_MAIN();
