@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The check of the documents must be able to fail: one fault at a time. usage: test_check_docs.py CHECKER"""
+
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECKER = sys.argv.pop(1)
+
+TREE = {
+    "README.md": "See [the options](docs/cli.md#options).\n```cpp\nint a = 1;\n\nint b = a;\n```\n",
+    "examples/readme_snippet.cpp": "int main()\n{\n    // README begin\n    int a = 1;\n\n    int b = a;\n"
+                                   "    // README end\n}\n",
+    "docs/cli.md": "`gnomon render rts --map-size 512 -o a.png`\n\n| option | default | unit | what |\n|---|---|---|---|\n"
+                   "| `--map-size N` | `2048` | texels | side |\n| `--camera NAME` | | | which |\n",
+}
+# Stands for the program: prints what `gnomon list --json` would.
+PROGRAM = """#!/bin/sh
+echo '{"settings": [{"key": "map-size", "default": "2048"}, {"key": "camera", "default": ""}]}'
+"""
+FAULTS = [
+    ("README.md", "docs/cli.md#options", "docs/none.md", "docs/none.md does not exist"),
+    ("README.md", "int a = 1;", "int a = 2;", "no C++ block"),
+    ("examples/readme_snippet.cpp", "README end", "the end", "no lines between"),
+    ("docs/cli.md", "| `2048` |", "| `1024` |", "the default of map-size"),
+    ("docs/cli.md", "| `--camera NAME` | | | which |\n", "", "no row for camera"),
+    ("docs/cli.md", "which |\n", "which |\n| `--lens N` | | | what |\n", "lens is no option"),
+    ("docs/cli.md", "--map-size 512", "--map-width 512", "no option map-width"),
+    ("docs/cli.md", "--map-size 512", "--set map-widht=512", "no option map-widht"),
+]
+
+
+def run(tree: dict[str, str]) -> subprocess.CompletedProcess:
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in tree.items():
+            file = Path(root, name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
+        program = Path(root, "gnomon")
+        program.write_text(PROGRAM, encoding="utf-8")
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        return subprocess.run([sys.executable, CHECKER, root, str(program)], capture_output=True, text=True, check=False)
+
+
+class Docs(unittest.TestCase):
+    def test_true_documents_pass(self):
+        result = run(TREE)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_every_fault_is_named(self):
+        for file, old, new, expected in FAULTS:
+            with self.subTest(expected):
+                self.assertIn(old, TREE[file])
+                result = run({**TREE, file: TREE[file].replace(old, new)})
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(expected, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
