@@ -6,6 +6,8 @@
 // coordinates, in the order of textureGather: x: left low, y: right low, z: right high, w: left high, where "low" is the larger y.
 //   real mapTexel(real2 texel, real layer);    // texel: integer coordinates
 //   real4 mapGather(real2 corner, real layer); // corner: integer coordinates
+// And to the points of a disc filter's pattern, which are a table on the GPU (shared/discs.h):
+//   real2 discPoint(int i); // in the unit disc
 #ifndef GNOMON_FILTER_TYPES_GLSL
 #define GNOMON_FILTER_TYPES_GLSL
 #include "../shared/bias.h"
@@ -14,7 +16,7 @@ GN_BEGIN
 struct FilterInput {
     real layer;
     int kernel_width;   // 1, 3, 5, 7: separable; 0: disc
-    int disc_taps;      // > 0: Vogel; < 0: Poisson
+    int disc_taps;      // points of the disc
     real disc_radius;   // texels
     real4 kernel;       // gaussianWeights(kernel_width, sigma)
     real2 pixel;        // of the screen, for noise
@@ -24,21 +26,21 @@ struct FilterInput {
 GN_FN real compareTexel(MapPoint point, real2 centre, real stored)
 {
     real2 reference = referenceAt(point, centre);
-    return step(min(reference.x, reference.y), stored * reference.y);
+    return step(reference.x, stored * reference.y);
 }
 
 // The same for the four texels of a gather. `centre`: of the top left one (component w), relative to the receiver.
 GN_FN real4 compareGather(MapPoint point, real2 centre, real4 stored)
 {
-    real2 at = referenceAt(point, centre);
     real2 d = point.depth_slope;
-    real4 depth = real4(at.x) + real4(d.y, d.x + d.y, d.x, real(0.0));
+    real4 depth = real4(point.depth + dot(d, centre)) + real4(d.y, d.x + d.y, d.x, real(0.0));
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    return step(min(depth, real4(1.0)), stored);
+    return step(min(depth, real4(point.cap)), stored);
 #else
     real2 s = point.w_slope;
-    real4 w = max(real4(at.y) + real4(s.y, s.x + s.y, s.x, real(0.0)), real4(real(0.05)));
-    return step(min(depth, w), stored * w);
+    real4 w = real4(real(1.0) + dot(s, centre)) + real4(s.y, s.x + s.y, s.x, real(0.0));
+    w = max(w, real4(real(0.05)));
+    return step(min(depth, w * point.cap), stored * w);
 #endif
 }
 

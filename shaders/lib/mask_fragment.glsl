@@ -16,6 +16,11 @@ layout(set = 0, binding = 0, std140) uniform Constants
 #define GNOMON_MAP_BINDING 1
 #define GNOMON_MAP_TEXEL_SIZE mask.atlas.xy
 #include "map_texture.glsl"
+vec2 discPoint(int i)
+{
+    vec4 two = mask.disc_points[i >> 1];
+    return (i & 1) == 0 ? two.xy : two.zw;
+}
 #include "visibility.glsl"
 layout(set = 0, binding = 2) uniform sampler2D depths;
 layout(set = 0, binding = 3) uniform sampler2D normals;

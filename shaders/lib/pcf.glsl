@@ -46,14 +46,13 @@ GN_FN real pcfDisc(MapPoint point, FilterInput f)
 {
     real angle = interleavedGradientNoise(f.pixel) * real(6.2831853);
     real2 turn = real2(cos(angle), sin(angle)) * f.disc_radius;
-    int taps = abs(f.disc_taps);
     real sum = real(0.0);
-    for (int i = 0; i < taps; ++i) {
-        real2 at = f.disc_taps > 0 ? vogelPoint(i, taps) : kPoissonPoints[i];
+    for (int i = 0; i < f.disc_taps; ++i) {
+        real2 at = discPoint(i);
         real2 turned = real2(at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x);
         sum += pcfBilinear(point, turned, f.layer);
     }
-    return sum / real(taps);
+    return sum / real(f.disc_taps);
 }
 
 GN_FN real filterPcf(MapPoint point, FilterInput f)

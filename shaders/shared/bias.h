@@ -30,12 +30,15 @@ struct BiasRule {
 };
 
 // A receiver on a map. At d texels from it, its reference depth is
-// (depth + dot(depth_slope, d)) / (1 + dot(w_slope, d)): the exact depth of the receiver's plane, less the bias.
+// (depth + dot(depth_slope, d)) / (1 + dot(w_slope, d)): the exact depth of the receiver's plane, less the bias. But it is never
+// more than `cap`, the depth at the receiver itself: where the plane leads away from the light, it leads under whatever
+// surface meets the receiver in a concave edge (a wall's plane under the ground), which would wrongly count as a caster.
 struct MapPoint {
     real2 texel; // atlas coordinates; texel centres are at halves
     real depth;
     real2 depth_slope;
     real2 w_slope;
+    real cap;
     real w; // > 0 in front of a perspective light; 1 for an orthographic one
 };
 
@@ -117,17 +120,18 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
     r.w_slope = w_slope * follow;
     r.depth_slope = r.w_slope * m + slope * follow;
     r.depth = m - bias;
+    r.cap = min(r.depth, real(1.0)); // and texels that nothing was drawn to, which hold 1, light everything
     // The bias is along with the depth at every tap: (depth + ..) / (1 + ..) - bias needs its share of the slope.
     r.depth_slope = r.depth_slope - r.w_slope * bias;
     return r;
 }
 
-// The reference depth at `offset` texels from the receiver, as numerator x and denominator y. A stored depth s is lit
-// when s * y >= min(x, y): comparing with at most 1 keeps texels that nothing was drawn to (1) lit.
+// The reference depth at `offset` texels from the receiver, times y of the result. A stored depth s is lit when
+// s * y >= x, which spares a division.
 GN_FN real2 referenceAt(MapPoint r, real2 offset)
 {
-    return real2(r.depth + dot(r.depth_slope, offset),
-                 max(real(1.0) + dot(r.w_slope, offset), real(0.05)));
+    real w = max(real(1.0) + dot(r.w_slope, offset), real(0.05));
+    return real2(min(r.depth + dot(r.depth_slope, offset), r.cap * w), w);
 }
 
 GN_END

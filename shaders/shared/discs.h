@@ -16,15 +16,10 @@ GN_FN real2 vogelPoint(int i, int count)
 
 // Blue-noise points, the first n of which are spread out for any n: each is the farthest from those before it among 2000
 // candidates (D. Mitchell, "Spectrally optimal sampling for distribution ray tracing", SIGGRAPH 1991).
+// C++ only: shaders get them in a table, because a large constant array takes some compilers seconds.
 #ifdef __cplusplus
-#define GN_POINTS inline constexpr real2 kPoissonPoints[64] = {
-#define GN_POINTS_END }
-#else
-#define GN_POINTS const vec2 kPoissonPoints[64] = vec2[64](
-#define GN_POINTS_END )
-#endif
 // clang-format off
-GN_POINTS
+inline constexpr real2 kPoissonPoints[64] = {
     real2(real(0.016), real(0.0088)), real2(real(-0.7738), real(-0.2863)),
     real2(real(0.0931), real(-0.7907)), real2(real(-0.1526), real(0.7683)),
     real2(real(0.5869), real(0.5098)), real2(real(0.6942), real(-0.3184)),
@@ -56,11 +51,9 @@ GN_POINTS
     real2(real(-0.0826), real(-0.6996)), real2(real(-0.014), real(-0.9395)),
     real2(real(-0.8207), real(-0.4614)), real2(real(-0.7143), real(0.2225)),
     real2(real(0.6016), real(0.0923)), real2(real(0.7457), real(0.5878)),
-    real2(real(-0.3878), real(-0.3239)), real2(real(-0.3744), real(-0.8755))
-GN_POINTS_END;
+    real2(real(-0.3878), real(-0.3239)), real2(real(-0.3744), real(-0.8755))};
 // clang-format on
-#undef GN_POINTS
-#undef GN_POINTS_END
+#endif
 
 // A number in [0, 1) per pixel, spread so that every 3 x 3 neighbourhood has all ninths.
 // Based on: J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.

@@ -12,11 +12,13 @@
 namespace gnomon::shared {
 inline constexpr int kLightsPerLayer = 4;
 inline constexpr int kViewsPerLayer = 64;
+inline constexpr int kDiscPoints = 64;
 #else
 #define GN_VEC4 vec4
 #define GN_UVEC4 uvec4
 const int kLightsPerLayer = 4;
 const int kViewsPerLayer = 64;
+const int kDiscPoints = 64;
 #endif
 
 struct GpuView {
@@ -44,12 +46,13 @@ struct GpuMaskLayer {
     GN_VEC4 bias_more; // receiver_plane, reach_texels, quantum
     GN_VEC4 kernel; // gaussianWeights
     GN_VEC4 disc;   // x: radius, texels
+    GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];
     GpuView views[kViewsPerLayer];
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 96 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 4 * 32 + 64 * 96);
+static_assert(sizeof(GpuView) == 96 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 96);
 } // namespace gnomon::shared
 #endif
 #endif

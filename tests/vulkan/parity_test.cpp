@@ -95,7 +95,7 @@ vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
 Rendered render(Gpu& gpu, const FilterOptions& options, bool reversed_z = true, int frames = 3)
 {
     Rendered r;
-    r.lights = {makeSun({-0.5, -1.0, -0.3}), makeSpot({6.0, 9.0, 6.0}, {0.0, 0.0, 0.0}, 0.6)};
+    r.lights = {makeSun({0.8, -0.9, -0.35}), makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6)};
     // The sun's tile and the spot's share the second layer with room to spare, so tile offsets count.
     const Tile tiles[] = {{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
     r.plan = makePlan(r.scene, r.lights, tiles, {512, 512, 2});

@@ -2,7 +2,7 @@
 #define GNOMON_REAL double
 #include "reference.h"
 
-#include <shared/portability.h>
+#include <shared/discs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,8 @@
 namespace gnomon::test {
 namespace {
 const CpuMap* current_map = nullptr;
+bool current_poisson = false;
+int current_taps = 0;
 double texel(std::int64_t x, std::int64_t y)
 {
     const std::int64_t cx = std::clamp<std::int64_t>(x, 0, current_map->width - 1);
@@ -29,6 +31,10 @@ inline real4 mapGather(real2 corner, real)
     const auto x = static_cast<std::int64_t>(corner.x);
     const auto y = static_cast<std::int64_t>(corner.y);
     return {test::texel(x - 1, y), test::texel(x, y), test::texel(x, y - 1), test::texel(x - 1, y - 1)};
+}
+inline real2 discPoint(int i)
+{
+    return test::current_poisson ? kPoissonPoints[i] : vogelPoint(i, test::current_taps);
 }
 GN_END
 
@@ -112,7 +118,9 @@ std::vector<double> referenceMask(const Picture& picture, std::span<const Light>
     const BiasRule rule = ruleOf(options);
     FilterInput input{};
     input.kernel_width = widthOf(options.pcf_kernel);
-    input.disc_taps = options.pcf_kernel == PcfKernel::poisson ? -int(options.disc_taps) : int(options.disc_taps);
+    input.disc_taps = int(options.disc_taps);
+    current_poisson = options.pcf_kernel == PcfKernel::poisson;
+    current_taps = input.disc_taps;
     input.disc_radius = options.disc_radius_texels;
     input.kernel = shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.gaussian_sigma_texels));
     const double margin = edgeMargin(options);

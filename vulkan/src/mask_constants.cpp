@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_constants.h"
 
+#include <discs.h>
 #include <pcf_weights.h>
 
 #include <glm/gtc/matrix_access.hpp>
@@ -64,6 +65,14 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer
     out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, filterReachTexels(filter), quantum, 0.0F};
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(filter), 1), filter.gaussian_sigma_texels);
     out.disc = {filter.disc_radius_texels, 0.0F, 0.0F, 0.0F};
+    const auto taps = static_cast<int>(filter.disc_taps);
+    for (int i = 0; i < taps; ++i) {
+        const glm::vec2 point =
+            filter.pcf_kernel == PcfKernel::poisson ? shared::kPoissonPoints[i] : shared::vogelPoint(i, taps);
+        glm::vec4& two = out.disc_points[i / 2];
+        (i % 2 == 0 ? two.x : two.z) = point.x;
+        (i % 2 == 0 ? two.y : two.w) = point.y;
+    }
 }
 
 } // namespace

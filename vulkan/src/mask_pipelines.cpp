@@ -22,9 +22,8 @@ struct Specialisation {
 
 Specialisation specialise(const FilterOptions& filter, bool normals)
 {
-    const auto taps = static_cast<std::int32_t>(filter.disc_taps);
-    return {static_cast<std::int32_t>(filter.filter), kernelWidth(filter),
-            filter.pcf_kernel == PcfKernel::poisson ? -taps : taps, normals ? VK_TRUE : VK_FALSE};
+    return {static_cast<std::int32_t>(filter.filter), kernelWidth(filter), static_cast<std::int32_t>(filter.disc_taps),
+            normals ? VK_TRUE : VK_FALSE};
 }
 
 VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
