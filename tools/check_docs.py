@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Is what the documents say still so?
 
-usage: check_docs.py ROOT [GNOMON]
+usage: check_docs.py [--write] ROOT [GNOMON]
 
 - links and pictures in every .md file lead to a file;
 - README's C++ block is what examples/readme_snippet.cpp has between "README begin" and "README end";
-- with the program GNOMON: docs/cli.md has one row for every option it declares, with the same default, and no other;
-  and every option in a `gnomon` command of a document is one of them.
+- with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
+  option in a `gnomon` command of a document is one of them.
 Exit status 1 when something is not so.
 """
 
@@ -56,21 +56,49 @@ def settings_of(gnomon: str) -> dict[str, dict]:
     return {setting["key"]: setting for setting in settings}
 
 
-def cli_differences(root: Path, settings: dict[str, dict]) -> list[str]:
-    rows = {}
-    for line in (root / "docs/cli.md").read_text(encoding="utf-8").splitlines():
-        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
-        match = re.match(r"^`(?:--)?([a-z.-]+)[^`]*`$", cells[0]) if len(cells) == 4 else None
-        if match:
-            rows[match.group(1)] = cells
-    found = [f"docs/cli.md: no row for {key}" for key in settings if key not in rows]
-    found += [f"docs/cli.md: {key} is no option of the program" for key in rows if key not in settings]
-    for key, cells in rows.items():
-        if key in settings:
-            default = settings[key].get("default") or ""
-            if cells[1].strip("`") != str(default):
-                found.append(f"docs/cli.md: the default of {key} is {default!r}, not {cells[1]!r}")
-    return found
+def shown(value) -> str:
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if isinstance(value, float):
+        return f"{value:g}"
+    if isinstance(value, list):
+        return ",".join(shown(item) for item in value)
+    return str(value)
+
+
+def option_table(settings: dict[str, dict]) -> str:
+    """The options as a table, in the order of their declaration."""
+    lines = ["| option | default | what it is | for |", "|---|---|---|---|"]
+    for key, setting in settings.items():
+        name = f"`--{key}`" if setting.get("option", True) else f"`--set {key}=`"
+        default = f"`{shown(setting['default'])}`" if setting.get("default") not in (None, "") else ""
+        facts = [setting["unit"]] if "unit" in setting else []
+        if "min" in setting:
+            facts.append(f"{shown(setting['min'])} to {shown(setting['max'])}")
+        if "values" in setting:
+            facts.append("one of " + " ".join(setting["values"]))
+        if "used_with" in setting:
+            facts.append("with " + setting["used_with"])
+        what = setting["doc"] + (f" ({'; '.join(facts)})" if facts else "")
+        lines.append(f"| {name} | {default} | {what.replace('|', chr(92) + '|')} | {', '.join(setting['subcommands'])} |")
+    return "\n".join(lines) + "\n"
+
+
+def cli_differences(root: Path, settings: dict[str, dict], write: bool) -> list[str]:
+    file = root / "docs/cli.md"
+    text = file.read_text(encoding="utf-8")
+    match = re.search(r"<!-- options begin[^\n]*-->\n(.*?)<!-- options end -->", text, re.DOTALL)
+    if not match:
+        return ["docs/cli.md: no table between its marks"]
+    wanted = option_table(settings)
+    if match.group(1) == wanted:
+        return []
+    if write:
+        file.write_text(text[:match.start(1)] + wanted + text[match.end(1):], encoding="utf-8")
+        return []
+    rows = set(match.group(1).splitlines()) ^ set(wanted.splitlines())
+    return [f"docs/cli.md: the program's options differ (tools/check_docs.py --write . build/gnomon): {row}"
+            for row in sorted(rows)] or ["docs/cli.md: the options' order differs"]
 
 
 def unknown_options(root: Path, settings: dict[str, dict]) -> list[str]:
@@ -88,11 +116,13 @@ def unknown_options(root: Path, settings: dict[str, dict]) -> list[str]:
 
 
 def main() -> int:
-    root = Path(sys.argv[1]).resolve()
+    write = "--write" in sys.argv
+    arguments = [argument for argument in sys.argv[1:] if argument != "--write"]
+    root = Path(arguments[0]).resolve()
     found = broken_links(root) + snippet_differences(root)
-    if len(sys.argv) > 2:
-        settings = settings_of(sys.argv[2])
-        found += cli_differences(root, settings) + unknown_options(root, settings)
+    if len(arguments) > 1:
+        settings = settings_of(arguments[1])
+        found += cli_differences(root, settings, write) + unknown_options(root, settings)
     for line in found:
         print(line, file=sys.stderr)
     print(f"docs: {len(found)} faults")

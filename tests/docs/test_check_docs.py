@@ -15,20 +15,30 @@ TREE = {
     "README.md": "See [the options](docs/cli.md#options).\n```cpp\nint a = 1;\n\nint b = a;\n```\n",
     "examples/readme_snippet.cpp": "int main()\n{\n    // README begin\n    int a = 1;\n\n    int b = a;\n"
                                    "    // README end\n}\n",
-    "docs/cli.md": "`gnomon render rts --map-size 512 -o a.png`\n\n| option | default | unit | what |\n|---|---|---|---|\n"
-                   "| `--map-size N` | `2048` | texels | side |\n| `--camera NAME` | | | which |\n",
+    "docs/cli.md": "`gnomon render rts --map-size 512 -o a.png`\n\n<!-- options begin -->\n"
+                   "| option | default | what it is | for |\n|---|---|---|---|\n"
+                   "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"
+                   "| `--set pcf.kernel=` | `3x3` | kernel (one of 2x2 3x3; with filter pcf) | render |\n"
+                   "<!-- options end -->\n",
 }
 # Stands for the program: prints what `gnomon list --json` would.
 PROGRAM = """#!/bin/sh
-echo '{"settings": [{"key": "map-size", "default": "2048"}, {"key": "camera", "default": ""}]}'
+cat <<'END'
+{"settings": [
+  {"key": "map-size", "default": 2048, "doc": "side", "unit": "texels", "min": 16.0, "max": 16384.0,
+   "subcommands": ["render", "plan"]},
+  {"key": "pcf.kernel", "default": "3x3", "doc": "kernel", "values": ["2x2", "3x3"], "used_with": "filter pcf",
+   "option": false, "subcommands": ["render"]}]}
+END
 """
 FAULTS = [
     ("README.md", "docs/cli.md#options", "docs/none.md", "docs/none.md does not exist"),
     ("README.md", "int a = 1;", "int a = 2;", "no C++ block"),
     ("examples/readme_snippet.cpp", "README end", "the end", "no lines between"),
-    ("docs/cli.md", "| `2048` |", "| `1024` |", "the default of map-size"),
-    ("docs/cli.md", "| `--camera NAME` | | | which |\n", "", "no row for camera"),
-    ("docs/cli.md", "which |\n", "which |\n| `--lens N` | | | what |\n", "lens is no option"),
+    ("docs/cli.md", "| `2048` |", "| `1024` |", "the program's options differ"),
+    ("docs/cli.md", "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n", "",
+     "the program's options differ"),
+    ("docs/cli.md", "<!-- options begin -->\n", "", "no table"),
     ("docs/cli.md", "--map-size 512", "--map-width 512", "no option map-width"),
     ("docs/cli.md", "--map-size 512", "--set map-widht=512", "no option map-widht"),
 ]
