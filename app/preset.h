@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Presets: JSON objects of settings, built in or in files.
+#pragma once
+
+#include "app/settings.h"
+
+#include <span>
+#include <string_view>
+
+namespace gnomon::app {
+
+struct Preset {
+    std::string_view name;
+    std::string_view summary; // one line, with the source
+    std::string_view json;    // {"key": value, ...}; "scene" is allowed too
+};
+[[nodiscard]] std::span<const Preset> presets();
+
+/// Applies a built-in preset, or a file when no preset has the name. Keys that are no option of the subcommand are
+/// passed over, so that one file serves all; unknown keys are refused. Throws UsageError, or Error when a file cannot
+/// be read.
+void applyPreset(Settings& settings, std::string_view name_or_file, std::uint32_t subcommand);
+
+} // namespace gnomon::app

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every option of the program, declared once. The command line, --set, presets, `gnomon list` and reports all read the
+// one table that settingTable() returns.
+#pragma once
+
+#include "host/renderer.h"
+#include "scene/load.h"
+
+#include <gnomon/planner.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::app {
+
+/// Wrong usage: one line on stderr and exit status 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct SpotLight {
+    glm::dvec3 position_ws{0.0};
+    glm::dvec3 target_ws{0.0};
+    double angle_deg = 45.0; // the whole cone
+};
+struct PointLight {
+    glm::dvec3 position_ws{0.0};
+    double range_m = 1.0;
+};
+struct FrameRange {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+};
+
+/// What one run was asked to do. Made by defaultSettings() and changed by applySetting() only, so that `values` tells
+/// all.
+struct Settings {
+    std::string scene = "rts";
+    // picture
+    glm::uvec2 size_px{0};
+    host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
+    std::string material_override; // empty or "diffuse"
+    bool ground = false;
+    // camera
+    std::string camera;
+    std::optional<glm::dvec3> eye_ws;
+    std::optional<glm::dvec3> target_ws;
+    glm::dvec3 up_ws{0.0, 1.0, 0.0};
+    std::optional<double> fov_deg;
+    // lights
+    std::optional<glm::dvec3> sun_ws; // unit, the way light travels
+    double sun_angle_deg = 0.0;
+    std::optional<SpotLight> spot;
+    std::optional<PointLight> point;
+    std::optional<double> light_size_m;
+    // technique
+    PlanOptions plan;
+    vulkan::FilterOptions filter;
+    bool format_given = false; // else the filter's own default
+    bool border_given = false; // else what the kernel needs
+    // time
+    double time_s = 0.0;
+    std::optional<FrameRange> frames;
+    double fps = 0.0;
+    std::string animation;
+    // run
+    std::uint64_t seed = 0;
+    std::string gpu;
+    bool validate = false;
+    scene::Limits limits;
+    // results
+    std::string output;
+    bool mask = false;
+    std::string light;
+    std::string json; // empty: not asked for; "-": stdout
+    std::vector<std::string> techniques;
+    std::uint32_t repetitions = 0;
+    std::uint32_t warmup = 0;
+
+    /// The text of every setting that has a value, by key; defaults included.
+    std::map<std::string, std::string, std::less<>> values;
+    /// Keys that the command line itself gave (not defaults, not presets).
+    std::map<std::string, bool, std::less<>> given;
+};
+
+enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };
+enum class SettingGroup : std::uint8_t { picture, camera, light, technique, time, run, result };
+
+/// A parsed and range-checked value; the member of the setting's type holds.
+struct SettingValue {
+    bool flag = false;
+    std::int64_t integer = 0;
+    double real = 0.0;
+    std::vector<double> numbers; // numbers, size (2), range (2)
+    std::string text;            // choice, text
+};
+
+inline constexpr std::uint32_t kRender = 1;
+inline constexpr std::uint32_t kPlan = 2;
+inline constexpr std::uint32_t kBench = 4;
+inline constexpr std::uint32_t kList = 8;
+inline constexpr std::uint32_t kFrames = kRender | kPlan | kBench; // all that take a scene
+
+struct Setting {
+    std::string_view key;
+    SettingGroup group = SettingGroup::picture;
+    SettingType type = SettingType::text;
+    std::string_view form;         // how its value is written, for help: "WxH"
+    std::string_view unit;         // empty: none
+    std::string_view default_text; // empty: no value unless given
+    double min = 0.0;              // of each number; inclusive
+    double max = 0.0;
+    std::uint32_t count = 1;                              // numbers: how many
+    std::vector<std::string_view> (*choices)() = nullptr; // choice: what is allowed
+    std::string_view doc;                                 // one line
+    std::uint32_t subcommands = kFrames;                  // which have it
+    bool own_option = true;                               // false: only --set, presets and techniques
+    bool repeatable = false;                              // each use adds to the ones before
+    bool (*used)(const Settings&) = nullptr;              // null: always has an effect
+    std::string_view used_when;                           // the sentence for it: "filter pcf"
+    void (*apply)(Settings&, const SettingValue&) = nullptr;
+};
+
+[[nodiscard]] std::span<const Setting> settingTable();
+[[nodiscard]] const Setting* findSetting(std::string_view key);
+
+/// All defaults applied.
+[[nodiscard]] Settings defaultSettings();
+/// Parses, checks and applies one value. Throws UsageError that names the setting, what is wrong and what is allowed.
+void applySetting(Settings& settings, const Setting& setting, std::string_view text);
+/// The same by key; an unknown key's UsageError suggests the nearest.
+void applySetting(Settings& settings, std::string_view key, std::string_view text);
+/// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.
+void validateSettings(const Settings& settings);
+/// Fills in what follows from other settings (map format, border). Throws UsageError when choices are refused.
+void completeTechnique(Settings& settings);
+
+/// "pcf+pcf.kernel=5x5+map-size=1024": values of the choices and KEY=VALUE of technique settings joined by +. Applies
+/// them to a copy of `base`. Throws UsageError.
+[[nodiscard]] Settings parseTechnique(const Settings& base, std::string_view text);
+/// The shortest text that parseTechnique() turns into these settings.
+[[nodiscard]] std::string describeTechnique(const Settings& settings);
+
+/// The nearest of `names` to what was typed, as " (did you mean \"x\"?)", or empty when none is near.
+[[nodiscard]] std::string suggestion(std::string_view typed, const std::vector<std::string_view>& names);
+/// "a, b and c".
+[[nodiscard]] std::string listed(const std::vector<std::string_view>& names);
+
+} // namespace gnomon::app

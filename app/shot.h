@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run looks at: the scene, the lights and the camera, put together from the file and the settings.
+#pragma once
+
+#include "app/settings.h"
+#include "host/renderer.h"
+#include "scene/model.h"
+#include "scene/state.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::app {
+
+struct Shot {
+    scene::Scene scene;
+    scene::State state;
+    std::string camera; // name of the view, or how it was chosen
+    host::Eye eye;
+    std::vector<host::ShadedLight> lights;
+    std::vector<std::string> notices; // sentences for people, on stderr
+};
+
+/// Loads the scene, applies what the settings change in it and evaluates it at --time (or at the first of --frames).
+/// Throws UsageError for a camera that is not there and for lights of the command line that the technique refuses.
+[[nodiscard]] Shot makeShot(const Settings& settings);
+/// Moves everything to a frame of --frames; camera and lights of the scene follow.
+void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
+[[nodiscard]] double timeOf(const Settings& settings, std::uint32_t frame);
+
+[[nodiscard]] host::RenderOptions renderOptions(const Settings& settings);
+/// The frame that the library plans, over objects filled from the state (host::fillObjectSet).
+[[nodiscard]] std::vector<Light> castersOf(const Shot& shot);
+
+/// A three-quarter view from which all of `bounds_ws` is in the picture.
+[[nodiscard]] host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect);
+
+} // namespace gnomon::app

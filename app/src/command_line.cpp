@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/command_line.h"
+
+#include "app/preset.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+namespace gnomon::app {
+namespace {
+
+/// What the program's contract names and this version does not have. Refused by name, never ignored.
+struct Missing {
+    std::string_view name;
+    std::string_view sentence;
+};
+constexpr std::array kMissingSubcommands{
+    Missing{"compare", "comparing with ray-traced truth is not in this version"},
+    Missing{"metrics", "error numbers of two images are not in this version"},
+    Missing{"view", "the window is not in this version"},
+};
+constexpr std::array kMissingOptions{
+    Missing{"--truth", "ray-traced truth is not in this version"},
+    Missing{"--samples", "rays per pixel belong to ray-traced truth, which is not in this version"},
+    Missing{"--path", "scripted cameras and suns are not in this version"},
+    Missing{"--report", "reports belong to the subcommand compare, which is not in this version"},
+};
+
+const Subcommand& findSubcommand(const std::string& name)
+{
+    std::vector<std::string_view> names;
+    for (const Subcommand& subcommand : subcommands()) {
+        names.push_back(subcommand.name);
+        if (subcommand.name == name) {
+            return subcommand;
+        }
+    }
+    for (const Missing& missing : kMissingSubcommands) {
+        if (missing.name == name) {
+            throw UsageError(fmt::format("{}: {}; it has {}", name, missing.sentence, listed(names)));
+        }
+    }
+    throw UsageError(
+        fmt::format("there is no subcommand \"{}\"{}; it is one of {}", name, suggestion(name, names), listed(names)));
+}
+
+std::string_view aliasOf(std::string_view key)
+{
+    return key == "out" ? ",-o" : "";
+}
+
+[[noreturn]] void refuseOption(const Subcommand& subcommand, const std::string& argument)
+{
+    const std::string name = argument.substr(0, argument.find('='));
+    for (const Missing& missing : kMissingOptions) {
+        if (missing.name == name) {
+            throw UsageError(fmt::format("{}: {}", name, missing.sentence));
+        }
+    }
+    std::vector<std::string> spelled{"--set", "--preset", "--help"};
+    for (const Setting& setting : settingTable()) {
+        if (fmt::format("--{}", setting.key) == name) {
+            throw UsageError(setting.own_option && (setting.subcommands & subcommand.bit) == 0
+                                 ? fmt::format("{} is not an option of {}", name, subcommand.name)
+                                 : fmt::format("{} is set by --set {}=VALUE", name, setting.key));
+        }
+        if (setting.own_option && (setting.subcommands & subcommand.bit) != 0) {
+            spelled.push_back(fmt::format("--{}", setting.key));
+        }
+    }
+    throw UsageError(fmt::format("there is no option {}{}; see `gnomon {} --help`", name,
+                                 suggestion(name, {spelled.begin(), spelled.end()}), subcommand.name));
+}
+
+/// The command line's options in the order given, CLI11 doing the splitting.
+struct Parsed {
+    std::vector<std::string> scenes;
+    std::vector<std::string> sets;
+    std::vector<std::string> presets;
+    std::deque<std::pair<const Setting*, std::vector<std::string>>> options;
+    bool help = false;
+};
+
+void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
+{
+    for (const Setting& setting : settingTable()) {
+        if (!setting.own_option || (setting.subcommands & subcommand.bit) == 0 || setting.key == "json") {
+            continue;
+        }
+        auto& values = parsed.options.emplace_back(&setting, std::vector<std::string>{}).second;
+        const std::string name = fmt::format("--{}{}", setting.key, aliasOf(setting.key));
+        if (setting.type == SettingType::flag) {
+            cli.add_flag_callback(name, [&values] { values.emplace_back("1"); });
+        } else {
+            cli.add_option(name, values)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        }
+    }
+    if ((subcommand.bit & kFrames) != 0) {
+        cli.add_option("scene", parsed.scenes)->expected(-1);
+        cli.add_option("--set", parsed.sets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        cli.add_option("--preset", parsed.presets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+    cli.add_flag("-h,--help", parsed.help);
+    cli.allow_extras();
+}
+
+/// --json's FILE may be left out, which no parser can tell from a scene that follows: a value is "-" or ends in .json.
+std::vector<std::string> takeJson(std::span<const std::string> arguments, const Subcommand& subcommand,
+                                  std::optional<std::string>& json)
+{
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& argument = arguments[i];
+        if ((findSetting("json")->subcommands & subcommand.bit) == 0 ||
+            (argument != "--json" && !argument.starts_with("--json="))) {
+            rest.push_back(argument);
+        } else if (argument != "--json") {
+            json = argument.substr(argument.find('=') + 1);
+        } else if (i + 1 < arguments.size() && (arguments[i + 1] == "-" || arguments[i + 1].ends_with(".json"))) {
+            json = arguments[++i];
+        } else {
+            json = "-";
+        }
+    }
+    return rest;
+}
+
+void parseWithCli(const Subcommand& subcommand, std::vector<std::string> arguments, Parsed& parsed)
+{
+    CLI::App cli;
+    cli.set_help_flag();
+    addOptions(cli, subcommand, parsed);
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
+    try {
+        cli.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+        std::string line = error.what();
+        std::replace(line.begin(), line.end(), '\n', ' ');
+        throw UsageError(line);
+    }
+    for (const std::string& extra : cli.remaining()) {
+        if (extra.starts_with("-") && extra.size() > 1) {
+            refuseOption(subcommand, extra);
+        }
+        throw UsageError(fmt::format("{} takes no argument \"{}\"", subcommand.name, extra));
+    }
+    if (parsed.scenes.size() > 1) {
+        throw UsageError(
+            fmt::format("\"{}\" is one argument too many: the scene is \"{}\"", parsed.scenes[1], parsed.scenes[0]));
+    }
+}
+
+void applyGiven(Settings& settings, const Setting& setting, std::string_view text, const Subcommand& subcommand)
+{
+    if ((setting.subcommands & subcommand.bit) == 0) {
+        throw UsageError(fmt::format("{} is not a setting of {}", setting.key, subcommand.name));
+    }
+    applySetting(settings, setting, text);
+    settings.given[std::string(setting.key)] = true;
+}
+
+void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcommand)
+{
+    for (const std::string& preset : parsed.presets) {
+        applyPreset(settings, preset, subcommand.bit);
+    }
+    if (!parsed.scenes.empty()) {
+        settings.scene = parsed.scenes.front();
+    }
+    for (const auto& [setting, values] : parsed.options) {
+        for (const std::string& value : values) {
+            applyGiven(settings, *setting, value, subcommand);
+        }
+    }
+    for (const std::string& text : parsed.sets) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos) {
+            throw UsageError(fmt::format("--set: \"{}\" is not KEY=VALUE", text));
+        }
+        const std::string key = text.substr(0, equals);
+        if (findSetting(key) == nullptr) {
+            applySetting(settings, key, ""); // throws with a suggestion
+        }
+        applyGiven(settings, *findSetting(key), std::string_view(text).substr(equals + 1), subcommand);
+    }
+}
+
+} // namespace
+
+Command parseCommandLine(std::span<const std::string> arguments)
+{
+    Command command;
+    if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
+        command.kind = Command::Kind::help;
+        if (arguments.size() > 1 && arguments[0] == "help") {
+            command.subcommand = &findSubcommand(arguments[1]);
+        }
+        return command;
+    }
+    if (arguments[0] == "--version") {
+        command.kind = Command::Kind::version;
+        return command;
+    }
+    if (arguments[0].starts_with("-")) {
+        throw UsageError(fmt::format("{}: a subcommand comes first; see `gnomon --help`", arguments[0]));
+    }
+    command.subcommand = &findSubcommand(arguments[0]);
+    std::optional<std::string> json;
+    Parsed parsed;
+    parseWithCli(*command.subcommand, takeJson(arguments.subspan(1), *command.subcommand, json), parsed);
+    if (parsed.help) {
+        command.kind = Command::Kind::help;
+        return command;
+    }
+    command.settings = defaultSettings();
+    applyAll(command.settings, parsed, *command.subcommand);
+    if (json) {
+        applyGiven(command.settings, *findSetting("json"), *json, *command.subcommand);
+    }
+    if ((command.subcommand->bit & kFrames) != 0) {
+        completeTechnique(command.settings);
+    }
+    validateSettings(command.settings);
+    return command;
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Help, made from the setting table. A screen is 40 lines of 100 columns; a test holds it to that.
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+namespace gnomon::app {
+namespace {
+
+constexpr std::size_t kColumn = 30;
+
+std::string line(const std::string& left, const std::string& right)
+{
+    return fmt::format("  {:<{}}{}\n", left, kColumn, right);
+}
+
+std::string programHelp()
+{
+    std::string text = "Usage: gnomon SUBCOMMAND [SCENE] [options]\n"
+                       "Real-time soft shadows: draw them, plan them, time them.\n\nSubcommands:\n";
+    for (const Subcommand& subcommand : subcommands()) {
+        text += line(std::string(subcommand.name), std::string(subcommand.summary));
+    }
+    text += "\nSCENE is a .gltf or .glb file or a built-in world:\n";
+    for (const scene::World& world : scene::worlds()) {
+        text += line(std::string(world.name), std::string(world.summary));
+    }
+    return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` every value and setting there is,\n"
+                  "`gnomon --version` the version. Exit status: 0 success, 1 failure, 2 wrong usage.\n";
+}
+
+std::string optionLine(const Setting& setting)
+{
+    std::string left = fmt::format("--{}", setting.key);
+    if (setting.key == "out") {
+        left = "-o, --out";
+    }
+    if (setting.type != SettingType::flag) {
+        left += fmt::format(" {}", setting.form);
+    }
+    std::string right(setting.doc);
+    if (setting.type != SettingType::flag && !setting.default_text.empty()) {
+        right += fmt::format(" ({})", setting.default_text);
+    }
+    return line(left, right);
+}
+
+} // namespace
+
+std::string helpText(const Subcommand* subcommand)
+{
+    if (subcommand == nullptr) {
+        return programHelp();
+    }
+    std::string text =
+        fmt::format("Usage: gnomon {} {}\n{}\n", subcommand->name, subcommand->arguments, subcommand->summary);
+    std::string choices;
+    for (const Setting& setting : settingTable()) {
+        if (!setting.own_option || (setting.subcommands & subcommand->bit) == 0) {
+            continue;
+        }
+        // The choices share a line: their values fill `gnomon list`.
+        if (setting.group == SettingGroup::technique && setting.default_text.size() > 2 &&
+            setting.type == SettingType::choice) {
+            choices += (choices.empty() ? "" : " ") + fmt::format("--{}", setting.key);
+            continue;
+        }
+        if (!choices.empty() && setting.group == SettingGroup::technique) {
+            text += line(choices, "one value each");
+            choices.clear();
+        }
+        text += optionLine(setting);
+    }
+    if ((subcommand->bit & kFrames) != 0) {
+        text += line("--set KEY=VALUE", "any other setting; `gnomon list` shows them");
+        text += line("--preset NAME|FILE", "a JSON file of settings, or a built-in one");
+    }
+    return text + line("-h, --help", "this text; defaults are in brackets");
+}
+
+} // namespace gnomon::app

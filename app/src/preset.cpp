@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/preset.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace gnomon::app {
+namespace {
+
+constexpr std::array kPresets{
+    Preset{"demo", "the built-in rts world at its best: what `make demo` draws", R"({
+  "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa",
+  "filter": "pcf", "pcf.kernel": "5x5", "map-size": 4096, "bias": "auto"
+})"},
+    Preset{"fast", "the least work that still looks right", R"({
+  "filter": "pcf", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
+})"},
+    // The document's first part: a floating-point map, one constant bias for the scene, nine comparisons. Its blur in
+    // screen space is soften=blur and not part of this preset.
+    Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF on a 1024 R32F map, bias 0.1", R"({
+  "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1"
+})"},
+};
+
+/// A JSON value as it would be typed.
+std::string typed(const nlohmann::json& value)
+{
+    if (value.is_string()) {
+        return value.get<std::string>();
+    }
+    if (value.is_boolean()) {
+        return value.get<bool>() ? "1" : "0";
+    }
+    if (value.is_array()) {
+        std::string text;
+        for (const auto& element : value) {
+            text += (text.empty() ? "" : ",") + typed(element);
+        }
+        return text;
+    }
+    return value.dump();
+}
+
+void applyEntry(Settings& settings, const std::string& key, const nlohmann::json& value, std::uint32_t subcommand)
+{
+    if (key == "scene") {
+        settings.scene = typed(value);
+        return;
+    }
+    if (value.is_object() || value.is_null()) {
+        throw UsageError(fmt::format("{} is neither a string, a number, true, false nor a list", key));
+    }
+    const Setting* setting = findSetting(key);
+    if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
+        return;
+    }
+    if (setting != nullptr && setting->repeatable && value.is_array()) {
+        for (const auto& element : value) {
+            applySetting(settings, *setting, typed(element));
+        }
+        return;
+    }
+    applySetting(settings, key, typed(value));
+}
+
+void applyJson(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
+{
+    // Ordered, because bias ends what bias.constant said before it.
+    const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!json.is_object()) {
+        throw UsageError(fmt::format("--preset: {} is not a JSON object of settings", name));
+    }
+    for (const auto& [key, value] : json.items()) {
+        try {
+            applyEntry(settings, key, value, subcommand);
+        } catch (const UsageError& error) {
+            throw UsageError(fmt::format("preset {}: {}", name, error.what()));
+        }
+    }
+}
+
+std::string readPreset(const std::filesystem::path& file)
+{
+    constexpr std::uintmax_t kMaxBytes = 1U << 20U;
+    if (std::filesystem::is_directory(file)) {
+        throw Error("reading preset " + file.string(), "it is a directory");
+    }
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        throw Error("reading preset " + file.string(), std::strerror(errno));
+    }
+    std::string text(kMaxBytes + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMaxBytes) {
+        throw Error("reading preset " + file.string(), fmt::format("it has more than {} bytes", kMaxBytes));
+    }
+    return text;
+}
+
+} // namespace
+
+std::span<const Preset> presets()
+{
+    return kPresets;
+}
+
+void applyPreset(Settings& settings, std::string_view name_or_file, std::uint32_t subcommand)
+{
+    std::vector<std::string_view> names;
+    for (const Preset& preset : kPresets) {
+        names.push_back(preset.name);
+        if (preset.name == name_or_file) {
+            applyJson(settings, std::string(name_or_file), preset.json, subcommand);
+            return;
+        }
+    }
+    const std::filesystem::path file(name_or_file);
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        throw UsageError(fmt::format("--preset: \"{}\" is no file and no preset{}; presets are {}", name_or_file,
+                                     suggestion(name_or_file, names), listed(names)));
+    }
+    applyJson(settings, file.string(), readPreset(file), subcommand);
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/command_line.h"
+
+#include "subcommands.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+namespace gnomon::app {
+namespace {
+
+constexpr std::array kSubcommands{
+    Subcommand{"render", kRender, "[SCENE] [options]",
+               "Draws a picture, or one light's visibility mask, to PNG or EXR.", runRender},
+    Subcommand{"plan", kPlan, "[SCENE] [options]", "Prints the plan of a frame as JSON; needs no GPU.", runPlan},
+    Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
+               runBench},
+    Subcommand{"list", kList, "[options]",
+               "Prints every value of every choice, what is refused and why, every setting.", runList},
+};
+
+int complain(std::string line, int status)
+{
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    fmt::print(stderr, "gnomon: {}\n", line);
+    return status;
+}
+
+int dispatch(std::span<const std::string> arguments)
+{
+    const Command command = parseCommandLine(arguments);
+    switch (command.kind) {
+    case Command::Kind::help:
+        writeStdout(helpText(command.subcommand));
+        return 0;
+    case Command::Kind::version:
+        writeStdout(fmt::format("gnomon {}\n", GNOMON_VERSION));
+        return 0;
+    case Command::Kind::run:
+        break;
+    }
+    return command.subcommand->run(command.settings);
+}
+
+} // namespace
+
+std::span<const Subcommand> subcommands()
+{
+    return kSubcommands;
+}
+
+void writeStdout(std::string_view text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw Error("writing to standard output", std::strerror(errno));
+    }
+}
+
+int runProgram(std::span<const std::string> arguments)
+{
+    // A closed pipe and a file size limit are to come back as errors of the call, not to end the process half way.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    constexpr int kFailure = 1;
+    constexpr int kWrongUsage = 2;
+    try {
+        return dispatch(arguments);
+    } catch (const UsageError& error) {
+        return complain(error.what(), kWrongUsage);
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory; a smaller --size or --map-size, or a smaller scene, needs less", kFailure);
+    } catch (const std::exception& error) {
+        return complain(error.what(), kFailure);
+    }
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result_json.h"
+
+#include "setting_values.h"
+#include "subcommands.h"
+
+#include "image/image_io.h"
+
+namespace gnomon::app {
+namespace {
+
+Json typed(const Setting& setting, const std::string& text)
+{
+    switch (setting.type) {
+    case SettingType::flag:
+        return text == "1" || text == "true" || text == "on" || text == "yes";
+    case SettingType::integer:
+        return toInteger(text).value_or(0);
+    case SettingType::real:
+        return toNumber(text).value_or(0.0);
+    case SettingType::numbers: {
+        Json numbers = Json::array();
+        for (const std::string_view piece : split(text, ',')) {
+            numbers.push_back(toNumber(piece).value_or(0.0));
+        }
+        return numbers;
+    }
+    case SettingType::choice:
+    case SettingType::size:
+    case SettingType::range:
+    case SettingType::text:
+        break;
+    }
+    return text;
+}
+
+std::string_view nameOf(SettingType type)
+{
+    constexpr std::string_view kNames[] = {"flag", "integer", "real", "choice", "numbers", "size", "range", "text"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+} // namespace
+
+Json settingsJson(const Settings& settings, std::uint32_t subcommand)
+{
+    Json json;
+    for (const Setting& setting : settingTable()) {
+        const auto value = settings.values.find(setting.key);
+        if (value != settings.values.end() && (setting.subcommands & subcommand) != 0) {
+            json[std::string(setting.key)] = typed(setting, value->second);
+        }
+    }
+    return json;
+}
+
+Json choicesJson(const Technique& technique)
+{
+    return {{"partition", gnomon::nameOf(technique.partition)},
+            {"fit", gnomon::nameOf(technique.fit)},
+            {"filter", gnomon::nameOf(technique.filter)},
+            {"soften", gnomon::nameOf(technique.soften)},
+            {"motion", gnomon::nameOf(technique.motion)}};
+}
+
+Json settingJson(const Setting& setting)
+{
+    Json json{{"key", setting.key}, {"type", nameOf(setting.type)}, {"doc", setting.doc}};
+    if (!setting.unit.empty()) {
+        json["unit"] = setting.unit;
+    }
+    if (!setting.default_text.empty()) {
+        json["default"] = typed(setting, std::string(setting.default_text));
+    }
+    if (setting.min < setting.max) {
+        json["min"] = setting.min;
+        json["max"] = setting.max;
+    }
+    if (setting.choices != nullptr) {
+        json["values"] = setting.choices();
+    }
+    if (!setting.used_when.empty()) {
+        json["used_with"] = setting.used_when;
+    }
+    json["option"] = setting.own_option;
+    Json commands = Json::array();
+    constexpr std::pair<std::uint32_t, std::string_view> kNames[] = {
+        {kRender, "render"}, {kPlan, "plan"}, {kBench, "bench"}, {kList, "list"}};
+    for (const auto& [bit, name] : kNames) {
+        if ((setting.subcommands & bit) != 0) {
+            commands.push_back(name);
+        }
+    }
+    json["subcommands"] = commands;
+    return json;
+}
+
+void writeResult(const std::string& file, std::string_view text)
+{
+    if (file.empty() || file == "-") {
+        writeStdout(text);
+    } else {
+        writeFile(file, text);
+    }
+}
+
+} // namespace gnomon::app

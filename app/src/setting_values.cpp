@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "setting_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace gnomon::app {
+namespace {
+
+[[noreturn]] void refuse(const Setting& setting, std::string_view text, const std::string& expected)
+{
+    throw UsageError(fmt::format("--{}: \"{}\" is not {}", setting.key, text, expected));
+}
+
+std::string rangeText(const Setting& setting)
+{
+    return fmt::format("{} to {}{}{}", setting.min, setting.max, setting.unit.empty() ? "" : " ", setting.unit);
+}
+
+void requireInRange(const Setting& setting, std::string_view text, double value)
+{
+    if (!(value >= setting.min && value <= setting.max)) {
+        refuse(setting, text, "in the range " + rangeText(setting));
+    }
+}
+
+std::int64_t integerOf(const Setting& setting, std::string_view text)
+{
+    const auto value = toInteger(text);
+    if (!value) {
+        refuse(setting, text, "a whole number in the range " + rangeText(setting));
+    }
+    requireInRange(setting, text, static_cast<double>(*value));
+    return *value;
+}
+
+double realOf(const Setting& setting, std::string_view whole, std::string_view text)
+{
+    const auto value = toNumber(text);
+    if (!value) {
+        refuse(setting, whole,
+               setting.count > 1
+                   ? fmt::format("{} finite numbers with commas between ({})", setting.count, setting.form)
+                   : "a finite number");
+    }
+    requireInRange(setting, whole, *value);
+    return *value;
+}
+
+std::vector<double> numbersOf(const Setting& setting, std::string_view text)
+{
+    const auto pieces = split(text, ',');
+    if (pieces.size() != setting.count) {
+        refuse(setting, text, fmt::format("{} numbers with commas between ({})", setting.count, setting.form));
+    }
+    std::vector<double> numbers;
+    for (const std::string_view piece : pieces) {
+        numbers.push_back(realOf(setting, text, piece));
+    }
+    return numbers;
+}
+
+/// Two whole numbers: WxH or A-B.
+std::vector<double> pairOf(const Setting& setting, std::string_view text, char separator)
+{
+    const auto pieces = split(text, separator);
+    std::vector<double> numbers;
+    for (const std::string_view piece : pieces) {
+        if (const auto value = toInteger(piece)) {
+            numbers.push_back(static_cast<double>(*value));
+        }
+    }
+    if (pieces.size() != 2 || numbers.size() != 2) {
+        refuse(setting, text, fmt::format("{} in whole numbers", setting.form));
+    }
+    for (const double number : numbers) {
+        requireInRange(setting, text, number);
+    }
+    return numbers;
+}
+
+bool flagOf(const Setting& setting, std::string_view text)
+{
+    if (text == "1" || text == "true" || text == "on" || text == "yes") {
+        return true;
+    }
+    if (text == "0" || text == "false" || text == "off" || text == "no") {
+        return false;
+    }
+    refuse(setting, text, "0 or 1");
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+std::optional<double> toNumber(std::string_view text)
+{
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::optional<std::int64_t> toInteger(std::string_view text)
+{
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator)
+{
+    std::vector<std::string_view> pieces;
+    for (;;) {
+        const std::size_t end = text.find(separator);
+        pieces.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) {
+            return pieces;
+        }
+        text.remove_prefix(end + 1);
+    }
+}
+
+SettingValue parseValue(const Setting& setting, std::string_view text)
+{
+    SettingValue value;
+    switch (setting.type) {
+    case SettingType::flag:
+        value.flag = flagOf(setting, text);
+        break;
+    case SettingType::integer:
+        value.integer = integerOf(setting, text);
+        break;
+    case SettingType::real:
+        value.real = realOf(setting, text, text);
+        break;
+    case SettingType::numbers:
+        value.numbers = numbersOf(setting, text);
+        break;
+    case SettingType::size:
+        value.numbers = pairOf(setting, text, 'x');
+        break;
+    case SettingType::range:
+        value.numbers = pairOf(setting, text, '-');
+        break;
+    case SettingType::choice: {
+        const auto allowed = setting.choices();
+        if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
+            throw UsageError(fmt::format("--{}: there is no \"{}\"{}; it takes {}", setting.key, text,
+                                         suggestion(text, allowed), listed(allowed)));
+        }
+        value.text = text;
+        break;
+    }
+    case SettingType::text:
+        if (text.empty()) {
+            refuse(setting, text, fmt::format("a {}", setting.form));
+        }
+        value.text = text;
+        break;
+    }
+    return value;
+}
+
+std::string suggestion(std::string_view typed, const std::vector<std::string_view>& names)
+{
+    std::string_view best;
+    std::size_t best_distance = std::max<std::size_t>(2, typed.size() / 3) + 1;
+    for (const std::string_view name : names) {
+        const std::size_t distance = editDistance(typed, name);
+        if (distance < best_distance && distance < name.size()) {
+            best = name;
+            best_distance = distance;
+        }
+    }
+    return best.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", best);
+}
+
+std::string listed(const std::vector<std::string_view>& names)
+{
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i != 0) {
+            text += i + 1 == names.size() ? " and " : ", ";
+        }
+        text += names[i];
+    }
+    return text;
+}
+
+} // namespace gnomon::app

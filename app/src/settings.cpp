@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/settings.h"
+
+#include "setting_values.h"
+
+#include <gnomon/choices.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::app {
+namespace {
+
+void validateCamera(const Settings& s)
+{
+    if (s.eye_ws.has_value() != s.target_ws.has_value()) {
+        throw UsageError(s.eye_ws ? "--eye needs --target" : "--target needs --eye");
+    }
+    if (!s.eye_ws) {
+        return;
+    }
+    if (!s.camera.empty()) {
+        throw UsageError("--camera and --eye both say where the camera is; give one");
+    }
+    const glm::dvec3 forward = *s.target_ws - *s.eye_ws;
+    const double distance = glm::length(forward);
+    // Relative to the coordinates: two points that single precision cannot tell apart are one.
+    if (!(distance > 1e-7 * (1e-3 + glm::length(*s.eye_ws)))) {
+        throw UsageError("--eye and --target are the same point");
+    }
+    if (glm::length(glm::cross(forward / distance, s.up_ws)) < 1e-6) {
+        throw UsageError("--up is parallel to the line from --eye to --target");
+    }
+}
+
+const ChoiceValue* findTechniqueValue(std::string_view name)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.choice != "light" && row.name == name) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+bool isChoice(std::string_view key)
+{
+    const auto values = choiceValues();
+    return std::any_of(values.begin(), values.end(), [&](const ChoiceValue& row) { return row.choice == key; });
+}
+
+} // namespace
+
+const Setting* findSetting(std::string_view key)
+{
+    for (const Setting& setting : settingTable()) {
+        if (setting.key == key) {
+            return &setting;
+        }
+    }
+    return nullptr;
+}
+
+Settings defaultSettings()
+{
+    Settings settings;
+    for (const Setting& setting : settingTable()) {
+        if (!setting.default_text.empty()) {
+            applySetting(settings, setting, setting.default_text);
+        }
+    }
+    return settings;
+}
+
+void applySetting(Settings& settings, const Setting& setting, std::string_view text)
+{
+    setting.apply(settings, parseValue(setting, text));
+    std::string& value = settings.values[std::string(setting.key)];
+    value = setting.repeatable && !value.empty() ? fmt::format("{} {}", value, text) : std::string(text);
+    if (setting.key == "bias") { // says all of it: parts given before no longer hold
+        std::erase_if(settings.values, [](const auto& entry) { return entry.first.starts_with("bias."); });
+        if (text != "auto" && text != "none") { // kept as its parts, so that there is one way to write it down
+            value = "none";
+            for (const std::string_view part : split(text, ',')) {
+                const std::size_t equals = part.find('=');
+                settings.values[fmt::format("bias.{}", part.substr(0, equals))] = part.substr(equals + 1);
+            }
+        }
+    } else if (setting.key.starts_with("bias.") && settings.values["bias"] == "auto") {
+        settings.values["bias"] = "none";
+    }
+}
+
+void applySetting(Settings& settings, std::string_view key, std::string_view text)
+{
+    const Setting* setting = findSetting(key);
+    if (setting == nullptr) {
+        std::vector<std::string_view> keys;
+        for (const Setting& row : settingTable()) {
+            keys.push_back(row.key);
+        }
+        throw UsageError(
+            fmt::format("there is no setting \"{}\"{}; `gnomon list` shows them all", key, suggestion(key, keys)));
+    }
+    applySetting(settings, *setting, text);
+}
+
+void validateSettings(const Settings& settings)
+{
+    validateCamera(settings);
+    if (settings.frames && settings.frames->first > settings.frames->last) {
+        throw UsageError(fmt::format("--frames: {}-{} runs backwards", settings.frames->first, settings.frames->last));
+    }
+    for (const auto& [key, given] : settings.given) {
+        const Setting* setting = findSetting(key);
+        if (given && setting != nullptr && setting->used != nullptr && !setting->used(settings)) {
+            throw UsageError(fmt::format("--{} has an effect only with {}", key, setting->used_when));
+        }
+    }
+}
+
+void completeTechnique(Settings& settings)
+{
+    // The light comes later; a directional one has no rules of its own, so this refuses what no light can have.
+    if (const auto reason = refusal(LightType::directional, settings.plan.technique)) {
+        throw UsageError(std::string(*reason));
+    }
+    settings.filter.filter = settings.plan.technique.filter;
+    if (!settings.format_given) {
+        settings.filter.format = filterTraits(settings.filter.filter)->formats.front();
+        settings.values["map-format"] = nameOf(settings.filter.format);
+    } else if (const auto reason = refusal(settings.filter.filter, settings.filter.format)) {
+        throw UsageError(fmt::format("--map-format: {} cannot be had with filter {}: {}",
+                                     nameOf(settings.filter.format), nameOf(settings.filter.filter), *reason));
+    }
+    if (!settings.border_given) {
+        const bool disc = settings.filter.filter == Filter::pcf && (settings.filter.pcf_kernel == PcfKernel::poisson ||
+                                                                    settings.filter.pcf_kernel == PcfKernel::vogel);
+        const double reach = disc ? std::ceil(static_cast<double>(settings.filter.disc_radius_texels)) + 1.0 : 0.0;
+        settings.plan.border_texels = std::max(PlanOptions{}.border_texels, reach);
+        settings.values["border"] = fmt::format("{}", settings.plan.border_texels);
+    }
+}
+
+Settings parseTechnique(const Settings& base, std::string_view text)
+{
+    Settings settings = base;
+    std::vector<std::string_view> seen;
+    for (const std::string_view piece : split(text, '+')) {
+        std::string_view key;
+        std::string_view value;
+        if (const std::size_t equals = piece.find('='); equals != std::string_view::npos) {
+            key = piece.substr(0, equals);
+            value = piece.substr(equals + 1);
+            const Setting* setting = findSetting(key);
+            if (setting != nullptr && setting->group != SettingGroup::technique) {
+                throw UsageError(
+                    fmt::format("technique \"{}\": {} is no part of a technique; give it as --{}", text, key, key));
+            }
+        } else {
+            const ChoiceValue* row = findTechniqueValue(piece);
+            if (row == nullptr) {
+                std::vector<std::string_view> names;
+                for (const ChoiceValue& known : choiceValues()) {
+                    names.push_back(known.name);
+                }
+                throw UsageError(
+                    fmt::format("technique \"{}\": there is no \"{}\"{}; a technique is values of the choices and "
+                                "KEY=VALUE joined by +, see `gnomon list`",
+                                text, piece, suggestion(piece, names)));
+            }
+            key = row->choice;
+            value = row->name;
+        }
+        if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
+            throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, key));
+        }
+        seen.push_back(key);
+        applySetting(settings, key, value);
+    }
+    completeTechnique(settings);
+    for (const std::string_view key : seen) {
+        const Setting* setting = findSetting(key);
+        if (setting->used != nullptr && !setting->used(settings)) {
+            throw UsageError(
+                fmt::format("technique \"{}\": {} has an effect only with {}", text, key, setting->used_when));
+        }
+    }
+    return settings;
+}
+
+std::string describeTechnique(const Settings& settings)
+{
+    static const Settings defaults = [] {
+        Settings made = defaultSettings();
+        completeTechnique(made);
+        return made;
+    }();
+    std::string text(nameOf(settings.plan.technique.filter));
+    for (const Setting& setting : settingTable()) {
+        const auto value = settings.values.find(setting.key);
+        if (setting.group != SettingGroup::technique || setting.key == "filter" || value == settings.values.end() ||
+            (setting.used != nullptr && !setting.used(settings))) {
+            continue;
+        }
+        const auto usual = defaults.values.find(setting.key);
+        // A kernel is always named: "pcf" alone says too little in a table of results.
+        if (setting.key == "pcf.kernel" || usual == defaults.values.end() || usual->second != value->second) {
+            if (setting.key == "bias" && value->second == "none" &&
+                settings.values.lower_bound("bias.") != settings.values.end() &&
+                settings.values.lower_bound("bias.")->first.starts_with("bias.")) {
+                continue; // its parts say it
+            }
+            text += isChoice(setting.key) ? fmt::format("+{}", value->second)
+                                          : fmt::format("+{}={}", setting.key, value->second);
+        }
+    }
+    return text;
+}
+
+} // namespace gnomon::app

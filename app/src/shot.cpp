@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/shot.h"
+
+#include "shot_camera.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+
+namespace gnomon::app {
+namespace {
+
+// As bright as the suns of the built-in worlds; a spot or point light shines as brightly at its aim.
+constexpr float kSunLux = 3.2F;
+constexpr double kAimLux = 6.0;
+const glm::vec3 kWarmWhite{1.0F, 0.95F, 0.87F};
+constexpr double kInnerShare = 0.8; // of a spot's cone that is fully lit
+
+/// Any vector that is perpendicular to `axis`, the same one every time.
+glm::dvec3 perpendicular(const glm::dvec3& axis)
+{
+    const glm::dvec3 other = std::abs(axis.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    return glm::normalize(other - axis * glm::dot(axis, other));
+}
+
+host::ShadedLight sunLight(const glm::dvec3& direction_ws, double angle_deg)
+{
+    host::ShadedLight light;
+    light.name = "sun";
+    light.caster.type = LightType::directional;
+    light.caster.direction_ws = direction_ws;
+    light.caster.angular_diameter_rad = glm::radians(angle_deg);
+    light.colour = kWarmWhite * kSunLux;
+    light.up_ws = perpendicular(direction_ws);
+    return light;
+}
+
+host::ShadedLight spotLight(const SpotLight& spot, double radius_m)
+{
+    const glm::dvec3 aim = spot.target_ws - spot.position_ws;
+    const double distance = glm::length(aim);
+    host::ShadedLight light;
+    light.name = "spot";
+    light.caster.type = LightType::spot;
+    light.caster.position_ws = spot.position_ws;
+    light.caster.direction_ws = aim / distance;
+    light.caster.outer_half_angle_rad = glm::radians(spot.angle_deg) / 2.0;
+    light.caster.radius_m = radius_m;
+    light.inner_half_angle_rad = light.caster.outer_half_angle_rad * kInnerShare;
+    light.colour = kWarmWhite * static_cast<float>(kAimLux * distance * distance);
+    light.up_ws = perpendicular(light.caster.direction_ws);
+    return light;
+}
+
+host::ShadedLight pointLight(const PointLight& point, double radius_m)
+{
+    host::ShadedLight light;
+    light.name = "point";
+    light.caster.type = LightType::point;
+    light.caster.position_ws = point.position_ws;
+    light.caster.range_m = point.range_m;
+    light.caster.radius_m = radius_m;
+    constexpr double kBrightAt = 0.3; // share of the reach: half way to the dark, by eye
+    const double bright_m = point.range_m * kBrightAt;
+    light.colour = kWarmWhite * static_cast<float>(kAimLux * bright_m * bright_m);
+    return light;
+}
+
+/// Lights of the command line; empty when it names none.
+std::vector<host::ShadedLight> givenLights(const Settings& settings)
+{
+    const double radius_m = settings.light_size_m.value_or(0.0) / 2.0;
+    std::vector<host::ShadedLight> lights;
+    if (settings.sun_ws) {
+        lights.push_back(sunLight(*settings.sun_ws, settings.sun_angle_deg));
+    }
+    if (settings.spot) {
+        lights.push_back(spotLight(*settings.spot, radius_m));
+    }
+    if (settings.point) {
+        lights.push_back(pointLight(*settings.point, radius_m));
+    }
+    for (const host::ShadedLight& light : lights) {
+        if (const auto reason = refusal(light.caster.type, settings.plan.technique)) {
+            throw UsageError(fmt::format("--{}: {}", light.name, *reason));
+        }
+    }
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        lights[i].caster.key = static_cast<std::uint32_t>(i);
+    }
+    return lights;
+}
+
+void placeLights(Shot& shot, const Settings& settings)
+{
+    shot.lights = givenLights(settings);
+    if (shot.lights.empty()) {
+        shot.lights = host::lightsOf(shot.scene, shot.state);
+    }
+    if (shot.lights.empty()) {
+        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(-0.45, -0.8, -0.35)), settings.sun_angle_deg));
+    }
+}
+
+/// What people should know of the lights: said once, not for every frame.
+void noteLights(Shot& shot, const Settings& settings)
+{
+    if (shot.scene.lights.empty() && !settings.sun_ws && !settings.spot && !settings.point) {
+        shot.notices.push_back("the scene has no light; a sun is put in");
+    }
+    std::uint32_t refused = 0;
+    std::string_view why;
+    const std::string* first = nullptr;
+    for (const host::ShadedLight& light : shot.lights) {
+        if (const auto reason = refusal(light.caster.type, settings.plan.technique)) {
+            first = refused == 0 ? &light.name : first;
+            why = *reason;
+            ++refused;
+        }
+    }
+    if (refused != 0) {
+        shot.notices.push_back(refused == 1
+                                   ? fmt::format("light {} casts no shadow: {}", *first, why)
+                                   : fmt::format("{} lights cast no shadow ({} and others): {}", refused, *first, why));
+    }
+}
+
+void addGround(scene::Scene& scene, const Aabb& bounds)
+{
+    const glm::vec3 centre = bounds.centre();
+    // Wide enough that its edge is behind what stands on it, from where one looks at that.
+    const float half = 3.0F * std::max({bounds.extent().x, bounds.extent().z, bounds.extent().y});
+    const float y = bounds.min.y;
+    scene::Primitive quad;
+    quad.positions = {{centre.x - half, y, centre.z + half},
+                      {centre.x + half, y, centre.z + half},
+                      {centre.x + half, y, centre.z - half},
+                      {centre.x - half, y, centre.z - half}};
+    quad.normals.assign(4, glm::vec3(0.0F, 1.0F, 0.0F));
+    quad.indices = {0, 1, 2, 0, 2, 3};
+    quad.material = static_cast<std::uint32_t>(scene.materials.size());
+    scene::Material material;
+    material.name = "ground";
+    material.base_colour = {0.42F, 0.41F, 0.38F, 1.0F};
+    material.metallic = 0.0F;
+    scene.materials.push_back(material);
+    scene::Mesh mesh;
+    mesh.name = "ground";
+    mesh.primitives.push_back(std::move(quad));
+    scene::Node node;
+    node.name = "ground";
+    node.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(std::move(mesh));
+    scene.nodes.push_back(std::move(node));
+    scene::finishScene(scene);
+}
+
+void overrideMaterials(scene::Scene& scene)
+{
+    scene::Material diffuse;
+    diffuse.name = "diffuse";
+    diffuse.base_colour = {0.7F, 0.7F, 0.7F, 1.0F};
+    diffuse.metallic = 0.0F;
+    diffuse.double_sided = true;
+    scene.materials.assign(1, diffuse);
+    for (scene::Mesh& mesh : scene.meshes) {
+        for (scene::Primitive& primitive : mesh.primitives) {
+            primitive.material = 0;
+        }
+    }
+}
+
+} // namespace
+
+double timeOf(const Settings& settings, std::uint32_t frame)
+{
+    return settings.frames ? settings.time_s + static_cast<double>(frame) / settings.fps : settings.time_s;
+}
+
+Shot makeShot(const Settings& settings)
+{
+    Shot shot;
+    shot.scene = scene::load(settings.scene, settings.seed, settings.limits);
+    shot.notices = shot.scene.notices;
+    if (settings.material_override == "diffuse") {
+        overrideMaterials(shot.scene);
+    }
+    const double time_s = timeOf(settings, settings.frames ? settings.frames->first : 0);
+    shot.state = scene::evaluate(shot.scene, time_s, settings.animation);
+    if (shot.state.objects.empty() || shot.state.bounds_ws.empty()) {
+        throw Error("drawing " + settings.scene, "the scene has nothing to draw");
+    }
+    placeEye(shot, settings); // before the ground, which is not what one wants to look at
+    if (settings.ground) {
+        addGround(shot.scene, shot.state.bounds_ws);
+        shot.state = scene::evaluate(shot.scene, time_s, settings.animation);
+    }
+    placeLights(shot, settings);
+    noteLights(shot, settings);
+    return shot;
+}
+
+void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame)
+{
+    scene::advance(shot.scene, timeOf(settings, frame), shot.state, settings.animation);
+    if (shot.camera != "fitted") { // a fitted one would breathe with the scene
+        placeEye(shot, settings);
+    }
+    placeLights(shot, settings);
+}
+
+host::RenderOptions renderOptions(const Settings& settings)
+{
+    host::RenderOptions options;
+    options.width = settings.size_px.x;
+    options.height = settings.size_px.y;
+    options.plan = settings.plan;
+    options.filter = settings.filter;
+    options.anti_aliasing = settings.anti_aliasing;
+    return options;
+}
+
+std::vector<Light> castersOf(const Shot& shot)
+{
+    std::vector<Light> lights;
+    lights.reserve(shot.lights.size());
+    for (const host::ShadedLight& light : shot.lights) {
+        lights.push_back(light.caster);
+    }
+    return lights;
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shot_camera.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::app {
+namespace {
+
+constexpr double kDefaultFovDeg = 45.0;
+
+double fovRad(const Settings& settings, double otherwise_rad)
+{
+    return settings.fov_deg ? glm::radians(*settings.fov_deg) : otherwise_rad;
+}
+
+void useView(Shot& shot, const Settings& settings, const scene::NamedView& view)
+{
+    shot.camera = view.name;
+    shot.eye = host::Eye{};
+    shot.eye.position_ws = view.eye;
+    shot.eye.target_ws = view.target;
+    shot.eye.fov_y_rad = fovRad(settings, static_cast<double>(view.fov_y_rad));
+}
+
+void usePlaced(Shot& shot, const Settings& settings, const scene::PlacedCamera& placed, const std::string& name)
+{
+    const scene::Camera& camera = shot.scene.cameras[placed.camera];
+    if (camera.orthographic) {
+        throw Error("using camera " + name, "it is orthographic, which this version does not draw",
+                    "give --eye and --target");
+    }
+    shot.camera = name;
+    shot.eye = host::Eye{};
+    shot.eye.position_ws = placed.eye_ws;
+    shot.eye.target_ws = glm::dvec3(placed.eye_ws) + glm::dvec3(placed.forward_ws);
+    shot.eye.up_ws = placed.up_ws;
+    shot.eye.fov_y_rad = fovRad(settings, static_cast<double>(camera.fov_y_rad));
+}
+
+/// glTF names the camera or the node that holds it; either will do. Nameless ones are "camera0" and so on.
+std::string nameOf(const Shot& shot, std::size_t placed)
+{
+    const std::string& name = shot.scene.cameras[shot.state.cameras[placed].camera].name;
+    return name.empty() ? fmt::format("camera{}", placed) : name;
+}
+
+void useNamed(Shot& shot, const Settings& settings)
+{
+    std::vector<std::string> names;
+    for (const scene::NamedView& view : shot.scene.views) {
+        if (view.name == settings.camera) {
+            useView(shot, settings, view);
+            return;
+        }
+        names.push_back(view.name);
+    }
+    for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
+        if (nameOf(shot, i) == settings.camera) {
+            usePlaced(shot, settings, shot.state.cameras[i], settings.camera);
+            return;
+        }
+        names.push_back(nameOf(shot, i));
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw UsageError(fmt::format(
+        "--camera: {} has no camera \"{}\"{}; {}", settings.scene, settings.camera, suggestion(settings.camera, known),
+        known.empty() ? "it has none, so give --eye and --target" : "it has " + listed(known)));
+}
+
+void useFramed(Shot& shot, const Settings& settings)
+{
+    const double aspect = static_cast<double>(settings.size_px.x) / static_cast<double>(settings.size_px.y);
+    shot.camera = "fitted";
+    shot.eye = framedEye(shot.state.bounds_ws, fovRad(settings, glm::radians(kDefaultFovDeg)), aspect);
+}
+
+} // namespace
+
+host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect)
+{
+    const glm::dvec3 backward = glm::normalize(glm::dvec3(0.55, 0.42, 0.72));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward));
+    const glm::dvec3 up = glm::cross(backward, right);
+    const glm::dvec3 centre = bounds_ws.empty() ? glm::dvec3(0.0) : glm::dvec3(bounds_ws.centre());
+    const double tan_y = std::tan(fov_y_rad / 2.0);
+    const double tan_x = tan_y * aspect;
+    // The distance at which the last corner is on the picture's edge.
+    double distance = 1e-3;
+    for (int i = 0; i < 8 && !bounds_ws.empty(); ++i) {
+        const glm::dvec3 corner = glm::dvec3(bounds_ws.corner(i)) - centre;
+        const double along = glm::dot(corner, backward);
+        distance = std::max({distance, along + std::abs(glm::dot(corner, right)) / tan_x,
+                             along + std::abs(glm::dot(corner, up)) / tan_y});
+    }
+    constexpr double kMargin = 1.03;
+    host::Eye eye;
+    eye.position_ws = centre + backward * (distance * kMargin);
+    eye.target_ws = centre;
+    eye.fov_y_rad = fov_y_rad;
+    return eye;
+}
+
+void placeEye(Shot& shot, const Settings& settings)
+{
+    if (settings.eye_ws) {
+        shot.camera = "given";
+        shot.eye = host::Eye{};
+        shot.eye.position_ws = *settings.eye_ws;
+        shot.eye.target_ws = *settings.target_ws;
+        shot.eye.up_ws = settings.up_ws;
+        shot.eye.fov_y_rad = fovRad(settings, glm::radians(kDefaultFovDeg));
+    } else if (!settings.camera.empty()) {
+        useNamed(shot, settings);
+    } else if (!shot.scene.views.empty()) {
+        useView(shot, settings, shot.scene.views.front());
+    } else if (!shot.state.cameras.empty() && !shot.scene.cameras[shot.state.cameras[0].camera].orthographic) {
+        usePlaced(shot, settings, shot.state.cameras[0], nameOf(shot, 0));
+    } else {
+        useFramed(shot, settings);
+    }
+}
+
+} // namespace gnomon::app

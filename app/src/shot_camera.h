@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which camera a run looks through.
+#pragma once
+
+#include "app/shot.h"
+
+namespace gnomon::app {
+
+/// Sets eye and camera from the settings and the state. Throws UsageError when the named camera is not there.
+void placeEye(Shot& shot, const Settings& settings);
+
+} // namespace gnomon::app

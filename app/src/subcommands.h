@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands, one file each, and how they put out their results.
+#pragma once
+
+#include "app/settings.h"
+
+#include <string_view>
+
+namespace gnomon::app {
+
+int runRender(const Settings& settings);
+int runPlan(const Settings& settings);
+int runBench(const Settings& settings);
+int runList(const Settings& settings);
+
+/// Throws Error when standard output is closed or full.
+void writeStdout(std::string_view text);
+/// To the file, or to stdout for "-" and "".
+void writeResult(const std::string& file, std::string_view text);
+
+} // namespace gnomon::app
