@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is recorded, checked on a driver that only keeps count.
+#include "allocation_count.h"
+#include "scene.h"
+
+#include <gnomon/error.h>
+#include <gnomon/vulkan/null_driver.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::CasterDrawer;
+using vulkan::CasterDrawerOptions;
+using vulkan::MapPass;
+using vulkan::NullDriver;
+using vulkan::NullEvent;
+using vulkan::Profiler;
+using vulkan::ShadowRenderer;
+using vulkan::ShadowRendererOptions;
+using Kind = NullEvent::Kind;
+
+constexpr VkExtent2D kScreen{64, 48};
+
+// A sun and a spot over the scene of boxes, recorded frame by frame.
+class NullHost {
+public:
+    explicit NullHost(NullDriver& driver_in, MapFormat format = MapFormat::d32f, std::uint32_t light_count = 2)
+        : driver(driver_in), renderer(driver.view(), options(format)), drawer(driver.view(), drawerOptions())
+    {
+        std::vector<Tile> tiles;
+        for (std::uint32_t i = 0; i < light_count; ++i) {
+            lights.push_back(i == 0 ? makeSun({0.5, -1.0, 0.2}) : makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
+            tiles.push_back({i, 0, 0, 256, 256});
+        }
+        plan = makePlan(scene, lights, tiles, {256, 256, light_count});
+        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
+        frame.lights = lights;
+        inputs.extent = kScreen;
+        inputs.depth = driver.makeView();
+        inputs.normal = driver.makeView();
+        const std::vector<vulkan::DrawPart> parts{{{0, 6, 0}, 0}, {{6, 36, 4}, 1}};
+        std::vector<vulkan::DrawObject> objects{{0, 1}};
+        objects.resize(1 + scene.boxes.size(), {1, 1});
+        drawer.setScene(parts, objects, std::vector<vulkan::CasterBatch>(2));
+        geometry.positions = driver.makeBuffer();
+        geometry.indices = driver.makeBuffer();
+        transforms = scene.transforms();
+    }
+
+    static ShadowRendererOptions options(MapFormat format)
+    {
+        ShadowRendererOptions options;
+        options.filter.format = format;
+        return options;
+    }
+    CasterDrawerOptions drawerOptions() const
+    {
+        CasterDrawerOptions options;
+        options.orthographic = renderer.mapFormats(true);
+        options.perspective = renderer.mapFormats(false);
+        return options;
+    }
+
+    void record(std::uint32_t slot, Profiler* profiler = nullptr)
+    {
+        drawer.beginFrame(slot, plan, geometry, transforms);
+        if (profiler != nullptr) {
+            profiler->beginFrame(driver.commands(), slot);
+        }
+        renderer.recordMaps(driver.commands(), slot, frame, plan, draw, profiler);
+        renderer.recordMask(driver.commands(), slot, frame, plan, inputs, profiler);
+    }
+
+    std::vector<VkRect2D> passes() const
+    {
+        std::vector<VkRect2D> areas;
+        for (const NullEvent& event : driver.events()) {
+            if (event.kind == Kind::begin_rendering) {
+                areas.push_back(event.area);
+            }
+        }
+        return areas;
+    }
+    std::size_t count(Kind kind) const
+    {
+        return static_cast<std::size_t>(std::count_if(driver.events().begin(), driver.events().end(),
+                                                      [&](const NullEvent& event) { return event.kind == kind; }));
+    }
+
+    NullDriver& driver;
+    Scene scene = makeScene();
+    std::vector<Light> lights;
+    Plan plan;
+    Frame frame;
+    vulkan::MaskInputs inputs;
+    vulkan::CasterGeometry geometry;
+    std::vector<vulkan::Rows3x4> transforms;
+    ShadowRenderer renderer;
+    CasterDrawer drawer;
+    vulkan::DrawCasters draw = [this](const MapPass& pass) {
+        drawer.draw(pass);
+    };
+};
+
+TEST(NullRecording, passesComeInOrder)
+{
+    NullDriver driver;
+    NullHost host(driver);
+    EXPECT_TRUE(host.renderer.prepare(host.plan, kScreen));
+    host.record(0);
+    const auto passes = host.passes();
+    ASSERT_EQ(passes.size(), 3U); // sun, spot, mask
+    EXPECT_EQ(passes[0].extent.width, 256U);
+    EXPECT_EQ(passes[1].extent.width, 256U);
+    EXPECT_EQ(passes[2].extent.width, kScreen.width);
+    EXPECT_EQ(driver.counts().draws, 1U);
+    EXPECT_EQ(driver.counts().indirect_draws, 4U); // ground and boxes, twice
+    EXPECT_EQ(driver.counts().instances, 2 * (1 + host.scene.boxes.size()));
+    EXPECT_EQ(driver.counts().indices, 2 * (6 + 36 * host.scene.boxes.size()));
+    EXPECT_EQ(host.drawer.triangles(), driver.counts().indices / 3);
+    // Two layers to attachment and back, the mask likewise.
+    EXPECT_EQ(host.count(Kind::barrier), 6U);
+    EXPECT_EQ(host.count(Kind::end_rendering), passes.size());
+}
+
+TEST(NullRecording, viewsThatHoldAreNotDrawn)
+{
+    NullDriver driver;
+    NullHost host(driver);
+    host.plan.views[1].redraw = false;
+    (void)host.renderer.prepare(host.plan, kScreen);
+    host.record(0);
+    EXPECT_EQ(host.passes().size(), 3U) << "new images hold nothing yet, so everything is drawn";
+    driver.clearEvents();
+    host.record(1);
+    EXPECT_EQ(host.passes().size(), 2U);
+    EXPECT_EQ(host.count(Kind::barrier), 4U) << "the layer that holds is left alone";
+    driver.clearEvents();
+    host.plan.views[0].redraw = false;
+    host.record(0);
+    EXPECT_EQ(host.passes().size(), 1U);
+    EXPECT_EQ(host.count(Kind::barrier), 2U);
+    driver.clearEvents();
+    EXPECT_TRUE(host.renderer.prepare(host.plan, {65, 48}));
+    host.inputs.extent = {65, 48};
+    host.record(1);
+    EXPECT_EQ(host.passes().size(), 3U) << "after prepare() made images, everything is drawn";
+}
+
+TEST(NullRecording, steadyStateAllocatesNothing)
+{
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::d16, MapFormat::r32f}) {
+        NullDriver driver;
+        NullHost host(driver, format, 5);
+        Profiler profiler(driver.view(), 2, 8);
+        (void)host.renderer.prepare(host.plan, kScreen);
+        host.record(0, &profiler);
+        host.record(1, &profiler);
+        const auto created = driver.counts().created;
+        const auto allocated = driver.counts().allocations;
+        const auto updates = driver.counts().descriptor_updates;
+        const auto heap = heapAllocations();
+        for (std::uint32_t i = 0; i < 10; ++i) {
+            EXPECT_FALSE(host.renderer.prepare(host.plan, kScreen));
+            host.record(i % 2, &profiler);
+            EXPECT_EQ(profiler.results(i % 2).size(), 2U);
+        }
+        EXPECT_EQ(heapAllocations(), heap);
+        EXPECT_EQ(driver.counts().created, created);
+        EXPECT_EQ(driver.counts().allocations, allocated);
+        EXPECT_EQ(driver.counts().descriptor_updates, updates);
+    }
+}
+
+TEST(NullRecording, everythingIsDestroyed)
+{
+    NullDriver driver;
+    {
+        NullHost host(driver, MapFormat::r32f, 3);
+        const Profiler profiler(driver.view(), 2, 8);
+        (void)host.renderer.prepare(host.plan, kScreen);
+        host.record(0);
+        host.plan.atlas.layers = 6; // grow
+        EXPECT_TRUE(host.renderer.prepare(host.plan, {128, 96}));
+        host.inputs.extent = {128, 96};
+        host.record(1);
+    }
+    EXPECT_GT(driver.counts().created, 0U);
+    EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+    EXPECT_EQ(driver.counts().allocations, driver.counts().frees);
+    EXPECT_EQ(driver.counts().bytes, 0U);
+}
+
+TEST(NullRecording, memoryIsAccountedFor)
+{
+    NullDriver driver;
+    NullHost host(driver);
+    (void)host.renderer.prepare(host.plan, kScreen);
+    std::uint64_t sum = 0;
+    for (const auto& use : host.renderer.memory()) {
+        sum += use.bytes;
+    }
+    for (const auto& use : host.drawer.memory()) {
+        sum += use.bytes;
+    }
+    EXPECT_EQ(sum, driver.counts().bytes);
+    ASSERT_FALSE(host.renderer.memory().empty());
+    EXPECT_STREQ(host.renderer.memory()[0].purpose, "shadow maps");
+    EXPECT_EQ(host.renderer.memory()[0].bytes, 256U * 256U * 4U * 2U);
+}
+
+TEST(NullRecording, lackOfMemoryIsAnErrorThatLeavesNothingBehind)
+{
+    NullDriver driver;
+    {
+        NullHost host(driver);
+        for (const std::uint64_t bytes : {0ULL, 300'000ULL, 530'000ULL}) {
+            driver.setMemory(bytes);
+            EXPECT_THROW((void)host.renderer.prepare(host.plan, kScreen), Error) << bytes;
+        }
+        driver.setMemory(1 << 30);
+        EXPECT_TRUE(host.renderer.prepare(host.plan, kScreen));
+        host.record(0);
+        EXPECT_EQ(host.passes().size(), 3U);
+    }
+    EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+    EXPECT_EQ(driver.counts().bytes, 0U);
+}
+
+TEST(NullRecording, sizesBeyondTheDeviceAreRefusedWithBothSizes)
+{
+    NullDriver driver({1024, 8, 1ULL << 40});
+    NullHost host(driver);
+    host.plan.atlas.width = 2048;
+    try {
+        (void)host.renderer.prepare(host.plan, kScreen);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("2048"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("1024"), std::string::npos);
+    }
+    host.plan.atlas = {256, 256, 9};
+    EXPECT_THROW((void)host.renderer.prepare(host.plan, kScreen), Error);
+}
+
+TEST(NullRecording, missingFunctionIsNamed)
+{
+    NullDriver driver;
+    driver.hideFunction("vkCmdPipelineBarrier2");
+    try {
+        const ShadowRenderer renderer(driver.view(), {});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("vkCmdPipelineBarrier2"), std::string::npos);
+    }
+}
+
+TEST(NullRecording, aFormatThatTheFilterCannotUseIsRefused)
+{
+    NullDriver driver;
+    EXPECT_THROW(ShadowRenderer(driver.view(), NullHost::options(MapFormat::rgba16f)), Error);
+    EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+}
+
+TEST(NullRecording, lightsWithoutMapsStillHaveAMask)
+{
+    NullDriver driver;
+    NullHost host(driver, MapFormat::d32f, 1);
+    host.plan.views.clear();
+    host.plan.casters.clear();
+    host.plan.atlas = {};
+    host.plan.lights[0].view_count = 0;
+    host.plan.lights[0].outcome = {OutcomeKind::no_caster, "nothing casts"};
+    EXPECT_TRUE(host.renderer.prepare(host.plan, kScreen));
+    host.record(0);
+    EXPECT_EQ(host.passes().size(), 1U);
+    EXPECT_EQ(host.renderer.mask().format, VK_FORMAT_R8_UNORM);
+}
+
+TEST(NullRecording, memoryHooksAreUsedForEverything)
+{
+    struct Ledger {
+        int live = 0;
+        int total = 0;
+        std::vector<std::vector<std::byte>> blocks;
+    } ledger;
+    NullDriver driver;
+    vulkan::DeviceView view = driver.view();
+    view.memory.user = &ledger;
+    view.memory.allocate = [](void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags, const char*,
+                              vulkan::MemoryBlock* block) {
+        auto& l = *static_cast<Ledger*>(user);
+        ++l.live;
+        ++l.total;
+        l.blocks.emplace_back(needs.size);
+        block->mapped = l.blocks.back().data();
+        return VK_SUCCESS;
+    };
+    view.memory.release = [](void* user, const vulkan::MemoryBlock&) {
+        --static_cast<Ledger*>(user)->live;
+    };
+    {
+        ShadowRenderer renderer(view, {});
+        const NullHost host(driver);
+        EXPECT_TRUE(renderer.prepare(host.plan, kScreen));
+        EXPECT_EQ(ledger.live, 4); // maps, mask, two slots of constants
+    }
+    EXPECT_EQ(ledger.live, 0);
+    EXPECT_EQ(driver.counts().allocations, 0U);
+}
+
+TEST(NullFeatures, requiredOnesAreFound)
+{
+    NullDriver driver;
+    char missing[128] = "x";
+    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
+    EXPECT_STREQ(missing, "");
+    driver.hideFunction("vkGetPhysicalDeviceFeatures2");
+    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
+    EXPECT_STREQ(missing, "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, pipelineStatisticsQuery, "
+                          "hostQueryReset, dynamicRendering");
+    vulkan::missingFeatures(driver.view(), missing, 1);
+    EXPECT_STREQ(missing, "");
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Vulkan driver that does nothing but keep count: recording logic can be tested in milliseconds, without a GPU, and
+// made to run out of memory at will. It knows the functions that this library calls and no others.
+#pragma once
+
+#include <gnomon/vulkan/device_view.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+struct NullCounts {
+    std::uint64_t created = 0; // objects, command buffers and descriptor sets apart
+    std::uint64_t destroyed = 0;
+    std::uint64_t allocations = 0; // vkAllocateMemory
+    std::uint64_t frees = 0;
+    std::uint64_t bytes = 0;              // allocated now
+    std::uint64_t descriptor_updates = 0; // vkUpdateDescriptorSets
+    std::uint64_t draws = 0;              // vkCmdDraw
+    std::uint64_t indirect_draws = 0;     // draw count of vkCmdDrawIndexedIndirect
+    std::uint64_t instances = 0;          // of the indirect draws
+    std::uint64_t indices = 0;            // of the indirect draws, over all instances
+};
+
+struct NullEvent {
+    enum class Kind : std::uint8_t {
+        barrier,
+        begin_rendering,
+        end_rendering,
+        bind_pipeline,
+        draw,
+        draw_indirect,
+        timestamp,
+        begin_query,
+        end_query
+    };
+    Kind kind = Kind::barrier;
+    VkRect2D area{};                                      // begin_rendering
+    std::uint32_t layer = 0;                              // barrier: the first layer
+    VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
+    VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
+    std::uint32_t count = 0;                              // draw_indirect: commands
+};
+
+struct NullLimits {
+    std::uint32_t max_image_size = 16384;
+    std::uint32_t max_image_layers = 2048;
+    /// Allocations beyond these many bytes fail with VK_ERROR_OUT_OF_DEVICE_MEMORY.
+    std::uint64_t memory_bytes = std::uint64_t{1} << 40;
+};
+
+/// Its view() and commands() are good for as long as it lives. Not thread-safe.
+class NullDriver {
+public:
+    explicit NullDriver(const NullLimits& limits = {});
+    ~NullDriver();
+    NullDriver(const NullDriver&) = delete;
+    NullDriver& operator=(const NullDriver&) = delete;
+
+    [[nodiscard]] DeviceView view();
+    [[nodiscard]] VkCommandBuffer commands(); // the only one
+    [[nodiscard]] VkBuffer makeBuffer();      // some handle to bind; not counted
+    [[nodiscard]] VkImageView makeView();     // likewise
+
+    [[nodiscard]] const NullCounts& counts() const;
+    /// What was recorded since the last clearEvents(), the first 65536 of it; keeping it allocates nothing.
+    [[nodiscard]] std::span<const NullEvent> events() const;
+    void clearEvents();
+    void setMemory(std::uint64_t bytes);
+    /// From now on this function is missing (nullptr: none is). The name must outlive the driver.
+    void hideFunction(const char* name);
+
+    struct Impl;
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan
