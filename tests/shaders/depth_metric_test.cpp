@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#define GNOMON_REAL double
+#include <lib/caster.glsl>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gnomon::shared {
+namespace {
+
+TEST(DepthMetric, isLinearBetweenNearAndFar)
+{
+    EXPECT_EQ(depthMetricLinear(2.0, 2.0, 10.0), 0.0);
+    EXPECT_EQ(depthMetricLinear(10.0, 2.0, 10.0), 1.0);
+    EXPECT_EQ(depthMetricLinear(4.0, 2.0, 10.0), 0.25);
+    EXPECT_EQ(casterStored(-0.5), 0.0);
+    EXPECT_EQ(casterStored(1.5), 1.0);
+    EXPECT_EQ(casterStored(0.5), 0.5);
+}
+
+// Marinescu 2011, section 4: computed at the vertices and interpolated, or computed at the point, is the same.
+TEST(DepthMetric, interpolationOverATriangleIsExact)
+{
+    std::mt19937 rng(9);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    const auto random3 = [&] {
+        return glm::dvec3(u(rng), u(rng), u(rng));
+    };
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 a = random3();
+        const glm::dvec3 b = random3();
+        const glm::dvec3 c = random3();
+        const glm::dvec4 metric(random3(), u(rng));
+        const double s = (u(rng) + 1.0) / 4.0;
+        const double t = (u(rng) + 1.0) / 4.0;
+        const double interpolated =
+            casterMetric(a, metric) * (1.0 - s - t) + casterMetric(b, metric) * s + casterMetric(c, metric) * t;
+        EXPECT_NEAR(casterMetric(a * (1.0 - s - t) + b * s + c * t, metric), interpolated, 1e-14);
+    }
+}
+
+} // namespace
+} // namespace gnomon::shared

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The filters against plain loops over random maps.
+#include "cpu_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace gnomon::shared {
+namespace {
+
+class Filters : public testing::Test {
+protected:
+    Filters() : texels(64 * 64)
+    {
+        std::uniform_real_distribution<double> depth(0.3, 0.7);
+        for (double& texel : texels) {
+            texel = depth(rng);
+        }
+        test::map_texels = [this](int x, int y) {
+            return texels.at(static_cast<std::size_t>(y * 64 + x));
+        };
+    }
+
+    MapPoint randomPoint()
+    {
+        std::uniform_real_distribution<double> place(12.0, 52.0);
+        std::uniform_real_distribution<double> slope(-0.02, 0.02);
+        MapPoint point{};
+        point.texel = {place(rng), place(rng)};
+        point.depth = 0.5;
+        point.cap = 0.52;
+        point.depth_slope = {slope(rng), slope(rng)};
+        point.w_slope = {slope(rng), slope(rng)};
+        point.w = 1.0;
+        return point;
+    }
+
+    static double naiveBilinear(const MapPoint& point, glm::dvec2 offset)
+    {
+        const glm::dvec2 at = point.texel + offset - 0.5;
+        const glm::dvec2 cell = glm::floor(at);
+        const glm::dvec2 f = at - cell;
+        double sum = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec2 texel = cell + glm::dvec2(k % 2, k / 2);
+            const double weight = (k % 2 == 0 ? 1.0 - f.x : f.x) * (k / 2 == 0 ? 1.0 - f.y : f.y);
+            sum += weight * compareTexel(point, texel + 0.5 - point.texel, mapTexel(texel, 0.0));
+        }
+        return sum;
+    }
+
+    std::mt19937 rng{3};
+    std::vector<double> texels;
+};
+
+TEST_F(Filters, mergedGathersAreTheSumOfTheTaps)
+{
+    for (const int width : {1, 3, 5, 7}) {
+        FilterInput input{};
+        input.kernel_width = width;
+        input.kernel = gaussianWeights(width, 0.0);
+        for (int round = 0; round < 500; ++round) {
+            const MapPoint point = randomPoint();
+            double expected = 0.0;
+            for (int j = 0; j < width; ++j) {
+                for (int i = 0; i < width; ++i) {
+                    const double weight = tapWeight(input.kernel, width, i) * tapWeight(input.kernel, width, j);
+                    expected += weight * naiveBilinear(point, glm::dvec2(i, j) - double((width - 1) / 2));
+                }
+            }
+            EXPECT_NEAR(filterPcf(point, input), expected, 1e-12);
+        }
+    }
+}
+
+TEST_F(Filters, narrowestKernelIsTheBilinearBlendOfFourComparisons)
+{
+    FilterInput input{};
+    input.kernel_width = 1;
+    input.kernel = gaussianWeights(1, 0.0);
+    for (int round = 0; round < 500; ++round) {
+        const MapPoint point = randomPoint();
+        EXPECT_NEAR(filterPcf(point, input), naiveBilinear(point, glm::dvec2(0.0)), 1e-13);
+    }
+}
+
+TEST_F(Filters, discIsTheMeanOfItsTurnedTaps)
+{
+    FilterInput input{};
+    input.disc_taps = 24;
+    input.disc_radius = 3.0;
+    for (int round = 0; round < 200; ++round) {
+        input.pixel = {round + 0.5, 7.5};
+        const MapPoint point = randomPoint();
+        const double angle = interleavedGradientNoise(input.pixel) * 6.2831853;
+        double expected = 0.0;
+        for (int i = 0; i < input.disc_taps; ++i) {
+            const glm::dvec2 p = kPoissonPoints[i] * 3.0;
+            const glm::dvec2 turned(p.x * std::cos(angle) - p.y * std::sin(angle),
+                                    p.x * std::sin(angle) + p.y * std::cos(angle));
+            expected += naiveBilinear(point, turned) / input.disc_taps;
+        }
+        EXPECT_NEAR(filterPcf(point, input), expected, 1e-12);
+    }
+}
+
+TEST_F(Filters, hardReadsTheTexelThatTheReceiverIsIn)
+{
+    for (int round = 0; round < 500; ++round) {
+        MapPoint point = randomPoint();
+        point.depth_slope = glm::dvec2(0.0);
+        point.w_slope = glm::dvec2(0.0);
+        const double stored = mapTexel(glm::floor(point.texel), 0.0);
+        EXPECT_EQ(filterHard(point, {}), stored >= point.depth ? 1.0 : 0.0);
+    }
+}
+
+TEST_F(Filters, numbersInTheTableAreThoseOfTheEnum)
+{
+    const MapPoint point = randomPoint();
+    FilterInput input{};
+    input.kernel_width = 3;
+    input.kernel = gaussianWeights(3, 0.0);
+    EXPECT_EQ(applyFilter(0, point, input), filterHard(point, input));
+    EXPECT_EQ(applyFilter(1, point, input), filterPcf(point, input));
+    EXPECT_EQ(applyFilter(99, point, input), 1.0);
+}
+
+TEST_F(Filters, anEmptyMapLightsEverything)
+{
+    test::map_texels = [](int, int) {
+        return 1.0;
+    };
+    FilterInput input{};
+    input.kernel_width = 7;
+    input.kernel = gaussianWeights(7, 0.0);
+    MapPoint point = randomPoint();
+    point.depth = 3.0; // beyond the far plane
+    point.cap = 1.0;
+    EXPECT_NEAR(filterPcf(point, input), 1.0, 1e-14);
+    EXPECT_EQ(filterHard(point, input), 1.0);
+}
+
+TEST(BoundedVisibility, staysInRange)
+{
+    EXPECT_EQ(boundedVisibility(-0.1), 0.0);
+    EXPECT_EQ(boundedVisibility(0.25), 0.25);
+    EXPECT_EQ(boundedVisibility(1.1), 1.0);
+    EXPECT_EQ(boundedVisibility(std::numeric_limits<double>::quiet_NaN()), 1.0);
+}
+
+} // namespace
+} // namespace gnomon::shared

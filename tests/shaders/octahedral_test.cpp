@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#define GNOMON_REAL double
+#include <shared/octahedral.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace gnomon::shared {
+namespace {
+
+glm::dvec3 randomDirection(std::mt19937& rng)
+{
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(rng), normal(rng), normal(rng)));
+}
+
+TEST(Octahedral, roundTripIsExact)
+{
+    std::mt19937 rng(1);
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 n = randomDirection(rng);
+        const glm::dvec2 e = octahedralEncode(n);
+        EXPECT_LE(std::max(std::abs(e.x), std::abs(e.y)), 1.0);
+        EXPECT_LT(glm::length(octahedralDecode(e) - n), 1e-14);
+    }
+}
+
+TEST(Octahedral, axesAndDiagonalsSurvive)
+{
+    for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+            for (int z = -1; z <= 1; ++z) {
+                if (x != 0 || y != 0 || z != 0) {
+                    const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, z));
+                    EXPECT_LT(glm::length(octahedralDecode(octahedralEncode(n)) - n), 1e-14);
+                }
+            }
+        }
+    }
+}
+
+// 16 bits: what bias.h assumes of a normal's error (kNormalError) holds.
+TEST(Octahedral, sixteenBitsAreAccurateEnoughForTheBias)
+{
+    std::mt19937 rng(2);
+    double worst = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        const glm::dvec3 n = randomDirection(rng);
+        const glm::dvec2 stored = glm::round(octahedralEncode(n) * 32767.0) / 32767.0;
+        worst = std::max(worst, glm::length(octahedralDecode(stored) - n));
+    }
+    EXPECT_LT(worst, 1e-4);
+    EXPECT_GT(worst, 1e-5);
+}
+
+} // namespace
+} // namespace gnomon::shared
