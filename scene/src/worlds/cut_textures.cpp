@@ -28,6 +28,9 @@ glm::vec4 overlay(const std::vector<Leaf>& leaves, glm::vec2 uv, const glm::vec3
     glm::vec4 colour(ground, 0.0F);
     for (const Leaf& leaf : leaves) {
         const glm::vec2 d = uv - leaf.base;
+        if (d.x * d.x + d.y * d.y > leaf.length * leaf.length) {
+            continue;
+        }
         const float along = glm::dot(d, leaf.along) / leaf.length;
         if (along < 0.0F || along > 1.0F) {
             continue;
@@ -166,18 +169,19 @@ Image foliageCookie()
 {
     std::vector<Leaf> leaves;
     Rng rng(2005, 4);
-    for (int i = 0; i < 88; ++i) {
+    // Dense at the rim, as if one looked out of a bower.
+    while (leaves.size() < 130) {
+        const glm::vec2 base(rng.unit(), rng.unit());
         const float turn = rng.range(0.0F, kTau);
-        leaves.push_back({{rng.range(-0.05F, 1.05F), rng.range(-0.05F, 1.05F)},
-                          {std::cos(turn), std::sin(turn)},
-                          rng.range(0.10F, 0.20F),
-                          rng.range(0.022F, 0.040F),
-                          1.0F});
+        if (glm::distance(base, glm::vec2(0.5F)) > 0.10F + 0.42F * rng.unit()) {
+            leaves.push_back(
+                {base, {std::cos(turn), std::sin(turn)}, rng.range(0.06F, 0.11F), rng.range(0.013F, 0.021F), 1.0F});
+        }
     }
-    return paint("foliage cookie", 512, [&](glm::vec2 uv) {
+    return paint("foliage cookie", 384, [&](glm::vec2 uv) {
         float covered = 0.0F; // four taps, because a leaf's edge here is a light's edge
         for (const glm::vec2 tap : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
-            covered += 0.25F * overlay(leaves, uv + tap * (0.5F / 512.0F), glm::vec3(1.0F)).w;
+            covered += 0.25F * overlay(leaves, uv + tap * (0.25F / 384.0F), glm::vec3(1.0F)).w;
         }
         const float open = 1.0F - covered;
         const glm::vec3 tint = glm::mix(glm::vec3(0.55F, 0.95F, 0.35F), glm::vec3(1.0F), open);

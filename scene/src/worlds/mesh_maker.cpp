@@ -266,7 +266,7 @@ void Part::lathe(std::initializer_list<glm::vec2> profile, int sides, bool smoot
     lathe(std::span<const glm::vec2>(profile.begin(), profile.size()), sides, smooth_profile, faceted);
 }
 
-void Part::beam(const glm::vec3& a, const glm::vec3& b, float thickness)
+void Part::beam(const glm::vec3& a, const glm::vec3& b, float thickness, bool ends)
 {
     const glm::vec3 along = b - a;
     const float length = glm::length(along);
@@ -277,8 +277,46 @@ void Part::beam(const glm::vec3& a, const glm::vec3& b, float thickness)
     const glm::mat4 before = frame;
     frame = frame * glm::mat4(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(z, 0), glm::vec4(a, 1));
     const float h = thickness * 0.5F;
-    box({-h, 0, -h}, {h, length, h}, 1.0F, true);
+    if (ends) {
+        box({-h, 0, -h}, {h, length, h}, 1.0F, true);
+    } else {
+        lathe({{h * 1.414F, 0.0F}, {h * 1.414F, length}}, 4, false, true);
+    }
     frame = before;
+}
+
+void Part::tube(std::span<const glm::vec3> path, std::span<const float> radii, int sides, bool ring)
+{
+    const std::size_t n = path.size();
+    const std::size_t rows = ring ? n + 1 : n;
+    glm::vec3 right(0.0F);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t i = row % n;
+        const glm::vec3& before = path[i == 0 ? (ring ? n - 1 : 0) : i - 1];
+        const glm::vec3& after = path[i + 1 == n ? (ring ? 0 : i) : i + 1];
+        const glm::vec3 along = glm::normalize(after - before);
+        if (row == 0) {
+            right =
+                glm::normalize(glm::cross(std::abs(along.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), along));
+        }
+        right = glm::normalize(right - along * glm::dot(right, along)); // carried along, so that it does not twist
+        const glm::vec3 up = glm::cross(along, right);
+        for (int side = 0; side <= sides; ++side) {
+            const float a = kTau * static_cast<float>(side) / static_cast<float>(sides);
+            const glm::vec3 out = right * std::cos(a) + up * std::sin(a);
+            vertex(glm::vec3(frame * glm::vec4(path[i] + out * radii[i], 1.0F)), glm::normalize(glm::mat3(frame) * out),
+                   {static_cast<float>(row) * 0.25F, static_cast<float>(side) / static_cast<float>(sides)});
+        }
+    }
+    const auto columns = static_cast<std::uint32_t>(sides + 1);
+    const auto first = static_cast<std::uint32_t>(primitive_.positions.size() - rows * columns);
+    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+        for (std::uint32_t side = 0; side + 1 < columns; ++side) {
+            const std::uint32_t a = first + row * columns + side;
+            const std::uint32_t b = a + columns;
+            primitive_.indices.insert(primitive_.indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+        }
+    }
 }
 
 void Part::ball(float radius, int subdivisions, float roughness, std::uint32_t seed)

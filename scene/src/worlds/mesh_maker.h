@@ -40,8 +40,10 @@ public:
     /// smooth around unless `faceted`.
     void lathe(std::span<const glm::vec2> profile, int sides, bool smooth_profile = false, bool faceted = false);
     void lathe(std::initializer_list<glm::vec2> profile, int sides, bool smooth_profile = false, bool faceted = false);
-    /// A beam of square section from a to b.
-    void beam(const glm::vec3& a, const glm::vec3& b, float thickness);
+    /// A beam of square section from a to b; without its ends where they are hidden.
+    void beam(const glm::vec3& a, const glm::vec3& b, float thickness, bool ends = true);
+    /// A smooth pipe along `path`, `radii` as many as points; closed upon itself when `ring`.
+    void tube(std::span<const glm::vec3> path, std::span<const float> radii, int sides, bool ring = false);
     /// A subdivided icosahedron, smooth, or faceted with corners pushed in and out by up to `roughness` of the radius.
     void ball(float radius, int subdivisions, float roughness = 0.0F, std::uint32_t seed = 0);
 

@@ -48,14 +48,14 @@ Scene makePlanes(std::uint64_t /*seed*/)
     Light sun;
     sun.name = "sun";
     sun.colour = {1.0F, 0.95F, 0.86F};
-    sun.intensity = 3.2F;
+    sun.intensity = 2.8F;
     addLight(scene, sun, {0.0F, 10.0F, 0.0F}, PlanesWorld::sun_direction);
 
     Light spot;
     spot.name = "spot";
     spot.type = LightType::spot;
     spot.colour = {0.55F, 0.75F, 1.0F};
-    spot.intensity = 160.0F;
+    spot.intensity = 240.0F;
     spot.range_m = PlanesWorld::spot_range_m;
     spot.inner_cone_rad = PlanesWorld::spot_inner_half_angle_rad;
     spot.outer_cone_rad = PlanesWorld::spot_outer_half_angle_rad;

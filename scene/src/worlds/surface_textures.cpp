@@ -43,7 +43,7 @@ Image rulerTiles()
     return paint("ruler tiles", 512, [](glm::vec2 uv) {
         const glm::vec2 p = uv * 4.0F;
         const bool odd = ((static_cast<int>(p.x) + static_cast<int>(p.y)) & 1) != 0;
-        const float tone = (odd ? 0.70F : 0.80F) + 0.02F * noise(uv * 64.0F, 3, 64);
+        const float tone = (odd ? 0.58F : 0.67F) + 0.02F * noise(uv * 64.0F, 3, 64);
         const float line = insideCell(p, glm::vec2(0.016F));
         const float tenth = insideCell(p * 10.0F, glm::vec2(0.09F));
         return glm::vec4(glm::vec3(0.98F, 1.0F, 1.02F) * tone * (0.55F + 0.45F * line) * (0.95F + 0.05F * tenth), 1.0F);

@@ -28,12 +28,17 @@ void addHead(Part& part, const Livery& livery, std::uint32_t role)
 {
     part.frame = at({0, 1.72F, 0});
     part.colour = rgb(0xE5B98F);
-    part.lathe({{0.10F, -0.27F}, {0.24F, -0.14F}, {0.25F, 0.04F}, {0.0F, 0.24F}}, 7, true);
+    part.lathe({{0.17F, -0.22F}, {0.26F, -0.08F}, {0.25F, 0.06F}}, 7, true);
+    part.colour = rgb(0x3A2A22);
+    for (const float x : {-0.085F, 0.085F}) {
+        part.quad({x - 0.035F, -0.12F, 0.262F}, {x + 0.035F, -0.12F, 0.262F}, {x + 0.035F, -0.03F, 0.268F},
+                  {x - 0.035F, -0.03F, 0.268F});
+    }
     part.colour = role == kBow ? rgb(livery.coat) * glm::vec4(0.6F, 0.6F, 0.6F, 1.0F) : rgb(0xB9BCC2);
-    part.lathe({{0.30F, -0.02F}, {0.27F, 0.12F}, {0.15F, 0.27F}, {0.0F, role == kSpear ? 0.46F : 0.33F}}, 7);
+    part.lathe({{0.31F, 0.0F}, {0.24F, 0.18F}, {0.0F, role == kSpear ? 0.44F : 0.32F}}, 7);
     if (role != kBow) {
         part.colour = rgb(livery.trim);
-        part.box({-0.03F, 0.18F, -0.22F}, {0.03F, 0.46F, 0.12F});
+        part.quad({0, 0.14F, -0.26F}, {0, 0.20F, 0.16F}, {0, 0.44F, 0.02F}, {0, 0.40F, -0.26F}); // both sides show
     }
     part.frame = glm::mat4(1.0F);
 }
@@ -41,15 +46,17 @@ void addHead(Part& part, const Livery& livery, std::uint32_t role)
 void addTrunk(Part& part, const Livery& livery)
 {
     part.colour = rgb(livery.coat);
-    part.lathe({{0.36F, 0.62F}, {0.27F, 0.92F}, {0.33F, 1.32F}, {0.16F, 1.5F}}, 8); // a coat with a skirt
+    part.lathe({{0.37F, 0.62F}, {0.27F, 0.90F}}, 7); // the coat's skirt
+    part.lathe({{0.27F, 0.99F}, {0.33F, 1.32F}, {0.16F, 1.5F}}, 7);
     part.colour = rgb(0x5A3B22);
-    part.lathe({{0.29F, 0.86F}, {0.29F, 0.97F}}, 8);
+    part.lathe({{0.29F, 0.89F}, {0.29F, 1.0F}}, 7);
     part.colour = rgb(livery.trim);
-    part.box({-0.09F, 0.98F, 0.24F}, {0.09F, 1.36F, 0.33F});
+    part.quad({-0.10F, 0.60F, 0.395F}, {0.10F, 0.60F, 0.395F}, {0.09F, 0.92F, 0.305F}, {-0.09F, 0.92F, 0.305F});
+    part.quad({-0.09F, 1.0F, 0.30F}, {0.09F, 1.0F, 0.30F}, {0.10F, 1.32F, 0.345F}, {-0.10F, 1.32F, 0.345F});
+    part.colour = rgb(0xB9BCC2);
     for (const float x : {-0.38F, 0.38F}) {
-        part.colour = rgb(0xB9BCC2);
-        part.frame = at({x, 1.38F, 0}) * scaled({1.0F, 0.8F, 1.0F});
-        part.ball(0.17F, 0);
+        part.frame = at({x, 1.30F, 0}) * turnedZ(x < 0 ? 0.5F : -0.5F);
+        part.lathe({{0.19F, 0.0F}, {0.0F, 0.2F}}, 5);
     }
     part.frame = glm::mat4(1.0F);
 }
@@ -57,20 +64,20 @@ void addTrunk(Part& part, const Livery& livery)
 void addArm(Part& part, const Livery& livery, const glm::vec3& shoulder, const glm::vec3& elbow, const glm::vec3& hand)
 {
     part.colour = rgb(livery.coat) * glm::vec4(0.8F, 0.8F, 0.8F, 1.0F);
-    part.beam(shoulder, elbow, 0.17F);
+    part.beam(shoulder, elbow, 0.17F, false);
     part.colour = rgb(0xE5B98F);
-    part.beam(elbow, hand, 0.13F);
+    part.beam(elbow, hand, 0.13F, false);
 }
 
 void addShield(Part& part, const Livery& livery)
 {
     part.frame = at({0.52F, 1.02F, 0.24F}) * turnedY(0.9F) * turnedX(kPi * 0.5F);
     part.colour = rgb(livery.trim);
-    part.lathe({{0.0F, -0.05F}, {0.44F, -0.05F}, {0.44F, 0.04F}, {0.36F, 0.05F}}, 9);
+    part.lathe({{0.46F, 0.0F}, {0.36F, 0.05F}}, 8); // one skin: the material shows both sides
     part.colour = rgb(livery.coat);
-    part.lathe({{0.36F, 0.05F}, {0.10F, 0.10F}}, 9);
+    part.lathe({{0.36F, 0.05F}, {0.12F, 0.10F}}, 8);
     part.colour = rgb(0xB9BCC2);
-    part.lathe({{0.12F, 0.10F}, {0.0F, 0.2F}}, 9);
+    part.lathe({{0.12F, 0.10F}, {0.0F, 0.2F}}, 8);
     part.frame = glm::mat4(1.0F);
 }
 
@@ -79,6 +86,42 @@ void addCloak(Part& cloth, const Livery& livery)
     cloth.colour = rgb(livery.coat) * glm::vec4(0.62F, 0.62F, 0.62F, 1.0F);
     cloth.quad({0.27F, 1.42F, -0.2F}, {-0.27F, 1.42F, -0.2F}, {-0.36F, 0.9F, -0.42F}, {0.36F, 0.9F, -0.42F});
     cloth.quad({0.36F, 0.9F, -0.42F}, {-0.36F, 0.9F, -0.42F}, {-0.42F, 0.38F, -0.58F}, {0.42F, 0.38F, -0.58F});
+}
+
+void addBow(Part& part)
+{
+    part.colour = rgb(0x7A4E28);
+    const std::array<glm::vec3, 5> bow{glm::vec3(0.42F, 0.28F, 0.30F),
+                                       {0.42F, 0.62F, 0.52F},
+                                       {0.42F, 1.04F, 0.60F},
+                                       {0.42F, 1.46F, 0.52F},
+                                       {0.42F, 1.80F, 0.30F}};
+    for (std::size_t i = 0; i + 1 < bow.size(); ++i) {
+        part.beam(bow[i], bow[i + 1], 0.06F, false);
+    }
+    part.colour = rgb(0xE8E0D0);
+    part.beam(bow.front(), bow.back(), 0.02F, false);
+    part.colour = rgb(0x5A3B22);
+    part.beam({-0.16F, 0.85F, -0.34F}, {0.14F, 1.5F, -0.34F}, 0.17F);
+}
+
+void addSword(Part& part, const glm::vec3& hand)
+{
+    part.colour = rgb(0xD8DCE2);
+    part.beam(hand, hand + glm::vec3(0, 0.85F, 0.42F), 0.08F);
+    part.colour = rgb(0xC9A13C);
+    part.box(hand + glm::vec3(-0.16F, 0.06F, -0.05F), hand + glm::vec3(0.16F, 0.13F, 0.09F));
+}
+
+void addSpear(Part& part, const glm::vec3& hand)
+{
+    const glm::vec3 high = hand + glm::vec3(0, 1.45F, 0.2F);
+    part.colour = rgb(0x7A5534);
+    part.beam(hand - glm::vec3(0, 0.9F, 0.12F), high, 0.06F, false);
+    part.colour = rgb(0xD8DCE2);
+    part.frame = at(high) * turnedX(0.14F);
+    part.lathe({{0.09F, 0.0F}, {0.0F, 0.38F}}, 4);
+    part.frame = glm::mat4(1.0F);
 }
 
 /// Body, arms and what they carry, facing +z; the right hand is at -x.
@@ -94,34 +137,10 @@ Mesh makeBody(const Palette& palette, std::uint32_t team, std::uint32_t role)
     addArm(part, livery, {-0.40F, 1.36F, 0}, {-0.50F, 1.05F, 0.05F}, right_hand);
     addArm(part, livery, {0.40F, 1.36F, 0}, {0.50F, 1.05F, 0.05F}, {0.42F, 1.04F, 0.40F});
     if (role == kBow) {
-        part.colour = rgb(0x7A4E28);
-        const std::array<glm::vec3, 5> bow{glm::vec3(0.42F, 0.28F, 0.30F),
-                                           {0.42F, 0.62F, 0.52F},
-                                           {0.42F, 1.04F, 0.60F},
-                                           {0.42F, 1.46F, 0.52F},
-                                           {0.42F, 1.80F, 0.30F}};
-        for (std::size_t i = 0; i + 1 < bow.size(); ++i) {
-            part.beam(bow[i], bow[i + 1], 0.06F);
-        }
-        part.colour = rgb(0xE8E0D0);
-        part.beam(bow.front(), bow.back(), 0.02F);
-        part.colour = rgb(0x5A3B22);
-        part.beam({-0.16F, 0.85F, -0.34F}, {0.14F, 1.5F, -0.34F}, 0.17F);
+        addBow(part);
     } else {
         addShield(part, livery);
-        const bool sword = role == kSword;
-        part.colour = sword ? rgb(0xD8DCE2) : rgb(0x7A5534);
-        const glm::vec3 low = right_hand - glm::vec3(0, sword ? 0.02F : 0.9F, sword ? 0.0F : 0.12F);
-        const glm::vec3 high = right_hand + (sword ? glm::vec3(0, 0.85F, 0.42F) : glm::vec3(0, 1.45F, 0.2F));
-        part.beam(low, high, sword ? 0.08F : 0.06F);
-        part.colour = sword ? rgb(0xC9A13C) : rgb(0xD8DCE2);
-        if (sword) {
-            part.box(right_hand + glm::vec3(-0.16F, 0.06F, -0.05F), right_hand + glm::vec3(0.16F, 0.13F, 0.09F));
-        } else {
-            part.frame = at(high) * turnedX(0.14F);
-            part.lathe({{0.09F, 0.0F}, {0.0F, 0.38F}}, 4);
-            part.frame = glm::mat4(1.0F);
-        }
+        role == kSword ? addSword(part, right_hand) : addSpear(part, right_hand);
     }
     constexpr std::array<const char*, kRoles> kNames{"swordsman", "spearman", "archer"};
     return maker.take(std::string(team == 0 ? "blue " : "red ") + kNames[role]);
@@ -135,8 +154,7 @@ Mesh makeLeg(const Palette& palette, std::uint32_t team)
     part.colour = rgb(team == 0 ? 0x4A4F5E : 0x574A42);
     part.box({-0.10F, -0.42F, -0.11F}, {0.10F, 0.02F, 0.11F}, 1.1F);
     part.colour = rgb(0x4B3320);
-    part.box({-0.11F, -kHip_m, -0.12F}, {0.11F, -0.38F, 0.12F});
-    part.box({-0.11F, -kHip_m, 0.10F}, {0.11F, -kHip_m + 0.16F, 0.27F});
+    part.box({-0.11F, -kHip_m, -0.12F}, {0.11F, -0.38F, 0.20F}, 0.85F);
     return maker.take(team == 0 ? "blue leg" : "red leg");
 }
 
@@ -198,7 +216,7 @@ Army::Army(Scene& scene, const Palette& palette, std::uint64_t seed)
                               .ahead_m = 2.4F - 1.6F * static_cast<float>(row) + rng.range(-0.15F, 0.15F),
                               .right_m = 1.35F * (static_cast<float>(i % 4) - 1.5F) + rng.range(-0.12F, 0.12F),
                               .scale = rng.range(0.96F, 1.08F),
-                              .step = rng.range(-0.06F, 0.06F)});
+                              .step = 0.2F + rng.range(-0.07F, 0.07F)});
         }
     }
 }

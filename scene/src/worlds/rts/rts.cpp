@@ -60,7 +60,7 @@ void addViews(Scene& scene, const Actors& actors)
     scene.views = {
         {.name = "camp", .eye = {14.0F, 54.0F, 76.0F}, .target = {-1.0F, 7.0F, -1.0F}, .fov_y_rad = 0.72F},
         {.name = "unit", .eye = eye, .target = middle + glm::vec3(0.0F, 1.25F, 0.0F), .fov_y_rad = 0.8F},
-        {.name = "map", .eye = {70.0F, 300.0F, 400.0F}, .target = {0.0F, -20.0F, 18.0F}, .fov_y_rad = 0.75F},
+        {.name = "map", .eye = {45.0F, 400.0F, 510.0F}, .target = {0.0F, -30.0F, 22.0F}, .fov_y_rad = 0.70F},
     };
 }
 

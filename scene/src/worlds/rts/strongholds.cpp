@@ -16,7 +16,7 @@ void merlons(Part& stone, float half_x, float half_z, float y)
 {
     const auto row = [&](bool along_x, float across) {
         const float half = along_x ? half_x : half_z;
-        const int count = static_cast<int>(half * 2.0F / 1.9F);
+        const int count = static_cast<int>(half * 2.0F / 2.6F);
         for (int i = 0; i <= count; ++i) {
             const float at_m = -half + 2.0F * half * static_cast<float>(i) / static_cast<float>(count);
             const glm::vec3 c = along_x ? glm::vec3(at_m, y, across) : glm::vec3(across, y, at_m);
@@ -58,10 +58,10 @@ Mesh makeKeep(const Palette& palette)
         for (const float z : {-5.7F, 5.7F}) {
             stone.frame = at({x, 0, z});
             stone.colour = rgb(0xBDB4A3);
-            stone.lathe({{2.5F, -2.0F}, {2.1F, 1.5F}, {2.0F, 10.6F}, {2.4F, 11.2F}, {2.4F, 12.0F}}, 10);
+            stone.lathe({{2.5F, -2.0F}, {2.1F, 1.5F}, {2.0F, 10.6F}, {2.4F, 11.2F}, {2.4F, 12.0F}}, 8);
             roof.frame = at({x, 0, z});
             roof.colour = rgb(0x39589C);
-            roof.lathe({{2.0F, 11.9F}, {2.85F, 11.8F}, {1.3F, 14.4F}, {0.0F, 17.0F}}, 10);
+            roof.lathe({{2.0F, 11.9F}, {2.85F, 11.8F}, {1.3F, 14.4F}, {0.0F, 17.0F}}, 8);
         }
     }
     stone.frame = glm::mat4(1.0F);
