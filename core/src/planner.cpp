@@ -238,10 +238,11 @@ bool Planner::Impl::stillHolds(const View& made, const Plan& plan, const Plan& l
     const auto old = std::find_if(last.views.begin(), last.views.end(), same);
     if (old == last.views.end())
         return false;
+    const std::span<const std::uint64_t> changes = objects.allChanges();
     const std::span now = std::span(plan.casters).subspan(made.first_caster, made.caster_count);
     const std::span then = std::span(last.casters).subspan(old->first_caster, old->caster_count);
     return std::equal(now.begin(), now.end(), then.begin()) &&
-           std::none_of(now.begin(), now.end(), [&](std::uint32_t c) { return objects.changed(c) > last_version; });
+           std::none_of(now.begin(), now.end(), [&](std::uint32_t c) { return changes[c] > last_version; });
 }
 
 } // namespace gnomon

@@ -72,8 +72,9 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     glm::dvec3 low(kInfinity);
     glm::dvec3 high(-kInfinity);
     boxes_measured_ = true;
+    const std::span<const Aabb> bounds = input.objects.allBounds();
     for (const std::uint32_t object : input.seen) {
-        const Aabb& box = input.objects.bounds(object);
+        const Aabb& box = bounds[object];
         if (space.perspective && classify(cone_planes_, box) == Containment::outside)
             continue;
         receivers_ws.min = glm::min(receivers_ws.min, box.min);
@@ -217,8 +218,9 @@ Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& cas
     const glm::dvec3 forward = input.space.forward_ws;
     const glm::dvec3 size = glm::abs(forward);
     caster_near_m_ = kInfinity;
+    const std::span<const Aabb> bounds = input.objects.allBounds();
     for (std::size_t i = first; i < casters.size(); ++i) {
-        const Aabb& box = input.objects.bounds(casters[i]);
+        const Aabb& box = bounds[casters[i]];
         const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
         const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
         caster_near_m_ =

@@ -45,12 +45,15 @@ struct World {
             set.add(box(homes.back()), {true, true, i % moving_every == 0});
         }
         lights[0].direction_ws = glm::normalize(glm::dvec3(0.4, -1.0, 0.25));
-        const glm::dvec3 eye(0.0, 1.4 * half_m, 1.9 * half_m);
+        lookFrom({0.0, 1.4 * half_m, 1.9 * half_m});
+        frame.lights = lights;
+        frame.objects = &set;
+    }
+    void lookFrom(const glm::dvec3& eye)
+    {
         frame.camera.eye_ws = eye;
         frame.camera.clip_from_world = glm::perspectiveRH_ZO(1.0, 1.6, 10.0 * half_m, 0.1) *
                                        glm::lookAtRH(eye, glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
-        frame.lights = lights;
-        frame.objects = &set;
     }
     static Aabb box(const glm::dvec3& centre) { return {glm::vec3(centre - 0.8), glm::vec3(centre + 0.8)}; }
     void move(int step)
@@ -62,9 +65,10 @@ struct World {
 };
 
 /// Updates of the moving objects and the plan: what a frame costs.
-void frameOf(benchmark::State& state, std::uint32_t moving_one_in)
+void frameOf(benchmark::State& state, std::uint32_t moving_one_in, double eye_height)
 {
     World world(state.range(0), moving_one_in);
+    world.lookFrom(glm::dvec3(0.0, eye_height, 1.36 * eye_height) * world.half_m);
     Planner planner({});
     int step = 0;
     for (; step < kFrames; ++step) {
@@ -82,9 +86,16 @@ void frameOf(benchmark::State& state, std::uint32_t moving_one_in)
 
 void planOneInTenMoving(benchmark::State& state)
 {
-    frameOf(state, 10);
+    frameOf(state, 10, 1.4);
 }
 BENCHMARK(planOneInTenMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+/// The same from so near that a good part of the world is out of sight and the frustum's sides cut through it.
+void planPartOfTheWorld(benchmark::State& state)
+{
+    frameOf(state, 10, 0.5);
+}
+BENCHMARK(planPartOfTheWorld)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
 
 /// As many objects as the `rts` world has, three of four of them moving.
 void planRtsSize(benchmark::State& state)

@@ -38,6 +38,8 @@ public:
     [[nodiscard]] std::uint32_t size() const; // one past the largest live handle
     [[nodiscard]] bool alive(std::uint32_t object) const;
     [[nodiscard]] const Aabb& bounds(std::uint32_t object) const;
+    /// The bounds of all handles, those of dead ones meaningless; for loops over many. Holds until the next add().
+    [[nodiscard]] std::span<const Aabb> allBounds() const;
     [[nodiscard]] ObjectFlags flags(std::uint32_t object) const;
     /// Box around all live objects; empty when there are none. Exact; the first call after an object left the rim
     /// looks at all of them, so it is not for several threads at once (query() is).
@@ -45,6 +47,8 @@ public:
     /// Counts up at every add, update, touch and remove; `changed(object)` is the count at the object's last change.
     [[nodiscard]] std::uint64_t version() const;
     [[nodiscard]] std::uint64_t changed(std::uint32_t object) const;
+    /// `changed` of all handles.
+    [[nodiscard]] std::span<const std::uint64_t> allChanges() const;
     /// Differs between any two sets of a process, so that a planner notices when it is handed another one.
     [[nodiscard]] std::uint64_t identity() const;
 

@@ -229,17 +229,20 @@ void Octree::moved(TreeObjects& objects, std::uint32_t handle)
     prune(node);
 }
 
-void Octree::query(const TreeObjects& objects, const RegionTest& region, std::uint32_t want,
+void Octree::query(const TreeObjects& objects, const Aabb& around_ws, const RegionTest& region, std::uint32_t want,
                    std::span<std::uint64_t> bits) const
 {
-    if (root_ != kNone)
-        visit({objects, region, want, bits}, root_, region.allPlanes());
+    if (root_ != kNone && !around_ws.empty())
+        visit({objects, region, want, bits, glm::dvec3(around_ws.min), glm::dvec3(around_ws.max)}, root_,
+              region.allPlanes());
 }
 
 void Octree::mark(const Walk& walk, const Node& node, std::uint32_t mask) const
 {
     std::uint32_t in_block = node.inFirst();
     for (std::uint32_t block = node.first; block != kNone; block = blocks_[block].next) {
+        if (blocks_[block].next != kNone)
+            __builtin_prefetch(&blocks_[blocks_[block].next]);
         for (std::uint32_t i = 0; i < in_block; ++i) {
             const std::uint32_t item = blocks_[block].items[i];
             const std::uint32_t handle = item & kHandleBits;
@@ -255,13 +258,25 @@ void Octree::mark(const Walk& walk, const Node& node, std::uint32_t mask) const
 void Octree::visit(const Walk& walk, std::uint32_t index, std::uint32_t mask) const
 {
     const Node& node = nodes_[index];
-    if (mask != 0 && !walk.region.narrow(node.centre, glm::dvec3(2.0 * node.half), mask))
-        return;
+    if (mask != 0) {
+        const glm::dvec3 low = glm::max(walk.low, node.centre - 2.0 * node.half);
+        const glm::dvec3 high = glm::min(walk.high, node.centre + 2.0 * node.half);
+        if (!walk.region.narrow((low + high) * 0.5, glm::max((high - low) * 0.5, 0.0), mask))
+            return;
+    }
     mark(walk, node, mask);
-    if (node.child_count != 0)
-        for (const std::uint32_t child : node.children)
-            if (child != kNone)
-                visit(walk, child, mask);
+    if (node.child_count == 0)
+        return;
+    // In a large world nodes and lists come from far memory: asked for together, they are waited for once.
+    for (const std::uint32_t child : node.children)
+        if (child != kNone)
+            __builtin_prefetch(&nodes_[child]);
+    for (const std::uint32_t child : node.children)
+        if (child != kNone && nodes_[child].first != kNone)
+            __builtin_prefetch(&blocks_[nodes_[child].first]);
+    for (const std::uint32_t child : node.children)
+        if (child != kNone)
+            visit(walk, child, mask);
 }
 
 } // namespace gnomon

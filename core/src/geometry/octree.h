@@ -43,8 +43,9 @@ public:
     /// After the bounds of an object in the tree changed.
     void moved(TreeObjects& objects, std::uint32_t handle);
 
-    /// Sets the bit of every object that the region may touch and that has all flags of `want`.
-    void query(const TreeObjects& objects, const RegionTest& region, std::uint32_t want,
+    /// Sets the bit of every object that the region may touch and that has all flags of `want`. `around_ws` holds all
+    /// objects: a world is mostly flat, and cut by it the high cells of the tree are, too.
+    void query(const TreeObjects& objects, const Aabb& around_ws, const RegionTest& region, std::uint32_t want,
                std::span<std::uint64_t> bits) const;
 
 private:
@@ -54,7 +55,7 @@ private:
     static constexpr std::uint32_t kBlockItems = 15;
 
     /// One cache line of a node's list.
-    struct Block {
+    struct alignas(64) Block {
         std::array<std::uint32_t, kBlockItems> items{};
         std::uint32_t next = kNone;
     };
@@ -75,6 +76,8 @@ private:
         const RegionTest& region;
         std::uint32_t want;
         std::span<std::uint64_t> bits;
+        glm::dvec3 low; // of what is around all objects
+        glm::dvec3 high;
     };
 
     [[nodiscard]] static bool holds(const Node& node, const Aabb& box);
