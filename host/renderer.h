@@ -12,6 +12,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,15 +35,17 @@ struct Eye {
 /// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
 struct ShadedLight {
     std::string name;
-    Light caster;                   // gnomon/frame.h
-    glm::vec3 colour{1.0F};         // linear, times intensity: lux (directional) or candela
-    double inner_half_angle_rad = 0.0; // spot
-    glm::vec3 up_ws{0.0F, 0.0F, 1.0F}; // orients the cookie
+    Light caster;                        // gnomon/frame.h
+    glm::vec3 colour{1.0F};              // linear, times intensity: lux (directional) or candela
+    double inner_half_angle_rad = 0.0;   // spot
+    glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
     std::uint32_t cookie = scene::kNone; // image of the scene
 };
 [[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
 
-enum class AntiAliasing : std::uint8_t { none, fxaa, msaa4 };
+/// `fxaa` smooths edges of the finished picture; `ssaa4` draws and shades four samples a pixel (twice the size on each
+/// side) and averages them.
+enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
 struct RenderOptions {
     std::uint32_t width = 1280;
@@ -49,8 +53,28 @@ struct RenderOptions {
     PlanOptions plan;
     vulkan::FilterOptions filter;
     AntiAliasing anti_aliasing = AntiAliasing::none;
-    bool shadows = true;          // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
-    bool reuse_maps = true;       // false: every map is drawn every frame whatever the plan says
+    bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
+    bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
+};
+
+/// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.
+class PassRecords {
+public:
+    void push_back(const vulkan::PassRecord& pass)
+    {
+        if (size_ < records_.size()) {
+            records_[size_++] = pass;
+        }
+    }
+    [[nodiscard]] const vulkan::PassRecord* begin() const { return records_.data(); }
+    [[nodiscard]] const vulkan::PassRecord* end() const { return records_.data() + size_; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] const vulkan::PassRecord& operator[](std::size_t i) const { return records_[i]; }
+
+private:
+    std::array<vulkan::PassRecord, 96> records_{};
+    std::size_t size_ = 0;
 };
 
 /// CPU stages and GPU passes of one frame, milliseconds.
@@ -59,17 +83,17 @@ struct FrameTimes {
     double plan_ms = 0.0;
     double record_ms = 0.0;
     double frame_ms = 0.0; // from the start of the frame's work to the GPU being done, without read-back
-    std::vector<vulkan::PassRecord> passes;
+    PassRecords passes;
 };
 
 /// A frame read back.
 struct Picture {
-    Image8 colour;             // RGB, sRGB-encoded, tone-mapped
-    ImageF linear;             // RGB, linear radiance before the tone curve; only if asked for
-    std::vector<ImageF> masks; // one 1-channel image per light, in the order of the lights given
-    ImageF depth;              // camera depth, reversed z
+    Image8 colour;                     // RGB, sRGB-encoded, tone-mapped
+    ImageF linear;                     // RGB, linear radiance before the tone curve; only if asked for
+    std::vector<ImageF> masks;         // one 1-channel image per light, in the order of the lights given
+    ImageF depth;                      // camera depth, reversed z
     ImageOf<std::uint32_t> object_ids; // index into State::objects + 1; 0 background
-    ImageF normals;            // geometric, world space, xyz
+    ImageF normals;                    // geometric, world space, xyz
 };
 struct WantedImages {
     bool colour = true;
@@ -86,8 +110,8 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Draws one frame of `state` (same scene, any time). `masks_instead`: use these visibility masks (one per light, as
-    /// Picture::masks) instead of the library's, e.g. the ray tracer's.
+    /// Draws one frame of `state` (same scene, any time). `masks_instead`: use these visibility masks (one per light,
+    /// as Picture::masks) instead of the library's, e.g. the ray tracer's.
     FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                     const std::vector<ImageF>* masks_instead = nullptr);
     /// Reads back the last frame drawn.

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces that are not in the G-buffer: blended ones, lit here; and what emits, added to what is shaded already.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "lighting.glsl"
+#include "material.glsl"
+
+layout(constant_id = 3) const bool kEmissiveOnly = false;
+layout(set = 0, binding = 7) uniform sampler2DArray cookies;
+
+layout(location = 0) in vec3 normal;
+layout(location = 1) in vec4 uvs;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 colour;
+layout(location = 4) flat in uvec2 ids;
+layout(location = 0) out vec4 out_light;
+
+void main()
+{
+    vec3 emitted = material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb * frame.sky_horizon.w;
+    vec4 base = baseColour(uvs, colour);
+    if (kEmissiveOnly) {
+        out_light = vec4(emitted, 0.0);
+        return;
+    }
+    vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
+    Surface surface = surfaceAt(p, normal, tangent, uvs, base);
+    if (surface.model == 2.0) {
+        out_light = vec4(base.rgb * frame.sky_horizon.w * base.a, base.a);
+        return;
+    }
+    float second = surface.model == 1.0 ? material.model.y : surface.roughness;
+    Lit s = litSurface(p, surface.shading_normal, base.rgb, surface.metallic, second, surface.model);
+    vec3 sum = ambient(s, surface.model == 1.0 ? 1.0 : second, surface.occlusion) + emitted;
+    for (uint i = 0; i < frame.counts.x; ++i) {
+        vec3 l;
+        vec3 e = arriving(frame.lights[i], p, cookies, l);
+        float n_l = max(dot(s.n, l), 0.0);
+        sum += reflectance(s, l, n_l) * e * n_l;
+    }
+    out_light = vec4(sum * base.a, base.a); // premultiplied
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "material.glsl"
+#include "octahedral_pair.glsl"
+
+layout(location = 0) in vec3 normal;
+layout(location = 1) in vec4 uvs;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 colour;
+layout(location = 4) flat in uvec2 ids;
+
+layout(location = 0) out vec4 out_base;     // square root of the base colour; occlusion
+layout(location = 1) out vec4 out_normals;  // geometric, shading
+layout(location = 2) out vec4 out_material; // metallic, roughness, 0, model / 2
+layout(location = 3) out uvec2 out_ids;     // id where the surface receives, id
+
+void main()
+{
+    vec4 base = baseColour(uvs, colour);
+    if (kMasked && base.a < material.numbers.w) {
+        discard;
+    }
+    vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
+    Surface s = surfaceAt(p, normal, tangent, uvs, base);
+    out_base = vec4(sqrt(s.base.rgb), s.occlusion);
+    out_normals = encodeNormals(s.geometric_normal, s.shading_normal);
+    float second = s.model == 1.0 ? log2(material.model.y + 1.0) / 16.0 : s.roughness;
+    out_material = vec4(s.metallic, second, 0.0, s.model * 0.5);
+    out_ids = uvec2(ids.y, ids.x);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every drawn surface. Instances carry their transform, because instance-rate attributes cost a software rasteriser far
+// less than a gather per vertex.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+
+layout(constant_id = 2) const bool kAllTextures = false;
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 uv_base; // of the base colour
+layout(location = 2) in vec4 normal;
+layout(location = 3) in vec4 tangent;
+layout(location = 4) in vec4 colour; // square root of the linear colour
+layout(location = 5) in vec2 uv_other;
+layout(location = 6) in vec4 row_x; // eye-relative from object
+layout(location = 7) in vec4 row_y;
+layout(location = 8) in vec4 row_z;
+layout(location = 9) in uvec2 ids; // object id + 1; the same where it receives, else 0
+
+layout(location = 0) out vec3 out_normal;
+layout(location = 1) out vec4 out_uvs;
+layout(location = 2) out vec4 out_tangent;
+layout(location = 3) out vec4 out_colour;
+layout(location = 4) flat out uvec2 out_ids;
+invariant gl_Position; // drawn again with depth compared for equality
+
+void main()
+{
+    vec4 p = vec4(position, 1.0);
+    gl_Position = frame.clip_from_eye * vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
+    // The cofactors take normals along whatever the transform is.
+    vec3 c_x = cross(row_y.xyz, row_z.xyz);
+    vec3 c_y = cross(row_z.xyz, row_x.xyz);
+    vec3 c_z = cross(row_x.xyz, row_y.xyz);
+    out_normal = vec3(dot(c_x, normal.xyz), dot(c_y, normal.xyz), dot(c_z, normal.xyz));
+    out_tangent = vec4(0.0);
+    if (kAllTextures) {
+        float mirrored = sign(dot(row_x.xyz, c_x));
+        out_normal *= mirrored;
+        out_tangent.xyz = vec3(dot(row_x.xyz, tangent.xyz), dot(row_y.xyz, tangent.xyz), dot(row_z.xyz, tangent.xyz));
+        out_tangent.w = tangent.w * mirrored;
+    }
+    out_uvs = vec4(uv_base, uv_other);
+    out_colour = colour * colour;
+    out_ids = ids;
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A gradient from zenith over horizon to ground, with the sun in it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+
+layout(location = 0) out vec4 out_light;
+
+void main()
+{
+    vec3 d = normalize(rayOf(gl_FragCoord.xy));
+    vec3 sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, sqrt(clamp(d.y, 0.0, 1.0)));
+    sky = mix(sky, frame.ground.rgb, smoothstep(0.0, 0.25, -d.y));
+    if (frame.counts.x > 0 && frame.lights[0].place.w < 0.5) {
+        float c = dot(d, frame.lights[0].place.xyz);
+        // Cosine of a disc twice the sun's, and a halo.
+        float disc = smoothstep(0.99985, 0.99992, c);
+        float halo = 0.25 * pow(max(c, 0.0), 400.0) + 0.12 * pow(max(c, 0.0), 24.0);
+        sky += frame.lights[0].colour.rgb * (disc * 4.0 + halo);
+    }
+    out_light = vec4(sky, 1.0);
+}

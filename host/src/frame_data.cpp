@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_data.h"
+
+#include <gnomon/error.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::host {
+namespace {
+
+// Where a light of a file is that shines from a place: what it gives in the middle of the scene stands for it, but
+// never as if it were nearer than a twentieth of the scene or farther than half its reach.
+double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
+{
+    const double strength = glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
+    if (light.caster.type == LightType::directional) {
+        return strength;
+    }
+    const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
+    const glm::dvec3 centre = bounds.empty() ? light.caster.position_ws : glm::dvec3(bounds.centre());
+    double distance = std::max(glm::length(light.caster.position_ws - centre), diagonal / 20.0);
+    if (light.caster.range_m > 0.0) {
+        distance = std::min(distance, light.caster.range_m * 0.5);
+    }
+    return strength / std::max(distance * distance, 1e-12);
+}
+
+void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, double scale, int cookie_layer)
+{
+    const Light& caster = light.caster;
+    const glm::dvec3 towards = -caster.direction_ws;
+    const glm::dvec3 place = caster.position_ws - sight.eye_ws;
+    const bool directional = caster.type == LightType::directional;
+    const float type = directional ? 0.0F : (caster.type == LightType::spot ? 1.0F : 2.0F);
+    out.place = glm::vec4(glm::vec3(directional ? towards : place), type);
+    const double inverse_range = caster.range_m > 0.0 ? 1.0 / caster.range_m : 0.0;
+    out.colour = glm::vec4(glm::vec3(glm::dvec3(light.colour) * scale), static_cast<float>(inverse_range));
+    out.axis = glm::vec4(glm::vec3(caster.direction_ws), static_cast<float>(cookie_layer));
+    // KHR_lights_punctual: (cos a - cos outer) / (cos inner - cos outer), clamped, squared.
+    const double cos_outer = std::cos(caster.outer_half_angle_rad);
+    const double cos_inner = std::cos(std::min(light.inner_half_angle_rad, caster.outer_half_angle_rad));
+    const double cone = 1.0 / std::max(cos_inner - cos_outer, 1e-3);
+    out.cone = {cone, -cos_outer * cone, 1.0 / std::tan(std::max(caster.outer_half_angle_rad, 1e-3)), 0.0};
+    const glm::dvec3 right = glm::cross(caster.direction_ws, glm::dvec3(light.up_ws));
+    const double length = glm::length(right);
+    out.right = glm::vec4(glm::vec3(length > 0.0 ? right / length : glm::dvec3(1.0, 0.0, 0.0)), 0.0F);
+}
+
+} // namespace
+
+Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& bounds)
+{
+    constexpr const char* kTried = "placing the camera";
+    Sight sight;
+    sight.eye_ws = eye.position_ws;
+    const glm::dvec3 look = eye.target_ws - eye.position_ws;
+    const double distance = glm::length(look);
+    if (!(distance > 0.0) || !std::isfinite(distance)) {
+        throw Error(kTried, "the eye is at its target", "move one of them");
+    }
+    if (!(eye.fov_y_rad > 0.0 && eye.fov_y_rad < std::numbers::pi)) {
+        throw Error(kTried, "the vertical field of view is not between 0 and 180 degrees");
+    }
+    sight.forward_ws = look / distance;
+    glm::dvec3 right = glm::cross(sight.forward_ws, eye.up_ws);
+    if (glm::length(right) < 1e-9 * glm::length(eye.up_ws)) {
+        // Straight up or down: any direction across will do, and this one is the same every time.
+        right = glm::cross(sight.forward_ws,
+                           std::abs(sight.forward_ws.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
+    }
+    sight.right_ws = glm::normalize(right);
+    sight.up_ws = glm::cross(sight.right_ws, sight.forward_ws);
+    sight.tan_y = std::tan(eye.fov_y_rad * 0.5);
+    sight.tan_x = sight.tan_y * static_cast<double>(width) / static_cast<double>(height);
+    const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
+    sight.near_m = eye.near_m > 0.0 ? eye.near_m : diagonal / 20000.0;
+    sight.far_m = eye.far_m;
+    if (!(sight.far_m > 0.0)) {
+        double farthest = 0.0;
+        for (int i = 0; i < 8 && !bounds.empty(); ++i) {
+            farthest = std::max(farthest, glm::dot(glm::dvec3(bounds.corner(i)) - sight.eye_ws, sight.forward_ws));
+        }
+        sight.far_m = farthest * 1.01;
+    }
+    sight.far_m = std::max(sight.far_m, sight.near_m * 2.0);
+    return sight;
+}
+
+glm::dmat4 clipFromEye(const Sight& s)
+{
+    const glm::dvec3 x = s.right_ws / s.tan_x;
+    const glm::dvec3 y = -s.up_ws / s.tan_y;
+    // z_clip = near (far - d) / (far - near) and w = d, d the view depth: 1 at the near plane, 0 at the far plane.
+    const double k = s.near_m / (s.far_m - s.near_m);
+    const glm::dvec3 z = -k * s.forward_ws;
+    const glm::dvec3 w = s.forward_ws;
+    return {glm::dvec4(x.x, y.x, z.x, w.x), glm::dvec4(x.y, y.y, z.y, w.y), glm::dvec4(x.z, y.z, z.z, w.z),
+            glm::dvec4(0.0, 0.0, k * s.far_m, 0.0)};
+}
+
+Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws)
+{
+    const Sight sight = sightOf(eye, width, height, scene_bounds_ws);
+    Camera camera;
+    camera.eye_ws = sight.eye_ws;
+    camera.clip_from_world = clipFromEye(sight);
+    camera.clip_from_world[3] += camera.clip_from_world * glm::dvec4(-sight.eye_ws, 0.0);
+    return camera;
+}
+
+double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
+{
+    double brightest = 0.0;
+    for (const ShadedLight& light : lights) {
+        brightest = std::max(brightest, illuminanceOf(light, bounds));
+    }
+    // A white surface square to the brightest light comes out at 1.8 times the sky's own scale: the tone curve takes
+    // that to 0.78 of its range and grey of 18 % to a middle tone.
+    constexpr double kKey = 1.8;
+    return brightest > 0.0 ? kKey * environment.exposure / brightest : environment.exposure;
+}
+
+void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
+                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,
+                   const scene::Environment& environment, bool has_mask)
+{
+    data.clip_from_eye = glm::mat4(clipFromEye(sight));
+    const glm::dvec3 step_x = sight.right_ws * (2.0 * sight.tan_x / width);
+    const glm::dvec3 step_y = sight.up_ws * (-2.0 * sight.tan_y / height);
+    const glm::dvec3 corner = sight.forward_ws - sight.right_ws * sight.tan_x + sight.up_ws * sight.tan_y;
+    data.ray_x = glm::vec4(glm::vec3(step_x), 0.0F);
+    data.ray_y = glm::vec4(glm::vec3(step_y), 0.0F);
+    data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);
+    const double span = (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
+    data.depth = {span, 1.0 / sight.far_m, 0.0, 0.0};
+    data.sky_zenith = glm::vec4(environment.sky_zenith * environment.exposure, environment.ambient);
+    data.sky_horizon = glm::vec4(environment.sky_horizon * environment.exposure, environment.exposure);
+    data.ground = glm::vec4(environment.ground * environment.exposure, 0.0F);
+    data.counts = {lights.size(), has_mask ? 1 : 0, 0, 0};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        fillLight(data.lights[i], lights[i], sight, exposure, cookie_layers[i]);
+        data.lights[i].right.w = static_cast<float>(i); // mask layer * 4 + channel
+    }
+}
+
+} // namespace gnomon::host

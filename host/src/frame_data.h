@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The uniform buffer of a frame, and what it is made from: camera, lights, exposure, sky.
+#pragma once
+
+#include "host/renderer.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <array>
+#include <span>
+
+namespace gnomon::host {
+
+inline constexpr std::size_t kMaxLights = 64;
+
+/// Laid out as in host/shaders/frame.glsl (std140).
+struct LightData {
+    glm::vec4 place;
+    glm::vec4 colour;
+    glm::vec4 axis;
+    glm::vec4 cone;
+    glm::vec4 right;
+};
+struct FrameData {
+    glm::mat4 clip_from_eye;
+    glm::vec4 ray_x;
+    glm::vec4 ray_y;
+    glm::vec4 ray_0;
+    glm::vec4 depth;
+    glm::vec4 sky_zenith;
+    glm::vec4 sky_horizon;
+    glm::vec4 ground;
+    glm::uvec4 counts;
+    std::array<LightData, kMaxLights> lights;
+};
+static_assert(sizeof(FrameData) == 64 + 7 * 16 + 16 + kMaxLights * 80);
+
+/// An Eye with everything worked out: axes and distances.
+struct Sight {
+    glm::dvec3 eye_ws;
+    glm::dvec3 right_ws;
+    glm::dvec3 up_ws;
+    glm::dvec3 forward_ws;
+    double tan_x = 1.0; // half the picture's width at 1 m
+    double tan_y = 1.0;
+    double near_m = 0.1;
+    double far_m = 100.0;
+};
+/// Throws Error when position and target are the same or up is along the view.
+[[nodiscard]] Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
+/// Reversed z, y down, about the eye.
+[[nodiscard]] glm::dmat4 clipFromEye(const Sight& sight);
+
+/// What brings the brightest light to the range that the tone curve is made for; multiplies all light that the scene's
+/// lights give. Sky, hemisphere light and emission are given relative to that and are only scaled by
+/// Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
+[[nodiscard]] double exposureOf(std::span<const ShadedLight> lights, const Aabb& scene_bounds_ws,
+                                const scene::Environment& environment);
+
+/// Fills everything but the lights' cookie layers and mask slots from the arguments; `cookie_layers` has one per light.
+void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
+                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,
+                   const scene::Environment& environment, bool has_mask);
+
+} // namespace gnomon::host

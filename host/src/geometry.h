@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene's triangles on the GPU: streams of positions, of texture coordinates and of all other attributes, so that
+// shadow maps read 12 bytes a vertex. Deformed primitives have ranges of their own that are rewritten each frame.
+#pragma once
+
+#include "commands.h"
+#include "scene/state.h"
+
+#include <gnomon/vulkan/draw_batcher.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <vector>
+
+namespace gnomon::host {
+
+/// One vertex of the attribute stream.
+struct VertexAttributes {
+    std::array<std::int16_t, 4> normal{};                   // snorm; w unused
+    std::array<std::int8_t, 4> tangent{};                   // snorm; w handedness, 0: no tangent
+    std::array<std::uint8_t, 4> colour{255, 255, 255, 255}; // unorm, square root of linear
+    glm::vec2 uv_other{0.0F};                               // the set that the base colour does not use
+};
+static_assert(sizeof(VertexAttributes) == 24);
+
+class Geometry {
+public:
+    Geometry(Memory& memory, Uploader& uploader, const scene::Scene& scene, const scene::State& state);
+
+    /// Where the triangles of an object are.
+    [[nodiscard]] vulkan::MeshRange range(const scene::Object& object) const;
+    /// Takes the deformed vertices of `state` over, and records their copy when there are any.
+    void writeDeformed(const scene::Scene& scene, const scene::State& state);
+    void recordDeformed(VkCommandBuffer commands) const;
+    [[nodiscard]] bool deforms() const { return deformed_vertices_ > 0; }
+
+    Buffer positions;
+    Buffer uvs;
+    Buffer attributes;
+    Buffer indices;
+
+private:
+    struct Range {
+        std::uint32_t first_index = 0;
+        std::uint32_t first_vertex = 0;
+        bool used = false; // by an object that does not deform
+    };
+    void place(const scene::Scene& scene, const scene::State& state);
+    void upload(Uploader& uploader, const scene::Scene& scene, const scene::State& state);
+    void uploadRigid(Uploader& uploader, const scene::Primitive& primitive, const scene::Scene& scene,
+                     std::uint32_t first_vertex) const;
+
+    std::vector<std::uint32_t> first_primitive_; // per mesh, into ranges_
+    std::vector<Range> ranges_;
+    std::vector<std::uint32_t> index_counts_;
+    std::vector<std::uint32_t> deformed_first_; // per State::deformed, counted from static_vertices_
+    std::uint32_t static_vertices_ = 0;
+    std::uint32_t deformed_vertices_ = 0;
+    std::uint32_t index_total_ = 0;
+    Buffer staging_; // deformed positions, then deformed attributes
+};
+
+} // namespace gnomon::host

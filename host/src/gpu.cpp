@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu.h"
+
+#include "check.h"
+#include "pipeline_cache.h"
+
+#include <gnomon/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <mutex>
+#include <optional>
+
+namespace gnomon::host {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kTried = "looking for a Vulkan device";
+constexpr const char* kInstallDriver = "install a Vulkan driver; mesa-vulkan-drivers has one for the CPU";
+
+std::string lower(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool hasExtension(const char* layer, const char* name)
+{
+    std::uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    std::vector<VkExtensionProperties> all(count);
+    vkEnumerateInstanceExtensionProperties(layer, &count, all.data());
+    return std::any_of(all.begin(), all.end(),
+                       [name](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+bool hasLayer(const char* name)
+{
+    std::uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> all(count);
+    vkEnumerateInstanceLayerProperties(&count, all.data());
+    return std::any_of(all.begin(), all.end(),
+                       [name](const VkLayerProperties& l) { return std::strcmp(l.layerName, name) == 0; });
+}
+
+std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device)
+{
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & kNeeded) == kNeeded && families[i].timestampValidBits > 0) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+VkPhysicalDeviceProperties propertiesOf(VkPhysicalDevice device)
+{
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device, &properties);
+    return properties;
+}
+
+// Why a device cannot be used; empty when it can.
+std::string refusalOf(VkInstance instance, VkPhysicalDevice device)
+{
+    const VkPhysicalDeviceProperties properties = propertiesOf(device);
+    if (properties.apiVersion < VK_API_VERSION_1_3) {
+        return "it has Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+               std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ", 1.3 is needed";
+    }
+    vulkan::DeviceView view;
+    view.instance = instance;
+    view.physical_device = device;
+    view.get_instance_proc_addr = vkGetInstanceProcAddr;
+    std::array<char, 1024> missing{};
+    vulkan::missingFeatures(view, missing.data(), missing.size());
+    if (missing[0] != '\0') {
+        return std::string("it lacks ") + missing.data();
+    }
+    return graphicsFamily(device).has_value() ? "" : "it has no queue for graphics, compute and timestamps";
+}
+
+bool isSoftware(const VkPhysicalDeviceProperties& properties)
+{
+    return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
+bool wanted(const std::string& gpu, const VkPhysicalDeviceProperties& properties)
+{
+    if (gpu.empty()) {
+        return true;
+    }
+    return gpu == "software" ? isSoftware(properties)
+                             : lower(properties.deviceName).find(lower(gpu)) != std::string::npos;
+}
+
+VkPhysicalDevice pickDevice(VkInstance instance, const std::string& gpu)
+{
+    std::uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance, &count, nullptr), kTried);
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), kTried);
+    if (count == 0) {
+        throw Error(kTried, "no Vulkan driver offers one", kInstallDriver);
+    }
+    std::string reasons;
+    VkPhysicalDevice best = VK_NULL_HANDLE;
+    for (VkPhysicalDevice device : devices) {
+        const VkPhysicalDeviceProperties properties = propertiesOf(device);
+        std::string why =
+            wanted(gpu, properties) ? refusalOf(instance, device) : "its name does not hold \"" + gpu + "\"";
+        if (why.empty()) {
+            // The first real GPU wins over any software rasteriser before it.
+            if (best == VK_NULL_HANDLE || (isSoftware(propertiesOf(best)) && !isSoftware(properties))) {
+                best = device;
+            }
+        } else {
+            reasons += (reasons.empty() ? "" : "; ") + std::string(properties.deviceName) + ": " + why;
+        }
+    }
+    if (best == VK_NULL_HANDLE) {
+        throw Error(kTried, "none can be used (" + reasons + ")",
+                    gpu.empty() ? kInstallDriver : "name another device, or none");
+    }
+    return best;
+}
+
+} // namespace
+
+struct Gpu::Impl {
+    vulkan::DeviceView view;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t family = 0;
+    VkPhysicalDeviceProperties properties{};
+    std::string driver;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    std::filesystem::path cache_file;
+    mutable std::mutex mutex; // validation may speak from any thread
+    std::vector<std::string> messages;
+
+    ~Impl();
+    void makeInstance(bool validate);
+    void makeMessenger();
+    void makeDevice();
+    static VKAPI_ATTR VkBool32 VKAPI_CALL hear(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                               VkDebugUtilsMessageTypeFlagsEXT types,
+                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
+};
+
+VkBool32 Gpu::Impl::hear(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
+{
+    auto& self = *static_cast<Impl*>(user);
+    const std::scoped_lock lock(self.mutex);
+    self.messages.emplace_back(data->pMessage != nullptr ? data->pMessage : "");
+    return VK_FALSE;
+}
+
+void Gpu::Impl::makeInstance(bool validate)
+{
+    if (validate && !hasLayer(kValidationLayer)) {
+        throw Error("switching on Vulkan validation", std::string(kValidationLayer) + " is not installed",
+                    "install vulkan-validationlayers");
+    }
+    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    app.pApplicationName = "gnomon";
+    app.apiVersion = VK_API_VERSION_1_3;
+    std::vector<const char*> extensions;
+    view.debug_labels = hasExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                        (validate && hasExtension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    if (view.debug_labels) {
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+    const std::array<VkValidationFeatureEnableEXT, 1> enables{
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    features.enabledValidationFeatureCount = enables.size();
+    features.pEnabledValidationFeatures = enables.data();
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pApplicationInfo = &app;
+    if (validate) {
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+        info.pNext = &features;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &kValidationLayer;
+    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    const VkResult result = vkCreateInstance(&info, nullptr, &view.instance);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
+        throw Error(kTried, resultText(result), kInstallDriver);
+    }
+    check(result, "starting Vulkan");
+    view.get_instance_proc_addr = vkGetInstanceProcAddr;
+}
+
+void Gpu::Impl::makeMessenger()
+{
+    VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    info.pfnUserCallback = &Impl::hear;
+    info.pUserData = this;
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(view.instance, "vkCreateDebugUtilsMessengerEXT"));
+    if (create == nullptr) {
+        throw Error("switching on Vulkan validation", "VK_EXT_debug_utils is not there", "update the Vulkan loader");
+    }
+    check(create(view.instance, &info, nullptr, &messenger), "listening to Vulkan validation");
+}
+
+void Gpu::Impl::makeDevice()
+{
+    family = *graphicsFamily(view.physical_device);
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue_info.queueFamilyIndex = family;
+    queue_info.queueCount = 1;
+    queue_info.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    info.pNext = &vulkan::requiredFeatures();
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue_info;
+    check(vkCreateDevice(view.physical_device, &info, nullptr, &view.device), "opening the Vulkan device");
+    vkGetDeviceQueue(view.device, family, 0, &queue);
+    VkPhysicalDeviceDriverProperties driver_properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver_properties, {}};
+    vkGetPhysicalDeviceProperties2(view.physical_device, &all);
+    properties = all.properties;
+    driver = std::string(driver_properties.driverName) + " " + driver_properties.driverInfo;
+}
+
+Gpu::Impl::~Impl()
+{
+    if (view.device != VK_NULL_HANDLE) {
+        vkDeviceWaitIdle(view.device);
+        if (cache != VK_NULL_HANDLE) {
+            storePipelineCache(view.device, cache, cache_file);
+            vkDestroyPipelineCache(view.device, cache, nullptr);
+        }
+        vkDestroyDevice(view.device, nullptr);
+    }
+    if (messenger != VK_NULL_HANDLE) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(view.instance, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(view.instance, messenger, nullptr);
+    }
+    if (view.instance != VK_NULL_HANDLE) {
+        vkDestroyInstance(view.instance, nullptr);
+    }
+}
+
+Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
+{
+    impl_->makeInstance(options.validate);
+    if (options.validate) {
+        impl_->makeMessenger();
+    }
+    impl_->view.physical_device = pickDevice(impl_->view.instance, options.gpu);
+    impl_->makeDevice();
+    impl_->cache_file = pipelineCacheFile(impl_->properties);
+    impl_->cache = loadPipelineCache(impl_->view.device, impl_->cache_file);
+}
+
+Gpu::~Gpu() = default;
+
+const vulkan::DeviceView& Gpu::view() const
+{
+    return impl_->view;
+}
+VkQueue Gpu::queue() const
+{
+    return impl_->queue;
+}
+std::uint32_t Gpu::queueFamily() const
+{
+    return impl_->family;
+}
+const VkPhysicalDeviceProperties& Gpu::properties() const
+{
+    return impl_->properties;
+}
+const std::string& Gpu::driver() const
+{
+    return impl_->driver;
+}
+bool Gpu::software() const
+{
+    return isSoftware(impl_->properties);
+}
+VkPipelineCache Gpu::pipelineCache() const
+{
+    return impl_->cache;
+}
+
+std::vector<std::string> Gpu::messages() const
+{
+    const std::scoped_lock lock(impl_->mutex);
+    return impl_->messages;
+}
+
+} // namespace gnomon::host

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the scene's model to the frame's: lights and object bounds.
+#include "host/renderer.h"
+
+#include <algorithm>
+
+namespace gnomon::host {
+namespace {
+
+LightType typeOf(scene::LightType type)
+{
+    switch (type) {
+    case scene::LightType::spot:
+        return LightType::spot;
+    case scene::LightType::point:
+        return LightType::point;
+    case scene::LightType::directional:
+        break;
+    }
+    return LightType::directional;
+}
+
+} // namespace
+
+std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state)
+{
+    std::vector<ShadedLight> lights;
+    lights.reserve(state.lights.size());
+    for (std::size_t i = 0; i < state.lights.size(); ++i) {
+        const scene::PlacedLight& placed = state.lights[i];
+        const scene::Light& source = scene.lights[placed.light];
+        ShadedLight light;
+        light.name = source.name;
+        light.caster.key = static_cast<std::uint32_t>(i);
+        light.caster.type = typeOf(source.type);
+        light.caster.position_ws = placed.position_ws;
+        light.caster.direction_ws = glm::normalize(glm::dvec3(placed.direction_ws));
+        light.caster.outer_half_angle_rad = source.outer_cone_rad;
+        light.caster.range_m = source.range_m;
+        light.caster.angular_diameter_rad = source.angular_diameter_rad;
+        light.caster.radius_m = source.radius_m;
+        light.caster.casts_shadow = source.casts_shadow;
+        light.colour = source.colour * source.intensity;
+        light.inner_half_angle_rad = source.inner_cone_rad;
+        light.up_ws = placed.up_ws;
+        light.cookie = source.cookie;
+        lights.push_back(light);
+    }
+    return lights;
+}
+
+void fillObjectSet(const scene::State& state, ObjectSet& objects)
+{
+    const std::uint32_t known = objects.size();
+    for (std::uint32_t i = 0; i < state.objects.size(); ++i) {
+        const scene::Object& object = state.objects[i];
+        if (i >= known) {
+            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic});
+        } else if (object.dynamic) {
+            objects.update(i, object.bounds_ws);
+        }
+    }
+}
+
+} // namespace gnomon::host

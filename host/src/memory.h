@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Buffers and images with their memory, accounted for by purpose. Everything is freed with the Memory object.
+#pragma once
+
+#include "check.h"
+#include "host/gpu.h"
+
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <array>
+#include <vector>
+
+namespace gnomon::host {
+
+struct Buffer {
+    VkBuffer handle = VK_NULL_HANDLE;
+    VkDeviceSize size = 0;
+    void* mapped = nullptr; // host-visible buffers: for good
+    VkDeviceMemory own_memory = VK_NULL_HANDLE;
+    const char* purpose = "";
+};
+
+struct Image {
+    VkImage handle = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+    std::uint32_t mips = 1;
+    std::uint32_t layers = 1;
+};
+
+struct ImageWish {
+    const char* name = ""; // for debuggers
+    const char* purpose = "";
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+    VkImageUsageFlags usage = 0;
+    std::uint32_t mips = 1;
+    std::uint32_t layers = 1;
+    bool array_view = false;
+};
+
+enum class Place : std::uint8_t { device, host };
+
+class Memory {
+public:
+    explicit Memory(const Gpu& gpu);
+    ~Memory();
+    Memory(const Memory&) = delete;
+    Memory& operator=(const Memory&) = delete;
+
+    /// `size` of 0 is taken as 16 bytes, so that an empty scene needs no special case. Throws Error.
+    [[nodiscard]] Buffer buffer(const char* purpose, VkDeviceSize size, VkBufferUsageFlags usage, Place place);
+    [[nodiscard]] Image image(const ImageWish& wish);
+    void release(Buffer& buffer);
+    /// Grows a host-visible buffer to at least `size` (in powers of two); its content is lost. True when it did.
+    bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose);
+    [[nodiscard]] const std::vector<vulkan::MemoryUse>& uses() const { return uses_; }
+    [[nodiscard]] const DebugNames& names() const { return names_; }
+
+private:
+    struct Block {
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        std::uint32_t type = 0;
+        bool images = false;
+        VkDeviceSize used = 0;
+        char* mapped = nullptr;
+    };
+    struct Piece {
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        VkDeviceSize offset = 0;
+        void* mapped = nullptr;
+        bool own = false;
+    };
+    Piece allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, bool images);
+    [[nodiscard]] VkDeviceMemory allocateBlock(VkDeviceSize size, std::uint32_t type, const char* tried) const;
+    [[nodiscard]] std::uint32_t typeFor(std::uint32_t bits, VkMemoryPropertyFlags properties) const;
+    void account(const char* purpose, VkDeviceSize bytes);
+
+    VkDevice device_;
+    VkPhysicalDeviceMemoryProperties properties_{};
+    VkPhysicalDeviceLimits limits_;
+    DebugNames names_;
+    std::vector<Block> blocks_;
+    std::vector<VkDeviceMemory> own_;
+    std::vector<VkBuffer> buffers_;
+    std::vector<VkImage> images_;
+    std::vector<VkImageView> views_;
+    std::vector<vulkan::MemoryUse> uses_;
+};
+
+} // namespace gnomon::host

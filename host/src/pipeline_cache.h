@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled pipelines kept between runs, in the user's cache folder.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <filesystem>
+
+namespace gnomon::host {
+
+/// $XDG_CACHE_HOME/gnomon or ~/.cache/gnomon, and in it one file per device and driver version; empty when neither
+/// variable is set.
+[[nodiscard]] std::filesystem::path pipelineCacheFile(const VkPhysicalDeviceProperties& properties);
+/// A cache with the file's content, or an empty one when the file is absent, torn or of another driver.
+[[nodiscard]] VkPipelineCache loadPipelineCache(VkDevice device, const std::filesystem::path& file);
+/// Whole or not at all; a folder that cannot be written to means no file, silently, because nothing depends on it.
+void storePipelineCache(VkDevice device, VkPipelineCache cache, const std::filesystem::path& file);
+
+} // namespace gnomon::host

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipelines.h"
+
+#include "geometry.h"
+#include "gnomon_host_spirv.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gnomon::host {
+namespace {
+
+constexpr std::array<VkVertexInputBindingDescription, 4> kBindings{
+    {{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+     {1, sizeof(glm::vec2), VK_VERTEX_INPUT_RATE_VERTEX},
+     {2, sizeof(VertexAttributes), VK_VERTEX_INPUT_RATE_VERTEX},
+     {3, sizeof(InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}}};
+constexpr std::array<VkVertexInputAttributeDescription, 10> kAttributes{
+    {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+     {1, 1, VK_FORMAT_R32G32_SFLOAT, 0},
+     {2, 2, VK_FORMAT_R16G16B16A16_SNORM, offsetof(VertexAttributes, normal)},
+     {3, 2, VK_FORMAT_R8G8B8A8_SNORM, offsetof(VertexAttributes, tangent)},
+     {4, 2, VK_FORMAT_R8G8B8A8_UNORM, offsetof(VertexAttributes, colour)},
+     {5, 2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv_other)},
+     {6, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_x)},
+     {7, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_y)},
+     {8, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_z)},
+     {9, 3, VK_FORMAT_R32G32_UINT, offsetof(InstanceData, id)}}};
+
+VkPipelineColorBlendAttachmentState blendState(bool add)
+{
+    VkPipelineColorBlendAttachmentState state{};
+    state.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    // Premultiplied; light that is only added has an alpha of 0.
+    state.blendEnable = add ? VK_TRUE : VK_FALSE;
+    state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    state.colorBlendOp = VK_BLEND_OP_ADD;
+    state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    state.alphaBlendOp = VK_BLEND_OP_ADD;
+    return state;
+}
+
+} // namespace
+
+struct Pipelines::Wish {
+    const char* name = "";
+    std::span<const std::uint32_t> vertex;
+    std::span<const std::uint32_t> fragment;
+    std::array<VkBool32, 4> constants{}; // specialization constants 0 to 3
+    std::span<const VkFormat> colours;
+    bool scene = false; // vertex streams, dynamic culling; else one full-screen triangle
+    bool blend = false;
+    bool depth = false;
+    bool depth_write = false;
+    VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
+};
+
+Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, bool average_four)
+    : gpu_(gpu), names_(names)
+{
+    makeLayouts(materials.layout());
+    makeScene(materials);
+    makeScreen(average_four);
+    for (VkShaderModule one : modules_) {
+        vkDestroyShaderModule(gpu.view().device, one, nullptr);
+    }
+    modules_.clear();
+}
+
+Pipelines::~Pipelines()
+{
+    VkDevice device = gpu_.view().device;
+    for (VkPipeline pipeline : all_) {
+        vkDestroyPipeline(device, pipeline, nullptr);
+    }
+    vkDestroyPipelineLayout(device, scene_layout, nullptr);
+    vkDestroyPipelineLayout(device, screen_layout, nullptr);
+    vkDestroyDescriptorSetLayout(device, frame_layout, nullptr);
+}
+
+void Pipelines::makeLayouts(VkDescriptorSetLayout material)
+{
+    VkDevice device = gpu_.view().device;
+    std::array<VkDescriptorSetLayoutBinding, 10> bindings{};
+    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+    }
+    bindings[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    bindings[0].stageFlags |= VK_SHADER_STAGE_VERTEX_BIT;
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = bindings.size();
+    info.pBindings = bindings.data();
+    check(vkCreateDescriptorSetLayout(device, &info, nullptr, &frame_layout), "making a descriptor set layout");
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, frame_layout, "frame");
+    const std::array<VkDescriptorSetLayout, 2> sets{frame_layout, material};
+    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout.setLayoutCount = 2;
+    layout.pSetLayouts = sets.data();
+    check(vkCreatePipelineLayout(device, &layout, nullptr, &scene_layout), "making a pipeline layout");
+    layout.setLayoutCount = 1;
+    check(vkCreatePipelineLayout(device, &layout, nullptr, &screen_layout), "making a pipeline layout");
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout, "scene");
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout, "screen");
+}
+
+VkShaderModule Pipelines::module(std::span<const std::uint32_t> words)
+{
+    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = words.size_bytes();
+    info.pCode = words.data();
+    VkShaderModule result = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(gpu_.view().device, &info, nullptr, &result), "making a shader");
+    modules_.push_back(result);
+    return result;
+}
+
+VkPipeline Pipelines::make(const Wish& wish)
+{
+    std::array<VkSpecializationMapEntry, 4> entries{};
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+        entries[i] = {i, i * 4, 4};
+    }
+    const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof wish.constants, wish.constants.data()};
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
+        stages[i].module = module(i == 0 ? wish.vertex : wish.fragment);
+        stages[i].pName = "main";
+        stages[i].pSpecializationInfo = &constants;
+    }
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    if (wish.scene) {
+        input.vertexBindingDescriptionCount = kBindings.size();
+        input.pVertexBindingDescriptions = kBindings.data();
+        input.vertexAttributeDescriptionCount = kAttributes.size();
+        input.pVertexAttributeDescriptions = kAttributes.data();
+    }
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    raster.lineWidth = 1.0F;
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = wish.depth ? VK_TRUE : VK_FALSE;
+    depth.depthWriteEnable = wish.depth_write ? VK_TRUE : VK_FALSE;
+    depth.depthCompareOp = wish.compare;
+    std::array<VkPipelineColorBlendAttachmentState, 4> attachments{};
+    attachments.fill(blendState(wish.blend));
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = static_cast<std::uint32_t>(wish.colours.size());
+    blend.pAttachments = attachments.data();
+    constexpr std::array<VkDynamicState, 4> kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                                     VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = wish.scene ? 4 : 2;
+    dynamic.pDynamicStates = kDynamic.data();
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(wish.colours.size());
+    rendering.pColorAttachmentFormats = wish.colours.data();
+    rendering.depthAttachmentFormat = wish.depth ? kDepthFormat : VK_FORMAT_UNDEFINED;
+
+    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+    info.pNext = &rendering;
+    info.stageCount = stages.size();
+    info.pStages = stages.data();
+    info.pVertexInputState = &input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &samples;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = wish.scene ? scene_layout : screen_layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateGraphicsPipelines(gpu_.view().device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline),
+          "compiling shaders");
+    all_.push_back(pipeline);
+    names_.name(VK_OBJECT_TYPE_PIPELINE, pipeline, wish.name);
+    return pipeline;
+}
+
+void Pipelines::makeScene(const Materials& materials)
+{
+    const auto any = [&materials](auto&& says) {
+        return std::any_of(materials.all().begin(), materials.all().end(), says);
+    };
+    Wish wish;
+    wish.vertex = spirv::scene_vert;
+    wish.scene = true;
+    wish.depth = true;
+    wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    wish.fragment = spirv::gbuffer_frag;
+    wish.colours = kGBufferFormats;
+    wish.depth_write = true;
+    wish.name = "g-buffer";
+    for (std::size_t i = 0; i < gbuffer_.size(); ++i) {
+        const auto kind = static_cast<SurfaceKind>(i);
+        if (any([kind](const MaterialFacts& m) { return m.kind == kind && !m.blended; })) {
+            const bool full = kind == SurfaceKind::full || kind == SurfaceKind::full_masked;
+            const bool masked = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
+            wish.constants = {kind != SurfaceKind::plain, masked, full, VK_FALSE};
+            gbuffer_[i] = make(wish);
+        }
+    }
+    wish.fragment = spirv::forward_frag;
+    wish.colours = {&kLightFormat, 1};
+    wish.depth_write = false;
+    wish.blend = true;
+    if (any([](const MaterialFacts& m) { return m.blended; })) {
+        wish.name = "blended";
+        wish.constants = {VK_TRUE, VK_FALSE, VK_TRUE, VK_FALSE};
+        blended = make(wish);
+    }
+    if (any([](const MaterialFacts& m) { return m.emits && !m.blended; })) {
+        wish.name = "emissive";
+        wish.constants = {VK_FALSE, VK_FALSE, VK_FALSE, VK_TRUE};
+        emissive = make(wish);
+    }
+}
+
+void Pipelines::makeScreen(bool average_four)
+{
+    Wish wish;
+    wish.vertex = spirv::fullscreen_vert;
+    wish.colours = {&kLightFormat, 1};
+    wish.depth = true;
+    wish.compare = VK_COMPARE_OP_LESS;
+    wish.name = "shade";
+    wish.fragment = spirv::shade_frag;
+    shade = make(wish);
+    wish.compare = VK_COMPARE_OP_EQUAL;
+    wish.name = "sky";
+    wish.fragment = spirv::sky_frag;
+    sky = make(wish);
+    wish.depth = false;
+    wish.colours = {&kPictureFormat, 1};
+    wish.name = "tone";
+    wish.fragment = spirv::tone_frag;
+    wish.constants[0] = average_four ? VK_TRUE : VK_FALSE;
+    tone = make(wish);
+    wish.name = "fxaa";
+    wish.fragment = spirv::fxaa_frag;
+    fxaa = make(wish);
+}
+
+} // namespace gnomon::host

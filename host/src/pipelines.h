@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's own graphics pipelines. All are made before the first frame.
+#pragma once
+
+#include "materials.h"
+
+#include <array>
+#include <initializer_list>
+#include <span>
+
+namespace gnomon::host {
+
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
+/// Base colour and occlusion; geometric and shading normal; material; ids.
+inline constexpr std::array<VkFormat, 4> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SNORM,
+                                                         VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT};
+
+/// Instance-rate vertex data of host/shaders/scene.vert.
+struct InstanceData {
+    glm::vec4 row_x; // eye-relative from object
+    glm::vec4 row_y;
+    glm::vec4 row_z;
+    std::uint32_t id = 0;          // object + 1
+    std::uint32_t receiver_id = 0; // the same where the object receives, else 0
+    std::uint32_t unused[2] = {0, 0};
+};
+static_assert(sizeof(InstanceData) == 64);
+
+class Pipelines {
+public:
+    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, bool average_four);
+    ~Pipelines();
+    Pipelines(const Pipelines&) = delete;
+    Pipelines& operator=(const Pipelines&) = delete;
+
+    [[nodiscard]] VkPipeline gbuffer(SurfaceKind kind) const { return gbuffer_[static_cast<std::size_t>(kind)]; }
+    VkPipeline blended = VK_NULL_HANDLE;  // null when the scene has no such surface
+    VkPipeline emissive = VK_NULL_HANDLE; // likewise
+    VkPipeline shade = VK_NULL_HANDLE;
+    VkPipeline sky = VK_NULL_HANDLE;
+    VkPipeline tone = VK_NULL_HANDLE;
+    VkPipeline fxaa = VK_NULL_HANDLE;
+    VkPipelineLayout scene_layout = VK_NULL_HANDLE;  // set 0 frame, set 1 material
+    VkPipelineLayout screen_layout = VK_NULL_HANDLE; // set 0 frame
+    VkDescriptorSetLayout frame_layout = VK_NULL_HANDLE;
+
+private:
+    void makeLayouts(VkDescriptorSetLayout material);
+    VkShaderModule module(std::span<const std::uint32_t> words);
+    struct Wish;
+    VkPipeline make(const Wish& wish);
+    void makeScene(const Materials& materials);
+    void makeScreen(bool average_four);
+
+    const Gpu& gpu_;
+    const DebugNames& names_;
+    std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
+    std::vector<VkPipeline> all_;
+    std::vector<VkShaderModule> modules_;
+};
+
+} // namespace gnomon::host

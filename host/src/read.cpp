@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images back from the GPU, as plain numbers.
+#include "renderer_impl.h"
+
+#include <gnomon/error.h>
+
+#define GNOMON_REAL float
+#include "octahedral.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon::host {
+namespace {
+
+std::uint32_t texelBytes(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R8_UNORM:
+        return 1;
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_R16_UNORM:
+    case VK_FORMAT_R16_SFLOAT:
+        return 2;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R16G16B16A16_SNORM:
+    case VK_FORMAT_R32G32_UINT:
+        return 8;
+    default:
+        return 4; // D32, R32F, RGBA8
+    }
+}
+
+bool isDepth(VkFormat format)
+{
+    return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM;
+}
+
+struct Source {
+    VkImage image = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+    std::uint32_t layer = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // before and after
+};
+
+Source sourceOf(const Image& image, VkImageLayout layout)
+{
+    return {image.handle, image.format, image.extent, 0, layout};
+}
+
+Source sourceOf(const vulkan::ImageRef& image, std::uint32_t layer)
+{
+    return {image.image, image.format, image.extent, layer, image.layout};
+}
+
+// The image's texels, in mapped memory until the next call.
+template <typename Impl>
+const void* fetch(Impl& self, const Source& from)
+{
+    const VkDeviceSize bytes = VkDeviceSize{from.extent.width} * from.extent.height * texelBytes(from.format);
+    self.memory.grow(self.read_back, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
+    const VkImageAspectFlags aspect = isDepth(from.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    // The frame has been waited for, so nothing has to be waited for here but the change of layout.
+    const Access before{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, from.layout};
+    VkCommandBuffer cmd = self.commands.begin();
+    if (from.layout != kCopySource.layout) {
+        barrier(cmd, from.image, aspect, before, kCopySource);
+    }
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {aspect, 0, from.layer, 1};
+    copy.imageExtent = {from.extent.width, from.extent.height, 1};
+    vkCmdCopyImageToBuffer(cmd, from.image, kCopySource.layout, self.read_back.handle, 1, &copy);
+    if (from.layout != kCopySource.layout) {
+        barrier(cmd, from.image, aspect, kCopySource, before);
+    }
+    const Access host{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+    memoryBarrier(cmd, kCopyTarget, host);
+    self.commands.finish();
+    return self.read_back.mapped;
+}
+
+// With supersampling: the top left of each four for what cannot be averaged.
+template <typename Texel, typename Take>
+void eachPixel(const void* texels, VkExtent2D drawn, VkExtent2D shown, Take&& take)
+{
+    const std::uint32_t scale = drawn.width / shown.width;
+    const auto* const all = static_cast<const Texel*>(texels);
+    for (std::uint32_t y = 0; y < shown.height; ++y) {
+        for (std::uint32_t x = 0; x < shown.width; ++x) {
+            take(x, y, all[std::size_t{y} * scale * drawn.width + std::size_t{x} * scale]);
+        }
+    }
+}
+
+// ... and the average of the four for what can: `value(i)` is texel i's number.
+template <typename Value>
+void averageInto(ImageF& image, std::uint32_t channel, VkExtent2D drawn, Value&& value)
+{
+    const std::uint32_t scale = drawn.width / image.width;
+    const float weight = 1.0F / static_cast<float>(scale * scale);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            float sum = 0.0F;
+            for (std::uint32_t s = 0; s < scale * scale; ++s) {
+                const std::size_t row = std::size_t{y} * scale + s / scale;
+                sum += value(row * drawn.width + std::size_t{x} * scale + s % scale);
+            }
+            image.pixel(x, y)[channel] = sum * weight;
+        }
+    }
+}
+
+} // namespace
+
+Picture Renderer::read(const WantedImages& wanted)
+{
+    Impl& self = *impl_;
+    if (self.next_index == 0) {
+        throw Error("reading a picture back", "nothing has been drawn yet");
+    }
+    const VkExtent2D drawn = self.targets.drawn;
+    const VkExtent2D shown = self.targets.shown;
+    Picture picture;
+    if (wanted.colour) {
+        picture.colour = Image8(shown.width, shown.height, 3);
+        const void* texels = fetch(self, sourceOf(self.targets.picture, kCopySource.layout));
+        using Rgba = std::array<std::uint8_t, 4>;
+        eachPixel<Rgba>(texels, shown, shown, [&](std::uint32_t x, std::uint32_t y, const Rgba& c) {
+            std::copy_n(c.data(), 3, picture.colour.pixel(x, y));
+        });
+    }
+    if (wanted.linear) {
+        picture.linear = ImageF(shown.width, shown.height, 3);
+        const auto* halves =
+            static_cast<const std::uint16_t*>(fetch(self, sourceOf(self.targets.light, kSampled.layout)));
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            averageInto(picture.linear, c, drawn,
+                        [&](std::size_t i) { return glm::unpackHalf1x16(halves[i * 4 + c]); });
+        }
+    }
+    for (std::size_t light = 0; wanted.masks && light < self.light_count; ++light) {
+        picture.masks.emplace_back(shown.width, shown.height, 1U, 1.0F);
+        if (self.plan == nullptr && !self.mask_instead) {
+            continue;
+        }
+        const std::uint32_t layer = self.plan != nullptr ? self.plan->lights[light].mask_layer : static_cast<std::uint32_t>(light / 4);
+        const std::uint32_t channel = self.plan != nullptr ? self.plan->lights[light].mask_channel : static_cast<std::uint32_t>(light % 4);
+        const Source from = self.plan != nullptr
+                                ? sourceOf(self.shadows->mask(), layer)
+                                : Source{self.instead.handle, self.instead.format, drawn, layer, kSampled.layout};
+        const std::uint32_t stride = texelBytes(from.format);
+        const auto* bytes = static_cast<const std::uint8_t*>(fetch(self, from));
+        averageInto(picture.masks.back(), 0, drawn,
+                    [&](std::size_t i) { return static_cast<float>(bytes[i * stride + channel]) / 255.0F; });
+    }
+    if (wanted.geometry) {
+        picture.depth = ImageF(shown.width, shown.height, 1);
+        eachPixel<float>(fetch(self, sourceOf(self.targets.depth, kDepthRead.layout)), drawn, shown,
+                         [&](std::uint32_t x, std::uint32_t y, float z) { *picture.depth.pixel(x, y) = z; });
+        picture.object_ids = ImageOf<std::uint32_t>(shown.width, shown.height, 1);
+        using Ids = std::array<std::uint32_t, 2>;
+        eachPixel<Ids>(
+            fetch(self, sourceOf(self.targets.ids(), kSampled.layout)), drawn, shown,
+            [&](std::uint32_t x, std::uint32_t y, const Ids& id) { *picture.object_ids.pixel(x, y) = id[1]; });
+        picture.normals = ImageF(shown.width, shown.height, 3);
+        using Normals = std::array<std::int16_t, 4>;
+        eachPixel<Normals>(fetch(self, sourceOf(self.targets.normals(), kSampled.layout)), drawn, shown,
+                           [&](std::uint32_t x, std::uint32_t y, const Normals& e) {
+                               const auto snorm = [](std::int16_t v) {
+                                   return std::max(static_cast<float>(v) / 32767.0F, -1.0F);
+                               };
+                               glm::vec3 n{0.0F}; // the background has no normal
+                               if (*picture.object_ids.pixel(x, y) != 0) {
+                                   n = shared::octahedralDecode({snorm(e[0]), snorm(e[1])});
+                               }
+                               std::copy_n(&n.x, 3, picture.normals.pixel(x, y));
+                           });
+    }
+    return picture;
+}
+
+ImageF Renderer::readMap(std::uint32_t layer)
+{
+    Impl& self = *impl_;
+    constexpr const char* kTried = "reading a shadow map back";
+    if (self.plan == nullptr) {
+        throw Error(kTried, "the last frame had no shadow map");
+    }
+    const vulkan::ImageRef maps = self.shadows->maps();
+    if (layer >= maps.layers) {
+        throw Error(kTried, "layer " + std::to_string(layer) + " of " + std::to_string(maps.layers));
+    }
+    const bool floats = maps.format == VK_FORMAT_D32_SFLOAT || maps.format == VK_FORMAT_R32_SFLOAT;
+    if (!floats && maps.format != VK_FORMAT_D16_UNORM) {
+        throw Error(kTried, "its format has more than one channel");
+    }
+    ImageF image(maps.extent.width, maps.extent.height, 1);
+    const void* texels = fetch(self, sourceOf(maps, layer));
+    if (floats) {
+        std::memcpy(image.values.data(), texels, image.values.size() * sizeof(float));
+    } else {
+        const auto* const words = static_cast<const std::uint16_t*>(texels);
+        std::transform(words, words + image.values.size(), image.values.begin(),
+                       [](std::uint16_t v) { return static_cast<float>(v) / 65535.0F; });
+    }
+    return image;
+}
+
+} // namespace gnomon::host

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer_impl.h"
+
+#include <gnomon/error.h>
+
+#include <string>
+
+namespace gnomon::host {
+namespace {
+
+constexpr std::uint32_t kMaxPasses = 256;
+
+VkExtent2D drawnExtent(const RenderOptions& options)
+{
+    const std::uint32_t scale = options.anti_aliasing == AntiAliasing::ssaa4 ? 2 : 1;
+    return {options.width * scale, options.height * scale};
+}
+
+const RenderOptions& checked(const Gpu& gpu, const RenderOptions& options)
+{
+    const std::uint32_t limit = gpu.properties().limits.maxImageDimension2D;
+    const std::uint32_t scale = options.anti_aliasing == AntiAliasing::ssaa4 ? 2 : 1;
+    const auto refuse = [](const std::string& found) {
+        throw Error("making a picture", found, "choose a size within it");
+    };
+    if (options.width == 0 || options.height == 0) {
+        refuse("a size of " + std::to_string(options.width) + "x" + std::to_string(options.height) + " has no pixel");
+    }
+    if (options.width > limit / scale || options.height > limit / scale) {
+        refuse(std::to_string(options.width) + "x" + std::to_string(options.height) +
+               " is beyond the device's limit of " + std::to_string(limit / scale) + " on a side");
+    }
+    return options;
+}
+
+} // namespace
+
+Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::State& state,
+                     const RenderOptions& the_options)
+    : gpu(the_gpu), scene(the_scene), options(checked(the_gpu, the_options)), memory(the_gpu),
+      uploader(std::make_unique<Uploader>(the_gpu, memory)), textures(the_gpu, memory, *uploader, the_scene),
+      materials(the_gpu, memory, *uploader, textures, the_scene), geometry(memory, *uploader, the_scene, state),
+      pipelines(the_gpu, memory.names(), materials, options.anti_aliasing == AntiAliasing::ssaa4),
+      targets(memory, drawnExtent(options), {options.width, options.height},
+              options.anti_aliasing == AntiAliasing::fxaa),
+      draws(memory, geometry, materials, the_scene, state), commands(the_gpu, memory.names(), "frame"),
+      profiler(the_gpu.view(), 1, kMaxPasses), planner(options.plan)
+{
+    frame_buffer = memory.buffer("host frame data", sizeof(FrameData), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Place::host);
+    uploader->flush();
+    uploader.reset();
+    fillObjectSet(state, objects);
+    visible.reserve(state.objects.size());
+    makeFrameSet();
+    if (options.shadows) {
+        vulkan::ShadowRendererOptions wish;
+        wish.filter = options.filter;
+        wish.frames_in_flight = 1; // draw() waits, so that its times are whole
+        wish.pipeline_cache = gpu.pipelineCache();
+        shadows.emplace(gpu.view(), wish);
+        vulkan::CasterDrawerOptions caster_wish;
+        caster_wish.orthographic = shadows->mapFormats(true);
+        caster_wish.perspective = shadows->mapFormats(false);
+        caster_wish.frames_in_flight = 1;
+        caster_wish.pipeline_cache = gpu.pipelineCache();
+        casters.emplace(gpu.view(), caster_wish);
+        draws.fillCasters(*casters);
+    }
+}
+
+Renderer::Impl::~Impl()
+{
+    vkDeviceWaitIdle(gpu.view().device);
+    vkDestroyDescriptorPool(gpu.view().device, pool, nullptr);
+}
+
+void Renderer::Impl::makeFrameSet()
+{
+    VkDevice device = gpu.view().device;
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 9}}};
+    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = sizes.size();
+    pool_info.pPoolSizes = sizes.data();
+    check(vkCreateDescriptorPool(device, &pool_info, nullptr, &pool), "making a descriptor pool");
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = pool;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &pipelines.frame_layout;
+    check(vkAllocateDescriptorSets(device, &info, &frame_set), "making a descriptor set");
+    memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame");
+    memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, frame_set, "frame");
+
+    VkSampler sampler = textures.plainSampler();
+    const VkDescriptorBufferInfo buffer{frame_buffer.handle, 0, sizeof(FrameData)};
+    const VkDescriptorImageInfo cookies = textures.cookies();
+    const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
+    const std::array<VkDescriptorImageInfo, 9> images{
+        {{sampler, targets.depth.view, kDepthRead.layout},
+         {sampler, targets.gbuffer[0].view, kSampled.layout},
+         {sampler, targets.gbuffer[1].view, kSampled.layout},
+         {sampler, targets.gbuffer[2].view, kSampled.layout},
+         {sampler, targets.gbuffer[3].view, kSampled.layout},
+         cookies, // in the mask's place until there is one: an array too, and never read then
+         cookies,
+         {sampler, targets.light.view, kSampled.layout},
+         {sampler, toned, kSampled.layout}}};
+    std::array<VkWriteDescriptorSet, 10> writes{};
+    for (std::uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = frame_set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType =
+            i == 0 ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pBufferInfo = i == 0 ? &buffer : nullptr;
+        writes[i].pImageInfo = i == 0 ? nullptr : &images[i - 1];
+    }
+    vkUpdateDescriptorSets(device, writes.size(), writes.data(), 0, nullptr);
+}
+
+void Renderer::Impl::bindMask(VkImageView view)
+{
+    if (view == mask_view) {
+        return;
+    }
+    mask_view = view;
+    const VkDescriptorImageInfo image{textures.plainSampler(), view, kSampled.layout};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = frame_set;
+    write.dstBinding = 6;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &image;
+    vkUpdateDescriptorSets(gpu.view().device, 1, &write, 0, nullptr);
+}
+
+Renderer::Renderer(Gpu& gpu, const scene::Scene& scene, const scene::State& state, const RenderOptions& options)
+    : impl_(std::make_unique<Impl>(gpu, scene, state, options))
+{
+}
+
+Renderer::~Renderer() = default;
+
+const Plan& Renderer::plan() const
+{
+    return impl_->plan != nullptr ? *impl_->plan : impl_->no_plan;
+}
+
+std::vector<vulkan::MemoryUse> Renderer::memory() const
+{
+    std::vector<vulkan::MemoryUse> uses = impl_->memory.uses();
+    std::erase_if(uses, [](const vulkan::MemoryUse& use) { return use.bytes == 0; });
+    if (impl_->shadows) {
+        for (const auto& more : {impl_->shadows->memory(), impl_->casters->memory()}) {
+            uses.insert(uses.end(), more.begin(), more.end());
+        }
+    }
+    return uses;
+}
+
+} // namespace gnomon::host
