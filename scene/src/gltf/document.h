@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A glTF document while it is being read. Each part (`read…`) needs the ones declared above it.
+#pragma once
+
+#include "gltf/accessor.h"
+#include "gltf/decode.h"
+#include "gltf/glb.h"
+#include "gltf/json_view.h"
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace gnomon::scene::gltf {
+
+/// Where an extension may stand. `ignored` extensions without a line in the table may stand anywhere.
+enum class Place : std::uint8_t { root, node, material, texture_info, texture, channel, channel_target, other };
+
+struct Document {
+    JsonView root;
+    Container container;
+    Scene scene; // grows as parts are read
+
+    bool quantization = false; // KHR_mesh_quantization is used
+    std::vector<Buffer> buffers;
+    std::vector<BufferView> views;
+    std::vector<Accessor> accessors;
+    std::vector<ImageFormat> image_formats; // as many as scene.images
+    std::vector<std::uint32_t> cameras;     // glTF index -> index into scene.cameras, or kNone
+    std::vector<std::uint32_t> lights;
+    std::vector<std::uint32_t> joint_limits; // per mesh: 1 + the largest joint its primitives name
+    std::vector<bool> meshes_skinned;        // per mesh: every primitive has joints
+    std::vector<std::uint32_t> nodes;        // glTF index -> index into scene.nodes, or kNone when not in the scene
+
+    [[nodiscard]] Context& context() const { return root.context(); }
+    [[nodiscard]] const Accessor& accessor(const JsonView& reference) const
+    {
+        return accessors[reference.index(accessors.size())];
+    }
+};
+
+/// Asset version, extensions used and required.
+void readAsset(Document& document);
+void readBuffers(Document& document);
+void readAccessors(Document& document);
+void readImages(Document& document);
+void readTextures(Document& document);
+void readMaterials(Document& document);
+void readMeshes(Document& document);
+void readCameras(Document& document);
+void readLights(Document& document);
+/// Nodes of the scene shown, parents first; then skins, which name nodes, and what joins both.
+void readNodes(Document& document);
+void readSkins(Document& document);
+void readAnimations(Document& document);
+
+/// Refuses a known extension in a place where it has no meaning.
+void checkExtensions(const JsonView& object, Place place);
+/// Number of entries of a top-level array; 0 when there is none.
+[[nodiscard]] std::size_t topLevelCount(const Document& document, const char* key);
+/// `extensions`/name of an object.
+[[nodiscard]] std::optional<JsonView> extension(const JsonView& object, const char* name);
+
+} // namespace gnomon::scene::gltf
