@@ -168,7 +168,7 @@ std::uint32_t addLamps(Scene& scene, const StagePalette& palette)
     const std::uint32_t housing = addMesh(scene, makeLampHousing(palette));
     addLamp(scene, {"window", {-6.4F, 6.6F, 6.2F}, {0.3F, 1.5F, -2.6F}, {1.0F, 0.74F, 0.44F}, 560.0F, 0.46F},
             window_cookie, housing);
-    addLamp(scene, {"foliage", {7.2F, 6.2F, 5.4F}, {0.2F, 1.2F, -1.2F}, {0.42F, 0.62F, 1.0F}, 430.0F, 0.50F},
+    addLamp(scene, {"foliage", {7.2F, 6.2F, 5.4F}, {0.2F, 1.2F, -1.2F}, {0.34F, 0.56F, 1.0F}, 470.0F, 0.50F},
             foliage_cookie, housing);
     return addLamp(scene, {"gear", {0.4F, 8.2F, 3.6F}, {0.2F, 0.0F, 1.5F}, {1.0F, 0.95F, 0.88F}, 300.0F, 0.46F},
                    gear_cookie, housing);

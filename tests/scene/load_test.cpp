@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/load.h"
+
+#include <gnomon/error.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace gnomon::scene {
+namespace {
+
+TEST(Load, FindsWorldsByName)
+{
+    EXPECT_EQ(load("planes", 1).name, "planes");
+}
+
+TEST(Load, NamesTheWorldsWhenThereIsNeitherWorldNorFile)
+{
+    try {
+        (void)load("no such thing", 1);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("no such thing"), std::string::npos) << text;
+        for (const World& world : worlds()) {
+            EXPECT_NE(text.find(world.name), std::string::npos) << text;
+        }
+    }
+}
+
+TEST(Load, RefusesADirectory)
+{
+    const std::string folder = std::filesystem::temp_directory_path().string();
+    try {
+        (void)load(folder, 1);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("directory"), std::string::npos) << error.what();
+    }
+}
+
+} // namespace
+} // namespace gnomon::scene
