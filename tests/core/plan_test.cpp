@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace gnomon {
@@ -123,6 +124,17 @@ TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
     EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading));
     EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside));
     EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), below));
+}
+
+TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)
+{
+    World world;
+    const std::uint32_t in_border = world.set.add({{10.2F, 1, 0}, {10.5F, 2, 1}}, {true, false, false});
+    const std::uint32_t beyond = world.set.add({{13, 1, 0}, {14, 2, 1}}, {true, false, false});
+    Planner planner({.map_size = 108, .border_texels = 4.0}); // texels of 0.2 m, four of them around the floor
+    const Plan& plan = world.plan(planner);
+    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), in_border));
+    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beyond));
 }
 
 TEST(UniformFit, AxesDoNotTurnWithTheCameraNorJumpAtNoon)
