@@ -16,6 +16,7 @@ namespace {
 constexpr float kPace_m_per_s = 1.5F;
 constexpr float kStride_m = 1.55F; // both steps
 constexpr float kHip_m = 0.78F;
+constexpr float kSwing_rad = 0.48F; // a body sinks by kHip_m (1 - cos kSwing_rad) when its legs are spread
 
 struct Livery {
     std::uint32_t coat;
@@ -154,7 +155,7 @@ Mesh makeLeg(const Palette& palette, std::uint32_t team)
     part.colour = rgb(team == 0 ? 0x4A4F5E : 0x574A42);
     part.box({-0.10F, -0.42F, -0.11F}, {0.10F, 0.02F, 0.11F}, 1.1F);
     part.colour = rgb(0x4B3320);
-    part.box({-0.11F, -kHip_m, -0.12F}, {0.11F, -0.38F, 0.20F}, 0.85F);
+    part.box({-0.11F, -kHip_m, -0.12F}, {0.11F, -0.38F, 0.20F}, 0.85F, true);
     return maker.take(team == 0 ? "blue leg" : "red leg");
 }
 
@@ -242,13 +243,13 @@ void Army::pose(double time_s, const Terrain& terrain, std::span<const Loop> loo
         const glm::vec2 right(-place.direction.y, place.direction.x);
         const glm::vec2 xz = place.position + right * unit.right_m;
         const float swing = sineOfTurns(step + unit.step);
-        const float lift = cosineOfTurns(2.0F * (step + unit.step));
+        const float together = cosineOfTurns(2.0F * (step + unit.step)); // 1 when the legs pass, -1 when spread
         Transform& body = nodes[unit.body].transform;
-        body.translation = {xz.x, terrain.height(xz.x, xz.y) + 0.025F * lift, xz.y};
+        body.translation = {xz.x, terrain.height(xz.x, xz.y) - 0.044F * (1.0F - together), xz.y};
         body.rotation = heading(place.direction);
         body.scale = glm::vec3(unit.scale);
-        nodes[unit.body + 1].transform.rotation = aboutX(0.55F * swing);
-        nodes[unit.body + 2].transform.rotation = aboutX(-0.55F * swing);
+        nodes[unit.body + 1].transform.rotation = aboutX(kSwing_rad * swing);
+        nodes[unit.body + 2].transform.rotation = aboutX(-kSwing_rad * swing);
     }
 }
 

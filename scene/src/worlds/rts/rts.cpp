@@ -54,7 +54,7 @@ void addViews(Scene& scene, const Actors& actors)
     const Loop::Place squad = actors.army.squadAt(0, 0.0, actors.loops);
     const glm::vec3 middle = actors.terrain.ground(squad.position);
     const glm::vec2 right(-squad.direction.y, squad.direction.x);
-    const glm::vec2 stand = squad.position + squad.direction * 8.5F + right * 4.6F;
+    const glm::vec2 stand = squad.position + squad.direction * 8.2F - right * 4.2F;
     glm::vec3 eye = actors.terrain.ground(stand);
     eye.y += 2.1F;
     scene.views = {
