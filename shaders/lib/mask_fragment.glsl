@@ -37,26 +37,31 @@ vec3 positionAt(ivec2 pixel, float depth)
     return p.xyz / p.w;
 }
 
-vec3 neighbour(ivec2 pixel, ivec2 step_px)
+// The two pixels on one side. x, y: their depths; z: how far the pixel is off the line through them.
+vec3 side(ivec2 pixel, ivec2 step_px, float depth)
 {
-    ivec2 at = clamp(pixel + step_px, ivec2(0), ivec2(mask.screen.xy) - 1);
-    return positionAt(at, texelFetch(depths, at, 0).r);
+    ivec2 far = pixel + 2 * step_px;
+    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), mask.screen.xy))) {
+        return vec3(depth, depth, 3e38);
+    }
+    float a = texelFetch(depths, pixel + step_px, 0).r;
+    float b = texelFetch(depths, far, 0).r;
+    return vec3(a, b, abs(2.0 * a - b - depth));
 }
 
-// The nearer of the neighbours on both sides is on the same surface more often than not.
-vec3 shorter(vec3 a, vec3 b)
+// Along one axis of the screen, towards positive coordinates. A plane's depth is affine on the screen, so the side where
+// the pixel continues its neighbours' line is on the pixel's own surface.
+// Based on: Y. Wu (atyuwen), "Accurate Normal Reconstruction from Depth Buffer", 2021.
+vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
 {
-    // A clamped neighbour is the pixel itself, which says nothing.
-    float la = dot(a, a);
-    float lb = dot(b, b);
-    return (la > 0.0 && la < lb) || lb == 0.0 ? a : b;
+    vec3 before = side(pixel, -step_px, depth);
+    vec3 after = side(pixel, step_px, depth);
+    return before.z < after.z ? p - positionAt(pixel - step_px, before.x) : positionAt(pixel + step_px, after.x) - p;
 }
 
-vec3 normalFromDepth(ivec2 pixel, vec3 p)
+vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
 {
-    vec3 dx = shorter(neighbour(pixel, ivec2(1, 0)) - p, p - neighbour(pixel, ivec2(-1, 0)));
-    vec3 dy = shorter(neighbour(pixel, ivec2(0, 1)) - p, p - neighbour(pixel, ivec2(0, -1)));
-    vec3 n = cross(dx, dy);
+    vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p), tangentFromDepth(pixel, ivec2(0, 1), depth, p));
     float l = length(n);
     n = l > 0.0 ? n / l : normalize(-p);
     return dot(n, p) > 0.0 ? -n : n; // towards the eye
@@ -100,7 +105,7 @@ void main()
     }
 #endif
     vec3 p = positionAt(pixel, depth);
-    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, p);
+    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
     int count = int(mask.atlas.w);
     visibility.r = lightVisibility(0, p, n);
     if (count > 1) {
