@@ -87,7 +87,8 @@ Memory::Piece Memory::allocate(const VkMemoryRequirements& needs, VkMemoryProper
     };
     // Buffers and images keep to blocks of their own, so bufferImageGranularity never matters.
     auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
-        return b.type == type && b.images == images && aligned(b) + needs.size <= kBlockBytes;
+        return b.type == type && b.images == images && (b.mapped != nullptr) == mapped &&
+               aligned(b) + needs.size <= kBlockBytes;
     });
     if (block == blocks_.end()) {
         Block fresh;

@@ -146,8 +146,10 @@ Picture Renderer::read(const WantedImages& wanted)
         if (self.plan == nullptr && !self.mask_instead) {
             continue;
         }
-        const std::uint32_t layer = self.plan != nullptr ? self.plan->lights[light].mask_layer : static_cast<std::uint32_t>(light / 4);
-        const std::uint32_t channel = self.plan != nullptr ? self.plan->lights[light].mask_channel : static_cast<std::uint32_t>(light % 4);
+        const std::uint32_t layer =
+            self.plan != nullptr ? self.plan->lights[light].mask_layer : static_cast<std::uint32_t>(light / 4);
+        const std::uint32_t channel =
+            self.plan != nullptr ? self.plan->lights[light].mask_channel : static_cast<std::uint32_t>(light % 4);
         const Source from = self.plan != nullptr
                                 ? sourceOf(self.shadows->mask(), layer)
                                 : Source{self.instead.handle, self.instead.format, drawn, layer, kSampled.layout};

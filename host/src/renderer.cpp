@@ -92,20 +92,20 @@ void Renderer::Impl::makeFrameSet()
     memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame");
     memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, frame_set, "frame");
 
-    VkSampler sampler = textures.plainSampler();
+    VkSampler nearest = textures.nearestSampler();
     const VkDescriptorBufferInfo buffer{frame_buffer.handle, 0, sizeof(FrameData)};
     const VkDescriptorImageInfo cookies = textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
     const std::array<VkDescriptorImageInfo, 9> images{
-        {{sampler, targets.depth.view, kDepthRead.layout},
-         {sampler, targets.gbuffer[0].view, kSampled.layout},
-         {sampler, targets.gbuffer[1].view, kSampled.layout},
-         {sampler, targets.gbuffer[2].view, kSampled.layout},
-         {sampler, targets.gbuffer[3].view, kSampled.layout},
+        {{nearest, targets.depth.view, kDepthRead.layout},
+         {nearest, targets.gbuffer[0].view, kSampled.layout},
+         {nearest, targets.gbuffer[1].view, kSampled.layout},
+         {nearest, targets.gbuffer[2].view, kSampled.layout},
+         {nearest, targets.gbuffer[3].view, kSampled.layout},
          cookies, // in the mask's place until there is one: an array too, and never read then
          cookies,
-         {sampler, targets.light.view, kSampled.layout},
-         {sampler, toned, kSampled.layout}}};
+         {nearest, targets.light.view, kSampled.layout},
+         {textures.plainSampler(), toned, kSampled.layout}}};
     std::array<VkWriteDescriptorSet, 10> writes{};
     for (std::uint32_t i = 0; i < writes.size(); ++i) {
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
@@ -126,7 +126,7 @@ void Renderer::Impl::bindMask(VkImageView view)
         return;
     }
     mask_view = view;
-    const VkDescriptorImageInfo image{textures.plainSampler(), view, kSampled.layout};
+    const VkDescriptorImageInfo image{textures.nearestSampler(), view, kSampled.layout};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = frame_set;
     write.dstBinding = 6;

@@ -54,6 +54,8 @@ Textures::Textures(const Gpu& gpu, Memory& memory, Uploader& uploader, const sce
 {
     white_ = uploadTexel(0xFFFFFFFFU, "white");
     flat_ = uploadTexel(0xFFFF8080U, "flat normal");
+    nearest_ =
+        makeSampler(VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, false, false);
     plain_ =
         makeSampler(VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true, true, false);
     uploadCookies();

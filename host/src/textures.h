@@ -25,7 +25,8 @@ public:
     [[nodiscard]] VkDescriptorImageInfo cookies() const;
     /// Layer of a scene image that some light uses as a cookie; -1 for any other.
     [[nodiscard]] int cookieLayer(std::uint32_t image) const;
-    [[nodiscard]] VkSampler plainSampler() const { return plain_; } // linear, clamped, no mips
+    [[nodiscard]] VkSampler plainSampler() const { return plain_; }     // linear, clamped, no mips
+    [[nodiscard]] VkSampler nearestSampler() const { return nearest_; } // for texels as they are
 
 private:
     VkSampler sampler(const scene::Texture& texture);
@@ -45,6 +46,7 @@ private:
     Image flat_;
     Image cookies_;
     VkSampler plain_ = VK_NULL_HANDLE;
+    VkSampler nearest_ = VK_NULL_HANDLE;
 };
 
 } // namespace gnomon::host
