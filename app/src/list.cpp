@@ -115,14 +115,14 @@ std::string settingLine(const Setting& setting)
 
 std::string textList()
 {
-    std::string text = "Choices (a value that is not in this version is marked -):\n";
+    std::string text = "Choices (a value that is not in this version is marked -; sources are in --json):\n";
     std::string_view choice;
     for (const ChoiceValue& row : choiceValues()) {
         if (row.choice != choice) {
             choice = row.choice;
             text += fmt::format("{}\n", choice);
         }
-        text += fmt::format("  {} {:<15} {} ({})\n", row.available ? ' ' : '-', row.name, row.summary, row.source);
+        text += fmt::format("  {} {:<15} {}\n", row.available ? ' ' : '-', row.name, row.summary);
     }
     text += "\nRefused combinations of values that are in this version:\n";
     for (const RefusedCombination& row : refusedCombinations()) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the built program as a user would.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::test {
+
+struct Ran {
+    int status = -1; // exit status; 128 + N when signal N ended it
+    std::string out;
+    std::string err;
+
+    /// Lines of `err`, notices about the device left out.
+    [[nodiscard]] std::vector<std::string> errorLines() const;
+};
+
+struct How {
+    std::filesystem::path folder;                                 // working folder
+    std::vector<std::pair<std::string, std::string>> environment; // added to ours
+    rlim_t max_file_bytes = RLIM_INFINITY;
+    const char* stdout_to = nullptr; // a file to send standard output to instead of Ran::out
+};
+
+[[nodiscard]] Ran gnomon(const std::vector<std::string>& arguments, const How& how);
+
+} // namespace gnomon::test

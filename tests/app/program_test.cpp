@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program does when it is asked rightly.
+#include "folder.h"
+#include "process.h"
+
+#include "app/command_line.h"
+#include "app/preset.h"
+#include "image/image_io.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+
+test::Ran inFolder(const test::Folder& folder, const std::vector<std::string>& arguments)
+{
+    return test::gnomon(arguments, {.folder = folder.path()});
+}
+
+TEST(Help, FitsAScreen)
+{
+    const test::Folder folder;
+    for (const char* subcommand : {"", "render", "plan", "bench", "list"}) {
+        std::vector<std::string> arguments{"--help"};
+        if (*subcommand != '\0') {
+            arguments.insert(arguments.begin(), subcommand);
+        }
+        const test::Ran ran = inFolder(folder, arguments);
+        EXPECT_EQ(ran.status, 0);
+        EXPECT_EQ(ran.err, "");
+        std::istringstream in(ran.out);
+        int lines = 0;
+        for (std::string line; std::getline(in, line); ++lines) {
+            EXPECT_LE(line.size(), 100U) << subcommand << ": " << line;
+        }
+        EXPECT_LE(lines, 40) << subcommand;
+        EXPECT_GT(lines, 4) << subcommand;
+    }
+}
+
+TEST(Help, NamesEveryOptionOfItsSubcommand)
+{
+    for (const app::Subcommand& subcommand : app::subcommands()) {
+        const std::string text = app::helpText(&subcommand);
+        for (const app::Setting& setting : app::settingTable()) {
+            const bool named = text.find("--" + std::string(setting.key)) != std::string::npos;
+            EXPECT_TRUE(named || !setting.own_option || (setting.subcommands & subcommand.bit) == 0)
+                << subcommand.name << " " << setting.key;
+        }
+    }
+}
+
+TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"list", "--json"});
+    ASSERT_EQ(ran.status, 0);
+    EXPECT_EQ(ran.err, "");
+    const json list = json::parse(ran.out);
+    ASSERT_EQ(list["choices"].size(), 6U);
+    EXPECT_GE(list["settings"].size(), 30U);
+    bool vsm_is_known = false;
+    for (const auto& choice : list["choices"]) {
+        for (const auto& value : choice["values"]) {
+            vsm_is_known |= value["name"] == "vsm" && value["available"] == false;
+            EXPECT_FALSE(value["source"].get<std::string>().empty());
+        }
+    }
+    EXPECT_TRUE(vsm_is_known);
+    bool point_in_one_frustum = false;
+    for (const auto& refused : list["refused"]) {
+        point_in_one_frustum |= refused["light"] == "point";
+        EXPECT_GT(refused["reason"].get<std::string>().size(), 20U);
+    }
+    EXPECT_TRUE(point_in_one_frustum);
+    for (const auto& setting : list["settings"]) {
+        EXPECT_FALSE(setting["doc"].get<std::string>().empty());
+        const std::string type = setting["type"];
+        EXPECT_EQ(setting.contains("min"),
+                  type == "integer" || type == "real" || type == "numbers" || type == "size" || type == "range")
+            << setting;
+    }
+    EXPECT_NE(inFolder(folder, {"list"}).out.find("pcf.kernel"), std::string::npos);
+}
+
+TEST(List, JsonGoesToAFileAndOnlyThere)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"list", "--json", "all.json"});
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_TRUE(json::accept(test::slurp(folder / "all.json")));
+}
+
+TEST(Plan, IsTheSameBytesEveryTime)
+{
+    const test::Folder folder;
+    for (const char* world : {"planes", "rts", "spotlit"}) {
+        const test::Ran first = inFolder(folder, {"plan", world, "--time", "1.5"});
+        const test::Ran second = inFolder(folder, {"plan", world, "--time", "1.5"});
+        ASSERT_EQ(first.status, 0) << first.err;
+        EXPECT_EQ(first.out, second.out) << world;
+        const json plan = json::parse(first.out);
+        for (const char* key : {"views", "lights", "objects", "atlas", "technique", "settings"}) {
+            EXPECT_TRUE(plan.contains(key)) << world << " " << key;
+        }
+        EXPECT_FALSE(plan["views"].empty()) << world;
+        EXPECT_FALSE(plan["objects"].empty()) << world;
+    }
+}
+
+TEST(Plan, RedrawsNothingOfAStillScene)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"plan", "planes", "--frames", "0-1"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json plan = json::parse(ran.out);
+    for (const auto& view : plan["views"]) {
+        EXPECT_FALSE(view["redraw"].get<bool>());
+    }
+}
+
+TEST(Plan, NeedsNoVulkanDriver)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        test::gnomon({"plan", "planes"},
+                     {.folder = folder.path(),
+                      .environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST(Render, WritesAPictureOfTheSizeAsked)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"render", "planes", "--size", "161x90", "--validate"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("gnomon.png"), std::string::npos);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"gnomon.png"});
+    const ImageF picture = readImage(folder / "gnomon.png");
+    EXPECT_EQ(picture.width, 161U);
+    EXPECT_EQ(picture.height, 90U);
+    EXPECT_EQ(picture.channels, 3U);
+}
+
+TEST(Render, WritesExrAndMasks)
+{
+    const test::Folder folder;
+    ASSERT_EQ(inFolder(folder, {"render", "planes", "--size", "64x48", "-o", "a.exr"}).status, 0);
+    EXPECT_EQ(readImage(folder / "a.exr").channels, 3U);
+    for (const char* name : {"m.png", "m.exr"}) {
+        const test::Ran ran =
+            inFolder(folder, {"render", "planes", "--size", "64x48", "--mask", "--light", "sun", "--out", name});
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        const ImageF mask = readImage(folder / name);
+        EXPECT_EQ(mask.channels, 1U);
+        EXPECT_EQ(*std::min_element(mask.values.begin(), mask.values.end()), 0.0F);
+        EXPECT_EQ(*std::max_element(mask.values.begin(), mask.values.end()), 1.0F);
+    }
+}
+
+TEST(Render, WritesFramesIntoAFolder)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        inFolder(folder, {"render", "planes", "--size", "32x32", "--frames", "1-3", "--fps", "10", "-o", "out"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    for (const char* name : {"frame_0001.png", "frame_0002.png", "frame_0003.png"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+    }
+}
+
+TEST(Render, IsTheSameBytesEveryTime)
+{
+    const test::Folder folder;
+    for (const char* name : {"a.png", "b.png"}) {
+        ASSERT_EQ(inFolder(folder, {"render", "rts", "--size", "160x90", "-o", name}).status, 0);
+    }
+    EXPECT_EQ(test::slurp(folder / "a.png"), test::slurp(folder / "b.png"));
+}
+
+TEST(Render, OfTheDefaultWorldIsQuick)
+{
+    const test::Folder folder;
+    const auto start = std::chrono::steady_clock::now();
+    const test::Ran ran = inFolder(folder, {"render", "rts", "--size", "1280x720"});
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    std::printf("start to PNG of rts at 1280x720: %.2f s\n", seconds.count());
+    RecordProperty("seconds", std::to_string(seconds.count()));
+    EXPECT_LT(seconds.count(), 120.0); // hung or grossly slow, on any machine and under sanitizers; measured: docs
+}
+
+TEST(Bench, JsonHasWhatScriptsRelyOn)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        inFolder(folder, {"bench", "planes", "--size", "64x64", "--map-size", "256", "--repetitions", "2", "--warmup",
+                          "1", "--techniques", "hard,pcf+pcf.kernel=5x5", "--json", "--validate"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json bench = json::parse(ran.out);
+    for (const char* key : {"version", "scene", "scene_hash", "camera", "light", "device", "driver", "settings"}) {
+        EXPECT_TRUE(bench.contains(key)) << key;
+    }
+    ASSERT_EQ(bench["results"].size(), 2U);
+    EXPECT_EQ(bench["results"][0]["technique"].get<std::string>().substr(0, 4), "hard");
+    for (const auto& result : bench["results"]) {
+        for (const char* stage : {"plan", "maps", "filter", "mask", "frame"}) {
+            EXPECT_TRUE(result["time_ms"].contains(stage)) << stage;
+        }
+        EXPECT_GT(result["time_ms"]["frame"].get<double>(), 0.0);
+        EXPECT_GT(result["time_ms"]["maps"].get<double>(), 0.0);
+        EXPECT_GT(result["time_ms"]["mask"].get<double>(), 0.0);
+        EXPECT_GT(result["frame_ratio"].get<double>(), 0.0);
+        EXPECT_GE(result["memory_bytes"].get<std::uint64_t>(), 256U * 256U * 4U);
+        EXPECT_EQ(result["map"]["texels"], 256 * 256);
+        EXPECT_EQ(result["counters"]["texels_rendered"], 256 * 256);
+        EXPECT_GT(result["counters"]["draws"].get<int>(), 0);
+        EXPECT_GT(result["texel_density"]["p50"].get<double>(), 0.0);
+        EXPECT_LE(result["texel_density"]["p01"].get<double>(), result["texel_density"]["p99"].get<double>());
+    }
+}
+
+TEST(Program, SaysItsVersion)
+{
+    const test::Folder folder;
+    EXPECT_EQ(inFolder(folder, {"--version"}).out.substr(0, 7), "gnomon ");
+}
+
+TEST(Technique, TextAndSettingsAgreeBothWays)
+{
+    const app::Settings base = app::defaultSettings();
+    for (const char* text : {"hard", "pcf+pcf.kernel=3x3", "hard+map-size=512+map-format=r32f",
+                             "pcf+bias=none+pcf.kernel=vogel+pcf.taps=32", "hard+bias.constant=-0.1"}) {
+        const app::Settings once = app::parseTechnique(base, text);
+        const std::string described = app::describeTechnique(once);
+        const app::Settings twice = app::parseTechnique(base, described);
+        EXPECT_EQ(once.values, twice.values) << text << " | " << described;
+    }
+    const app::Settings settings = app::parseTechnique(base, "map-size=64+uniform+hard+free");
+    EXPECT_EQ(settings.plan.technique.filter, Filter::hard);
+    EXPECT_EQ(settings.plan.map_size, 64U);
+}
+
+TEST(Bias, TheListSetsItsParts)
+{
+    app::Settings settings = app::defaultSettings();
+    EXPECT_TRUE(settings.filter.bias.automatic);
+    app::applySetting(settings, "bias", "constant=0.5,slope=2,normal=1.5,receiver-plane=1");
+    EXPECT_FALSE(settings.filter.bias.automatic);
+    EXPECT_EQ(settings.filter.bias.constant_m, 0.5F);
+    EXPECT_EQ(settings.filter.bias.slope, 2.0F);
+    EXPECT_EQ(settings.filter.bias.normal_texels, 1.5F);
+    EXPECT_TRUE(settings.filter.bias.receiver_plane);
+    app::applySetting(settings, "bias", "auto");
+    EXPECT_TRUE(settings.filter.bias.automatic);
+    EXPECT_FALSE(settings.values.contains("bias.slope"));
+}
+
+TEST(Presets, AllAreValidAndShastryIsAsPublished)
+{
+    for (const app::Preset& preset : app::presets()) {
+        app::Settings settings = app::defaultSettings();
+        app::applyPreset(settings, preset.name, app::kRender);
+        EXPECT_NO_THROW(app::completeTechnique(settings)) << preset.name;
+    }
+    app::Settings settings = app::defaultSettings();
+    app::applyPreset(settings, "shastry-2005", app::kRender);
+    app::completeTechnique(settings);
+    EXPECT_EQ(settings.plan.map_size, 1024U);
+    EXPECT_EQ(settings.filter.format, MapFormat::r32f);
+    EXPECT_EQ(settings.filter.bias.constant_m, 0.1F);
+}
+
+} // namespace
+} // namespace gnomon

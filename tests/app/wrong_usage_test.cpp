@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be done wrong: one clear line on stderr, the right exit status, nothing left behind.
+#include "folder.h"
+#include "process.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Wrong {
+    const char* name;
+    std::vector<std::string> arguments;
+    int status;
+    std::string says; // part of the line
+};
+
+class WrongUsage : public testing::TestWithParam<Wrong> {};
+
+void expectOneLine(const test::Ran& ran, int status, const std::string& says)
+{
+    EXPECT_EQ(ran.status, status) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    const auto lines = ran.errorLines();
+    ASSERT_EQ(lines.size(), 1U) << ran.err;
+    EXPECT_TRUE(lines[0].starts_with("gnomon: ")) << lines[0];
+    EXPECT_NE(lines[0].find(says), std::string::npos) << lines[0];
+}
+
+TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
+{
+    const test::Folder folder;
+    fs::create_directory(folder / "a_folder");
+    test::spill(folder / "broken.gltf", "{ not json");
+    test::spill(folder / "broken.json", "[1, 2");
+    test::spill(folder / "wrong.json", R"({"filtre": "hard"})");
+    const std::size_t before = folder.names().size();
+    expectOneLine(test::gnomon(GetParam().arguments, {.folder = folder.path()}), GetParam().status, GetParam().says);
+    EXPECT_EQ(folder.names().size(), before);
+}
+
+const std::vector<Wrong> kWrong{
+    {"UnknownSubcommand", {"rendr"}, 2, "did you mean \"render\""},
+    {"CompareIsNotHere", {"compare"}, 2, "not in this version"},
+    {"MetricsIsNotHere", {"metrics", "a.png", "b.png"}, 2, "not in this version"},
+    {"ViewIsNotHere", {"view"}, 2, "not in this version"},
+    {"OptionBeforeSubcommand", {"--size", "10x10", "render"}, 2, "a subcommand comes first"},
+    {"UnknownOption", {"render", "--fliter", "hard"}, 2, "did you mean \"--filter\""},
+    {"UnknownShortOption", {"render", "-z"}, 2, "no option -z"},
+    {"TruthIsNotHere", {"render", "--truth", "hard"}, 2, "--truth: ray-traced truth is not in this version"},
+    {"SamplesAreNotHere", {"bench", "--samples", "4"}, 2, "not in this version"},
+    {"PathIsNotHere", {"render", "--path", "orbit"}, 2, "not in this version"},
+    {"OptionOfAnother", {"plan", "--mask"}, 2, "--mask is not an option of plan"},
+    {"SetOnlyOption", {"render", "--pcf.kernel", "3x3"}, 2, "--set pcf.kernel=VALUE"},
+    {"MissingValue", {"render", "--size"}, 2, "--size"},
+    {"TooManyScenes", {"render", "planes", "rts"}, 2, "one argument too many"},
+    {"ListTakesNoScene", {"list", "rts"}, 2, "takes no argument"},
+
+    {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
+    {"FilterNotHere", {"render", "--filter", "vsm"}, 2, "not in this version"},
+    {"PartitionNotHere", {"render", "--partition", "cascades"}, 2, "not in this version"},
+    {"FitNotHere", {"plan", "--fit", "lispsm"}, 2, "not in this version"},
+    {"SoftenNotHere", {"render", "--soften", "blur"}, 2, "not in this version"},
+    {"MotionNotHere", {"bench", "--motion", "snap"}, 2, "not in this version"},
+    {"FormatRefused", {"render", "--map-format", "rg16"}, 2, "rg16 cannot be had with filter pcf"},
+    {"UnknownFormat", {"render", "--map-format", "d24"}, 2, "it takes"},
+    {"UnknownSetting", {"render", "--set", "pcf.kernal=3x3"}, 2, "did you mean \"pcf.kernel\""},
+    {"SettingWithoutValue", {"render", "--set", "pcf.kernel"}, 2, "not KEY=VALUE"},
+    {"UnknownKernel", {"render", "--set", "pcf.kernel=9x9"}, 2, "3x3"},
+    {"KernelOfHard", {"render", "--filter", "hard", "--set", "pcf.kernel=5x5"}, 2, "only with filter pcf"},
+    {"TapsOfAGaussian", {"render", "--set", "pcf.taps=8"}, 2, "only with pcf.kernel poisson or vogel"},
+    {"TooManyTaps", {"render", "--set", "pcf.kernel=vogel", "--set", "pcf.taps=65"}, 2, "4 to 64"},
+    {"UnknownTechnique", {"bench", "--techniques", "hard,pcv"}, 2, "did you mean \"pcf\""},
+    {"TechniqueTwice", {"bench", "--techniques", "hard+pcf"}, 2, "gives filter twice"},
+    {"NoTechniqueSetting", {"bench", "--techniques", "hard+size=3x3"}, 2, "no part of a technique"},
+    {"UnknownPreset", {"render", "--preset", "demmo"}, 2, "did you mean \"demo\""},
+    {"BrokenPreset", {"render", "--preset", "broken.json"}, 2, "not a JSON object"},
+    {"PresetWithUnknownKey", {"render", "--preset", "wrong.json"}, 2, "did you mean \"filter\""},
+    {"PresetIsAFolder", {"render", "--preset", "a_folder"}, 1, "directory"},
+    {"UnknownLimit", {"render", "--limit", "nodes=4"}, 2, "node-depth"},
+    {"LimitWithoutNumber", {"render", "--limit", "count=many"}, 2, "whole number"},
+
+    {"SizeZero", {"render", "--size", "0x0"}, 2, "1 to 1"},
+    {"SizeOneZero", {"render", "--size", "10x0"}, 2, "1 to 1"},
+    {"SizeNegative", {"render", "--size", "-5x5"}, 2, "--size"},
+    {"SizeOneNumber", {"render", "--size", "100"}, 2, "WxH"},
+    {"SizeBeyondDevice", {"render", "planes", "--size", "100000x100000"}, 1, "at most"},
+    {"MapZero", {"render", "--map-size", "0"}, 2, "16 to 16384"},
+    {"MapTooLarge", {"render", "--map-size", "16385"}, 2, "16 to 16384"},
+    {"MapNotWhole", {"render", "--map-size", "512.5"}, 2, "whole number"},
+    {"SunZero", {"render", "--sun", "0,0,0"}, 2, "the direction is zero"},
+    {"SunNan", {"render", "--sun", "nan,1,0"}, 2, "finite"},
+    {"SunInfinite", {"render", "--sun", "0,-inf,0"}, 2, "finite"},
+    {"SunTwoNumbers", {"render", "--sun", "1,2"}, 2, "3 numbers"},
+    {"SunOverflow", {"render", "--sun", "1e999,0,0"}, 2, "finite"},
+    {"SunAngleAlone", {"render", "--sun-angle", "1"}, 2, "only with --sun"},
+    {"SpotAtItsTarget", {"render", "--spot", "1,2,3,1,2,3,40"}, 2, "direction is zero"},
+    {"SpotTooWide", {"render", "--spot", "0,5,0,0,0,0,150"}, 2, "0.1 to 120"},
+    {"PointWithoutReach", {"render", "--point", "0,5,0,0"}, 2, "not above 0"},
+    {"PointInOneFrustum", {"render", "--point", "0,5,0,20"}, 2, "--point"},
+    {"EyeIsTarget", {"render", "--eye", "1,2,3", "--target", "1,2,3"}, 2, "same point"},
+    {"EyeNan", {"render", "--eye", "nan,2,3", "--target", "1,2,3"}, 2, "finite"},
+    {"EyeAlone", {"render", "--eye", "1,2,3"}, 2, "--eye needs --target"},
+    {"TargetAlone", {"render", "--target", "1,2,3"}, 2, "--target needs --eye"},
+    {"UpIsZero", {"render", "--eye", "1,2,3", "--target", "0,0,0", "--up", "0,0,0"}, 2, "direction is zero"},
+    {"UpAlongTheView", {"render", "--eye", "0,5,0", "--target", "0,0,0"}, 2, "parallel"},
+    {"CameraAndEye", {"render", "--camera", "camp", "--eye", "1,2,3", "--target", "0,0,0"}, 2, "give one"},
+    {"UnknownCamera", {"plan", "rts", "--camera", "cmap"}, 2, "did you mean \"camp\""},
+    {"FovZero", {"render", "--fov", "0"}, 2, "0.1 to 179"},
+    {"FovHalfTurn", {"render", "--fov", "180"}, 2, "0.1 to 179"},
+    {"TimeNan", {"render", "--time", "nan"}, 2, "finite"},
+    {"FramesBackwards", {"render", "--frames", "5-2"}, 2, "backwards"},
+    {"FramesOneNumber", {"render", "--frames", "5"}, 2, "A-B"},
+    {"FpsZero", {"render", "--frames", "1-2", "--fps", "0"}, 2, "0.001"},
+    {"FpsAlone", {"render", "--fps", "10"}, 2, "only with --frames"},
+    {"UnknownLight", {"render", "planes", "--mask", "--light", "sunn"}, 2, "did you mean \"sun\""},
+    {"LightWithoutMask", {"render", "--light", "sun"}, 2, "only with --mask"},
+    {"BiasNonsense", {"render", "--bias", "lots"}, 2, "auto, none or"},
+    {"BiasPartNotANumber", {"render", "--bias", "constant=x"}, 2, "finite number"},
+    {"BiasUnknownPart", {"render", "--bias", "depth=1"}, 2, "auto, none or"},
+    {"UnknownGpu", {"render", "planes", "--gpu", "Voodoo2"}, 1, "Voodoo2"},
+    {"UnknownAnimation", {"plan", "planes", "--animation", "dance"}, 1, "dance"},
+
+    {"SceneMissing", {"render", "missing.gltf"}, 1, "missing.gltf"},
+    {"SceneIsAFolder", {"render", "a_folder"}, 1, "a_folder"},
+    {"SceneBroken", {"render", "broken.gltf"}, 1, "broken.gltf"},
+    {"SceneEmptyName", {"render", ""}, 1, ""},
+    {"OutIsAFolder", {"render", "planes", "-o", "a_folder"}, 1, "directory"},
+    {"OutInNoFolder", {"render", "planes", "-o", "none/a.png"}, 1, "no folder"},
+    {"OutWithoutExtension", {"render", "planes", "-o", "picture.jpg"}, 2, ".png"},
+    {"OutIsFullDevice", {"plan", "planes", "--json=/dev/full"}, 1, "No space left"},
+    {"FramesToAFile", {"render", "planes", "--frames", "0-1", "-o", "broken.json"}, 1, "not a folder"},
+    {"BenchJsonIsAFolder", {"bench", "planes", "--json=a_folder"}, 1, "directory"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(OutsideWorld, NoVulkanDriver)
+{
+    const test::Folder folder;
+    const test::How how{
+        .folder = folder.path(),
+        .environment = {{"VK_ICD_FILENAMES", "/nonexistent.json"}, {"VK_DRIVER_FILES", "/nonexistent.json"}}};
+    expectOneLine(test::gnomon({"render", "planes"}, how), 1, "");
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(OutsideWorld, FileSizeLimit)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        test::gnomon({"render", "planes", "--size", "320x240"}, {.folder = folder.path(), .max_file_bytes = 512});
+    expectOneLine(ran, 1, "too large");
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(OutsideWorld, FullDisk)
+{
+    const test::Folder folder;
+    if (mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=8k") != 0) {
+        GTEST_SKIP() << "may not mount a small file system here";
+    }
+    const test::Ran one = test::gnomon({"render", "planes", "--size", "320x240"}, {.folder = folder.path()});
+    const test::Ran many =
+        test::gnomon({"render", "planes", "--size", "320x240", "--frames", "0-1"}, {.folder = folder.path()});
+    const auto left = folder.names();
+    umount(folder.path().c_str());
+    expectOneLine(one, 1, "No space left");
+    expectOneLine(many, 1, "No space left");
+    EXPECT_TRUE(left.empty());
+}
+
+TEST(OutsideWorld, FullStandardOutput)
+{
+    const test::Folder folder;
+    const test::Ran ran = test::gnomon({"list"}, {.folder = folder.path(), .stdout_to = "/dev/full"});
+    expectOneLine(ran, 1, "standard output");
+}
+
+TEST(OutsideWorld, UnreadableScene)
+{
+    if (geteuid() == 0) {
+        GTEST_SKIP() << "root may read everything";
+    }
+    const test::Folder folder;
+    test::spill(folder / "a.gltf", "{}");
+    chmod((folder / "a.gltf").c_str(), 0);
+    expectOneLine(test::gnomon({"plan", "a.gltf"}, {.folder = folder.path()}), 1, "Permission denied");
+}
+
+} // namespace
+} // namespace gnomon
