@@ -12,6 +12,7 @@ namespace gnomon {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostCutBoxes = 32;
 
 /// The square pyramid of a light with a place, from its near distance to its reach.
 void makeConePlanes(const LightSpace& space, std::vector<Plane>& out)
@@ -215,18 +216,48 @@ Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& cas
     input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
     if (casters.size() == first)
         return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
-    const glm::dvec3 forward = input.space.forward_ws;
-    const glm::dvec3 size = glm::abs(forward);
-    caster_near_m_ = kInfinity;
+    measureCasters(input, std::span(casters).subspan(first));
+    return {};
+}
+
+void Region::measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters)
+{
+    const LightSpace& space = input.space;
+    const glm::dvec3 size = glm::abs(space.forward_ws);
     const std::span<const Aabb> bounds = input.objects.allBounds();
-    for (std::size_t i = first; i < casters.size(); ++i) {
-        const Aabb& box = bounds[casters[i]];
+    int cut_boxes = 0;
+    caster_near_m_ = kInfinity;
+    for (const std::uint32_t object : casters) {
+        const Aabb& box = bounds[object];
         const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
         const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
-        caster_near_m_ =
-            std::min(caster_near_m_, glm::dot(forward, centre - input.space.origin_ws) - glm::dot(size, half));
+        const double depth_m = glm::dot(space.forward_ws, centre - space.origin_ws) - glm::dot(size, half);
+        if (depth_m >= caster_near_m_)
+            continue;
+        // A floor or wall that passes the light has its nearest corner behind it, and says nothing; its part in the
+        // cone does. Only for the first few, because clipping takes a microsecond.
+        const bool passes = space.perspective && depth_m < space.near_m;
+        if (!passes || cut_boxes == kMostCutBoxes)
+            caster_near_m_ = depth_m;
+        else {
+            ++cut_boxes;
+            caster_near_m_ = std::min(caster_near_m_, depthInCone(space, grown(box, input.view.pad_m)));
+        }
     }
-    return {};
+    // All of them only near the cone: its near distance holds for any.
+    if (caster_near_m_ == kInfinity)
+        caster_near_m_ = space.near_m;
+}
+
+/// Depth of the nearest point of a box that is in the light's cone; infinity when none is.
+double Region::depthInCone(const LightSpace& space, const Aabb& box)
+{
+    caster_body_.reset(box);
+    caster_body_.clip(cone_planes_);
+    double nearest_m = kInfinity;
+    for (const glm::dvec3& corner : caster_body_.points())
+        nearest_m = std::min(nearest_m, space.coordinates(corner).z);
+    return nearest_m;
 }
 
 } // namespace gnomon

@@ -38,10 +38,13 @@ private:
     Outcome gatherReceivers(const RegionInput& input);
     bool measureBody(const LightSpace& space);
     void narrowToBoxes(const LightSpace& space);
+    void measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters);
+    double depthInCone(const LightSpace& space, const Aabb& box);
     void makeCasterPlanes(const RegionInput& input);
     void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);
 
     ConvexBody body_;
+    ConvexBody caster_body_;
     LightRect rect_;
     LightRect boxes_rect_;
     bool boxes_measured_ = false;

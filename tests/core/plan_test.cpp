@@ -176,6 +176,20 @@ TEST(UniformFit, SpotOverAFloor)
     EXPECT_NEAR(glm::dot(view.metric.metric_ws, glm::dvec4(3, 0, 2, 1)), 1.0, 1e-3);
 }
 
+TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
+{
+    World world;
+    world.set.remove(1);
+    world.set.add({{2, 0, -10}, {2.5F, 30, 10}}); // beside the light, from under it to far above
+    world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(30.0));
+    Planner planner({});
+    const Plan& plan = world.plan(planner);
+    const View& view = plan.views.at(0);
+    EXPECT_EQ(plan.casters, (std::vector<std::uint32_t>{1}));
+    // The cone is 2 m wide at 2 / tan(30 degrees) below the light.
+    EXPECT_NEAR(view.metric.near_m, 2.0 / std::tan(glm::radians(30.0)), 0.01);
+}
+
 TEST(UniformFit, SpotMapHoldsOnlyWhatIsSeen)
 {
     World world;
