@@ -269,7 +269,7 @@ TEST(FinishScene, MakesTangentsWhereANormalMapNeedsThem)
     finishScene(scene);
     ASSERT_EQ(primitive.tangents.size(), 3U);
     expectNear(glm::vec3(primitive.tangents[0]), {1, 0, 0});
-    EXPECT_EQ(primitive.tangents[0].w, -1.0F); // the bitangent follows +v, which is down here
+    EXPECT_EQ(primitive.tangents[0].w, 1.0F); // the bitangent points up the image, as green does
 }
 
 TEST(FinishScene, CarriesTheDynamicHintToChildren)

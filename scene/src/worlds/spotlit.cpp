@@ -46,15 +46,15 @@ void addRoom(Scene& scene, const StagePalette& palette)
     MeshMaker floor;
     Part& tiles = floor.with(palette.floor);
     tiles.uv_per_metre = 0.25F; // tiles of one metre
-    tiles.quad({-14, 0, 10}, {14, 0, 10}, {14, 0, -4.6F}, {-14, 0, -4.6F});
+    tiles.quad({-20, 0, 10}, {20, 0, 10}, {20, 0, -4.6F}, {-20, 0, -4.6F});
     addNode(scene, "floor", addMesh(scene, floor.take("floor")), {});
     MeshMaker wall;
     Part& plastered = wall.with(palette.wall);
     plastered.uv_per_metre = 0.3F;
-    plastered.quad({-14, 0, -4.6F}, {14, 0, -4.6F}, {14, 9, -4.6F}, {-14, 9, -4.6F});
+    plastered.quad({-20, 0, -4.6F}, {20, 0, -4.6F}, {20, 9, -4.6F}, {-20, 9, -4.6F});
     Part& trim = wall.with(palette.marble);
-    trim.box({-14, 0, -4.6F}, {14, 0.45F, -4.42F});
-    trim.box({-14, 6.2F, -4.6F}, {14, 6.5F, -4.35F}, 1.0F, true);
+    trim.box({-20, 0, -4.6F}, {20, 0.45F, -4.42F});
+    trim.box({-20, 6.2F, -4.6F}, {20, 6.5F, -4.35F}, 1.0F, true);
     addNode(scene, "wall", addMesh(scene, wall.take("wall")), {});
 }
 

@@ -5,6 +5,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <cstddef>
+#include <vector>
+
 namespace gnomon::scene::worlds {
 
 namespace {
@@ -136,11 +139,23 @@ Image marbleTiles()
 
 Image marbleTileNormals()
 {
-    return paint("marble tile normals", 512, [](glm::vec2 uv) {
-        constexpr float kStep = 1.0F / 512.0F;
-        const float dx = tileHeight({fract(uv.x + kStep), uv.y}) - tileHeight({fract(uv.x - kStep + 1.0F), uv.y});
-        const float dy = tileHeight({uv.x, fract(uv.y + kStep)}) - tileHeight({uv.x, fract(uv.y - kStep + 1.0F)});
-        const glm::vec3 n = glm::normalize(glm::vec3(-dx, -dy, 1.6F)); // v grows along +bitangent
+    constexpr std::uint32_t kSide = 512;
+    std::vector<float> heights(std::size_t{kSide} * kSide); // each is wanted four times
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            heights[std::size_t{y} * kSide + x] = tileHeight(
+                (glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F) / static_cast<float>(kSide));
+        }
+    }
+    const auto height = [&](std::uint32_t x, std::uint32_t y) {
+        return heights[std::size_t{y % kSide} * kSide + x % kSide];
+    };
+    return paint("marble tile normals", kSide, [&](glm::vec2 uv) {
+        const auto x = static_cast<std::uint32_t>(uv.x * static_cast<float>(kSide));
+        const auto y = static_cast<std::uint32_t>(uv.y * static_cast<float>(kSide));
+        const float dx = height(x + 1, y) - height(x + kSide - 1, y);
+        const float dy = height(x, y + 1) - height(x, y + kSide - 1);
+        const glm::vec3 n = glm::normalize(glm::vec3(-dx, dy, 1.6F)); // green is up the image, as glTF has it
         return glm::vec4(n * 0.5F + 0.5F, 1.0F);
     });
 }
