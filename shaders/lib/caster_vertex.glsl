@@ -12,7 +12,9 @@ layout(location = 5) in vec4 row_metric;
 #else
 #define UV_LOCATION 4
 #endif
-layout(location = 0) out float metric;
+#ifdef METRIC
+layout(location = 0) out float metric; // for fragment shaders that store it
+#endif
 #ifdef MASKED
 layout(location = UV_LOCATION) in vec2 uv_in;
 layout(location = 1) out vec2 uv;
@@ -31,7 +33,7 @@ void main()
 #ifdef PERSPECTIVE
     clip.w = dot(row_w, p);
     metric = dot(row_metric, p);
-#else
+#elif defined(METRIC)
     metric = clip.z;
 #endif
     gl_Position = clip;

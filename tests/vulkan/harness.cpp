@@ -126,6 +126,8 @@ void Gpu::makeDevice()
 Gpu::~Gpu()
 {
     vkDestroyCommandPool(device_, pool_, nullptr);
+    vkDestroyDescriptorPool(device_, texture_pool_, nullptr);
+    vkDestroySampler(device_, sampler_, nullptr);
     for (const TestImage& image : images_) {
         vkDestroyImageView(device_, image.view, nullptr);
         vkDestroyImage(device_, image.image, nullptr);
@@ -245,6 +247,29 @@ TestImage Gpu::makeImage(VkFormat format, VkExtent2D extent, std::span<const std
                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
     return result;
+}
+
+VkDescriptorSet Gpu::makeTextureSet(VkDescriptorSetLayout layout, VkImageView view)
+{
+    if (texture_pool_ == VK_NULL_HANDLE) {
+        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8};
+        const VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 8, 1, &size};
+        require(vkCreateDescriptorPool(device_, &pool, nullptr, &texture_pool_), "vkCreateDescriptorPool");
+        const VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+        require(vkCreateSampler(device_, &sampler, nullptr, &sampler_), "vkCreateSampler");
+    }
+    const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, texture_pool_, 1,
+                                           &layout};
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    require(vkAllocateDescriptorSets(device_, &info, &set), "vkAllocateDescriptorSets");
+    const VkDescriptorImageInfo image{sampler_, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &image;
+    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    return set;
 }
 
 std::vector<std::byte> Gpu::read(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t texel_bytes,

@@ -42,6 +42,8 @@ public:
     [[nodiscard]] TestBuffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
     /// A sampled 2D image with these texels, in SHADER_READ_ONLY_OPTIMAL. Lives as long as the Gpu.
     [[nodiscard]] TestImage makeImage(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels);
+    /// A set with this texture, nearest and repeated, for CasterBatch::texture.
+    [[nodiscard]] VkDescriptorSet makeTextureSet(VkDescriptorSetLayout layout, VkImageView view);
     /// One layer's texels, tightly packed. The image is in ref.layout before and after.
     [[nodiscard]] std::vector<std::byte> read(const vulkan::ImageRef& ref, std::uint32_t layer,
                                               std::uint32_t texel_bytes, VkImageAspectFlags aspect);
@@ -59,6 +61,8 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorPool texture_pool_ = VK_NULL_HANDLE;
+    VkSampler sampler_ = VK_NULL_HANDLE;
     std::vector<TestImage> images_;
     std::vector<TestBuffer> buffers_;
     std::vector<std::string> messages_;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GPU's maps and masks against closed forms and against the same shader files run on the CPU.
+#include "fixture.h"
 #include "reference.h"
 #include "write_pgm.h"
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace gnomon::test {
 namespace {
@@ -41,55 +40,15 @@ struct Rendered {
     std::vector<std::vector<std::byte>> masks; // by light, one byte a pixel
 };
 
-std::vector<float> decodeMap(const std::vector<std::byte>& bytes, MapFormat format)
-{
-    std::vector<float> texels;
-    if (format == MapFormat::d16) {
-        for (std::size_t i = 0; i < bytes.size(); i += 2) {
-            std::uint16_t v = 0;
-            std::memcpy(&v, &bytes[i], 2);
-            texels.push_back(static_cast<float>(v) / 65535.0F);
-        }
-    } else {
-        texels.resize(bytes.size() / 4);
-        std::memcpy(texels.data(), bytes.data(), bytes.size());
-    }
-    return texels;
-}
-
-MapFormat formatOf(const FilterOptions& options)
-{
-    return options.format;
-}
-
-void readBack(Gpu& gpu, const ShadowRenderer& renderer, const FilterOptions& options, Rendered& r)
+void readBack(Gpu& gpu, const ShadowRenderer& renderer, Rendered& r)
 {
     const auto maps = renderer.maps();
-    const MapFormat format = formatOf(options);
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
-        const auto bytes = gpu.read(maps, layer, format == MapFormat::d16 ? 2 : 4,
-                                    format == MapFormat::r32f ? VK_IMAGE_ASPECT_COLOR_BIT : VK_IMAGE_ASPECT_DEPTH_BIT);
-        r.maps.push_back({maps.extent.width, maps.extent.height, decodeMap(bytes, format)});
+        r.maps.push_back({maps.extent.width, maps.extent.height, readMapLayer(gpu, maps, layer)});
     }
-    const auto mask = renderer.mask();
-    const std::uint32_t channels = mask.format == VK_FORMAT_R8_UNORM ? 1 : 4;
     for (const LightPlan& light : r.plan.lights) {
-        const auto bytes = gpu.read(mask, light.mask_layer, channels, VK_IMAGE_ASPECT_COLOR_BIT);
-        std::vector<std::byte>& out = r.masks.emplace_back();
-        for (std::size_t i = light.mask_channel; i < bytes.size(); i += channels) {
-            out.push_back(bytes[i]);
-        }
+        r.masks.push_back(readMaskChannel(gpu, renderer.mask(), light));
     }
-}
-
-vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
-{
-    vulkan::MaskInputs inputs;
-    inputs.extent = picture.extent;
-    inputs.depth = gpu.makeImage(VK_FORMAT_R32_SFLOAT, picture.extent, std::as_bytes(std::span(picture.depth))).view;
-    inputs.normal =
-        gpu.makeImage(VK_FORMAT_R16G16_SNORM, picture.extent, std::as_bytes(std::span(picture.octahedral))).view;
-    return inputs;
 }
 
 Rendered render(Gpu& gpu, const FilterOptions& options, bool reversed_z = true, int frames = 3)
@@ -127,15 +86,8 @@ Rendered render(Gpu& gpu, const FilterOptions& options, bool reversed_z = true, 
             renderer.recordMask(commands, slot, frame, r.plan, inputs);
         }
     });
-    readBack(gpu, renderer, options, r);
+    readBack(gpu, renderer, r);
     return r;
-}
-
-void expectSilence(Gpu& gpu)
-{
-    for (const std::string& message : gpu.takeMessages()) {
-        ADD_FAILURE() << message;
-    }
 }
 
 class Parity : public testing::TestWithParam<Case> {};

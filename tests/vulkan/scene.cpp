@@ -114,6 +114,8 @@ SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
     mesh.objects.push_back({0, 1});
     mesh.objects.resize(1 + scene.boxes.size(), {1, 1});
     mesh.batches.resize(1);
+    mesh.vertex_count = static_cast<std::uint32_t>(positions.size());
+    mesh.mapped_indices = index_buffer.mapped;
     return mesh;
 }
 

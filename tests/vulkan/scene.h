@@ -43,6 +43,8 @@ struct SceneMesh {
     std::vector<vulkan::DrawPart> parts;
     std::vector<vulkan::DrawObject> objects;
     std::vector<vulkan::CasterBatch> batches;
+    std::uint32_t vertex_count = 0;
+    void* mapped_indices = nullptr;
 };
 [[nodiscard]] SceneMesh uploadMesh(Gpu& gpu, const Scene& scene);
 

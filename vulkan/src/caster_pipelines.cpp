@@ -8,10 +8,13 @@
 namespace gnomon::vulkan {
 namespace {
 
-std::span<const std::uint32_t> vertexCode(CasterPipelineKey key)
+std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, CasterPipelineKey key)
 {
     if (key.perspective) {
         return key.masked ? spirv::caster_perspective_masked_vert : spirv::caster_perspective_vert;
+    }
+    if (formats.colour != VK_FORMAT_UNDEFINED) {
+        return key.masked ? spirv::caster_orthographic_metric_masked_vert : spirv::caster_orthographic_metric_vert;
     }
     return key.masked ? spirv::caster_orthographic_masked_vert : spirv::caster_orthographic_vert;
 }
@@ -85,7 +88,7 @@ void CasterPipelines::ensure(CasterPipelineKey key)
 Pipeline CasterPipelines::make(CasterPipelineKey key)
 {
     const MapPassFormats& formats = key.perspective ? options_.perspective : options_.orthographic;
-    const ShaderModule vertex = makeShader(device_, vertexCode(key));
+    const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
     ShaderModule fragment;
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};

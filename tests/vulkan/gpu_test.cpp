@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the renderer does beyond filtering, on a real device: reuse of maps, clamping, alpha masks, ids, normals,
+// timing.
+#include "fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::MapPass;
+
+constexpr VkExtent2D kScreen{160, 100};
+
+class OnGpu : public testing::Test {
+protected:
+    void TearDown() override { expectSilence(gpu()); }
+};
+
+// How much of two masks differs by more than `tolerance` of 255.
+double shareOfDifferent(std::span<const std::byte> a, std::span<const std::byte> b, int tolerance)
+{
+    EXPECT_EQ(a.size(), b.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        count += std::abs(std::to_integer<int>(a[i]) - std::to_integer<int>(b[i])) > tolerance ? 1 : 0;
+    }
+    return double(count) / double(a.size());
+}
+
+TEST_F(OnGpu, viewsThatHoldKeepTheirTexels)
+{
+    // Both views share one layer: drawing one must leave the other's tile alone.
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f}) {
+        Bench bench(kScreen, format);
+        bench.setLights({makeSun({0.8, -0.9, -0.35}), makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6)},
+                        {{0, 0, 0, 256, 256}, {0, 256, 0, 256, 256}}, {512, 256, 1});
+        bench.prepare();
+        bench.record(1);
+        const auto before = bench.readMap(0);
+        bench.plan.views[0].redraw = false;
+        bench.plan.views[1].redraw = true;
+        bench.plan.views[1].caster_count = 0; // now it is drawn empty
+        bench.record(2);
+        const auto after = bench.readMap(0);
+        std::size_t kept = 0;
+        std::size_t cleared = 0;
+        for (std::size_t y = 0; y < 256; ++y) {
+            for (std::size_t x = 0; x < 256; ++x) {
+                kept += after[y * 512 + x] == before[y * 512 + x] ? 1 : 0;
+                cleared += after[y * 512 + 256 + x] == 1.0F ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(kept, 256U * 256U);
+        EXPECT_EQ(cleared, 256U * 256U);
+    }
+}
+
+TEST_F(OnGpu, castersBeforeTheNearPlaneAreClampedOrCut)
+{
+    Bench bench(kScreen, MapFormat::d32f);
+    bench.scene.boxes = {{{0.0, 22.0, 0.0}, {2.0, 0.5, 2.0}, 0.0}}; // above the near plane, 15 m up
+    bench.setLights({makeSun({0.0, -1.0, 0.0})}, {{0, 0, 0, 128, 128}}, {128, 128, 1});
+    bench.prepare();
+    bench.record(1);
+    EXPECT_EQ(bench.readMap(0)[64 * 128 + 64], 0.0F) << "clamped onto the near plane";
+    bench.plan.views[0].clamp_near = false;
+    bench.record(1);
+    EXPECT_NEAR(bench.readMap(0)[64 * 128 + 64], 15.0 / 45.0, 1e-5) << "cut: the ground shows";
+}
+
+TEST_F(OnGpu, normalsFromDepthAgreeWithGivenOnes)
+{
+    Bench bench(kScreen, MapFormat::d32f);
+    bench.setLights({makeSun({0.8, -0.9, -0.35})}, {{0, 0, 0, 512, 512}}, {512, 512, 1});
+    bench.prepare();
+    bench.record(1);
+    const auto given = bench.readMask(0);
+    bench.inputs.normal = VK_NULL_HANDLE;
+    bench.record(1);
+    EXPECT_LT(shareOfDifferent(given, bench.readMask(0), 8), 0.01);
+}
+
+TEST_F(OnGpu, depthDirectionDoesNotMatter)
+{
+    Bench reversed(kScreen, MapFormat::d32f);
+    Bench forward(kScreen, MapFormat::d32f, false);
+    for (Bench* bench : {&reversed, &forward}) {
+        bench->setLights({makeSun({0.8, -0.9, -0.35})}, {{0, 0, 0, 512, 512}}, {512, 512, 1});
+        bench->prepare();
+        bench->record(1);
+    }
+    EXPECT_LT(shareOfDifferent(reversed.readMask(0), forward.readMask(0), 8), 0.002);
+}
+
+TEST_F(OnGpu, receiversWithIdZeroAreLit)
+{
+    Bench bench(kScreen, MapFormat::d32f);
+    bench.setLights({makeSun({0.8, -0.9, -0.35})}, {{0, 0, 0, 512, 512}}, {512, 512, 1});
+    std::vector<std::uint32_t> ids = bench.picture.object_plus_one;
+    for (std::uint32_t& id : ids) {
+        id = id == 1 ? 0 : id; // the ground wants no shadow
+    }
+    bench.prepare();
+    bench.record(1);
+    const auto plain = bench.readMask(0);
+    bench.inputs.object_id = gpu().makeImage(VK_FORMAT_R32_UINT, kScreen, std::as_bytes(std::span(ids))).view;
+    bench.record(1);
+    const auto masked = bench.readMask(0);
+    std::size_t relit = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        EXPECT_EQ(masked[i], ids[i] == 0 ? std::byte{255} : plain[i]);
+        relit += masked[i] != plain[i] ? 1 : 0;
+    }
+    EXPECT_GT(relit, 100U);
+}
+
+TEST_F(OnGpu, sevenLightsFillTwoLayers)
+{
+    Bench bench(kScreen, MapFormat::d16);
+    std::vector<Light> lights(7, makeSun({0.8, -0.9, -0.35}));
+    lights[5] = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < 7; ++i) {
+        tiles.push_back({i, 0, 0, 256, 256});
+    }
+    bench.setLights(lights, tiles, {256, 256, 7});
+    bench.plan.lights[2].outcome = {OutcomeKind::no_shadow_wanted, "it casts none"};
+    bench.prepare();
+    bench.record(1);
+    const auto first = bench.readMask(0);
+    for (const std::uint32_t same : {1U, 3U, 4U, 6U}) {
+        EXPECT_EQ(bench.readMask(same), first) << same;
+    }
+    EXPECT_EQ(bench.readMask(2), std::vector<std::byte>(first.size(), std::byte{255})) << "no map: lit";
+    EXPECT_GT(shareOfDifferent(bench.readMask(5), first, 8), 0.01) << "the spot";
+    EXPECT_EQ(bench.renderer.mask().layers, 2U);
+}
+
+// A plate whose texture is opaque on one half alone throws half a shadow.
+TEST_F(OnGpu, alphaMaskedCastersCastTheirTexture)
+{
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f}) {
+        Bench bench(kScreen, format);
+        bench.scene.boxes = {{{0.0, 5.0, 0.0}, {3.0, 0.001, 3.0}, 0.0}};
+        bench.setLights({makeSun({0.0, -1.0, 0.0}), makeSpot({0.0, 12.0, 0.001}, {0.0, 0.0, 0.0}, 0.6)},
+                        {{0, 0, 0, 128, 128}, {1, 0, 0, 128, 128}}, {128, 128, 2});
+        bench.maskBoxes();
+        bench.prepare();
+        bench.record(1);
+        for (std::uint32_t layer = 0; layer < 2; ++layer) {
+            const auto map = bench.readMap(layer);
+            // Everything of the ground is farther than the plate.
+            const float ground = map[10 * 128 + 64];
+            std::size_t plate = 0;
+            for (const float texel : map) {
+                plate += texel < ground - 0.05F ? 1 : 0;
+            }
+            const double side = layer == 0 ? 6.0 / 24.0 * 128.0 : 6.0 / (2.0 * 7.0 * std::tan(0.6)) * 128.0;
+            EXPECT_NEAR(double(plate), side * side / 2.0, side * 2.0) << "layer " << layer;
+        }
+    }
+}
+
+TEST_F(OnGpu, profilerCountsWhatWasDrawn)
+{
+    Bench bench(kScreen, MapFormat::d32f);
+    bench.setLights({makeSun({0.8, -0.9, -0.35})}, {{0, 0, 0, 256, 256}}, {256, 256, 1});
+    bench.prepare();
+    vulkan::Profiler profiler(gpu().view(), 1, 4);
+    bench.record(1, &profiler);
+    const auto results = profiler.results(0);
+    ASSERT_EQ(results.size(), 2U);
+    EXPECT_STREQ(results[0].name, "shadow maps");
+    EXPECT_STREQ(results[1].name, "mask");
+    EXPECT_GT(results[0].milliseconds, 0.0);
+    EXPECT_TRUE(results[0].has_statistics);
+    EXPECT_GE(results[0].vertex_invocations, 4 + 8 * bench.scene.boxes.size());
+    EXPECT_EQ(results[0].draws, 2U);
+    EXPECT_GE(results[1].fragment_invocations, kScreen.width * kScreen.height);
+    EXPECT_EQ(results[1].compute_invocations, 0U);
+}
+
+TEST_F(OnGpu, cullingLeavesOutBackFacesOfOneSidedBatches)
+{
+    // From above, a box shows its top; without its front faces it would show its bottom.
+    for (const bool cull : {false, true}) {
+        for (const bool two_sided : {false, true}) {
+            Bench bench(kScreen, MapFormat::d32f, true, cull);
+            bench.scene.boxes = {{{0.0, 5.0, 0.0}, {3.0, 1.0, 3.0}, 0.0}};
+            bench.setLights({makeSun({0.0, -1.0, 0.0})}, {{0, 0, 0, 128, 128}}, {128, 128, 1});
+            bench.mesh.batches[0].two_sided = two_sided;
+            bench.flipGround(); // it shows the sun its back
+            bench.prepare();
+            bench.record(1);
+            const auto map = bench.readMap(0);
+            EXPECT_NEAR(map[64 * 128 + 64], 9.0 / 45.0, 1e-5) << "the box's top, 6 m up";
+            EXPECT_EQ(map[2 * 128 + 2] == 1.0F, cull && !two_sided) << "the ground";
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::test
