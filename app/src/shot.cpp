@@ -103,7 +103,7 @@ void placeLights(Shot& shot, const Settings& settings)
         shot.lights = host::lightsOf(shot.scene, shot.state);
     }
     if (shot.lights.empty()) {
-        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(-0.45, -0.8, -0.35)), settings.sun_angle_deg));
+        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12)), settings.sun_angle_deg));
     }
 }
 

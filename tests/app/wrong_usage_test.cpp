@@ -140,7 +140,7 @@ const std::vector<Wrong> kWrong{
 };
 
 INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(OutsideWorld, NoVulkanDriver)
 {
