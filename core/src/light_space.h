@@ -23,8 +23,8 @@ struct LightSpace {
     glm::dvec3 up_ws{0.0, 0.0, -1.0};
     glm::dvec3 forward_ws{0.0, -1.0, 0.0};
     bool perspective = false;
-    double near_m = 0.0;  // perspective: depths that count, along `forward`
-    double reach_m = 0.0; //
+    double near_m = 0.0; // perspective: depths that count, along `forward`
+    double reach_m = 0.0;
     double tangent = 0.0; // perspective: of the half angle
 
     /// (right, up, forward) coordinates, metres.

@@ -96,6 +96,7 @@ struct Planner::Impl {
 Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
 {
     assert(options.map_size >= 16 && options.map_size <= 16384);
+    assert(options.max_layers >= 1 && options.max_layers <= 2048);
     assert(options.border_texels >= 0.0 && options.border_texels <= 64.0);
     Impl& s = *impl_;
     s.options = options;
