@@ -147,6 +147,7 @@ void ObjectSet::remove(std::uint32_t object)
     Impl& s = *impl_;
     s.leave(s.objects.bounds_ws[object]);
     s.treeOf(object).remove(s.objects, object);
+    s.objects.bounds_ws[object] = {}; // empty: bounds() may go over all of them alike
     s.setBits(object, false);
     s.record(object);
     s.free_handles.push_back(object);
@@ -188,9 +189,8 @@ Aabb ObjectSet::bounds() const
     Impl& s = *impl_;
     if (s.bounds_loose) {
         s.bounds = {};
-        for (std::size_t i = 0; i < s.changed.size(); ++i)
-            if (s.alive(i))
-                s.enter(s.objects.bounds_ws[i]);
+        for (const Aabb& box : s.objects.bounds_ws)
+            s.enter(box);
         s.bounds_loose = false;
     }
     return s.bounds;
