@@ -3,11 +3,9 @@
 #ifndef HOST_TONE_GLSL
 #define HOST_TONE_GLSL
 
-// Filmic curve: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015. His remark that the fit is overexposed by a
-// factor of 0.6 against the reference transform is kept; 1.0 then comes out as 0.62, and the knee starts above it.
+// Filmic curve: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015. Exposure is chosen for this curve (frame_data.cpp).
 vec3 filmic(vec3 x)
 {
-    x *= 0.6;
     return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 

@@ -152,7 +152,7 @@ void Renderer::Impl::writeInstead(const std::vector<ImageF>& masks)
         wish.purpose = "host pictures";
         wish.format = VK_FORMAT_R8G8B8A8_UNORM;
         wish.extent = targets.drawn;
-        wish.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        wish.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
         wish.layers = layers;
         wish.array_view = true;
         instead = memory.image(wish);

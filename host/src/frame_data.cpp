@@ -16,7 +16,9 @@ namespace {
 // never as if it were nearer than a twentieth of the scene or farther than half its reach.
 double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
 {
-    const double strength = glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
+    // A cookie is taken to let half of the light through.
+    const double passed = light.cookie == scene::kNone ? 1.0 : 0.5;
+    const double strength = passed * glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
     if (light.caster.type == LightType::directional) {
         return strength;
     }
@@ -118,9 +120,9 @@ double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const
     for (const ShadedLight& light : lights) {
         brightest = std::max(brightest, illuminanceOf(light, bounds));
     }
-    // A white surface square to the brightest light comes out at 1.8 times the sky's own scale: the tone curve takes
-    // that to 0.78 of its range and grey of 18 % to a middle tone.
-    constexpr double kKey = 1.8;
+    // What a white surface square to the brightest light comes out as, before the tone curve, where the sky is about
+    // 0.6: the curve then takes it to 0.85 of its range, and a grey of 18 % to a middle tone.
+    constexpr double kKey = 1.35;
     return brightest > 0.0 ? kKey * environment.exposure / brightest : environment.exposure;
 }
 
@@ -137,7 +139,9 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
     data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);
     const double span = (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
     data.depth = {span, 1.0 / sight.far_m, 0.0, 0.0};
-    data.sky_zenith = glm::vec4(environment.sky_zenith * environment.exposure, environment.ambient);
+    // Light that has bounced off the surroundings is nowhere else accounted for.
+    constexpr float kBounced = 1.5F;
+    data.sky_zenith = glm::vec4(environment.sky_zenith * environment.exposure, environment.ambient * kBounced);
     data.sky_horizon = glm::vec4(environment.sky_horizon * environment.exposure, environment.exposure);
     data.ground = glm::vec4(environment.ground * environment.exposure, 0.0F);
     data.counts = {lights.size(), has_mask ? 1 : 0, 0, 0};

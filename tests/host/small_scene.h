@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene with one of everything that the renderer treats in its own way.
+#pragma once
+
+#include "host/renderer.h"
+#include "scene/model.h"
+
+namespace gnomon::host::test {
+
+// Nodes of the scene, by what they are.
+enum : std::uint32_t { kGroundNode, kMoverNode, kMaskedNode, kGlassNode, kGlowNode, kJointNode, kFlagNode, kShyNode };
+
+/// A ground, a box that moves along x with time, a masked fence, a pane of glass, a glowing box, a flag whose one joint
+/// moves, and a box that receives no shadow; a sun and a spot light with a cookie.
+[[nodiscard]] scene::Scene smallScene();
+[[nodiscard]] Eye smallEye();
+
+} // namespace gnomon::host::test
