@@ -7,6 +7,9 @@ layout(constant_id = 0) const int kFilter = 1;      // gnomon::Filter
 layout(constant_id = 1) const int kKernelWidth = 3; // see FilterInput
 layout(constant_id = 2) const int kDiscTaps = 16;
 layout(constant_id = 3) const bool kHasNormals = true;
+// Not read from the buffer, because lavapipe executes both sides of every branch whose condition is not a constant.
+layout(constant_id = 4) const int kLights = 4;
+layout(constant_id = 5) const bool kManyViews = true; // some light has more views than one
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
@@ -67,15 +70,8 @@ vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
     return dot(n, p) > 0.0 ? -n : n; // towards the eye
 }
 
-float lightVisibility(int index, vec3 p, vec3 n)
+FilterInput filterInput()
 {
-    GpuLight light = mask.lights[index];
-    if (light.views.z == 0) {
-        return 1.0;
-    }
-    if (dot(n, directionToLight(light, p)) <= 0.0) {
-        return 0.0;
-    }
     FilterInput f;
     f.layer = 0.0;
     f.kernel_width = kKernelWidth;
@@ -83,12 +79,29 @@ float lightVisibility(int index, vec3 p, vec3 n)
     f.disc_radius = mask.disc.x;
     f.kernel = mask.kernel;
     f.pixel = gl_FragCoord.xy;
-    for (uint i = light.views.x; i < light.views.x + light.views.y; ++i) {
-        if (viewContains(mask.views[i], p)) {
-            return viewVisibility(kFilter, mask.views[i], biasOf(mask.bias, mask.bias_more), f, p, n);
+    return f;
+}
+
+// `index` is a constant at every call. A light's first view is views[index], so that it too is at a constant place.
+float lightVisibility(int index, vec3 p, vec3 n)
+{
+    GpuLight light = mask.lights[index];
+    BiasRule bias = biasOf(mask.bias, mask.bias_more);
+    float v = 1.0;
+    bool found = viewContains(mask.views[index], p);
+    if (found) {
+        v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), p, n);
+    }
+    if (kManyViews) {
+        for (uint i = light.views.x; i < light.views.x + light.views.y && !found; ++i) {
+            found = viewContains(mask.views[i], p);
+            if (found) {
+                v = viewVisibility(kFilter, mask.views[i], bias, filterInput(), p, n);
+            }
         }
     }
-    return 1.0;
+    bool faces = dot(n, directionToLight(light, p)) > 0.0;
+    return light.views.z == 0 ? 1.0 : (faces ? v : 0.0);
 }
 
 void main()
@@ -106,15 +119,14 @@ void main()
 #endif
     vec3 p = positionAt(pixel, depth);
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
-    int count = int(mask.atlas.w);
     visibility.r = lightVisibility(0, p, n);
-    if (count > 1) {
+    if (kLights > 1) {
         visibility.g = lightVisibility(1, p, n);
     }
-    if (count > 2) {
+    if (kLights > 2) {
         visibility.b = lightVisibility(2, p, n);
     }
-    if (count > 3) {
+    if (kLights > 3) {
         visibility.a = lightVisibility(3, p, n);
     }
 }

@@ -32,7 +32,7 @@ struct GpuView {
 
 struct GpuLight {
     GN_VEC4 place; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
-    GN_UVEC4 views; // x: first, y: count, of GpuMaskLayer::views; z: 0 when the light has no map (then visibility is 1)
+    GN_UVEC4 views; // x: first and y: count of its further views; z: 0 when it has no map (then visibility is 1)
 };
 
 struct GpuMaskLayer {
@@ -41,14 +41,14 @@ struct GpuMaskLayer {
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;
     GN_VEC4 screen; // xy: size in pixels, zw: one over it
-    GN_VEC4 atlas;  // xy: one over its size in texels; z: the depth of the background (0 or 1); w: number of lights
+    GN_VEC4 atlas;  // xy: one over its size in texels; z: the depth of the background (0 or 1)
     GN_VEC4 bias;   // automatic, constant_m, slope, normal_texels
     GN_VEC4 bias_more; // receiver_plane, reach_texels, quantum
     GN_VEC4 kernel; // gaussianWeights
     GN_VEC4 disc;   // x: radius, texels
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];
-    GpuView views[kViewsPerLayer];
+    GpuView views[kViewsPerLayer]; // light i's first view is views[i]; further ones follow from kLightsPerLayer on
 };
 
 #ifdef __cplusplus

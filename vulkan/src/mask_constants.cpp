@@ -104,25 +104,21 @@ float filterReachTexels(const FilterOptions& filter)
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;
 }
 
-std::uint32_t countMaskLayerViews(const Plan& plan, std::uint32_t layer)
+MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer)
 {
-    std::uint32_t count = 0;
+    MaskLayerShape shape;
     for (const LightPlan& light : plan.lights) {
-        count += light.mask_layer == layer ? shownViews(light) : 0U;
-    }
-    return count;
-}
-
-bool isLayerOrthographic(const Plan& plan, std::uint32_t layer)
-{
-    for (const LightPlan& light : plan.lights) {
-        for (std::uint32_t i = 0; light.mask_layer == layer && i < shownViews(light); ++i) {
-            if (!plan.views[light.first_view + i].orthographic) {
-                return false;
-            }
+        if (light.mask_layer != layer) {
+            continue;
+        }
+        shape.lights = std::max(shape.lights, light.mask_channel + 1);
+        const std::uint32_t count = shownViews(light);
+        shape.further_views += count > 1 ? count - 1 : 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            shape.orthographic = shape.orthographic && plan.views[light.first_view + i].orthographic;
         }
     }
-    return true;
+    return shape;
 }
 
 void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const FilterOptions& filter,
@@ -140,32 +136,31 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     fillFilter(filter, quantum, out);
 
     const double margin = edgeMargin(filter);
-    std::uint32_t channels = 0;
-    std::uint32_t views = 0;
+    std::uint32_t further = shared::kLightsPerLayer;
     for (shared::GpuLight& light : out.lights) {
         light = {}; // no map
     }
+    for (int i = 0; i < shared::kLightsPerLayer; ++i) {
+        out.views[i] = {};
+    }
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
-        if (light.mask_layer != layer) {
+        const std::uint32_t count = shownViews(light);
+        if (light.mask_layer != layer || count == 0) {
             continue;
         }
         assert(light.mask_channel < shared::kLightsPerLayer);
-        channels = std::max(channels, light.mask_channel + 1);
-        const std::uint32_t count = shownViews(light);
-        if (count == 0) {
-            continue;
-        }
         shared::GpuLight& gpu = out.lights[light.mask_channel];
         gpu = gpuLight(frame.lights[i], camera.eye_ws);
-        gpu.views = {views, count, 1U, 0U};
-        for (std::uint32_t v = 0; v < count; ++v) {
-            assert(views < shared::kViewsPerLayer);
-            out.views[views++] = gpuView(plan.views[light.first_view + v], world_from_eye, margin);
+        gpu.views = {further, count - 1, 1U, 0U};
+        out.views[light.mask_channel] = gpuView(plan.views[light.first_view], world_from_eye, margin);
+        for (std::uint32_t v = 1; v < count; ++v) {
+            assert(further < shared::kViewsPerLayer);
+            out.views[further++] = gpuView(plan.views[light.first_view + v], world_from_eye, margin);
         }
     }
     out.atlas = {1.0F / static_cast<float>(atlas.width), 1.0F / static_cast<float>(atlas.height),
-                 camera.reversed_z ? 0.0F : 1.0F, static_cast<float>(channels)};
+                 camera.reversed_z ? 0.0F : 1.0F, 0.0F};
 }
 
 } // namespace gnomon::vulkan

@@ -14,12 +14,15 @@ namespace gnomon::vulkan {
 /// Width of a separable kernel; 0 for the discs.
 [[nodiscard]] int kernelWidth(const FilterOptions& filter);
 
-/// Fills one layer of the mask. Precondition: at most kViewsPerLayer views in the layer.
+/// Fills one layer of the mask. Precondition: room for the further views (kViewsPerLayer - kLightsPerLayer).
 void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const FilterOptions& filter,
                    float quantum, VkExtent2D screen, VkExtent2D atlas, shared::GpuMaskLayer& out);
-/// Views that the lights of a layer have together.
-[[nodiscard]] std::uint32_t countMaskLayerViews(const Plan& plan, std::uint32_t layer);
-/// True when every view of the layer's lights is orthographic.
-[[nodiscard]] bool isLayerOrthographic(const Plan& plan, std::uint32_t layer);
+/// What the lights of one layer have in common: decides which pipeline draws it.
+struct MaskLayerShape {
+    std::uint32_t lights = 0;        // channels in use
+    std::uint32_t further_views = 0; // beyond the first of each light
+    bool orthographic = true;        // every view is
+};
+[[nodiscard]] MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer);
 
 } // namespace gnomon::vulkan

@@ -44,11 +44,12 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
 {
     const std::uint32_t layers = std::max(plan.mask_layers, 1U);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const std::uint32_t views = countMaskLayerViews(plan, layer);
-        if (views > shared::kViewsPerLayer) {
+        const std::uint32_t views = describeMaskLayer(plan, layer).further_views;
+        constexpr std::uint32_t kMost = shared::kViewsPerLayer - shared::kLightsPerLayer;
+        if (views > kMost) {
             throw Error("prepare the shadow mask",
-                        "four lights of one layer have " + std::to_string(views) + " views; at most " +
-                            std::to_string(shared::kViewsPerLayer) + " are possible",
+                        "four lights of one layer have " + std::to_string(views) + " views beyond their first; " +
+                            std::to_string(kMost) + " are possible",
                         "use fewer views a light");
         }
     }
@@ -161,8 +162,11 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
         auto* constants = static_cast<std::byte*>(slot.constants.data()) + constants_stride_ * layer;
         fillMaskLayer(frame, plan, layer, options_.filter, quantum_, inputs.extent, maps.info().extent,
                       *reinterpret_cast<shared::GpuMaskLayer*>(constants));
+        const MaskLayerShape shape = describeMaskLayer(plan, layer);
         Variant variant;
-        variant.orthographic = isLayerOrthographic(plan, layer);
+        variant.lights = std::max(shape.lights, 1U);
+        variant.many_views = shape.further_views > 0;
+        variant.orthographic = shape.orthographic;
         variant.normals = inputs.normal != VK_NULL_HANDLE;
         variant.ids = inputs.object_id != VK_NULL_HANDLE;
         recordLayer(commands, slot, layer, pipeline(variant));

@@ -32,12 +32,15 @@ private:
         VkImageView object_id = VK_NULL_HANDLE;
     };
     struct Variant {
+        std::uint32_t lights = 1; // 1 .. 4
+        bool many_views = false;
         bool orthographic = false;
         bool normals = false;
         bool ids = false;
         [[nodiscard]] std::size_t index() const
         {
-            return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U);
+            return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U) | (many_views ? 8U : 0U) |
+                   (lights - 1) << 4;
         }
     };
 
@@ -62,7 +65,7 @@ private:
     VkDeviceSize constants_stride_ = 0;
     ShaderModule vertex_;
     std::array<ShaderModule, 4> fragments_; // by orthographic, ids
-    std::array<Pipeline, 8> pipelines_;     // by Variant::index(), made when first needed
+    std::array<Pipeline, 64> pipelines_;    // by Variant::index(), made when first needed
 };
 
 } // namespace gnomon::vulkan

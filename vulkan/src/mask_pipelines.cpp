@@ -5,26 +5,21 @@
 #include "mask_pass.h"
 
 #include <array>
-#include <cstddef>
 
 namespace gnomon::vulkan {
 namespace {
 
 enum Binding : std::uint32_t { kConstants, kMaps, kDepth, kNormal, kObjectId, kBindingCount };
 
-// The constant_ids of mask_fragment.glsl.
+// The constant_ids of mask_fragment.glsl, four bytes each, in their order.
 struct Specialisation {
     std::int32_t filter;
     std::int32_t kernel_width;
     std::int32_t disc_taps;
     VkBool32 has_normals;
+    std::int32_t lights;
+    VkBool32 many_views;
 };
-
-Specialisation specialise(const FilterOptions& filter, bool normals)
-{
-    return {static_cast<std::int32_t>(filter.filter), kernelWidth(filter), static_cast<std::int32_t>(filter.disc_taps),
-            normals ? VK_TRUE : VK_FALSE};
-}
 
 VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
 {
@@ -137,12 +132,16 @@ VkPipeline MaskPassRecorder::pipeline(Variant variant)
 
 Pipeline MaskPassRecorder::makePipeline(Variant variant)
 {
-    const Specialisation values = specialise(options_.filter, variant.normals);
-    const std::array<VkSpecializationMapEntry, 4> entries{{{0, offsetof(Specialisation, filter), 4},
-                                                           {1, offsetof(Specialisation, kernel_width), 4},
-                                                           {2, offsetof(Specialisation, disc_taps), 4},
-                                                           {3, offsetof(Specialisation, has_normals), 4}}};
-    const VkSpecializationInfo specialisation{4, entries.data(), sizeof values, &values};
+    const FilterOptions& filter = options_.filter;
+    const Specialisation values{static_cast<std::int32_t>(filter.filter),    kernelWidth(filter),
+                                static_cast<std::int32_t>(filter.disc_taps), variant.normals ? VK_TRUE : VK_FALSE,
+                                static_cast<std::int32_t>(variant.lights),   variant.many_views ? VK_TRUE : VK_FALSE};
+    std::array<VkSpecializationMapEntry, sizeof values / 4> entries{};
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
+        entries[i] = {i, 4 * i, 4};
+    }
+    const VkSpecializationInfo specialisation{static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
+                                              &values};
     const std::size_t fragment = (variant.orthographic ? 1U : 0U) + (variant.ids ? 2U : 0U);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (VkPipelineShaderStageCreateInfo& stage : stages) {
