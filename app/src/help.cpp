@@ -11,7 +11,7 @@ constexpr std::size_t kColumn = 30;
 
 std::string line(const std::string& left, const std::string& right)
 {
-    return fmt::format("  {:<{}}{}\n", left, kColumn, right);
+    return fmt::format("  {:<{}}{}{}\n", left, kColumn, left.size() < kColumn ? "" : "  ", right);
 }
 
 std::string programHelp()
@@ -21,10 +21,12 @@ std::string programHelp()
     for (const Subcommand& subcommand : subcommands()) {
         text += line(std::string(subcommand.name), std::string(subcommand.summary));
     }
-    text += "\nSCENE is a .gltf or .glb file or a built-in world:\n";
+    std::vector<std::string_view> worlds;
     for (const scene::World& world : scene::worlds()) {
-        text += line(std::string(world.name), std::string(world.summary));
+        worlds.push_back(world.name);
     }
+    text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world: {}. Without one it is rts.\n",
+                        listed(worlds));
     return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` every value and setting there is,\n"
                   "`gnomon --version` the version. Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 }

@@ -24,8 +24,7 @@ constexpr std::array kSubcommands{
     Subcommand{"plan", kPlan, "[SCENE] [options]", "Prints the plan of a frame as JSON; needs no GPU.", runPlan},
     Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
                runBench},
-    Subcommand{"list", kList, "[options]",
-               "Prints every value of every choice, what is refused and why, every setting.", runList},
+    Subcommand{"list", kList, "[options]", "Prints every choice and setting, and what is refused and why.", runList},
 };
 
 int complain(std::string line, int status)

@@ -42,7 +42,7 @@ TEST(Help, FitsAScreen)
             EXPECT_LE(line.size(), 100U) << subcommand << ": " << line;
         }
         EXPECT_LE(lines, 40) << subcommand;
-        EXPECT_GT(lines, 4) << subcommand;
+        EXPECT_GE(lines, 4) << subcommand;
     }
 }
 
@@ -203,8 +203,8 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
 {
     const test::Folder folder;
     const test::Ran ran =
-        inFolder(folder, {"bench", "planes", "--size", "64x64", "--map-size", "256", "--repetitions", "2", "--warmup",
-                          "1", "--techniques", "hard,pcf+pcf.kernel=5x5", "--json", "--validate"});
+        inFolder(folder, {"bench", "planes", "--sun", "1,-2,1", "--size", "64x64", "--map-size", "256", "--repetitions",
+                          "2", "--warmup", "1", "--techniques", "hard,pcf+pcf.kernel=5x5", "--json", "--validate"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     const json bench = json::parse(ran.out);
     for (const char* key : {"version", "scene", "scene_hash", "camera", "light", "device", "driver", "settings"}) {

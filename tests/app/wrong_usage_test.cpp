@@ -21,6 +21,14 @@ struct Wrong {
     std::string says; // part of the line
 };
 
+/// What googletest prints of a failed case, instead of its bytes.
+void PrintTo(const Wrong& wrong, std::ostream* out)
+{
+    for (const std::string& argument : wrong.arguments) {
+        *out << argument << ' ';
+    }
+}
+
 class WrongUsage : public testing::TestWithParam<Wrong> {};
 
 void expectOneLine(const test::Ran& ran, int status, const std::string& says)
@@ -111,7 +119,7 @@ const std::vector<Wrong> kWrong{
     {"UpIsZero", {"render", "--eye", "1,2,3", "--target", "0,0,0", "--up", "0,0,0"}, 2, "direction is zero"},
     {"UpAlongTheView", {"render", "--eye", "0,5,0", "--target", "0,0,0"}, 2, "parallel"},
     {"CameraAndEye", {"render", "--camera", "camp", "--eye", "1,2,3", "--target", "0,0,0"}, 2, "give one"},
-    {"UnknownCamera", {"plan", "rts", "--camera", "cmap"}, 2, "did you mean \"camp\""},
+    {"UnknownCamera", {"plan", "rts", "--camera", "cammp"}, 2, "did you mean \"camp\""},
     {"FovZero", {"render", "--fov", "0"}, 2, "0.1 to 179"},
     {"FovHalfTurn", {"render", "--fov", "180"}, 2, "0.1 to 179"},
     {"TimeNan", {"render", "--time", "nan"}, 2, "finite"},
