@@ -170,7 +170,7 @@ std::uint32_t addLamps(Scene& scene, const StagePalette& palette)
             window_cookie, housing);
     addLamp(scene, {"foliage", {7.2F, 6.2F, 5.4F}, {0.2F, 1.2F, -1.2F}, {0.34F, 0.56F, 1.0F}, 470.0F, 0.50F},
             foliage_cookie, housing);
-    return addLamp(scene, {"gear", {0.4F, 8.2F, 3.6F}, {0.2F, 0.0F, 1.5F}, {1.0F, 0.95F, 0.88F}, 300.0F, 0.46F},
+    return addLamp(scene, {"gear", {0.4F, 8.2F, 3.6F}, {0.2F, 0.0F, 1.5F}, {1.0F, 0.95F, 0.88F}, 430.0F, 0.46F},
                    gear_cookie, housing);
 }
 
@@ -199,7 +199,8 @@ Scene makeSpotlit(std::uint64_t /*seed*/)
     scene.environment.sky_zenith = {0.010F, 0.012F, 0.020F};
     scene.environment.sky_horizon = {0.030F, 0.030F, 0.038F};
     scene.environment.ground = {0.020F, 0.016F, 0.012F};
-    scene.environment.ambient = 4.5F;
+    scene.environment.ambient = 3.6F;
+    scene.environment.exposure = 2.4F;
     scene.views = {
         {.name = "stage", .eye = {0.9F, 3.3F, 10.6F}, .target = {0.1F, 2.05F, -1.0F}, .fov_y_rad = 0.72F},
         {.name = "close", .eye = {4.6F, 2.1F, 6.2F}, .target = {0.9F, 1.15F, 0.4F}, .fov_y_rad = 0.68F},

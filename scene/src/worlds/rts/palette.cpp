@@ -11,12 +11,12 @@ Palette addPalette(Scene& scene)
     const auto surface = [&](const char* name, std::uint32_t texture, float roughness) {
         return addMaterial(scene, name, {.roughness = roughness, .texture = texture});
     };
-    const auto foliage = [&](const char* name, Image image) {
+    const auto foliage = [&](const char* name, Image image, bool double_sided) {
         return addMaterial(scene, name,
                            {.roughness = 0.85F,
                             .texture = addTexture(scene, std::move(image), Wrap::clamp_to_edge),
                             .alpha_mode = AlphaMode::mask,
-                            .double_sided = true});
+                            .double_sided = double_sided});
     };
     Palette palette;
     const std::uint32_t detail = addTexture(scene, groundDetail());
@@ -32,9 +32,9 @@ Palette addPalette(Scene& scene)
     palette.fire =
         addMaterial(scene, "fire", {.base_colour = {1.0F, 0.5F, 0.12F, 1.0F}, .emissive = {5.0F, 1.6F, 0.25F}});
     palette.crystal = addMaterial(scene, "crystal", {.roughness = 0.22F, .emissive = {0.02F, 0.16F, 0.20F}});
-    palette.leaves = foliage("leaves", leafCluster());
-    palette.needles = foliage("needles", needleBranch());
-    palette.grass = foliage("grass", grassTuft());
+    palette.leaves = foliage("leaves", leafCluster(), true);
+    palette.needles = foliage("needles", needleBranch(), true);
+    palette.grass = foliage("grass", grassTuft(), false);
     return palette;
 }
 

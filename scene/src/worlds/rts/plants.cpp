@@ -35,7 +35,8 @@ void crown(Part& leaves, Rng& rng, const glm::vec3& centre, const glm::vec3& rad
         const float r = std::sqrt(1.0F - y * y);
         const glm::vec3 out(r * std::cos(turn), y, r * std::sin(turn));
         const glm::vec3 place = centre + out * radii * rng.range(0.62F, 0.86F);
-        const glm::vec3 facing = glm::normalize(out + rng.direction() * 0.55F);
+        // Backs are shaded with their normals turned; looked at from above, most cards must show their fronts.
+        const glm::vec3 facing = glm::normalize(out + glm::vec3(0, 0.45F, 0) + rng.direction() * 0.35F);
         leaves.colour = glm::mix(low, high, glm::clamp(0.5F + 0.5F * y + rng.range(-0.2F, 0.2F), 0.0F, 1.0F));
         leafCard(leaves, place, facing, half * rng.range(0.85F, 1.1F), rng.range(0.0F, kTau),
                  glm::normalize(out + glm::vec3(0, 0.25F, 0)));
@@ -120,7 +121,9 @@ Mesh makeGrassTuft(const Palette& palette)
         const glm::vec3 side(0.45F * std::cos(a), 0, 0.45F * std::sin(a));
         const glm::vec3 foot(0, -0.05F, 0);
         const glm::vec3 top(0, 0.6F, 0);
-        grass.card(foot - side, foot + side, top + side, top - side, {0, 1, 0}); // lit as the ground is
+        // Lit as the ground is, from either side: two cards, because a back's normal would be turned down.
+        grass.card(foot - side, foot + side, top + side, top - side, {0, 1, 0});
+        grass.card(foot + side, foot - side, top - side, top + side, {0, 1, 0});
     }
     return maker.take("grass tuft");
 }

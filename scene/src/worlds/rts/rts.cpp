@@ -44,9 +44,9 @@ void addSun(Scene& scene)
     addLight(scene, sun, {0.0F, 120.0F, 0.0F}, {0.74F, -0.60F, -0.30F});
     scene.environment.sky_zenith = {0.20F, 0.38F, 0.68F};
     scene.environment.sky_horizon = {0.80F, 0.78F, 0.72F};
-    scene.environment.ground = {0.26F, 0.22F, 0.16F};
+    scene.environment.ground = {0.31F, 0.29F, 0.25F};
     scene.environment.ambient = 0.42F;
-    scene.environment.exposure = 0.95F;
+    scene.environment.exposure = 1.2F;
 }
 
 void addViews(Scene& scene, const Actors& actors)
