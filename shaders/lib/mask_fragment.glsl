@@ -10,6 +10,7 @@ layout(constant_id = 3) const bool kHasNormals = true;
 // Not read from the buffer, because lavapipe executes both sides of every branch whose condition is not a constant.
 layout(constant_id = 4) const int kLights = 4;
 layout(constant_id = 5) const bool kManyViews = true; // some light has more views than one
+layout(constant_id = 6) const bool kAutomaticBias = true;
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
@@ -87,6 +88,7 @@ float lightVisibility(int index, vec3 p, vec3 n)
 {
     GpuLight light = mask.lights[index];
     BiasRule bias = biasOf(mask.bias, mask.bias_more);
+    bias.automatic = kAutomaticBias ? 1.0 : 0.0;
     float v = 1.0;
     bool found = viewContains(mask.views[index], p);
     if (found) {
@@ -100,8 +102,7 @@ float lightVisibility(int index, vec3 p, vec3 n)
             }
         }
     }
-    bool faces = dot(n, directionToLight(light, p)) > 0.0;
-    return light.views.z == 0 ? 1.0 : (faces ? v : 0.0);
+    return light.views.z == 0 ? 1.0 : (facesLight(light, p, n) ? v : 0.0);
 }
 
 void main()

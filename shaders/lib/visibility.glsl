@@ -16,6 +16,11 @@ GN_FN MapRows rowsOf(GpuView view)
     rows.metric = real4(view.metric);
     rows.texel_m = real(view.scale.x);
     rows.range_m = real(view.scale.y);
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    rows.plane_x = real4(view.plane_x);
+    rows.plane_y = real4(view.plane_y);
+    rows.plane_w = real4(view.plane_w);
+#endif
     return rows;
 }
 
@@ -32,17 +37,21 @@ GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
     return rule;
 }
 
-// From a light to a point, both eye-relative: unit vector towards the light.
-GN_FN real3 directionToLight(GpuLight light, real3 p)
+// Does a surface at the eye-relative point `p` with normal `n` face the light?
+GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
 {
-    real3 place = real3(real(light.place.x), real(light.place.y), real(light.place.z));
-    return light.place.w > 0.0F ? normalize(place - p) : place;
+    real4 place = real4(light.place);
+    return dot(n, real3(place.x, place.y, place.z) - p * place.w) > real(0.0);
 }
 
 // Is a point in this view, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p)
 {
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    real w = real(1.0);
+#else
     real w = dotRow(real4(view.w), p);
+#endif
     real x = dotRow(real4(view.x), p);
     real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;

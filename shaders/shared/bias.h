@@ -17,6 +17,11 @@ struct MapRows {
     real4 metric;
     real texel_m; // a texel's width in metres at w = 1
     real range_m; // metres from metric 0 to metric 1
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    real4 plane_x; // xyz: cross products of the gradients of the rows, metric x y, x x metric, x x y: what receiverPlane()
+    real4 plane_y; // comes down to when w is constant
+    real4 plane_w; // w: the least determinant that it divides by
+#endif
 };
 
 struct BiasRule {
@@ -70,6 +75,13 @@ GN_FN real3 gradientOf(real4 row)
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
                          GN_OUT(real2) w_slope)
 {
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    real det = dot(n, gradientOf(map.plane_w));
+    real tiny = map.plane_w.w;
+    real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
+    w_slope = real2(0.0);
+    depth_slope = real2(dot(n, gradientOf(map.plane_x)), dot(n, gradientOf(map.plane_y))) * inverse;
+#else
     real3 gw = gradientOf(map.w);
     real3 gx = gradientOf(map.x) - gw * texel.x;
     real3 gy = gradientOf(map.y) - gw * texel.y;
@@ -82,6 +94,7 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
     w_slope = real2(dot(gw, a), dot(gw, b)) * -inverse;
     real3 gm = gradientOf(map.metric) * w;
     depth_slope = w_slope * m + real2(dot(gm, a), dot(gm, b)) * inverse;
+#endif
 }
 
 // `p` in the space of the rows, `n` its unit geometric normal, which faces the light.
@@ -89,9 +102,14 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
 {
     MapPoint r;
     real offset_texels = rule.automatic > real(0.0) ? real(0.0) : rule.normal_texels;
-    real3 moved = p + n * (offset_texels * map.texel_m * dotRow(map.w, p));
+    real3 moved = offset_texels == real(0.0) ? p : p + n * (offset_texels * map.texel_m * dotRow(map.w, p));
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    r.w = real(1.0);
+    r.texel = real2(dotRow(map.x, moved), dotRow(map.y, moved));
+#else
     r.w = dotRow(map.w, moved);
     r.texel = real2(dotRow(map.x, moved), dotRow(map.y, moved)) / r.w;
+#endif
     real m = dotRow(map.metric, moved);
 
     real2 plane_slope;

@@ -28,6 +28,9 @@ struct GpuView {
     GN_VEC4 metric;
     GN_VEC4 tile;  // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
     GN_VEC4 scale; // x: texel_m, y: range_m, z: layer
+    GN_VEC4 plane_x; // of an orthographic view, see MapRows
+    GN_VEC4 plane_y;
+    GN_VEC4 plane_w;
 };
 
 struct GpuLight {
@@ -52,7 +55,7 @@ struct GpuMaskLayer {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 96 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 96);
+static_assert(sizeof(GpuView) == 144 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 144);
 } // namespace gnomon::shared
 #endif
 #endif

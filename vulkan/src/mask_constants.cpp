@@ -47,6 +47,13 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     gpu.metric = view.metric.metric_ws * world_from_eye; // a row vector
     gpu.tile = glm::dvec4(x0 + margin, y0 + margin, x0 + tile.width - margin, y0 + tile.height - margin);
     gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer, 0.0);
+    const glm::dvec3 x = glm::dvec4(gpu.x);
+    const glm::dvec3 y = glm::dvec4(gpu.y);
+    const glm::dvec3 metric = glm::dvec4(gpu.metric);
+    const glm::dvec3 across = glm::cross(x, y);
+    gpu.plane_x = glm::dvec4(glm::cross(metric, y), 0.0);
+    gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
+    gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
     return gpu;
 }
 

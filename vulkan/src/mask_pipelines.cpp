@@ -19,6 +19,7 @@ struct Specialisation {
     VkBool32 has_normals;
     std::int32_t lights;
     VkBool32 many_views;
+    VkBool32 automatic_bias;
 };
 
 VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
@@ -135,7 +136,8 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
     const FilterOptions& filter = options_.filter;
     const Specialisation values{static_cast<std::int32_t>(filter.filter),    kernelWidth(filter),
                                 static_cast<std::int32_t>(filter.disc_taps), variant.normals ? VK_TRUE : VK_FALSE,
-                                static_cast<std::int32_t>(variant.lights),   variant.many_views ? VK_TRUE : VK_FALSE};
+                                static_cast<std::int32_t>(variant.lights),   variant.many_views ? VK_TRUE : VK_FALSE,
+                                filter.bias.automatic ? VK_TRUE : VK_FALSE};
     std::array<VkSpecializationMapEntry, sizeof values / 4> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
         entries[i] = {i, 4 * i, 4};
