@@ -68,6 +68,18 @@ TEST(GltfHostile, HugeCountsAreRefusedBeforeAnythingIsAllocated)
     EXPECT_TRUE(contains(file.error(), "--limit vertices=N"));
 }
 
+TEST(GltfHostile, SharedMeshesCountOncePerNode)
+{
+    FileBuilder file;
+    const int position = file.addTriangle();
+    const json primitive = {{"attributes", {{"POSITION", position}}}};
+    file.root["meshes"] = json::array({{{"primitives", json::array({primitive, primitive, primitive, primitive})}}});
+    file.root["nodes"] = json::array({{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}});
+    EXPECT_EQ(evaluate(file.read(), 0.0).objects.size(), 12U);
+    EXPECT_TRUE(
+        contains(file.error({.max_count = 11}), "the number of objects is over the limit count=11 at /nodes/2"));
+}
+
 TEST(GltfHostile, OffsetsCannotWrapAround)
 {
     for (const double offset : {9007199254740988.0, 4294967296.0, 1.8446744073709552e19, -4.0}) {

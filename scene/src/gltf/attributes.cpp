@@ -98,8 +98,9 @@ void readNormals(Document& document, const JsonView& attributes, Primitive& out)
     const Accessor* normals = findAttribute(document, attributes, "NORMAL", {kNormals, 1}, out.positions.size());
     if (normals != nullptr && normals->hasContent()) {
         out.normals = readVectors<glm::vec3>(document, *normals);
+        const JsonView where = attributes.at("NORMAL");
         for (std::size_t i = 0; i < out.normals.size(); ++i) {
-            expectUnit(attributes.at("NORMAL"), *normals, i, out.normals[i]);
+            expectUnit(where, *normals, i, out.normals[i]);
             out.normals[i] = glm::normalize(out.normals[i]);
         }
     }

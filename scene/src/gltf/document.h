@@ -28,9 +28,10 @@ struct Document {
     std::vector<ImageFormat> image_formats; // as many as scene.images
     std::vector<std::uint32_t> cameras;     // glTF index -> index into scene.cameras, or kNone
     std::vector<std::uint32_t> lights;
-    std::vector<std::uint32_t> joint_limits; // per mesh: 1 + the largest joint its primitives name
-    std::vector<bool> meshes_skinned;        // per mesh: every primitive has joints
-    std::vector<std::uint32_t> nodes;        // glTF index -> index into scene.nodes, or kNone when not in the scene
+    std::vector<std::uint64_t> vertex_counts; // per mesh, of all its primitives once they have normals
+    std::vector<std::uint32_t> joint_limits;  // per mesh: 1 + the largest joint its primitives name
+    std::vector<bool> meshes_skinned;         // per mesh: every primitive has joints
+    std::vector<std::uint32_t> nodes;         // glTF index -> index into scene.nodes, or kNone when not in the scene
 
     [[nodiscard]] Context& context() const { return root.context(); }
     [[nodiscard]] const Accessor& accessor(const JsonView& reference) const

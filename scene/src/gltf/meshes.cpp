@@ -146,6 +146,7 @@ Mesh readMesh(Document& document, const JsonView& view)
     const JsonView primitives = view.at("primitives");
     const std::size_t count = primitives.size();
     std::uint32_t joint_limit = 0;
+    std::uint64_t vertex_count = 0;
     bool all_skinned = true;
     for (std::size_t i = 0; i < count; ++i) {
         const JsonView element = primitives.element(i);
@@ -161,10 +162,13 @@ Mesh readMesh(Document& document, const JsonView& view)
             joint_limit = std::max(joint_limit, largest + 1U);
         }
         if (!primitive.indices.empty()) {
+            // Without normals every corner of a triangle becomes a vertex.
+            vertex_count += primitive.normals.empty() ? primitive.indices.size() : primitive.positions.size();
             mesh.primitives.push_back(std::move(primitive));
         }
     }
     mesh.morph_weights = readMorphWeights(view, targetCount(primitives.element(0)));
+    document.vertex_counts.push_back(vertex_count);
     document.joint_limits.push_back(joint_limit);
     document.meshes_skinned.push_back(all_skinned);
     return mesh;

@@ -3,6 +3,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::scene::gltf {
@@ -203,6 +204,33 @@ Node readNode(Document& document, const JsonView& view)
     return node;
 }
 
+/// What evaluating the scene will ask for: a million nodes may share a mesh of a million primitives, and each node of
+/// a skinned or morphed mesh gets vertices of its own.
+void checkObjects(Document& document, const std::vector<std::uint32_t>& order)
+{
+    Context& context = document.context();
+    std::uint64_t objects = 0;
+    for (const std::uint32_t old : order) {
+        const Node& node = document.scene.nodes[document.nodes[old]];
+        if (node.mesh == kNone) {
+            continue;
+        }
+        const Mesh& mesh = document.scene.meshes[node.mesh];
+        const std::uint64_t copies = std::max<std::uint64_t>(node.instances.size(), 1);
+        objects += copies * mesh.primitives.size(); // both at most max_count, so far from wrapping
+        if (objects > context.limits().max_count) {
+            context.failLimit("/nodes/" + std::to_string(old), "the number of objects", "count",
+                              context.limits().max_count, objects);
+        }
+        if (node.skin != kNone || !mesh.morph_weights.empty()) {
+            const std::uint64_t vertices = copies * document.vertex_counts[node.mesh];
+            context.chargeVertices(vertices, "/nodes/" + std::to_string(old));
+            context.chargeBytes(vertices * (2 * sizeof(glm::vec3) + sizeof(glm::vec4)),
+                                "/nodes/" + std::to_string(old));
+        }
+    }
+}
+
 } // namespace
 
 void readNodes(Document& document)
@@ -226,6 +254,7 @@ void readNodes(Document& document)
         node.parent = tree.parents[old] == kNone ? kNone : document.nodes[tree.parents[old]];
         document.scene.nodes.push_back(std::move(node));
     }
+    checkObjects(document, order);
 }
 
 } // namespace gnomon::scene::gltf
