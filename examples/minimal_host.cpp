@@ -5,7 +5,7 @@
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/caster_drawer.h>
 
-#include <minimal_host_spirv.h>
+#include <gnomon_example_spirv.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <vulkan/vulkan_raii.hpp>
