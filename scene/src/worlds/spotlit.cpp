@@ -199,8 +199,8 @@ Scene makeSpotlit(std::uint64_t /*seed*/)
     scene.environment.sky_zenith = {0.010F, 0.012F, 0.020F};
     scene.environment.sky_horizon = {0.030F, 0.030F, 0.038F};
     scene.environment.ground = {0.020F, 0.016F, 0.012F};
-    scene.environment.ambient = 3.6F;
-    scene.environment.exposure = 2.4F;
+    scene.environment.ambient = 1.7F;
+    scene.environment.exposure = 1.25F;
     scene.views = {
         {.name = "stage", .eye = {0.9F, 3.3F, 10.6F}, .target = {0.1F, 2.05F, -1.0F}, .fov_y_rad = 0.72F},
         {.name = "close", .eye = {4.6F, 2.1F, 6.2F}, .target = {0.9F, 1.15F, 0.4F}, .fov_y_rad = 0.68F},

@@ -46,7 +46,7 @@ void addSun(Scene& scene)
     scene.environment.sky_horizon = {0.80F, 0.78F, 0.72F};
     scene.environment.ground = {0.31F, 0.29F, 0.25F};
     scene.environment.ambient = 0.42F;
-    scene.environment.exposure = 1.2F;
+    scene.environment.exposure = 0.95F;
 }
 
 void addViews(Scene& scene, const Actors& actors)
