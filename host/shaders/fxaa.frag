@@ -13,13 +13,17 @@ const float kReachTexels = 8.0;
 
 void main()
 {
-    vec2 texel = 1.0 / vec2(textureSize(picture, 0));
+    ivec2 last = textureSize(picture, 0) - 1;
+    vec2 texel = 1.0 / vec2(last + 1);
     vec2 uv = gl_FragCoord.xy * texel;
-    vec4 centre = textureLod(picture, uv, 0.0);
-    float nw = textureLodOffset(picture, uv, 0.0, ivec2(-1, -1)).a;
-    float ne = textureLodOffset(picture, uv, 0.0, ivec2(1, -1)).a;
-    float sw = textureLodOffset(picture, uv, 0.0, ivec2(-1, 1)).a;
-    float se = textureLodOffset(picture, uv, 0.0, ivec2(1, 1)).a;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 before = max(pixel - 1, ivec2(0));
+    ivec2 after = min(pixel + 1, last);
+    vec4 centre = texelFetch(picture, pixel, 0);
+    float nw = texelFetch(picture, before, 0).a;
+    float ne = texelFetch(picture, ivec2(after.x, before.y), 0).a;
+    float sw = texelFetch(picture, ivec2(before.x, after.y), 0).a;
+    float se = texelFetch(picture, after, 0).a;
     float low = min(centre.a, min(min(nw, ne), min(sw, se)));
     float high = max(centre.a, max(max(nw, ne), max(sw, se)));
     out_colour = vec4(centre.rgb, 1.0);

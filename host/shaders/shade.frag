@@ -6,6 +6,12 @@
 #include "lighting.glsl"
 #include "shared/octahedral.h"
 
+// Of the frame's lights, when there are few: unrolled loops read uniforms at fixed places, which a software rasteriser
+// does once for all pixels. 0: any number.
+layout(constant_id = 0) const int kFixedLights = 0;
+layout(constant_id = 1) const bool kDirectionalOnly = false;
+layout(constant_id = 2) const bool kPhysicalOnly = false; // every surface is metallic-roughness
+
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D bases;
 layout(set = 0, binding = 3) uniform sampler2D normals;
@@ -14,10 +20,20 @@ layout(set = 0, binding = 6) uniform sampler2DArray mask;
 layout(set = 0, binding = 7) uniform sampler2DArray cookies;
 layout(location = 0) out vec4 out_light;
 
-float visibilityOf(LightData light, ivec2 pixel)
+vec3 lightFrom(uint i, Lit s, ivec2 pixel)
 {
-    int slot = int(light.right.w);
-    return texelFetch(mask, ivec3(pixel, slot >> 2), 0)[slot & 3];
+    vec3 l = frame.lights[i].place.xyz;
+    vec3 e = frame.lights[i].colour.rgb;
+    if (!kDirectionalOnly) {
+        e = arriving(frame.lights[i], s.p, cookies, l);
+    }
+    float n_l = max(dot(s.n, l), 0.0);
+    float seen = 1.0;
+    if (frame.counts.y != 0) {
+        int slot = int(frame.lights[i].right.w);
+        seen = texelFetch(mask, ivec3(pixel, slot >> 2), 0)[slot & 3];
+    }
+    return reflectance(s, l, n_l) * e * (n_l * seen);
 }
 
 void main()
@@ -26,7 +42,7 @@ void main()
     vec4 base = texelFetch(bases, pixel, 0);
     base.rgb *= base.rgb;
     vec4 numbers = texelFetch(materials, pixel, 0);
-    float model = floor(numbers.a * 2.0 + 0.5);
+    float model = kPhysicalOnly ? 0.0 : floor(numbers.a * 2.0 + 0.5);
     if (model == 2.0) {
         out_light = vec4(base.rgb * frame.sky_horizon.w, 1.0);
         return;
@@ -37,13 +53,13 @@ void main()
     float second = model == 1.0 ? exp2(numbers.g * 16.0) - 1.0 : numbers.g;
     Lit s = litSurface(p, n, base.rgb, numbers.r, second, model);
     vec3 sum = ambient(s, model == 1.0 ? 1.0 : numbers.g, base.a);
-    for (uint i = 0; i < frame.counts.x; ++i) {
-        vec3 l;
-        vec3 e = arriving(frame.lights[i], p, cookies, l);
-        float n_l = dot(n, l);
-        if (n_l > 0.0) {
-            float seen = frame.counts.y != 0 ? visibilityOf(frame.lights[i], pixel) : 1.0;
-            sum += reflectance(s, l, n_l) * e * (n_l * seen);
+    if (kFixedLights > 0) {
+        for (uint i = 0; i < kFixedLights; ++i) {
+            sum += lightFrom(i, s, pixel);
+        }
+    } else {
+        for (uint i = 0; i < frame.counts.x; ++i) {
+            sum += lightFrom(i, s, pixel);
         }
     }
     out_light = vec4(sum, 1.0);

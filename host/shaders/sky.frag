@@ -9,9 +9,10 @@ layout(location = 0) out vec4 out_light;
 void main()
 {
     vec3 d = normalize(rayOf(gl_FragCoord.xy));
-    vec3 sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, sqrt(clamp(d.y, 0.0, 1.0)));
+    vec3 sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, pow(clamp(d.y, 0.0, 1.0), 0.4));
     // Haze: what is below the horizon takes on the ground's colour slowly and never wholly.
     sky = mix(sky, frame.ground.rgb, 0.65 * smoothstep(0.0, 0.8, -d.y));
+    sky *= 0.75; // as a backdrop it would outshine what it lights, whose colours are mostly dark
     if (frame.counts.x > 0 && frame.lights[0].place.w < 0.5) {
         float c = dot(d, frame.lights[0].place.xyz);
         // Cosine of a disc twice the sun's, and a halo.

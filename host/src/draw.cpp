@@ -107,6 +107,20 @@ void Renderer::Impl::look(const scene::State& state, const Eye& eye, const std::
     visible.clear();
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
     objects.query(frustum.planes, ObjectSet::Want::all, visible);
+    sortNearestFirst();
+}
+
+// Instances of a part are drawn in this order, so that near ones hide far ones before those are shaded.
+void Renderer::Impl::sortNearestFirst()
+{
+    const glm::vec3 eye(sight.eye_ws);
+    by_distance.clear();
+    for (const std::uint32_t object : visible) {
+        const glm::vec3 to = objects.bounds(object).centre() - eye;
+        by_distance.emplace_back(glm::dot(to, to), object);
+    }
+    std::sort(by_distance.begin(), by_distance.end());
+    std::transform(by_distance.begin(), by_distance.end(), visible.begin(), [](const auto& one) { return one.second; });
 }
 
 void Renderer::Impl::makePlan()
@@ -278,7 +292,9 @@ void Renderer::Impl::recordLight(VkCommandBuffer cmd)
     setViewport(cmd, targets.drawn);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
                             nullptr);
-    for (VkPipeline pipeline : {pipelines.shade, pipelines.sky}) {
+    const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
+                                             [](const Light& l) { return l.type == LightType::directional; });
+    for (VkPipeline pipeline : {pipelines.shadeFor(light_count, all_directional), pipelines.sky}) {
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         vkCmdDraw(cmd, 3, 1, 0, 0);
     }

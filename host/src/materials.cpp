@@ -52,6 +52,7 @@ MaterialFacts factsOf(const scene::Material& m)
     }
     facts.two_sided = m.double_sided;
     facts.blended = m.alpha_mode == scene::AlphaMode::blend;
+    facts.physical = m.model == scene::ShadingModel::metallic_roughness;
     facts.emits = std::max({m.emissive.x, m.emissive.y, m.emissive.z}) > 0.0F;
     return facts;
 }

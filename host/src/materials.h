@@ -30,6 +30,7 @@ struct MaterialFacts {
     bool two_sided = false;
     bool blended = false;
     bool emits = false;
+    bool physical = true; // metallic-roughness
     VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorSet caster_set = VK_NULL_HANDLE; // masked materials: the base colour texture alone
 };

@@ -43,6 +43,44 @@ VkPipelineColorBlendAttachmentState blendState(bool add)
     return state;
 }
 
+constexpr std::array<VkDynamicState, 4> kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                                 VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+
+// What hardly differs from pipeline to pipeline. Points into itself, so it stays where it is made.
+struct FixedState {
+    FixedState(bool scene, std::size_t colours, bool blends)
+    {
+        if (scene) {
+            input.vertexBindingDescriptionCount = kBindings.size();
+            input.pVertexBindingDescriptions = kBindings.data();
+            input.vertexAttributeDescriptionCount = kAttributes.size();
+            input.pVertexAttributeDescriptions = kAttributes.data();
+        }
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        viewport.viewportCount = 1;
+        viewport.scissorCount = 1;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.lineWidth = 1.0F;
+        samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+        attachments.fill(blendState(blends));
+        blend.attachmentCount = static_cast<std::uint32_t>(colours);
+        blend.pAttachments = attachments.data();
+        dynamic.dynamicStateCount = scene ? 4 : 2; // a full-screen triangle has no side
+        dynamic.pDynamicStates = kDynamic.data();
+    }
+    FixedState(const FixedState&) = delete;
+    FixedState& operator=(const FixedState&) = delete;
+
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    std::array<VkPipelineColorBlendAttachmentState, 4> attachments{};
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+};
+
 } // namespace
 
 struct Pipelines::Wish {
@@ -62,10 +100,17 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
     : gpu_(gpu), names_(names)
 {
     makeLayouts(materials.layout());
+    physical_only_ =
+        std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
     makeScene(materials);
     makeScreen(average_four);
+    destroyModules();
+}
+
+void Pipelines::destroyModules()
+{
     for (VkShaderModule one : modules_) {
-        vkDestroyShaderModule(gpu.view().device, one, nullptr);
+        vkDestroyShaderModule(gpu_.view().device, one, nullptr);
     }
     modules_.clear();
 }
@@ -132,37 +177,11 @@ VkPipeline Pipelines::make(const Wish& wish)
         stages[i].pName = "main";
         stages[i].pSpecializationInfo = &constants;
     }
-    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    if (wish.scene) {
-        input.vertexBindingDescriptionCount = kBindings.size();
-        input.pVertexBindingDescriptions = kBindings.data();
-        input.vertexAttributeDescriptionCount = kAttributes.size();
-        input.pVertexAttributeDescriptions = kAttributes.data();
-    }
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = 1;
-    viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-    raster.lineWidth = 1.0F;
-    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const FixedState fixed(wish.scene, wish.colours.size(), wish.blend);
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = wish.depth ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = wish.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = wish.compare;
-    std::array<VkPipelineColorBlendAttachmentState, 4> attachments{};
-    attachments.fill(blendState(wish.blend));
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = static_cast<std::uint32_t>(wish.colours.size());
-    blend.pAttachments = attachments.data();
-    constexpr std::array<VkDynamicState, 4> kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                                     VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
-    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = wish.scene ? 4 : 2;
-    dynamic.pDynamicStates = kDynamic.data();
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(wish.colours.size());
     rendering.pColorAttachmentFormats = wish.colours.data();
@@ -172,14 +191,14 @@ VkPipeline Pipelines::make(const Wish& wish)
     info.pNext = &rendering;
     info.stageCount = stages.size();
     info.pStages = stages.data();
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
+    info.pVertexInputState = &fixed.input;
+    info.pInputAssemblyState = &fixed.assembly;
+    info.pViewportState = &fixed.viewport;
+    info.pRasterizationState = &fixed.raster;
+    info.pMultisampleState = &fixed.samples;
     info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
+    info.pColorBlendState = &fixed.blend;
+    info.pDynamicState = &fixed.dynamic;
     info.layout = wish.scene ? scene_layout : screen_layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateGraphicsPipelines(gpu_.view().device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline),
@@ -234,10 +253,6 @@ void Pipelines::makeScreen(bool average_four)
     wish.vertex = spirv::fullscreen_vert;
     wish.colours = {&kLightFormat, 1};
     wish.depth = true;
-    wish.compare = VK_COMPARE_OP_LESS;
-    wish.name = "shade";
-    wish.fragment = spirv::shade_frag;
-    shade = make(wish);
     wish.compare = VK_COMPARE_OP_EQUAL;
     wish.name = "sky";
     wish.fragment = spirv::sky_frag;
@@ -251,6 +266,25 @@ void Pipelines::makeScreen(bool average_four)
     wish.name = "fxaa";
     wish.fragment = spirv::fxaa_frag;
     fxaa = make(wish);
+}
+
+VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional)
+{
+    const std::size_t fixed = lights <= 4 ? lights : 0;
+    VkPipeline& pipeline = shade_[fixed * 2 + (all_directional ? 1 : 0)];
+    if (pipeline == VK_NULL_HANDLE) {
+        Wish wish;
+        wish.name = "shade";
+        wish.vertex = spirv::fullscreen_vert;
+        wish.fragment = spirv::shade_frag;
+        wish.constants = {static_cast<VkBool32>(fixed), all_directional, physical_only_, VK_FALSE};
+        wish.colours = {&kLightFormat, 1};
+        wish.depth = true;
+        wish.compare = VK_COMPARE_OP_LESS;
+        pipeline = make(wish);
+        destroyModules();
+    }
+    return pipeline;
 }
 
 } // namespace gnomon::host

@@ -38,7 +38,9 @@ public:
     [[nodiscard]] VkPipeline gbuffer(SurfaceKind kind) const { return gbuffer_[static_cast<std::size_t>(kind)]; }
     VkPipeline blended = VK_NULL_HANDLE;  // null when the scene has no such surface
     VkPipeline emissive = VK_NULL_HANDLE; // likewise
-    VkPipeline shade = VK_NULL_HANDLE;
+    /// The shading pass made for this many lights; compiled when first asked for, so a change in the number or kind of
+    /// lights costs a moment once. Phong and unlit surfaces are left out where the scene has none.
+    VkPipeline shadeFor(std::size_t lights, bool all_directional);
     VkPipeline sky = VK_NULL_HANDLE;
     VkPipeline tone = VK_NULL_HANDLE;
     VkPipeline fxaa = VK_NULL_HANDLE;
@@ -53,10 +55,13 @@ private:
     VkPipeline make(const Wish& wish);
     void makeScene(const Materials& materials);
     void makeScreen(bool average_four);
+    void destroyModules();
 
     const Gpu& gpu_;
     const DebugNames& names_;
     std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
+    std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
+    bool physical_only_ = false;
     std::vector<VkPipeline> all_;
     std::vector<VkShaderModule> modules_;
 };

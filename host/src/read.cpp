@@ -115,71 +115,88 @@ void averageInto(ImageF& image, std::uint32_t channel, VkExtent2D drawn, Value&&
 
 } // namespace
 
-Picture Renderer::read(const WantedImages& wanted)
+void Renderer::Impl::readColour(Picture& picture)
 {
-    Impl& self = *impl_;
-    if (self.next_index == 0) {
-        throw Error("reading a picture back", "nothing has been drawn yet");
+    const VkExtent2D shown = targets.shown;
+    picture.colour = Image8(shown.width, shown.height, 3);
+    using Rgba = std::array<std::uint8_t, 4>;
+    eachPixel<Rgba>(
+        fetch(*this, sourceOf(targets.picture, kCopySource.layout)), shown, shown,
+        [&](std::uint32_t x, std::uint32_t y, const Rgba& c) { std::copy_n(c.data(), 3, picture.colour.pixel(x, y)); });
+}
+
+void Renderer::Impl::readLinear(Picture& picture)
+{
+    picture.linear = ImageF(targets.shown.width, targets.shown.height, 3);
+    const auto* halves = static_cast<const std::uint16_t*>(fetch(*this, sourceOf(targets.light, kSampled.layout)));
+    for (std::uint32_t c = 0; c < 3; ++c) {
+        averageInto(picture.linear, c, targets.drawn,
+                    [&](std::size_t i) { return glm::unpackHalf1x16(halves[i * 4 + c]); });
     }
-    const VkExtent2D drawn = self.targets.drawn;
-    const VkExtent2D shown = self.targets.shown;
-    Picture picture;
-    if (wanted.colour) {
-        picture.colour = Image8(shown.width, shown.height, 3);
-        const void* texels = fetch(self, sourceOf(self.targets.picture, kCopySource.layout));
-        using Rgba = std::array<std::uint8_t, 4>;
-        eachPixel<Rgba>(texels, shown, shown, [&](std::uint32_t x, std::uint32_t y, const Rgba& c) {
-            std::copy_n(c.data(), 3, picture.colour.pixel(x, y));
-        });
-    }
-    if (wanted.linear) {
-        picture.linear = ImageF(shown.width, shown.height, 3);
-        const auto* halves =
-            static_cast<const std::uint16_t*>(fetch(self, sourceOf(self.targets.light, kSampled.layout)));
-        for (std::uint32_t c = 0; c < 3; ++c) {
-            averageInto(picture.linear, c, drawn,
-                        [&](std::size_t i) { return glm::unpackHalf1x16(halves[i * 4 + c]); });
+}
+
+void Renderer::Impl::readMasks(Picture& picture)
+{
+    for (std::uint32_t light = 0; light < light_count; ++light) {
+        picture.masks.emplace_back(targets.shown.width, targets.shown.height, 1U, 1.0F);
+        if (plan == nullptr && !mask_instead) {
+            continue; // no shadows wanted: everything is lit
         }
-    }
-    for (std::size_t light = 0; wanted.masks && light < self.light_count; ++light) {
-        picture.masks.emplace_back(shown.width, shown.height, 1U, 1.0F);
-        if (self.plan == nullptr && !self.mask_instead) {
-            continue;
-        }
-        const std::uint32_t layer =
-            self.plan != nullptr ? self.plan->lights[light].mask_layer : static_cast<std::uint32_t>(light / 4);
-        const std::uint32_t channel =
-            self.plan != nullptr ? self.plan->lights[light].mask_channel : static_cast<std::uint32_t>(light % 4);
-        const Source from = self.plan != nullptr
-                                ? sourceOf(self.shadows->mask(), layer)
-                                : Source{self.instead.handle, self.instead.format, drawn, layer, kSampled.layout};
+        const std::uint32_t layer = plan != nullptr ? plan->lights[light].mask_layer : light / 4;
+        const std::uint32_t channel = plan != nullptr ? plan->lights[light].mask_channel : light % 4;
+        const Source from = plan != nullptr
+                                ? sourceOf(shadows->mask(), layer)
+                                : Source{instead.handle, instead.format, targets.drawn, layer, kSampled.layout};
         const std::uint32_t stride = texelBytes(from.format);
-        const auto* bytes = static_cast<const std::uint8_t*>(fetch(self, from));
-        averageInto(picture.masks.back(), 0, drawn,
+        const auto* bytes = static_cast<const std::uint8_t*>(fetch(*this, from));
+        averageInto(picture.masks.back(), 0, targets.drawn,
                     [&](std::size_t i) { return static_cast<float>(bytes[i * stride + channel]) / 255.0F; });
     }
+}
+
+void Renderer::Impl::readGeometry(Picture& picture)
+{
+    const VkExtent2D drawn = targets.drawn;
+    const VkExtent2D shown = targets.shown;
+    picture.depth = ImageF(shown.width, shown.height, 1);
+    eachPixel<float>(fetch(*this, sourceOf(targets.depth, kDepthRead.layout)), drawn, shown,
+                     [&](std::uint32_t x, std::uint32_t y, float z) { *picture.depth.pixel(x, y) = z; });
+    picture.object_ids = ImageOf<std::uint32_t>(shown.width, shown.height, 1);
+    using Ids = std::array<std::uint32_t, 2>;
+    eachPixel<Ids>(fetch(*this, sourceOf(targets.ids(), kSampled.layout)), drawn, shown,
+                   [&](std::uint32_t x, std::uint32_t y, const Ids& id) { *picture.object_ids.pixel(x, y) = id[1]; });
+    picture.normals = ImageF(shown.width, shown.height, 3);
+    using Normals = std::array<std::int16_t, 4>;
+    const auto snorm = [](std::int16_t v) {
+        return std::max(static_cast<float>(v) / 32767.0F, -1.0F);
+    };
+    eachPixel<Normals>(fetch(*this, sourceOf(targets.normals(), kSampled.layout)), drawn, shown,
+                       [&](std::uint32_t x, std::uint32_t y, const Normals& e) {
+                           glm::vec3 n{0.0F}; // the background has no normal
+                           if (*picture.object_ids.pixel(x, y) != 0) {
+                               n = shared::octahedralDecode({snorm(e[0]), snorm(e[1])});
+                           }
+                           std::copy_n(&n.x, 3, picture.normals.pixel(x, y));
+                       });
+}
+
+Picture Renderer::read(const WantedImages& wanted)
+{
+    if (impl_->next_index == 0) {
+        throw Error("reading a picture back", "nothing has been drawn yet");
+    }
+    Picture picture;
+    if (wanted.colour) {
+        impl_->readColour(picture);
+    }
+    if (wanted.linear) {
+        impl_->readLinear(picture);
+    }
+    if (wanted.masks) {
+        impl_->readMasks(picture);
+    }
     if (wanted.geometry) {
-        picture.depth = ImageF(shown.width, shown.height, 1);
-        eachPixel<float>(fetch(self, sourceOf(self.targets.depth, kDepthRead.layout)), drawn, shown,
-                         [&](std::uint32_t x, std::uint32_t y, float z) { *picture.depth.pixel(x, y) = z; });
-        picture.object_ids = ImageOf<std::uint32_t>(shown.width, shown.height, 1);
-        using Ids = std::array<std::uint32_t, 2>;
-        eachPixel<Ids>(
-            fetch(self, sourceOf(self.targets.ids(), kSampled.layout)), drawn, shown,
-            [&](std::uint32_t x, std::uint32_t y, const Ids& id) { *picture.object_ids.pixel(x, y) = id[1]; });
-        picture.normals = ImageF(shown.width, shown.height, 3);
-        using Normals = std::array<std::int16_t, 4>;
-        eachPixel<Normals>(fetch(self, sourceOf(self.targets.normals(), kSampled.layout)), drawn, shown,
-                           [&](std::uint32_t x, std::uint32_t y, const Normals& e) {
-                               const auto snorm = [](std::int16_t v) {
-                                   return std::max(static_cast<float>(v) / 32767.0F, -1.0F);
-                               };
-                               glm::vec3 n{0.0F}; // the background has no normal
-                               if (*picture.object_ids.pixel(x, y) != 0) {
-                                   n = shared::octahedralDecode({snorm(e[0]), snorm(e[1])});
-                               }
-                               std::copy_n(&n.x, 3, picture.normals.pixel(x, y));
-                           });
+        impl_->readGeometry(picture);
     }
     return picture;
 }

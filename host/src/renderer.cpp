@@ -51,6 +51,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     uploader.reset();
     fillObjectSet(state, objects);
     visible.reserve(state.objects.size());
+    by_distance.reserve(state.objects.size());
     makeFrameSet();
     if (options.shadows) {
         vulkan::ShadowRendererOptions wish;

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace gnomon::host {
 
@@ -44,7 +45,8 @@ struct Renderer::Impl {
     Frame frame;
     std::vector<Light> frame_lights;
     std::vector<int> cookie_layers;
-    std::vector<std::uint32_t> visible;
+    std::vector<std::uint32_t> visible; // nearest first
+    std::vector<std::pair<float, std::uint32_t>> by_distance;
     std::uint64_t next_index = 0;
     std::optional<double> deformed_at_s;
     bool deform_now = false;
@@ -62,6 +64,7 @@ struct Renderer::Impl {
     void bindMask(VkImageView view);
     void update(const scene::State& state);
     void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
+    void sortNearestFirst();
     void makePlan();
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights, bool has_mask);
     void writeInstead(const std::vector<ImageF>& masks);
@@ -72,6 +75,10 @@ struct Renderer::Impl {
     void recordLight(VkCommandBuffer cmd);
     void recordPicture(VkCommandBuffer cmd);
     void setViewport(VkCommandBuffer cmd, VkExtent2D extent) const;
+    void readColour(Picture& picture);
+    void readLinear(Picture& picture);
+    void readMasks(Picture& picture);
+    void readGeometry(Picture& picture);
     void screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target);
 };
 
