@@ -183,7 +183,11 @@ std::vector<std::byte> readFile(Context& context, const fs::path& file, std::str
 
 Resource fetch(const JsonView& uri)
 {
-    const std::string text = uri.string();
+    const auto* string = uri.value().get_ptr<const std::string*>(); // a data URI is too large to copy for nothing
+    if (string == nullptr) {
+        uri.fail("a string is needed");
+    }
+    const std::string& text = *string;
     if (text.starts_with("data:")) {
         return decodeDataUri(uri, text);
     }
