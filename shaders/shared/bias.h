@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a receiver is on a map, and what depth each tap is compared with, so that a surface does not shadow itself.
-// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (depth aliasing); J. Isidoro, "Shadow Mapping: GPU-based
-// Tips and Techniques", GDC 2006 (receiver plane depth bias). We take the plane from the geometric normal, not from
-// screen-space derivatives, which are wrong at silhouettes; and we take it exactly in perspective maps too.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (depth aliasing); J. Isidoro, "Shadow Mapping:
+// GPU-based Tips and Techniques", GDC 2006 (receiver plane depth bias). We take the plane from the geometric normal,
+// not from screen-space derivatives, which are wrong at silhouettes; and we take it exactly in perspective maps too.
 #ifndef GNOMON_BIAS_H
 #define GNOMON_BIAS_H
 #include "portability.h"
@@ -18,7 +18,8 @@ struct MapRows {
     real texel_m; // a texel's width in metres at w = 1
     real range_m; // metres from metric 0 to metric 1
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    real4 plane_x; // xyz: cross products of the gradients of the rows, metric x y, x x metric, x x y: what receiverPlane()
+    real4 plane_x; // xyz: cross products of the gradients of the rows, metric x y, x x metric, x x y: what
+                   // receiverPlane()
     real4 plane_y; // comes down to when w is constant
     real4 plane_w; // w: the least determinant that it divides by
 #endif
@@ -35,9 +36,10 @@ struct BiasRule {
 };
 
 // A receiver on a map. At d texels from it, its reference depth is
-// (depth + dot(depth_slope, d)) / (1 + dot(w_slope, d)): the exact depth of the receiver's plane, less the bias. But it is never
-// more than `cap`, the depth at the receiver itself: where the plane leads away from the light, it leads under whatever
-// surface meets the receiver in a concave edge (a wall's plane under the ground), which would wrongly count as a caster.
+// (depth + dot(depth_slope, d)) / (1 + dot(w_slope, d)): the exact depth of the receiver's plane, less the bias. But it
+// is never more than `cap`, the depth at the receiver itself: where the plane leads away from the light, it leads under
+// whatever surface meets the receiver in a concave edge (a wall's plane under the ground), which would wrongly count as
+// a caster.
 struct MapPoint {
     real2 texel; // atlas coordinates; texel centres are at halves
     real depth;
@@ -50,10 +52,12 @@ struct MapPoint {
 // A plane is followed up to this tangent of the angle between its normal and the light. Beyond it (87 degrees) the
 // Lambert term is below 5 %, and neighbours would be compared at depths that have nothing to do with the receiver.
 GN_CONST real kSteepest = real(20.0);
-// What curvature and creases of a receiver may differ from its plane, in texels of depth: this, and this per texel of reach.
+// What curvature and creases of a receiver may differ from its plane, in texels of depth: this, and this per texel of
+// reach.
 GN_CONST real kRoughness = real(0.2);
 GN_CONST real kRoughnessPerTexel = real(0.1);
-// Vertices snap to 1/256 of a texel when a map is drawn, so its depths are those of a point up to this far away, texels.
+// Vertices snap to 1/256 of a texel when a map is drawn, so its depths are those of a point up to this far away,
+// texels.
 GN_CONST real kSnap = real(0.015625);
 // Error of a normal, radians: 16-bit octahedral storage and the arithmetic before it.
 GN_CONST real kNormalError = real(0.0002);
@@ -68,10 +72,13 @@ GN_FN real3 gradientOf(real4 row)
 }
 
 // Derivation. Moving from texel (u, v) to (u + du, v + dv) on the plane dot(n, dp) = 0 means
-//   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,  with X = x - u w, Y = y - v w (gradients of the rows), w' = w + dot(W, dp),
-// so dp = w' (du A + dv B) with A = Y x n / det, B = n x X / det, det = dot(X, Y x n). Solving w' = w + w'(du W.A + dv W.B):
+//   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,  with X = x - u w, Y = y - v w (gradients of the rows), w' = w + dot(W,
+//   dp),
+// so dp = w' (du A + dv B) with A = Y x n / det, B = n x X / det, det = dot(X, Y x n). Solving w' = w + w'(du W.A + dv
+// W.B):
 //   w' = w / (1 + dot(s, d)),  s = -(W.A, W.B)
-// and the metric m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)). For an orthographic map W = 0.
+// and the metric m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)). For an orthographic map W =
+// 0.
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
                          GN_OUT(real2) w_slope)
 {
@@ -127,8 +134,7 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
         follow = min(real(1.0), kSteepest / max(steepness, real(1e-6)));
         real lost = (real(1.0) - follow) * (abs(slope.x) + abs(slope.y)); // per texel, where the plane is not followed
         real bounded = min(steepness, real(1000.0));
-        bias = rule.quantum + texel_depth * (kRoughness + kRoughnessPerTexel * rule.reach_texels +
-                                             kSnap * bounded +
+        bias = rule.quantum + texel_depth * (kRoughness + kRoughnessPerTexel * rule.reach_texels + kSnap * bounded +
                                              kNormalError * rule.reach_texels * (real(1.0) + bounded * bounded));
         bias = bias + lost * rule.reach_texels;
     } else {

@@ -14,9 +14,9 @@ GN_FN real2 vogelPoint(int i, int count)
     return real2(radius * cos(angle), radius * sin(angle));
 }
 
-// Blue-noise points, the first n of which are spread out for any n: each is the farthest from those before it among 2000
-// candidates (D. Mitchell, "Spectrally optimal sampling for distribution ray tracing", SIGGRAPH 1991).
-// C++ only: shaders get them in a table, because a large constant array takes some compilers seconds.
+// Blue-noise points, the first n of which are spread out for any n: each is the farthest from those before it among
+// 2000 candidates (D. Mitchell, "Spectrally optimal sampling for distribution ray tracing", SIGGRAPH 1991). C++ only:
+// shaders get them in a table, because a large constant array takes some compilers seconds.
 #ifdef __cplusplus
 // clang-format off
 inline constexpr real2 kPoissonPoints[64] = {

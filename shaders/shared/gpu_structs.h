@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass reads from its uniform buffer, declared once for both sides. Everything is made of 16-byte members,
-// so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which keeps single
-// precision exact near the camera wherever in the world it is.
+// What the mask pass reads from its uniform buffer, declared once for both sides. Everything is made of 16-byte
+// members, so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which
+// keeps single precision exact near the camera wherever in the world it is.
 #ifndef GNOMON_GPU_STRUCTS_H
 #define GNOMON_GPU_STRUCTS_H
 
@@ -26,15 +26,15 @@ struct GpuView {
     GN_VEC4 y;
     GN_VEC4 w;
     GN_VEC4 metric;
-    GN_VEC4 tile;  // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
-    GN_VEC4 scale; // x: texel_m, y: range_m, z: layer
+    GN_VEC4 tile; // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
+    GN_VEC4 scale;   // x: texel_m, y: range_m, z: layer
     GN_VEC4 plane_x; // of an orthographic view, see MapRows
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
 };
 
 struct GpuLight {
-    GN_VEC4 place; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+    GN_VEC4 place;  // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
     GN_UVEC4 views; // x: first and y: count of its further views; z: 0 when it has no map (then visibility is 1)
 };
 
@@ -43,19 +43,20 @@ struct GpuMaskLayer {
     GN_VEC4 eye_y;
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;
-    GN_VEC4 screen; // xy: size in pixels, zw: one over it
-    GN_VEC4 atlas;  // xy: one over its size in texels; z: the depth of the background (0 or 1)
-    GN_VEC4 bias;   // automatic, constant_m, slope, normal_texels
-    GN_VEC4 bias_more; // receiver_plane, reach_texels, quantum
-    GN_VEC4 kernel; // gaussianWeights
-    GN_VEC4 disc;   // x: radius, texels
+    GN_VEC4 screen;                       // xy: size in pixels, zw: one over it
+    GN_VEC4 atlas;                        // xy: one over its size in texels; z: the depth of the background (0 or 1)
+    GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
+    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum
+    GN_VEC4 kernel;                       // gaussianWeights
+    GN_VEC4 disc;                         // x: radius, texels
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];
     GpuView views[kViewsPerLayer]; // light i's first view is views[i]; further ones follow from kLightsPerLayer on
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 144 && sizeof(GpuLight) == 32 && sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 144);
+static_assert(sizeof(GpuView) == 144 && sizeof(GpuLight) == 32 &&
+              sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 144);
 } // namespace gnomon::shared
 #endif
 #endif

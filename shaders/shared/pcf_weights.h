@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights of the separable kernels of percentage-closer filtering.
-// Based on: W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987; the Gaussian
-// weighting as in P. Shastry, "Soft-Edged Shadows", 2005, but symmetric and normalised (the published taps are neither).
+// Based on: W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987; the
+// Gaussian weighting as in P. Shastry, "Soft-Edged Shadows", 2005, but symmetric and normalised (the published taps are
+// neither).
 #ifndef GNOMON_PCF_WEIGHTS_H
 #define GNOMON_PCF_WEIGHTS_H
 #include "portability.h"

@@ -19,14 +19,15 @@
 // The inner namespace keeps the two precisions apart when a program has both.
 #define GN_BEGIN                                                                                                       \
     namespace gnomon::shared {                                                                                         \
-    inline namespace GN_JOIN(of_, GNOMON_REAL) {                                                                       \
-    using real = GNOMON_REAL;                                                                                          \
-    using real2 = glm::vec<2, real>;                                                                                   \
-    using real3 = glm::vec<3, real>;                                                                                   \
-    using real4 = glm::vec<4, real>;                                                                                   \
-    using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::fract, glm::length,        \
-        glm::max, glm::min, glm::mix, glm::normalize, glm::sign, glm::sqrt, glm::step, glm::inversesqrt, glm::sin,     \
-        glm::cos;
+    inline namespace GN_JOIN(of_, GNOMON_REAL)                                                                         \
+    {                                                                                                                  \
+        using real = GNOMON_REAL;                                                                                      \
+        using real2 = glm::vec<2, real>;                                                                               \
+        using real3 = glm::vec<3, real>;                                                                               \
+        using real4 = glm::vec<4, real>;                                                                               \
+        using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::fract, glm::length,    \
+            glm::max, glm::min, glm::mix, glm::normalize, glm::sign, glm::sqrt, glm::step, glm::inversesqrt, glm::sin, \
+            glm::cos;
 #define GN_END                                                                                                         \
     }                                                                                                                  \
     }
