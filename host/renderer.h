@@ -110,7 +110,10 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Draws one frame of `state` (same scene, any time). `masks_instead`: use these visibility masks (one per light,
+    /// Draws one frame of `state` (same scene, any time; only its dynamic objects may differ) and waits for the GPU.
+    /// Blended surfaces are lit without shadow, cast none and are not in the masks. At most 64 lights. Throws Error.
+    /// Allocates nothing once warm, unless the plan outgrows the maps or the number of lights changes.
+    /// `masks_instead`: use these visibility masks (one per light,
     /// as Picture::masks) instead of the library's, e.g. the ray tracer's.
     FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                     const std::vector<ImageF>* masks_instead = nullptr);

@@ -19,7 +19,8 @@ public:
     SceneDraws(Memory& memory, const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
                const scene::State& state);
 
-    /// Takes over where the dynamic objects are now. Sets `changed[i]` for those whose transform differs.
+    /// Takes over where the dynamic objects are now, and tells `objects` which of them changed; `deformed`: the
+    /// deformed ones have.
     void update(const scene::State& state, ObjectSet& objects, bool deformed);
     /// Writes instances and commands for the objects that the camera sees.
     void build(const scene::State& state, const glm::dvec3& eye_ws, std::span<const std::uint32_t> visible);
@@ -45,7 +46,7 @@ private:
     };
     struct Blended {
         std::uint32_t object = 0;
-        double distance = 0.0; // along no axis in particular: from the eye
+        double distance = 0.0; // of its middle from the eye, metres
         std::uint32_t instance = 0;
     };
     void collect(const scene::State& state);
