@@ -133,7 +133,9 @@ void Renderer::Impl::makePlan()
         planner.reset();
     }
     plan = &planner.plan(frame);
-    shadows->prepare(*plan, targets.drawn);
+    if (shadows->prepare(*plan, targets.drawn)) {
+        mask_view = VK_NULL_HANDLE; // a new view may have an old one's handle
+    }
 }
 
 void Renderer::Impl::writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights, bool has_mask)
@@ -197,6 +199,8 @@ void Renderer::Impl::record(bool has_mask)
 {
     if (has_mask && light_count > 0) {
         bindMask(mask_instead ? instead.view : shadows->mask().view);
+    } else {
+        bindMask(textures.cookies().imageView); // an array that is always there, and not read then
     }
     VkCommandBuffer cmd = commands.begin();
     profiler.beginFrame(cmd, 0);

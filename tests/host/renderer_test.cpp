@@ -250,6 +250,32 @@ TEST(Renderer, SmoothsEdgesWithoutChangingThePicture)
     }
 }
 
+TEST(Renderer, DrawsWithoutLightsAndWithLightsThatHaveNoMap)
+{
+    Stage stage(smallScene());
+    const std::vector<ShadedLight> lights = stage.lights;
+    const double lit = meanOf(stage.drawAndRead().colour);
+    stage.lights.clear();
+    const Picture dark = stage.drawAndRead();
+    EXPECT_TRUE(dark.masks.empty());
+    EXPECT_LT(meanOf(dark.colour), lit);
+    // Six lights need two layers of masks; a point light and one that casts nothing have no map.
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        stage.lights.push_back(lights[i % 2]);
+        stage.lights.back().caster.key = i;
+    }
+    stage.lights[4].caster.type = LightType::point;
+    stage.lights[5].caster.casts_shadow = false;
+    const Picture many = stage.drawAndRead();
+    ASSERT_EQ(many.masks.size(), 6U);
+    EXPECT_EQ(many.masks[0].values, many.masks[2].values);
+    EXPECT_TRUE(
+        std::all_of(many.masks[5].values.begin(), many.masks[5].values.end(), [](float v) { return v == 1.0F; }));
+    stage.lights = lights;
+    stage.lights.resize(65, lights[0]);
+    EXPECT_THROW(stage.renderer->draw(stage.state, stage.eye, stage.lights), Error);
+}
+
 TEST(Renderer, ReadsAMapBack)
 {
     Stage stage(smallScene());
