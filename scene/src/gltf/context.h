@@ -22,7 +22,7 @@ public:
     {
     }
 
-    /// Throws Error: "cannot load FILE: WHAT at WHERE: found FOUND; TODO". `where` is a JSON pointer, "byte N" for
+    /// Throws Error: "cannot load FILE: WHAT at WHERE: found FOUND; ADVICE". `where` is a JSON pointer, "byte N" for
     /// what comes before there is JSON, or kWholeFile.
     [[noreturn]] void fail(std::string_view where, const std::string& what, const std::string& found = {},
                            const std::string& todo = {}) const;
