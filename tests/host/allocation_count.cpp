@@ -19,6 +19,13 @@ void* operator new(std::size_t size)
     throw std::bad_alloc();
 }
 
+// The library's temporary buffers come from this one, and must go back the way they came.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    t_count += t_counting ? 1 : 0;
+    return std::malloc(size == 0 ? 1 : size);
+}
+
 void operator delete(void* p) noexcept
 {
     std::free(p);
