@@ -124,16 +124,16 @@ struct Node {
     std::uint32_t skin = kNone;
     std::uint32_t camera = kNone;
     std::uint32_t light = kNone;
-    std::vector<float> morph_weights;     // empty: the mesh's
-    std::vector<glm::mat4> instances;     // node_from_instance; empty: the node's mesh once at the node
-    bool casts = true;                    // per-object flags of the shadow system
+    std::vector<float> morph_weights; // empty: the mesh's
+    std::vector<glm::mat4> instances; // node_from_instance; empty: the node's mesh once at the node
+    bool casts = true;                // per-object flags of the shadow system
     bool receives = true;
     bool dynamic = false; // hint: moves by a procedural animator or an animation channel (filled by finishScene)
 };
 
 struct Skin {
     std::string name;
-    std::vector<std::uint32_t> joints; // nodes
+    std::vector<std::uint32_t> joints;   // nodes
     std::vector<glm::mat4> inverse_bind; // joint_from_mesh, as many as joints
 };
 
@@ -172,20 +172,20 @@ enum class LightType : std::uint8_t { directional, spot, point };
 struct Light {
     std::string name;
     LightType type = LightType::directional;
-    glm::vec3 colour{1.0F};         // linear
-    float intensity = 1.0F;         // lux for directional, candela for spot and point
-    float range_m = 0.0F;           // 0: unlimited
-    float inner_cone_rad = 0.0F;    // half angles
+    glm::vec3 colour{1.0F};      // linear
+    float intensity = 1.0F;      // lux for directional, candela for spot and point
+    float range_m = 0.0F;        // 0: unlimited
+    float inner_cone_rad = 0.0F; // half angles
     float outer_cone_rad = 0.7853982F;
     float angular_diameter_rad = 0.00925025F; // directional: 0.53 degrees, the sun
-    float radius_m = 0.0F;          // spot and point: sphere radius of the emitter
-    std::uint32_t cookie = kNone;   // spot: an image projected down its cone, or kNone
+    float radius_m = 0.0F;                    // spot and point: sphere radius of the emitter
+    std::uint32_t cookie = kNone;             // spot: an image projected down its cone, or kNone
     bool casts_shadow = true;
 };
 
 /// Sky and ambient of a world; files get the defaults.
 struct Environment {
-    glm::vec3 sky_zenith{0.18F, 0.34F, 0.62F};  // linear radiance
+    glm::vec3 sky_zenith{0.18F, 0.34F, 0.62F}; // linear radiance
     glm::vec3 sky_horizon{0.62F, 0.72F, 0.82F};
     glm::vec3 ground{0.22F, 0.20F, 0.17F};
     float ambient = 0.35F; // multiplies the hemisphere light

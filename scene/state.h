@@ -15,14 +15,14 @@ namespace gnomon::scene {
 struct Object {
     std::uint32_t node = kNone;
     std::uint32_t mesh = kNone;
-    std::uint32_t primitive = 0;          // within the mesh
-    std::uint32_t instance = kNone;       // within Node::instances, or kNone
-    std::uint32_t deformed = kNone;       // index into State::deformed when skinned or morphed
+    std::uint32_t primitive = 0;    // within the mesh
+    std::uint32_t instance = kNone; // within Node::instances, or kNone
+    std::uint32_t deformed = kNone; // index into State::deformed when skinned or morphed
     std::uint32_t material = kNone;
     bool casts = true;
     bool receives = true;
-    bool dynamic = false;                 // may move or deform over time
-    glm::mat4 world_from_object{1.0F};    // identity for skinned objects: their vertices are in world space
+    bool dynamic = false;              // may move or deform over time
+    glm::mat4 world_from_object{1.0F}; // identity for skinned objects: their vertices are in world space
     Aabb bounds_ws;
 };
 
