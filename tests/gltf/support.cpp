@@ -26,9 +26,8 @@ std::string base64(const std::vector<std::byte>& bytes)
 
 std::vector<std::byte> toBytes(std::string_view text)
 {
-    std::vector<std::byte> bytes(text.size());
-    std::memcpy(bytes.data(), text.data(), text.size());
-    return bytes;
+    const auto* data = reinterpret_cast<const std::byte*>(text.data());
+    return {data, data + text.size()};
 }
 
 std::string FileBuilder::text() const
