@@ -37,11 +37,21 @@ GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
     return rule;
 }
 
-// Does a surface at the eye-relative point `p` with normal `n` face the light?
+// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err by
+// about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
+GN_CONST real kGrazing = real(0.002);
+
+// Does a surface with normal `n` face a light in direction `to_light` (any length)?
+GN_FN bool facesDirection(real3 n, real3 to_light)
+{
+    return dot(n, to_light) > kGrazing * length(to_light);
+}
+
+// The same for a light and the surface's eye-relative point `p`.
 GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
 {
     real4 place = real4(light.place);
-    return dot(n, real3(place.x, place.y, place.z) - p * place.w) > real(0.0);
+    return facesDirection(n, real3(place.x, place.y, place.z) - p * place.w);
 }
 
 // Is a point in this view, so far from its tile's edge that no tap leaves the tile?

@@ -132,7 +132,7 @@ std::vector<double> referenceMask(const Picture& picture, std::span<const Light>
             light.type == LightType::directional ? -light.direction_ws : glm::normalize(light.position_ws - p);
         if (n == glm::dvec3(0.0)) {
             mask.push_back(1.0);
-        } else if (glm::dot(n, to_light) <= 0.0) {
+        } else if (!shared::facesDirection(n, to_light)) {
             mask.push_back(0.0);
         } else {
             const double w = shared::dotRow(rows.w, p);
