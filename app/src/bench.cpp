@@ -76,13 +76,15 @@ TexelDensity densityOf(host::Renderer& renderer, const Shot& shot, const Setting
     return texelDensity(picture, camera, renderer.plan(), lights, 0);
 }
 
-/// Draws every renderer once in turn, again and again, so that whatever slows the machine down hits all alike.
+/// Draws every renderer once in turn, again and again, so that whatever slows the machine down hits all alike. Every other
+/// round goes backwards, so that none always follows the same one.
 void drawInTurn(std::vector<std::unique_ptr<host::Renderer>>& renderers, const Shot& shot, const Settings& settings,
                 std::vector<std::vector<host::FrameTimes>>& samples, const host::Gpu& gpu, Progress& progress)
 {
     samples.assign(renderers.size(), {});
     for (std::uint32_t round = 0; round < settings.warmup + settings.repetitions; ++round) {
-        for (std::size_t i = 0; i < renderers.size(); ++i) {
+        for (std::size_t turn = 0; turn < renderers.size(); ++turn) {
+            const std::size_t i = round % 2 == 0 ? turn : renderers.size() - 1 - turn;
             host::FrameTimes times = renderers[i]->draw(shot.state, shot.eye, shot.lights);
             requireSilence(gpu);
             progress.step();
