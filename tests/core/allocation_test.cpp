@@ -1,51 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steady-state planning takes nothing from the heap. Replaces operator new for this binary, to count.
+// Steady-state planning takes nothing from the heap.
+#include "allocation_count.h"
 #include "worlds.h"
 
 #include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-// Not inlined: GCC 12 would take a free() that it sees beside a new-expression for a mistake.
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size == 0 ? 1 : size))
-        return memory;
-    throw std::bad_alloc();
-}
-// std::stable_sort asks this one; left out, a sanitizer would see its memory freed by the wrong hand.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept
-{
-    ++allocations;
-    return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
+#include <cstdint>
+#include <vector>
 
 namespace gnomon {
 namespace {
 
 TEST(Allocation, TheCounterCounts)
 {
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::heapAllocations();
     std::vector<int> some(100);
     EXPECT_EQ(some.size(), 100U);
-    EXPECT_GT(allocations, before);
+    EXPECT_GT(test::heapAllocations(), before);
 }
 
 TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
@@ -74,11 +47,11 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     };
     for (int step = 0; step < 120; ++step)
         (void)play(step % 60);
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = test::heapAllocations();
     std::size_t casters = 0;
     for (int step = 0; step < 60; ++step)
         casters += play(step);
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(test::heapAllocations(), before);
     EXPECT_GT(casters, 10000U);
 }
 

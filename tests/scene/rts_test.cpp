@@ -185,14 +185,14 @@ TEST(Rts, AdvanceAllocatesNothingOnceWarm)
     const Scene& scene = rts();
     State state = evaluate(scene, 0.0);
     advance(scene, 0.1, state);
-    const std::size_t before = allocationCount();
+    const std::uint64_t before = test::heapAllocations();
     constexpr int kFrames = 200;
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < kFrames; ++i) {
         advance(scene, 0.016 * i, state);
     }
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-    EXPECT_EQ(allocationCount(), before);
+    EXPECT_EQ(test::heapAllocations(), before);
     std::size_t dynamic = 0;
     for (const Object& object : state.objects) {
         dynamic += object.dynamic ? 1 : 0;
