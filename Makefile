@@ -60,12 +60,11 @@ tidy: packages
 	@cmake --build build -j $(JOBS) --target gnomon_spirv gnomon_host_spirv >/dev/null
 	@tools/tidy.py --build build -j $(JOBS)
 
-# Tests labelled `timing` hold wall-clock bounds, which a sanitizer's slowdown would break for no fault of the code's.
 .PHONY: asan
 asan: packages
 	@cmake --preset asan $(CMAKE_FLAGS)
 	@cmake --build build-asan -j $(JOBS)
-	@source tools/sanitizers.sh && ctest --test-dir build-asan --output-on-failure --no-tests=error -LE timing \
+	@source tools/sanitizers.sh && ctest --test-dir build-asan --output-on-failure --no-tests=error \
 	    -j $(CTEST_JOBS) $(CTEST_FLAGS)
 
 .PHONY: fuzz
