@@ -23,13 +23,22 @@ struct DepthRange {
     double far_m = 1.0;
 };
 
+/// What hangs far above all receivers is clamped onto a near plane this far before them: so many times their own range
+/// or so many texels, whichever is more. A bias is some texels of depth, and more on a slope; a caster clamped closer
+/// than that would cast no shadow on the receivers next to the plane, and none at all on a flat floor, whose own range
+/// is nothing.
+constexpr double kClearanceRanges = 3.0;
+constexpr double kClearanceTexels = 64.0;
+
 /// As tight as the filter allows: precision is shared out between near and far (Marinescu 2011, eq. 1).
-DepthRange depthRangeOf(const Region& region, const LightSpace& space, bool clamp_near, double pad_m)
+DepthRange depthRangeOf(const Region& region, const LightSpace& space, bool clamp_near, double texel_m, double pad_m)
 {
     DepthRange range{region.casterNear_m(), region.receiverFar_m()};
-    // What hangs above all receivers is clamped onto the near plane: there it is before all of them still.
-    if (clamp_near)
-        range.near_m = std::max(range.near_m, region.receiverNear_m());
+    if (clamp_near) {
+        const double own_m = region.receiverFar_m() - region.receiverNear_m();
+        const double clearance_m = std::max(kClearanceRanges * own_m, kClearanceTexels * texel_m);
+        range.near_m = std::max(range.near_m, region.receiverNear_m() - clearance_m);
+    }
     range.near_m = std::min(range.near_m, range.far_m);
     const double margin_m = 1e-4 * (range.far_m - range.near_m) + pad_m;
     range.near_m -= margin_m;
@@ -197,7 +206,9 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     made.light = light;
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
     made.clamp_near = filter->clamps_near && !space.perspective;
-    const DepthRange range = depthRangeOf(region, space, made.clamp_near, view.pad_m);
+    const glm::dvec2 size_m = region.rect().high - region.rect().low; // across a light without a place
+    const double about_a_texel_m = std::max(size_m.x, size_m.y) / options.map_size;
+    const DepthRange range = depthRangeOf(region, space, made.clamp_near, about_a_texel_m, view.pad_m);
     const std::span casters = std::span(plan.casters).subspan(first_caster);
     const FitResult fitted = fit({space, region.body(), motion(region.rect(), {options.map_size, border_texels}),
                                   range.near_m, range.far_m, space.perspective ? 1e-4 : 1e-3 + view.pad_m,

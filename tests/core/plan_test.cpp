@@ -77,17 +77,29 @@ TEST(UniformFit, DepthsAreMetresAlongTheLight)
     World world;
     Planner planner({});
     const View& view = world.plan(planner).views.at(0);
-    // The particle is clamped: what can be told apart starts at the highest receiver, the box's top at 3 m.
+    // The particle at 100 m is clamped: what can be told apart starts three times the receivers' own range (the box's
+    // top is at 3 m) above the highest of them.
     const auto metric = [&](const glm::dvec3& p) {
         return glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
     };
-    EXPECT_NEAR(metric({0, 3, 0}), 0.0, 1e-3);
+    EXPECT_NEAR(metric({0, 12, 0}), 0.0, 1e-3);
     EXPECT_NEAR(metric({0, 0, 0}), 1.0, 1e-3);
     EXPECT_LE(metric({0, 0, 0}), 1.0);
-    EXPECT_GE(metric({0, 3, 0}), 0.0);
+    EXPECT_GE(metric({0, 12, 0}), 0.0);
     EXPECT_LT(metric({4, 100, 4}), 0.0);
     EXPECT_NEAR(project(view, {2, 1.5, 3}).z, metric({2, 1.5, 3}), 1e-12);
-    EXPECT_NEAR(view.metric.far_m - view.metric.near_m, 3.0, 0.01);
+    EXPECT_NEAR(view.metric.far_m - view.metric.near_m, 12.0, 0.01);
+}
+
+TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
+{
+    World world;
+    world.set.remove(1); // the floor is all that receives, and has no depth range of its own
+    Planner planner({});
+    const View& view = world.plan(planner).views.at(0);
+    const double floor = glm::dot(view.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
+    EXPECT_GE(floor * (view.metric.far_m - view.metric.near_m), 60.0 * view.texel_m);
+    EXPECT_LE(view.metric.far_m - view.metric.near_m, 70.0 * view.texel_m);
 }
 
 TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
