@@ -20,7 +20,9 @@ layout(push_constant) uniform Material
 void main()
 {
 #ifdef MASKED
-    if (texture(base_colour, uv).a < cutoff) {
+    // The finest level, whatever the texel's size: coarser ones hold means, which for sparse leaves all fall below the cutoff,
+    // and the shadow would vanish as texels grow. A texel in or out by one sample is right on average.
+    if (textureLod(base_colour, uv, 0.0).a < cutoff) {
         discard;
     }
 #endif
