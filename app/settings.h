@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -91,6 +92,8 @@ struct Settings {
     std::map<std::string, std::string, std::less<>> values;
     /// Keys that the command line itself gave (not defaults, not presets).
     std::map<std::string, bool, std::less<>> given;
+    /// Keys that the command line or a preset named: not left at their defaults.
+    std::set<std::string, std::less<>> named;
 };
 
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };
@@ -140,6 +143,9 @@ struct Setting {
 void applySetting(Settings& settings, const Setting& setting, std::string_view text);
 /// The same by key; an unknown key's UsageError suggests the nearest.
 void applySetting(Settings& settings, std::string_view key, std::string_view text);
+/// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
+/// --target; other keys change nothing.
+void replaceCamera(Settings& settings, std::string_view latest);
 /// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.
 void validateSettings(const Settings& settings);
 /// Fills in what follows from other settings (map format, border). Throws UsageError when choices are refused.

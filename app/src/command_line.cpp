@@ -159,8 +159,15 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
     if ((setting.subcommands & subcommand.bit) == 0) {
         throw UsageError(fmt::format("{} is not a setting of {}", setting.key, subcommand.name));
     }
+    // What a preset said gives way; that both were given here is for validateSettings() to refuse.
+    const bool both_ways = setting.key == "camera" ? settings.given.contains("eye") || settings.given.contains("target")
+                                                   : settings.given.contains("camera");
+    if (!both_ways) {
+        replaceCamera(settings, setting.key);
+    }
     applySetting(settings, setting, text);
     settings.given[std::string(setting.key)] = true;
+    settings.named.emplace(setting.key);
 }
 
 void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcommand)

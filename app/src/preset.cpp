@@ -63,6 +63,7 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
     if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
         return;
     }
+    settings.named.insert(key);
     if (setting != nullptr && setting->repeatable && value.is_array()) {
         for (const auto& element : value) {
             applySetting(settings, *setting, typed(element));
@@ -78,6 +79,10 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
     const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
     if (!json.is_object()) {
         throw UsageError(fmt::format("--preset: {} is not a JSON object of settings", name));
+    }
+    // An earlier preset's camera gives way; a preset that has both is wrong by itself.
+    if (json.contains("camera") != (json.contains("eye") || json.contains("target"))) {
+        replaceCamera(settings, json.contains("camera") ? "camera" : "eye");
     }
     for (const auto& [key, value] : json.items()) {
         try {

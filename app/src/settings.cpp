@@ -16,14 +16,14 @@ namespace {
 
 void validateCamera(const Settings& s)
 {
+    if (!s.camera.empty() && (s.eye_ws || s.target_ws)) {
+        throw UsageError("--camera and --eye both say where the camera is; give one");
+    }
     if (s.eye_ws.has_value() != s.target_ws.has_value()) {
         throw UsageError(s.eye_ws ? "--eye needs --target" : "--target needs --eye");
     }
     if (!s.eye_ws) {
         return;
-    }
-    if (!s.camera.empty()) {
-        throw UsageError("--camera and --eye both say where the camera is; give one");
     }
     const glm::dvec3 forward = *s.target_ws - *s.eye_ws;
     const double distance = glm::length(forward);
@@ -106,6 +106,19 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
             fmt::format("there is no setting \"{}\"{}; `gnomon list` shows them all", key, suggestion(key, keys)));
     }
     applySetting(settings, *setting, text);
+}
+
+void replaceCamera(Settings& settings, std::string_view latest)
+{
+    if (latest == "eye" || latest == "target") {
+        settings.camera.clear();
+        settings.values.erase("camera");
+    } else if (latest == "camera") {
+        settings.eye_ws.reset();
+        settings.target_ws.reset();
+        settings.values.erase("eye");
+        settings.values.erase("target");
+    }
 }
 
 void validateSettings(const Settings& settings)

@@ -280,5 +280,28 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     EXPECT_EQ(settings.filter.bias.constant_m, 0.1F);
 }
 
+app::Settings settingsOf(const std::vector<std::string>& arguments)
+{
+    return app::parseCommandLine(arguments).settings;
+}
+
+TEST(Presets, TheirCameraGivesWayToOptions)
+{
+    const app::Settings eye = settingsOf({"plan", "--preset", "demo", "--eye", "1,2,3", "--target", "0,0,0"});
+    EXPECT_EQ(eye.camera, "");
+    EXPECT_FALSE(eye.values.contains("camera"));
+    EXPECT_TRUE(eye.eye_ws.has_value());
+    const test::Folder folder;
+    test::spill(folder / "eye.json", R"({"eye": [1, 2, 3], "target": [0, 0, 0]})");
+    const std::string file = (folder / "eye.json").string();
+    const app::Settings camera = settingsOf({"plan", "--preset", file, "--camera", "camp"});
+    EXPECT_EQ(camera.camera, "camp");
+    EXPECT_FALSE(camera.eye_ws.has_value());
+    EXPECT_FALSE(camera.values.contains("target"));
+    EXPECT_EQ(settingsOf({"plan", "--preset", "demo", "--preset", file}).camera, "");
+    EXPECT_FALSE(settingsOf({"plan", "--preset", file, "--preset", "demo"}).eye_ws.has_value());
+    EXPECT_THROW((void)settingsOf({"plan", "--target", "0,0,0", "--camera", "camp"}), app::UsageError);
+}
+
 } // namespace
 } // namespace gnomon
