@@ -28,7 +28,7 @@ struct Eye {
     glm::dvec3 target_ws{0.0, 0.0, -1.0};
     glm::dvec3 up_ws{0.0, 1.0, 0.0};
     double fov_y_rad = 0.8; // vertical; (0, pi)
-    double near_m = 0.0;    // 0: 1/20000 of the scene's diagonal, at least 1 mm of a metre-sized scene
+    double near_m = 0.0;    // 0: 1/20000 of the diagonal of the scene's bounds
     double far_m = 0.0;     // 0: behind everything
 };
 

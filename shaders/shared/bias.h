@@ -18,10 +18,11 @@ struct MapRows {
     real texel_m; // a texel's width in metres at w = 1
     real range_m; // metres from metric 0 to metric 1
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    real4 plane_x; // xyz: cross products of the gradients of the rows, metric x y, x x metric, x x y: what
-                   // receiverPlane()
-    real4 plane_y; // comes down to when w is constant
-    real4 plane_w; // w: the least determinant that it divides by
+    // What receiverPlane() comes down to when w is constant, in xyz: the cross products of the rows' gradients,
+    // metric with y, x with metric, x with y. In plane_w.w: the least determinant that it divides by.
+    real4 plane_x;
+    real4 plane_y;
+    real4 plane_w;
 #endif
 };
 
@@ -71,14 +72,16 @@ GN_FN real3 gradientOf(real4 row)
     return real3(row.x, row.y, row.z);
 }
 
-// Derivation. Moving from texel (u, v) to (u + du, v + dv) on the plane dot(n, dp) = 0 means
-//   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,  with X = x - u w, Y = y - v w (gradients of the rows), w' = w + dot(W,
-//   dp),
-// so dp = w' (du A + dv B) with A = Y x n / det, B = n x X / det, det = dot(X, Y x n). Solving w' = w + w'(du W.A + dv
-// W.B):
-//   w' = w / (1 + dot(s, d)),  s = -(W.A, W.B)
-// and the metric m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)). For an orthographic map W =
-// 0.
+// Derivation. Capitals are gradients of the rows, x is the cross product between vectors.
+// Moving from texel (u, v) to (u + du, v + dv) on the plane dot(n, dp) = 0 means
+//   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,
+// with X = gradient(x) - u W, Y = gradient(y) - v W, w' = w + dot(W, dp). So
+//   dp = w' (du A + dv B),  A = Y x n / det,  B = n x X / det,  det = dot(X, Y x n).
+// Solving w' = w + w' (du W.A + dv W.B) gives
+//   w' = w / (1 + dot(s, d)),  s = -(W.A, W.B),
+// and the metric
+//   m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)).
+// For an orthographic map W = 0.
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
                          GN_OUT(real2) w_slope)
 {

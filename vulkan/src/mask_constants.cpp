@@ -19,15 +19,12 @@ std::uint32_t shownViews(const LightPlan& light)
     return light.outcome.hasMap() ? light.view_count : 0U;
 }
 
-// How far from its tile's edge a receiver must be, so that no texel outside is read.
+// How far from its tile's edge a receiver must be, so that no texel outside is read: the centre of a texel that it
+// reads may be half a texel from the edge.
 double edgeMargin(const FilterOptions& filter)
 {
     constexpr double kRounding = 1e-3; // a receiver on the far edge itself is in the next texel
-    const int width = kernelWidth(filter);
-    if (filter.filter == Filter::hard) {
-        return kRounding;
-    }
-    return kRounding + (width > 0 ? width * 0.5 : static_cast<double>(filter.disc_radius_texels) + 0.5);
+    return kRounding + static_cast<double>(filterReachTexels(filter)) - 0.5;
 }
 
 shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)

@@ -37,7 +37,7 @@ struct Outcome {
     OutcomeKind kind = OutcomeKind::ok;
     std::string_view reason; // a sentence with static lifetime; empty for ok
 
-    /// Its mask channel comes from a map (ok, fallback); otherwise it is `unshadowed visibility`, which is 1.
+    /// Its mask channel comes from a map (ok, fallback); otherwise it reads 1 everywhere.
     [[nodiscard]] bool hasMap() const { return kind == OutcomeKind::ok || kind == OutcomeKind::fallback; }
 };
 

@@ -25,8 +25,8 @@ struct PlanOptions {
 /// Deterministic: the same frames and options give the same plans, bit for bit. Not thread-safe; make one per thread.
 class Planner {
 public:
-    /// Precondition: no refusal() for the technique and the lights' types is needed here; lights it concerns get
-    /// Outcome refused. map_size in range (assert).
+    /// Lights whose combination with the technique is refused (refusal()) get Outcome refused; that is no error.
+    /// Precondition: map_size and the other options are in range (assert).
     explicit Planner(const PlanOptions& options);
     ~Planner();
     Planner(Planner&&) noexcept;

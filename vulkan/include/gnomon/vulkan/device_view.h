@@ -36,7 +36,8 @@ struct DeviceView {
     bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes
 };
 
-/// The features of decisions.md that the backend relies on, chained for VkDeviceCreateInfo::pNext. Static lifetime.
+/// The features that the backend relies on, chained for VkDeviceCreateInfo::pNext. Static lifetime. Every desktop
+/// driver of Vulkan 1.3 and Mesa's lavapipe have them; vulkan/src/features.cpp says what each is for.
 [[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures();
 /// Names of the required features that a physical device lacks, separated by ", "; empty when it has all. Writes at
 /// most `capacity` bytes and a zero to `text`.

@@ -99,8 +99,9 @@ public:
     /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const DrawCasters& draw, Profiler* profiler = nullptr);
-    /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1.
-    /// Afterwards mask() is readable by FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER.
+    /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1; a surface
+    /// that faces away from a light (or that it grazes, below 0.11 degrees) 0. Afterwards mask() is readable by
+    /// FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER.
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
