@@ -45,8 +45,8 @@ void addSun(Scene& scene)
     scene.environment.sky_zenith = {0.20F, 0.38F, 0.68F};
     scene.environment.sky_horizon = {0.80F, 0.78F, 0.72F};
     scene.environment.ground = {0.31F, 0.29F, 0.25F};
-    scene.environment.ambient = 0.42F;
-    scene.environment.exposure = 0.95F;
+    scene.environment.ambient = 0.24F;
+    scene.environment.exposure = 1.0F;
 }
 
 void addViews(Scene& scene, const Actors& actors)
