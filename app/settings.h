@@ -60,10 +60,8 @@ struct Settings {
     std::optional<double> fov_deg;
     // lights
     std::optional<glm::dvec3> sun_ws; // unit, the way light travels
-    double sun_angle_deg = 0.0;
     std::optional<SpotLight> spot;
     std::optional<PointLight> point;
-    std::optional<double> light_size_m;
     // technique
     PlanOptions plan;
     vulkan::FilterOptions filter;
@@ -129,6 +127,7 @@ struct Setting {
     std::uint32_t subcommands = kFrames;                  // which have it
     bool own_option = true;                               // false: only --set, presets and techniques
     bool repeatable = false;                              // each use adds to the ones before
+    std::string_view separator = " ";                     // between the uses of a repeatable one in `values`
     bool (*used)(const Settings&) = nullptr;              // null: always has an effect
     std::string_view used_when;                           // the sentence for it: "filter pcf"
     void (*apply)(Settings&, const SettingValue&) = nullptr;
@@ -136,6 +135,10 @@ struct Setting {
 
 [[nodiscard]] std::span<const Setting> settingTable();
 [[nodiscard]] const Setting* findSetting(std::string_view key);
+/// What one types for it: "--size", "--set pcf.taps".
+[[nodiscard]] std::string spelled(const Setting& setting);
+/// Why a setting that belongs to the program is not in this version; nothing for any other key.
+[[nodiscard]] std::optional<std::string_view> missingSetting(std::string_view key);
 
 /// All defaults applied.
 [[nodiscard]] Settings defaultSettings();
@@ -146,6 +149,8 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 /// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
 /// --target; other keys change nothing.
 void replaceCamera(Settings& settings, std::string_view latest);
+/// So that a list given later does not add to a preset's.
+void forgetTechniques(Settings& settings);
 /// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.
 void validateSettings(const Settings& settings);
 /// Fills in what follows from other settings (map format, border). Throws UsageError when choices are refused.

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 namespace gnomon::app {
@@ -25,19 +27,30 @@ constexpr std::string_view kAll[] = {"hard",
                                      "pcf+pcf.kernel=poisson",
                                      "pcf+pcf.kernel=vogel"};
 
+/// Whether the options and presets say themselves which technique it is: by what the default list would override.
+bool namesOneTechnique(const Settings& settings)
+{
+    return std::any_of(settings.named.begin(), settings.named.end(),
+                       [](const std::string& key) { return key == "filter" || key.starts_with("pcf."); });
+}
+
 std::vector<Settings> contestants(const Settings& settings)
 {
-    std::vector<Settings> made;
-    const bool all =
-        settings.techniques.empty() || (settings.techniques.size() == 1 && settings.techniques.front() == "all");
-    if (!all) {
-        for (const std::string& text : settings.techniques) {
-            made.push_back(parseTechnique(settings, text));
-        }
-        return made;
+    if (settings.techniques.empty() && namesOneTechnique(settings)) {
+        return {settings};
     }
-    for (const std::string_view text : kAll) {
+    std::vector<std::string> texts = settings.techniques;
+    if (texts.empty() || texts.front() == "all") {
+        texts.assign(std::begin(kAll), std::end(kAll));
+    }
+    std::vector<Settings> made;
+    for (const std::string& text : texts) {
         made.push_back(parseTechnique(settings, text));
+        for (std::size_t i = 0; i + 1 < made.size(); ++i) {
+            if (describeTechnique(made[i]) == describeTechnique(made.back())) {
+                throw UsageError(fmt::format("--techniques: {} and {} are the same technique", texts[i], text));
+            }
+        }
     }
     return made;
 }
@@ -76,8 +89,8 @@ TexelDensity densityOf(host::Renderer& renderer, const Shot& shot, const Setting
     return texelDensity(picture, camera, renderer.plan(), lights, 0);
 }
 
-/// Draws every renderer once in turn, again and again, so that whatever slows the machine down hits all alike. Every other
-/// round goes backwards, so that none always follows the same one.
+/// Draws every renderer once in turn, again and again, so that whatever slows the machine down hits all alike. Every
+/// other round goes backwards, so that none always follows the same one.
 void drawInTurn(std::vector<std::unique_ptr<host::Renderer>>& renderers, const Shot& shot, const Settings& settings,
                 std::vector<std::vector<host::FrameTimes>>& samples, const host::Gpu& gpu, Progress& progress)
 {

@@ -23,12 +23,6 @@ constexpr std::array kMissingSubcommands{
     Missing{"metrics", "error numbers of two images are not in this version"},
     Missing{"view", "the window is not in this version"},
 };
-constexpr std::array kMissingOptions{
-    Missing{"--truth", "ray-traced truth is not in this version"},
-    Missing{"--samples", "rays per pixel belong to ray-traced truth, which is not in this version"},
-    Missing{"--path", "scripted cameras and suns are not in this version"},
-    Missing{"--report", "reports belong to the subcommand compare, which is not in this version"},
-};
 
 const Subcommand& findSubcommand(const std::string& name)
 {
@@ -56,12 +50,12 @@ std::string_view aliasOf(std::string_view key)
 [[noreturn]] void refuseOption(const Subcommand& subcommand, const std::string& argument)
 {
     const std::string name = argument.substr(0, argument.find('='));
-    for (const Missing& missing : kMissingOptions) {
-        if (missing.name == name) {
-            throw UsageError(fmt::format("{}: {}", name, missing.sentence));
+    if (name.starts_with("--")) {
+        if (const auto sentence = missingSetting(std::string_view(name).substr(2))) {
+            throw UsageError(fmt::format("{}: {}", name, *sentence));
         }
     }
-    std::vector<std::string> spelled{"--set", "--preset", "--help"};
+    std::vector<std::string> options{"--set", "--preset", "--help"};
     for (const Setting& setting : settingTable()) {
         if (fmt::format("--{}", setting.key) == name) {
             throw UsageError(setting.own_option && (setting.subcommands & subcommand.bit) == 0
@@ -69,11 +63,11 @@ std::string_view aliasOf(std::string_view key)
                                  : fmt::format("{} is set by --set {}=VALUE", name, setting.key));
         }
         if (setting.own_option && (setting.subcommands & subcommand.bit) != 0) {
-            spelled.push_back(fmt::format("--{}", setting.key));
+            options.push_back(spelled(setting));
         }
     }
     throw UsageError(fmt::format("there is no option {}{}; see `gnomon {} --help`", name,
-                                 suggestion(name, {spelled.begin(), spelled.end()}), subcommand.name));
+                                 suggestion(name, {options.begin(), options.end()}), subcommand.name));
 }
 
 /// The command line's options in the order given, CLI11 doing the splitting.
@@ -108,6 +102,14 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
     cli.allow_extras();
 }
 
+/// A word after --json that is neither its file nor a scene, nor another option.
+bool isStrayFile(std::string_view word)
+{
+    const auto worlds = scene::worlds();
+    return !word.starts_with("-") && !word.ends_with(".gltf") && !word.ends_with(".glb") &&
+           std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });
+}
+
 /// --json's FILE may be left out, which no parser can tell from a scene that follows: a value is "-" or ends in .json.
 std::vector<std::string> takeJson(std::span<const std::string> arguments, const Subcommand& subcommand,
                                   std::optional<std::string>& json)
@@ -122,6 +124,11 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
             json = argument.substr(argument.find('=') + 1);
         } else if (i + 1 < arguments.size() && (arguments[i + 1] == "-" || arguments[i + 1].ends_with(".json"))) {
             json = arguments[++i];
+        } else if (i + 1 < arguments.size() && isStrayFile(arguments[i + 1])) {
+            throw UsageError(
+                fmt::format("--json: \"{0}\" is no scene, and a file for JSON must end in .json or be given "
+                            "as --json={0}",
+                            arguments[i + 1]));
         } else {
             json = "-";
         }
@@ -164,6 +171,9 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
                                                    : settings.given.contains("camera");
     if (!both_ways) {
         replaceCamera(settings, setting.key);
+    }
+    if (setting.key == "techniques" && !settings.given.contains(setting.key)) {
+        forgetTechniques(settings);
     }
     applySetting(settings, setting, text);
     settings.given[std::string(setting.key)] = true;

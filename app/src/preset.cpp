@@ -64,6 +64,9 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
         return;
     }
     settings.named.insert(key);
+    if (key == "techniques") {
+        forgetTechniques(settings);
+    }
     if (setting != nullptr && setting->repeatable && value.is_array()) {
         for (const auto& element : value) {
             applySetting(settings, *setting, typed(element));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -107,6 +108,7 @@ void applyBias(Settings& s, const Value& v)
     if (v.text == "none") {
         return;
     }
+    std::vector<std::string_view> seen;
     for (const std::string_view part : split(v.text, ',')) {
         const std::size_t equals = part.find('=');
         const Setting* setting =
@@ -115,7 +117,28 @@ void applyBias(Settings& s, const Value& v)
             throw UsageError(fmt::format(
                 "--bias: \"{}\" is not auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1", v.text));
         }
+        if (std::find(seen.begin(), seen.end(), setting->key) != seen.end()) {
+            throw UsageError(fmt::format("--bias: \"{}\" gives {} twice", v.text, part.substr(0, equals)));
+        }
+        seen.push_back(setting->key);
         setting->apply(s, parseValue(*setting, part.substr(equals + 1)));
+    }
+}
+
+void applyTechniques(Settings& s, const Value& v)
+{
+    for (const std::string_view piece : split(v.text, ',')) {
+        if (piece.empty()) {
+            throw UsageError(
+                fmt::format("--techniques: \"{}\" has a comma with no technique before or after it", v.text));
+        }
+        if (std::find(s.techniques.begin(), s.techniques.end(), piece) != s.techniques.end()) {
+            throw UsageError(fmt::format("--techniques: {} is listed twice", piece));
+        }
+        s.techniques.emplace_back(piece);
+    }
+    if (s.techniques.size() > 1 && std::find(s.techniques.begin(), s.techniques.end(), "all") != s.techniques.end()) {
+        throw UsageError("--techniques: all stands alone; it times hard and every kernel of pcf");
     }
 }
 
@@ -221,16 +244,10 @@ const std::vector<Setting>& rows()
         {.key = "sun", .group = Group::light, .type = numbers, .form = "x,y,z", .min = -kFar, .max = kFar, .count = 3,
          .doc = "direction the light travels; replaces the scene's lights",
          .apply = [](Settings& s, const Value& v) { s.sun_ws = direction("sun", vec3(v.numbers)); }},
-        {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .default_text = "0.53", .min = 0, .max = 90,
-         .doc = "angular diameter of the sun that --sun makes", .used = [](const Settings& s) { return s.sun_ws.has_value(); }, .used_when = "--sun",
-         .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
         {.key = "spot", .group = Group::light, .type = numbers, .form = "x,y,z,tx,ty,tz,DEG", .unit = "m, degrees", .min = -kFar, .max = kFar, .count = 7,
          .doc = "spot light: place, target, whole cone; likewise", .apply = applySpot},
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE", .unit = "m", .min = -kFar, .max = kFar, .count = 4,
          .doc = "point light: place and reach; likewise", .apply = applyPoint},
-        {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "diameter of the spot or point light given", .used = [](const Settings& s) { return s.spot || s.point; }, .used_when = "--spot or --point",
-         .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
 
         {.key = "filter", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "pcf", .choices = [] { return choiceNames("filter"); },
          .doc = "what a texel stores and how it is tested", .apply = [](Settings& s, const Value& v) { setChoice("filter", s.plan.technique.filter, v); }},
@@ -307,7 +324,7 @@ const std::vector<Setting>& rows()
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "whose mask; else the first light's", .subcommands = kRender,
          .used = [](const Settings& s) { return s.mask; }, .used_when = "--mask", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "what to time: hard,pcf+pcf.kernel=5x5,... or all",
-         .subcommands = kBench, .apply = [](Settings& s, const Value& v) { for (const auto piece : split(v.text, ',')) { s.techniques.emplace_back(piece); } }},
+         .subcommands = kBench, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
          .doc = "timed frames of each technique", .subcommands = kBench,
          .apply = [](Settings& s, const Value& v) { s.repetitions = static_cast<std::uint32_t>(v.integer); }},

@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void refuse(const Setting& setting, std::string_view text, const std::string& expected)
 {
-    throw UsageError(fmt::format("--{}: \"{}\" is not {}", setting.key, text, expected));
+    throw UsageError(fmt::format("{}: \"{}\" is not {}", spelled(setting), text, expected));
 }
 
 std::string rangeText(const Setting& setting)
@@ -170,7 +170,7 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
     case SettingType::choice: {
         const auto allowed = setting.choices();
         if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
-            throw UsageError(fmt::format("--{}: there is no \"{}\"{}; it takes {}", setting.key, text,
+            throw UsageError(fmt::format("{}: there is no \"{}\"{}; it takes {}", spelled(setting), text,
                                          suggestion(text, allowed), listed(allowed)));
         }
         value.text = text;

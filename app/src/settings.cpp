@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon::app {
@@ -54,6 +55,33 @@ bool isChoice(std::string_view key)
 
 } // namespace
 
+std::string spelled(const Setting& setting)
+{
+    return fmt::format("{}{}", setting.own_option ? "--" : "--set ", setting.key);
+}
+
+std::optional<std::string_view> missingSetting(std::string_view key)
+{
+    struct Missing {
+        std::string_view key;
+        std::string_view sentence;
+    };
+    static constexpr std::array kMissing{
+        Missing{"truth", "ray-traced truth is not in this version"},
+        Missing{"samples", "rays per pixel belong to ray-traced truth, which is not in this version"},
+        Missing{"path", "scripted cameras and suns are not in this version"},
+        Missing{"report", "reports belong to the subcommand compare, which is not in this version"},
+        Missing{"sun-angle", "shadows that widen with the sun's size are not in this version"},
+        Missing{"light-size", "shadows that widen with the light's size are not in this version"},
+    };
+    for (const Missing& missing : kMissing) {
+        if (missing.key == key) {
+            return missing.sentence;
+        }
+    }
+    return std::nullopt;
+}
+
 const Setting* findSetting(std::string_view key)
 {
     for (const Setting& setting : settingTable()) {
@@ -79,7 +107,8 @@ void applySetting(Settings& settings, const Setting& setting, std::string_view t
 {
     setting.apply(settings, parseValue(setting, text));
     std::string& value = settings.values[std::string(setting.key)];
-    value = setting.repeatable && !value.empty() ? fmt::format("{} {}", value, text) : std::string(text);
+    value = setting.repeatable && !value.empty() ? fmt::format("{}{}{}", value, setting.separator, text)
+                                                 : std::string(text);
     if (setting.key == "bias") { // says all of it: parts given before no longer hold
         std::erase_if(settings.values, [](const auto& entry) { return entry.first.starts_with("bias."); });
         if (text != "auto" && text != "none") { // kept as its parts, so that there is one way to write it down
@@ -98,6 +127,9 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 {
     const Setting* setting = findSetting(key);
     if (setting == nullptr) {
+        if (const auto sentence = missingSetting(key)) {
+            throw UsageError(fmt::format("{}: {}", key, *sentence));
+        }
         std::vector<std::string_view> keys;
         for (const Setting& row : settingTable()) {
             keys.push_back(row.key);
@@ -121,16 +153,25 @@ void replaceCamera(Settings& settings, std::string_view latest)
     }
 }
 
+void forgetTechniques(Settings& settings)
+{
+    settings.techniques.clear();
+    settings.values.erase("techniques");
+}
+
 void validateSettings(const Settings& settings)
 {
     validateCamera(settings);
     if (settings.frames && settings.frames->first > settings.frames->last) {
         throw UsageError(fmt::format("--frames: {}-{} runs backwards", settings.frames->first, settings.frames->last));
     }
+    if (settings.mask && settings.given.contains("aa") && settings.anti_aliasing == host::AntiAliasing::fxaa) {
+        throw UsageError("--aa: fxaa has an effect only on a picture, not with --mask");
+    }
     for (const auto& [key, given] : settings.given) {
         const Setting* setting = findSetting(key);
         if (given && setting != nullptr && setting->used != nullptr && !setting->used(settings)) {
-            throw UsageError(fmt::format("--{} has an effect only with {}", key, setting->used_when));
+            throw UsageError(fmt::format("{} has an effect only with {}", spelled(*setting), setting->used_when));
         }
     }
 }
@@ -170,15 +211,17 @@ Settings parseTechnique(const Settings& base, std::string_view text)
             value = piece.substr(equals + 1);
             const Setting* setting = findSetting(key);
             if (setting != nullptr && setting->group != SettingGroup::technique) {
-                throw UsageError(
-                    fmt::format("technique \"{}\": {} is no part of a technique; give it as --{}", text, key, key));
+                throw UsageError(fmt::format("technique \"{}\": {} is no part of a technique; give it as {}", text, key,
+                                             spelled(*setting)));
             }
         } else {
             const ChoiceValue* row = findTechniqueValue(piece);
             if (row == nullptr) {
                 std::vector<std::string_view> names;
                 for (const ChoiceValue& known : choiceValues()) {
-                    names.push_back(known.name);
+                    if (known.choice != "light") {
+                        names.push_back(known.name);
+                    }
                 }
                 throw UsageError(
                     fmt::format("technique \"{}\": there is no \"{}\"{}; a technique is values of the choices and "

@@ -28,19 +28,18 @@ glm::dvec3 perpendicular(const glm::dvec3& axis)
     return glm::normalize(other - axis * glm::dot(axis, other));
 }
 
-host::ShadedLight sunLight(const glm::dvec3& direction_ws, double angle_deg)
+host::ShadedLight sunLight(const glm::dvec3& direction_ws)
 {
     host::ShadedLight light;
     light.name = "sun";
     light.caster.type = LightType::directional;
     light.caster.direction_ws = direction_ws;
-    light.caster.angular_diameter_rad = glm::radians(angle_deg);
     light.colour = kWarmWhite * kSunLux;
     light.up_ws = perpendicular(direction_ws);
     return light;
 }
 
-host::ShadedLight spotLight(const SpotLight& spot, double radius_m)
+host::ShadedLight spotLight(const SpotLight& spot)
 {
     const glm::dvec3 aim = spot.target_ws - spot.position_ws;
     const double distance = glm::length(aim);
@@ -50,21 +49,19 @@ host::ShadedLight spotLight(const SpotLight& spot, double radius_m)
     light.caster.position_ws = spot.position_ws;
     light.caster.direction_ws = aim / distance;
     light.caster.outer_half_angle_rad = glm::radians(spot.angle_deg) / 2.0;
-    light.caster.radius_m = radius_m;
     light.inner_half_angle_rad = light.caster.outer_half_angle_rad * kInnerShare;
     light.colour = kWarmWhite * static_cast<float>(kAimLux * distance * distance);
     light.up_ws = perpendicular(light.caster.direction_ws);
     return light;
 }
 
-host::ShadedLight pointLight(const PointLight& point, double radius_m)
+host::ShadedLight pointLight(const PointLight& point)
 {
     host::ShadedLight light;
     light.name = "point";
     light.caster.type = LightType::point;
     light.caster.position_ws = point.position_ws;
     light.caster.range_m = point.range_m;
-    light.caster.radius_m = radius_m;
     constexpr double kBrightAt = 0.3; // share of the reach: half way to the dark, by eye
     const double bright_m = point.range_m * kBrightAt;
     light.colour = kWarmWhite * static_cast<float>(kAimLux * bright_m * bright_m);
@@ -74,16 +71,15 @@ host::ShadedLight pointLight(const PointLight& point, double radius_m)
 /// Lights of the command line; empty when it names none.
 std::vector<host::ShadedLight> givenLights(const Settings& settings)
 {
-    const double radius_m = settings.light_size_m.value_or(0.0) / 2.0;
     std::vector<host::ShadedLight> lights;
     if (settings.sun_ws) {
-        lights.push_back(sunLight(*settings.sun_ws, settings.sun_angle_deg));
+        lights.push_back(sunLight(*settings.sun_ws));
     }
     if (settings.spot) {
-        lights.push_back(spotLight(*settings.spot, radius_m));
+        lights.push_back(spotLight(*settings.spot));
     }
     if (settings.point) {
-        lights.push_back(pointLight(*settings.point, radius_m));
+        lights.push_back(pointLight(*settings.point));
     }
     for (const host::ShadedLight& light : lights) {
         if (const auto reason = refusal(light.caster.type, settings.plan.technique)) {
@@ -103,7 +99,7 @@ void placeLights(Shot& shot, const Settings& settings)
         shot.lights = host::lightsOf(shot.scene, shot.state);
     }
     if (shot.lights.empty()) {
-        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12)), settings.sun_angle_deg));
+        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12))));
     }
 }
 

@@ -229,6 +229,41 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
     }
 }
 
+TEST(Bench, TimesWhatIsAskedFor)
+{
+    const test::Folder folder;
+    test::spill(folder / "kernel.json", R"({"pcf.kernel": "5x5"})");
+    test::spill(folder / "list.json", R"({"techniques": ["pcf", "hard"]})");
+    struct Asked {
+        std::vector<std::string> arguments;
+        std::vector<std::string> techniques; // how the results' names begin
+    };
+    const std::vector<Asked> all{
+        {{"--filter", "hard"}, {"hard"}},
+        {{"--set", "pcf.kernel=2x2"}, {"pcf+map-size=64+pcf.kernel=2x2"}},
+        {{"--preset", "kernel.json"}, {"pcf+map-size=64+pcf.kernel=5x5"}},
+        {{"--techniques", "hard", "--techniques", "pcf"}, {"hard", "pcf"}},
+        {{"--preset", "list.json"}, {"pcf", "hard"}},
+        {{"--preset", "list.json", "--techniques", "hard"}, {"hard"}},
+    };
+    for (const Asked& asked : all) {
+        std::vector<std::string> arguments{"bench",         "planes", "--size",   "16x16", "--map-size", "64",
+                                           "--repetitions", "1",      "--warmup", "0",     "--json"};
+        arguments.insert(arguments.end(), asked.arguments.begin(), asked.arguments.end());
+        const test::Ran ran = inFolder(folder, arguments);
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        const json bench = json::parse(ran.out);
+        ASSERT_EQ(bench["results"].size(), asked.techniques.size()) << asked.arguments[1];
+        for (std::size_t i = 0; i < asked.techniques.size(); ++i) {
+            EXPECT_TRUE(bench["results"][i]["technique"].get<std::string>().starts_with(asked.techniques[i]))
+                << bench["results"][i]["technique"];
+        }
+        if (asked.techniques.size() == 2) {
+            EXPECT_EQ(bench["settings"]["techniques"], asked.techniques[0] + "," + asked.techniques[1]);
+        }
+    }
+}
+
 TEST(Program, SaysItsVersion)
 {
     const test::Folder folder;
