@@ -34,7 +34,7 @@ configure: packages
 demo: configure
 	@cmake --build build --target gnomon -j $(JOBS)
 	@mkdir -p out
-	@build/gnomon render rts -o $(PICTURE)
+	@build/gnomon render rts --preset demo -o $(PICTURE)
 	@echo "The picture is $(PICTURE)"
 
 .PHONY: build
