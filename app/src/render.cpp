@@ -42,6 +42,10 @@ public:
             requireWritable(path_);
             return;
         }
+        if (path_.extension() == ".png" || path_.extension() == ".exr") {
+            throw UsageError(
+                fmt::format("--out: \"{}\" names a picture, but with --frames it is a folder", path_.string()));
+        }
         if (fs::exists(path_) && !fs::is_directory(path_)) {
             throw Error("writing frames to " + path_.string(), "it is not a folder");
         }
@@ -96,6 +100,17 @@ std::size_t lightIndex(const Shot& shot, const Settings& settings)
         }
         names.push_back(shot.lights[i].name);
     }
+    // glTF names the node that holds a light as well; lights are in the order of those nodes.
+    std::size_t index = 0;
+    for (const scene::Node& node : shot.state.nodes) {
+        const bool from_file = !settings.sun_ws && !settings.spot && !settings.point;
+        if (node.light != scene::kNone && from_file) {
+            if (node.name == settings.light) {
+                return index;
+            }
+            ++index;
+        }
+    }
     throw UsageError(fmt::format("--light: there is no light \"{}\"{}; the scene has {}", settings.light,
                                  suggestion(settings.light, names), listed(names)));
 }
@@ -144,9 +159,6 @@ int runRender(const Settings& settings)
     Shot shot = makeShot(settings);
     const std::size_t light = lightIndex(shot, settings);
     const auto gpu = openGpu(settings);
-    for (const std::string& text : shot.notices) {
-        notice(text);
-    }
     {
         host::Renderer renderer(*gpu, shot.scene, shot.state, renderOptions(settings));
         const FrameRange range = settings.frames.value_or(FrameRange{});
@@ -158,6 +170,11 @@ int runRender(const Settings& settings)
             renderer.draw(shot.state, shot.eye, shot.lights);
             requireSilence(*gpu);
             if (index == range.first) {
+                const Outcome& outcome = renderer.plan().lights[light].outcome;
+                if (settings.mask && !outcome.hasMap()) {
+                    throw Error("drawing the mask of light " + shot.lights[light].name, std::string(outcome.reason));
+                }
+                std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 noteOutcomes(shot, renderer.plan());
             }
             writePicture(target.frame(index), renderer, settings, light);

@@ -97,6 +97,11 @@ void placeLights(Shot& shot, const Settings& settings)
     shot.lights = givenLights(settings);
     if (shot.lights.empty()) {
         shot.lights = host::lightsOf(shot.scene, shot.state);
+        for (std::size_t i = 0; i < shot.lights.size(); ++i) {
+            if (shot.lights[i].name.empty()) {
+                shot.lights[i].name = fmt::format("light{}", i);
+            }
+        }
     }
     if (shot.lights.empty()) {
         shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12))));

@@ -42,9 +42,24 @@ void usePlaced(Shot& shot, const Settings& settings, const scene::PlacedCamera& 
     shot.eye.target_ws = glm::dvec3(placed.eye_ws) + glm::dvec3(placed.forward_ws);
     shot.eye.up_ws = placed.up_ws;
     shot.eye.fov_y_rad = fovRad(settings, static_cast<double>(camera.fov_y_rad));
+    shot.eye.near_m = static_cast<double>(camera.near_m);
+    shot.eye.far_m = static_cast<double>(camera.far_m);
 }
 
-/// glTF names the camera or the node that holds it; either will do. Nameless ones are "camera0" and so on.
+/// The node that holds a placed camera: both are in the order of the nodes.
+const std::string& nodeNameOf(const Shot& shot, std::size_t placed)
+{
+    static const std::string none;
+    for (const scene::Node& node : shot.state.nodes) {
+        if (node.camera != scene::kNone && placed-- == 0) {
+            return node.name;
+        }
+    }
+    return none;
+}
+
+/// The camera's own name; nameless ones are "camera0" and so on. glTF names the node that holds it as well: --camera
+/// takes either.
 std::string nameOf(const Shot& shot, std::size_t placed)
 {
     const std::string& name = shot.scene.cameras[shot.state.cameras[placed].camera].name;
@@ -67,6 +82,12 @@ void useNamed(Shot& shot, const Settings& settings)
             return;
         }
         names.push_back(nameOf(shot, i));
+    }
+    for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
+        if (nodeNameOf(shot, i) == settings.camera) {
+            usePlaced(shot, settings, shot.state.cameras[i], settings.camera);
+            return;
+        }
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     throw UsageError(fmt::format(
@@ -120,10 +141,17 @@ void placeEye(Shot& shot, const Settings& settings)
         useNamed(shot, settings);
     } else if (!shot.scene.views.empty()) {
         useView(shot, settings, shot.scene.views.front());
-    } else if (!shot.state.cameras.empty() && !shot.scene.cameras[shot.state.cameras[0].camera].orthographic) {
-        usePlaced(shot, settings, shot.state.cameras[0], nameOf(shot, 0));
     } else {
-        useFramed(shot, settings);
+        const auto& cameras = shot.state.cameras;
+        const auto perspective = std::find_if(cameras.begin(), cameras.end(), [&](const scene::PlacedCamera& placed) {
+            return !shot.scene.cameras[placed.camera].orthographic;
+        });
+        if (perspective != cameras.end()) {
+            usePlaced(shot, settings, *perspective,
+                      nameOf(shot, static_cast<std::size_t>(perspective - cameras.begin())));
+        } else {
+            useFramed(shot, settings);
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the program does when it is asked rightly.
 #include "folder.h"
+#include "lights_and_cameras.h"
 #include "process.h"
 
 #include "app/command_line.h"
 #include "app/preset.h"
+#include "app/shot.h"
 #include "image/image_io.h"
 
 #include <gtest/gtest.h>
@@ -261,6 +263,23 @@ TEST(Bench, TimesWhatIsAskedFor)
         if (asked.techniques.size() == 2) {
             EXPECT_EQ(bench["settings"]["techniques"], asked.techniques[0] + "," + asked.techniques[1]);
         }
+    }
+}
+
+TEST(Camera, OfAFileIsFoundByEitherNameWithItsPlanes)
+{
+    const test::Folder folder;
+    test::spill(folder / "a.gltf", test::kLightsAndCameras);
+    app::Settings settings = app::defaultSettings();
+    settings.scene = (folder / "a.gltf").string();
+    for (const char* name : {"", "camera1", "Eye"}) {
+        settings.camera = name;
+        const app::Shot shot = app::makeShot(settings);
+        EXPECT_EQ(shot.camera, *name == '\0' ? "camera1" : name);
+        EXPECT_EQ(shot.eye.near_m, 0.25);
+        EXPECT_EQ(shot.eye.far_m, 80.0);
+        ASSERT_EQ(shot.lights.size(), 1U);
+        EXPECT_EQ(shot.lights[0].name, "light0");
     }
 }
 

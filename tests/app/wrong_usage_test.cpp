@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What can be done wrong: one clear line on stderr, the right exit status, nothing left behind.
 #include "folder.h"
+#include "lights_and_cameras.h"
 #include "process.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +49,7 @@ TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
     test::spill(folder / "broken.gltf", "{ not json");
     test::spill(folder / "broken.json", "[1, 2");
     test::spill(folder / "wrong.json", R"({"filtre": "hard"})");
+    test::spill(folder / "lights.gltf", test::kLightsAndCameras);
     const std::size_t before = folder.names().size();
     expectOneLine(test::gnomon(GetParam().arguments, {.folder = folder.path()}), GetParam().status, GetParam().says);
     EXPECT_EQ(folder.names().size(), before);
@@ -163,6 +165,8 @@ const std::vector<Wrong> kWrong{
      {"plan", "planes", "--json", "out.txt"},
      2,
      "must end in .json or be given as --json=out"},
+    {"FramesToAPicture", {"render", "planes", "--frames", "0-1", "-o", "a.exr"}, 2, "with --frames it is a folder"},
+    {"MaskWithoutMap", {"render", "lights.gltf", "--mask", "--light", "Lamp"}, 1, "mask of light light0"},
     {"FramesToAFile", {"render", "planes", "--frames", "0-1", "-o", "broken.json"}, 1, "not a folder"},
     {"BenchJsonIsAFolder", {"bench", "planes", "--json=a_folder"}, 1, "directory"},
 };
