@@ -5,6 +5,7 @@
 
 #include "host/renderer.h"
 #include "scene/load.h"
+#include "truth/visibility.h"
 
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/shadow_renderer.h>
@@ -43,6 +44,15 @@ struct FrameRange {
     std::uint32_t last = 0;
 };
 
+/// --sweep key=from:to:steps: a numeric technique setting takes `steps` values from `from` to `to`, both included.
+struct Sweep {
+    std::string key;
+    double from = 0.0;
+    double to = 0.0;
+    std::uint32_t steps = 0;  // >= 2
+    bool logarithmic = false; // values by equal factors: key=from:to:steps:log
+};
+
 /// What one run was asked to do. Made by defaultSettings() and changed by applySetting() only, so that `values` tells
 /// all.
 struct Settings {
@@ -62,11 +72,17 @@ struct Settings {
     std::optional<glm::dvec3> sun_ws; // unit, the way light travels
     std::optional<SpotLight> spot;
     std::optional<PointLight> point;
+    std::optional<double> sun_angle_deg; // of every directional light; else the light's own
+    std::optional<double> light_size_m;  // diameter of every spot and point light; else the light's own
     // technique
     PlanOptions plan;
     vulkan::FilterOptions filter;
     bool format_given = false; // else the filter's own default
     bool border_given = false; // else what the kernel needs
+    // truth
+    std::optional<truth::Kind> truth; // render: nothing unless given; compare: area
+    std::uint32_t samples = 0;
+    bool no_cache = false;
     // time
     double time_s = 0.0;
     std::optional<FrameRange> frames;
@@ -85,6 +101,11 @@ struct Settings {
     std::vector<std::string> techniques;
     std::uint32_t repetitions = 0;
     std::uint32_t warmup = 0;
+    std::string report; // compare: folder for pictures and a page; empty: none
+    bool equal_error = false;
+    std::optional<Sweep> sweep;
+    std::string test_image; // metrics: the two files
+    std::string truth_image;
 
     /// The text of every setting that has a value, by key; defaults included.
     std::map<std::string, std::string, std::less<>> values;
@@ -95,7 +116,7 @@ struct Settings {
 };
 
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };
-enum class SettingGroup : std::uint8_t { picture, camera, light, technique, time, run, result };
+enum class SettingGroup : std::uint8_t { picture, camera, light, technique, truth, time, run, result };
 
 /// A parsed and range-checked value; the member of the setting's type holds.
 struct SettingValue {
@@ -110,7 +131,10 @@ inline constexpr std::uint32_t kRender = 1;
 inline constexpr std::uint32_t kPlan = 2;
 inline constexpr std::uint32_t kBench = 4;
 inline constexpr std::uint32_t kList = 8;
-inline constexpr std::uint32_t kFrames = kRender | kPlan | kBench; // all that take a scene
+inline constexpr std::uint32_t kCompare = 16;
+inline constexpr std::uint32_t kMetrics = 32;
+inline constexpr std::uint32_t kDraw = kRender | kBench | kCompare;           // all that draw
+inline constexpr std::uint32_t kFrames = kRender | kPlan | kBench | kCompare; // all that take a scene
 
 struct Setting {
     std::string_view key;

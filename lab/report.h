@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a comparison: false colour with legends, and a page that shows them beside the numbers.
+#pragma once
+
+#include "image/image.h"
+#include "lab/metrics/error.h"
+#include "lab/metrics/error_classes.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::lab {
+
+/// Grey, as the eye is used to see it: sRGB-encoded. Pixels outside [0, 1] are clamped; NaN is magenta.
+[[nodiscard]] Image8 greyPicture(const ImageF& mask);
+
+/// test - truth from -1 (too dark, blue) over 0 (white) to 1 (too bright, orange-brown), in a diverging map that people
+/// with any of the usual colour deficiencies can read; left-out pixels dark grey. A legend with numbers is added below.
+[[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
+
+/// One colour-blind-safe colour for each class over a faint grey truth, with a legend that names them.
+[[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& truth);
+
+/// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line's worth
+/// of pixels near 1), with a legend; 0 (left out) dark grey.
+[[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
+
+/// A page without script or anything from elsewhere, which a browser shows from the folder it lies in.
+struct ReportTechnique {
+    std::string name;
+    std::string mask_file; // names within the folder
+    std::string error_file;
+    std::string class_file;
+    std::string density_file;
+};
+struct Report {
+    std::string title;
+    std::string truth_file;
+    std::vector<std::pair<std::string, std::string>> facts; // what was compared, how: name and value
+    std::vector<std::string> columns;                       // of the table, the first the technique's name
+    std::vector<std::vector<std::string>> rows;             // best first
+    std::vector<ReportTechnique> techniques;                // as `rows`
+    std::vector<std::string> notes;                         // sentences
+};
+/// HTML text; every string is escaped.
+[[nodiscard]] std::string reportPage(const Report& report);
+
+} // namespace gnomon::lab

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times of techniques that take turns in one process, so that whatever slows the machine down hits all alike.
+#pragma once
+
+#include "host/renderer.h"
+#include "scene/model.h"
+#include "scene/state.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::lab {
+
+/// What is looked at: one frame of a scene. `scene` and `state` outlive it.
+struct Subject {
+    const scene::Scene* scene = nullptr;
+    const scene::State* state = nullptr;
+    host::Eye eye;
+    std::vector<host::ShadedLight> lights;
+    std::uint32_t light = 0; // the one that is judged, index into `lights`
+};
+
+/// A technique by the options that make it and the name that results show.
+struct Contestant {
+    std::string name;
+    host::RenderOptions options;
+};
+
+/// Milliseconds of one frame by the stages that results name. `filter` is 0 for filters that need no pass of their own.
+struct StageTimes {
+    double plan = 0.0;
+    double maps = 0.0;
+    double filter = 0.0;
+    double mask = 0.0;
+    double frame = 0.0;
+};
+[[nodiscard]] StageTimes stagesOf(const host::FrameTimes& times);
+
+/// Work that does not depend on the machine, of one frame.
+struct Counters {
+    std::uint64_t texels_rendered = 0; // of all tiles that were drawn
+    std::uint64_t vertex_invocations = 0;
+    std::uint64_t primitives = 0;
+    std::uint64_t fragment_invocations = 0;
+    std::uint64_t compute_invocations = 0;
+    std::uint64_t draws = 0;
+    std::uint64_t passes = 0;
+};
+[[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
+
+struct Spread {
+    double median = 0.0;
+    double iqr = 0.0; // third quartile less the first
+};
+/// Quartiles by linear interpolation between order statistics (Hyndman & Fan 1996, type 7). Empty: zeros.
+[[nodiscard]] Spread spreadOf(std::vector<double> values);
+
+struct TimingOptions {
+    std::uint32_t repetitions = 11; // timed frames of each; >= 1
+    std::uint32_t warmup = 2;       // frames of each before them
+    bool reuse_maps = false;        // false: every map is drawn anew every frame
+};
+
+/// What was kept of one technique's frames.
+struct Timed {
+    std::vector<host::FrameTimes> samples;
+    Counters counters; // of the last frame
+    AtlasSize atlas;
+    std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
+};
+struct TimingResult {
+    Timed baseline; // the same frame with no shadows
+    std::vector<Timed> techniques;
+    std::uint64_t baseline_bytes = 0;
+};
+
+/// Draws every contestant and the frame without shadows once in turn, again and again; every other round goes
+/// backwards, so that none always follows the same one. `step` is called after every frame drawn and may throw to stop.
+[[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
+                                      const std::vector<Contestant>& contestants, const TimingOptions& options,
+                                      const std::function<void()>& step);
+
+/// Median frame of `technique` divided by the baseline's; 0 when the baseline has none.
+[[nodiscard]] double frameRatio(const Timed& technique, const Timed& baseline);
+
+} // namespace gnomon::lab

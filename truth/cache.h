@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Truth on disk, by a hash of everything that it depends on. Safe against runs beside each other, torn files and full
+// disks: an entry is either whole and right, or it is not there.
+#pragma once
+
+#include "scene/hash.h"
+#include "truth/visibility.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace gnomon::truth {
+
+/// What one trace gave: all that a comparison needs of the truth.
+struct Traced {
+    Surfaces surfaces;
+    Visibility visibility;
+};
+
+/// Of scene, state, view, light, kind, samples, seed and the tracer's own version; not of threads or callbacks.
+[[nodiscard]] scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const View& view,
+                                   const Light& light, const Options& options);
+
+class Cache {
+public:
+    /// The user's cache folder ($XDG_CACHE_HOME/gnomon/truth, else ~/.cache/gnomon/truth); nothing when neither
+    /// variable names an absolute path.
+    [[nodiscard]] static std::optional<std::filesystem::path> defaultFolder();
+
+    /// Makes nothing until the first store. `max_bytes`: what all entries together may take; the least recently used
+    /// go first.
+    explicit Cache(std::filesystem::path folder, std::uint64_t max_bytes = 4ULL << 30);
+
+    /// Nothing when there is no entry, or one that is torn, of another version or of other sizes than it says (it is
+    /// then removed). Never throws for what is in the file.
+    [[nodiscard]] std::optional<Traced> load(const scene::Hash128& key) const;
+    /// Returns false, with a sentence in `why` if given, when the entry could not be written; then nothing is left
+    /// behind. Never throws for the file system.
+    bool store(const scene::Hash128& key, const Traced& traced, std::string* why = nullptr) const;
+
+private:
+    std::filesystem::path folder_;
+    std::uint64_t max_bytes_;
+};
+
+} // namespace gnomon::truth

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ray-traced visibility: what every technique is held against. Shares no shadow code with what it judges; it knows the
+// scene, a camera's rays and a light, nothing else.
+#pragma once
+
+#include "image/image.h"
+#include "scene/state.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace gnomon::truth {
+
+/// `hard`: one ray to the light's centre. `area`: many to the disc that the light shows to the surface point.
+enum class Kind : std::uint8_t { hard, area };
+
+/// A light as the rays see it.
+struct Light {
+    scene::LightType type = scene::LightType::directional;
+    glm::dvec3 position_ws{0.0};                // spot, point
+    glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
+    double angular_diameter_rad = 0.0092502450; // directional: 0.53 degrees, the sun; [0, pi)
+    double radius_m = 0.0;                      // spot, point: of the emitting sphere; 0 makes area the same as hard
+    double near_m = 0.0;                        // spot, point: nothing nearer to the centre casts
+};
+
+/// Where the rays start and which pixel each goes through: pixel (x, y) looks through the point
+/// ((x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1) of clip space, y down.
+struct View {
+    glm::dvec3 eye_ws{0.0};
+    glm::dmat4 world_from_clip{1.0}; // of any perspective camera whose depth range is [0, 1]
+    glm::uvec2 size_px{0};           // >= 1 each
+};
+
+struct Options {
+    Kind kind = Kind::area;
+    std::uint32_t samples = 256; // rays per pixel for area: 4 .. 65536, a multiple of kSampleSets
+    std::uint64_t seed = 1;
+    std::uint32_t threads = 0; // 0: all cores; the result does not depend on it
+    /// Called now and then from the calling thread with the share done, [0, 1]. May be empty.
+    std::function<void(double)> progress;
+    /// Becomes true from anywhere (a signal handler, say) to give up. May be null.
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+/// The rays of a pixel come in so many sets, each stratified by itself and shifted at random, so that their spread
+/// tells the standard error of the pixel's estimate.
+inline constexpr std::uint32_t kSampleSets = 4;
+
+/// What the camera sees, by a ray through each pixel's centre. Images of the view's size.
+struct Surfaces {
+    ImageOf<std::uint32_t> object_ids;   // index into State::objects + 1; 0: background
+    ImageOf<std::uint32_t> triangle_ids; // within the object's primitive; kNone: background
+    ImageF points;                       // xyz, metres, relative to the eye; 0 at background
+    ImageF normals;                      // xyz, unit, geometric normal of the triangle, towards the eye
+};
+
+/// One light's visibility at every pixel.
+struct Visibility {
+    Kind kind = Kind::area;
+    ImageF visibility;      // [0, 1]: 1 fully lit, and at background and objects that do not receive
+    ImageF standard_error;  // area: of each pixel's estimate, noisy by itself (pool squares over pixels); hard: all 0
+    ImageF first_blocker_m; // metres from the surface to the first thing that blocks; +infinity where nothing does
+    std::uint64_t rays = 0; // shadow rays traced
+    double seconds = 0.0;   // that tracing took; kept when the result comes from a cache
+};
+
+/// Holds the acceleration structure of a scene at one moment. Opaque and alpha-masked surfaces are seen and cast
+/// (masked ones where the texture's alpha, times factor and vertex colour, reaches the cutoff); blended ones do
+/// neither. Objects that do not cast are seen only. Single-sided triangles are seen from their front but cast from both
+/// sides.
+class Tracer {
+public:
+    /// `scene` and `state` must outlive the tracer and stay as they are. Throws Error when memory runs out.
+    Tracer(const scene::Scene& scene, const scene::State& state);
+    ~Tracer();
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    /// One ray per pixel. Nothing when cancelled.
+    [[nodiscard]] std::optional<Surfaces> see(const View& view, const Options& options) const;
+    /// Shadow rays from every surface point, offset along the geometric normal by an epsilon that follows the size of
+    /// the coordinates. A surface that faces away from the light's centre has visibility 0; so has a ray of area truth
+    /// that starts below the surface's own horizon. A spot's cone and range play no part: that is shading. Nothing when
+    /// cancelled. The same input gives the same bits, whatever the number of threads.
+    [[nodiscard]] std::optional<Visibility> trace(const Surfaces& surfaces, const View& view, const Light& light,
+                                                  const Options& options) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::truth
