@@ -18,20 +18,26 @@ namespace gnomon::lab {
 [[nodiscard]] Image8 greyPicture(const ImageF& mask);
 
 /// test - truth from -1 (too dark, blue) over 0 (white) to 1 (too bright, orange-brown), in a diverging map that people
-/// with any of the usual colour deficiencies can read; left-out pixels dark grey. A legend with numbers is added below.
+/// with any of the usual colour deficiencies can read; left-out pixels dark grey, NaN magenta. The scale is the square
+/// root of |test - truth|, so that an error of 0.01 is seen too.
+///
+/// This picture and the next two are RGB and get a legend below them: they are higher than what they show, and at
+/// least 320 px wide (padded on both sides with the legend's dark grey). Precondition: one size, one channel each.
 [[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
 
-/// One colour-blind-safe colour for each class over a faint grey truth, with a legend that names them.
-[[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& truth);
+/// One colour-blind-safe colour for each class over a faint grey truth, with a legend that names them. The colour is as
+/// strong as the square root of |test - truth|: a pixel near an edge without error stays grey.
+[[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
 
-/// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line's worth
-/// of pixels near 1), with a legend; 0 (left out) dark grey.
+/// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line where it
+/// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
 
-/// A page without script or anything from elsewhere, which a browser shows from the folder it lies in.
+/// A page without script or anything from elsewhere, which a browser shows from the folder it lies in. A picture whose
+/// file has no name is left out.
 struct ReportTechnique {
     std::string name;
-    std::string mask_file; // names within the folder
+    std::string mask_file; // paths relative to the page, with /
     std::string error_file;
     std::string class_file;
     std::string density_file;
@@ -41,11 +47,11 @@ struct Report {
     std::string truth_file;
     std::vector<std::pair<std::string, std::string>> facts; // what was compared, how: name and value
     std::vector<std::string> columns;                       // of the table, the first the technique's name
-    std::vector<std::vector<std::string>> rows;             // best first
+    std::vector<std::vector<std::string>> rows;             // best first; each as long as `columns`
     std::vector<ReportTechnique> techniques;                // as `rows`
     std::vector<std::string> notes;                         // sentences
 };
-/// HTML text; every string is escaped.
+/// HTML text in UTF-8; every string is escaped.
 [[nodiscard]] std::string reportPage(const Report& report);
 
 } // namespace gnomon::lab
