@@ -13,8 +13,8 @@ struct TexelDensity {
     double p50 = 0.0;
     double p99 = 0.0;
     std::uint64_t counted = 0;
-    std::uint64_t left_out = 0;
-    ImageF map; // shadow texels per screen pixel of each pixel; 0 where left out
+    std::uint64_t left_out = 0; // other pixels that see a surface
+    ImageF map;                 // shadow texels per screen pixel of each pixel; 0 where left out
 };
 
 /// Shadow texels per screen pixel along the texel grid's worse axis, at each counted pixel of `picture` (depth and
@@ -23,13 +23,10 @@ struct TexelDensity {
                                         const Plan& plan, std::uint32_t light);
 
 /// Texels that some counted pixel reads, divided by the texels rendered for the light; [0, 1], 0 when it has no map. A
-/// pixel reads every texel within `reach_texels` (along x and y) of the place where it is projected: half of the
-/// filter's width in texels, as readReachTexels() has it.
+/// pixel reads every texel whose centre lies within `reach_texels` (along x and y) of the place where the pixel is
+/// projected: vulkan::filterReachTexels(). Of a disc that is the square around it.
 [[nodiscard]] double fitEfficiency(const host::Picture& picture, const Counted& counted, const Camera& camera,
                                    const Plan& plan, std::uint32_t light, double reach_texels);
-
-/// How far from a receiver's place in the map a filter reads, texels along x and y.
-[[nodiscard]] double readReachTexels(const vulkan::FilterOptions& filter);
 
 /// 1 where a pixel's geometric surface faces the light with N·L > kFacing, whatever truth there is; for benches, which
 /// have none.

@@ -63,13 +63,14 @@ struct Spread {
 struct TimingOptions {
     std::uint32_t repetitions = 11; // timed frames of each; >= 1
     std::uint32_t warmup = 2;       // frames of each before them
-    bool reuse_maps = false;        // false: every map is drawn anew every frame
+    bool reuse_maps = false; // false: every map is drawn anew every frame; true: as each contestant's options say
 };
 
 /// What was kept of one technique's frames.
 struct Timed {
     std::vector<host::FrameTimes> samples;
     Counters counters; // of the last frame
+    Plan plan;         // of the last frame; without shadows: empty
     AtlasSize atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
 };
@@ -79,8 +80,10 @@ struct TimingResult {
     std::uint64_t baseline_bytes = 0;
 };
 
-/// Draws every contestant and the frame without shadows once in turn, again and again; every other round goes
-/// backwards, so that none always follows the same one. `step` is called after every frame drawn and may throw to stop.
+/// Draws every contestant and the frame without shadows (the first one's options otherwise) once in turn, again and
+/// again; every other round goes backwards, so that none always follows the same one. `step` is called after every
+/// frame drawn and may throw to stop; it may be empty. Every contestant's images are in memory at once. Precondition:
+/// one contestant at least.
 [[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);

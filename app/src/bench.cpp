@@ -7,6 +7,8 @@
 #include "subcommands.h"
 
 #include "image/image_io.h"
+#include "lab/texel_density.h"
+#include "lab/timing.h"
 
 #include <gnomon/error.h>
 
@@ -14,7 +16,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
 
 namespace gnomon::app {
 namespace {
@@ -55,101 +56,63 @@ std::vector<Settings> contestants(const Settings& settings)
     return made;
 }
 
-std::uint64_t totalBytes(const host::Renderer& renderer)
+lab::Subject subjectOf(const Shot& shot)
 {
-    std::uint64_t total = 0;
-    for (const vulkan::MemoryUse& use : renderer.memory()) {
-        total += use.bytes;
-    }
-    return total;
+    return {.scene = &shot.scene, .state = &shot.state, .eye = shot.eye, .lights = shot.lights, .light = 0};
 }
 
-/// What one technique needs beyond the frame without shadows, by purpose.
-std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
-                                                               const host::Renderer& baseline)
+/// Every technique twice: maps drawn anew, and kept while they hold.
+std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques)
 {
-    std::vector<std::pair<std::string, std::uint64_t>> added;
-    for (const vulkan::MemoryUse& use : technique.memory()) {
-        std::uint64_t before = 0;
-        for (const vulkan::MemoryUse& other : baseline.memory()) {
-            before += std::string_view(other.purpose) == use.purpose ? other.bytes : 0;
-        }
-        if (use.bytes > before) {
-            added.emplace_back(use.purpose, use.bytes - before);
+    std::vector<lab::Contestant> contestants;
+    for (const Settings& technique : techniques) {
+        for (const bool reuse_maps : {false, true}) {
+            lab::Contestant contestant{describeTechnique(technique), renderOptions(technique)};
+            contestant.options.reuse_maps = reuse_maps;
+            contestants.push_back(std::move(contestant));
         }
     }
-    return added;
+    return contestants;
 }
 
-TexelDensity densityOf(host::Renderer& renderer, const Shot& shot, const Settings& settings)
+/// What the maps give to the picture, which is the same for every technique.
+void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, BenchResult& result)
 {
+    host::RenderOptions options = renderOptions(settings);
+    options.shadows = false;
+    host::Renderer renderer(gpu, shot.scene, shot.state, options);
+    renderer.draw(shot.state, shot.eye, shot.lights);
     const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});
     const Camera camera = host::cameraOf(shot.eye, settings.size_px.x, settings.size_px.y, shot.state.bounds_ws);
-    const std::vector<Light> lights = castersOf(shot);
-    return texelDensity(picture, camera, renderer.plan(), lights, 0);
-}
-
-/// Draws every renderer once in turn, again and again, so that whatever slows the machine down hits all alike. Every
-/// other round goes backwards, so that none always follows the same one.
-void drawInTurn(std::vector<std::unique_ptr<host::Renderer>>& renderers, const Shot& shot, const Settings& settings,
-                std::vector<std::vector<host::FrameTimes>>& samples, const host::Gpu& gpu, Progress& progress)
-{
-    samples.assign(renderers.size(), {});
-    for (std::uint32_t round = 0; round < settings.warmup + settings.repetitions; ++round) {
-        for (std::size_t turn = 0; turn < renderers.size(); ++turn) {
-            const std::size_t i = round % 2 == 0 ? turn : renderers.size() - 1 - turn;
-            host::FrameTimes times = renderers[i]->draw(shot.state, shot.eye, shot.lights);
-            requireSilence(gpu);
-            progress.step();
-            if (round >= settings.warmup) {
-                samples[i].push_back(std::move(times));
-            }
-        }
+    const lab::Counted counted = lab::facingPixels(picture, camera, shot.lights.front().caster);
+    for (BenchedTechnique& technique : result.techniques) {
+        const Plan& plan = technique.redrawn.plan;
+        technique.density = lab::texelDensity(picture, counted, camera, plan, 0);
+        technique.fit_efficiency =
+            lab::fitEfficiency(picture, counted, camera, plan, 0, vulkan::filterReachTexels(technique.settings.filter));
     }
-}
-
-/// The first renderer draws without shadows, the others one technique each.
-std::vector<std::unique_ptr<host::Renderer>> makeRenderers(host::Gpu& gpu, const Shot& shot, const Settings& base,
-                                                           const std::vector<Settings>& techniques, bool reuse_maps)
-{
-    std::vector<std::unique_ptr<host::Renderer>> renderers;
-    for (std::size_t i = 0; i <= techniques.size(); ++i) {
-        host::RenderOptions options = renderOptions(i == 0 ? base : techniques[i - 1]);
-        options.shadows = i != 0;
-        options.reuse_maps = reuse_maps;
-        renderers.push_back(std::make_unique<host::Renderer>(gpu, shot.scene, shot.state, options));
-    }
-    return renderers;
 }
 
 BenchResult measure(host::Gpu& gpu, const Shot& shot, const Settings& settings, const std::vector<Settings>& techniques)
 {
+    const lab::TimingOptions options{
+        .repetitions = settings.repetitions, .warmup = settings.warmup, .reuse_maps = true};
+    Progress progress("timing", (2 * techniques.size() + 1) * (settings.warmup + settings.repetitions));
+    lab::TimingResult timing = lab::timeInTurn(gpu, subjectOf(shot), contestantsOf(techniques), options, [&] {
+        requireSilence(gpu);
+        progress.step();
+    });
     BenchResult result;
-    const std::size_t frames = 2 * (techniques.size() + 1) * (settings.warmup + settings.repetitions);
-    Progress progress("timing", frames);
-    std::vector<std::vector<host::FrameTimes>> samples;
-    {
-        auto renderers = makeRenderers(gpu, shot, settings, techniques, false);
-        drawInTurn(renderers, shot, settings, samples, gpu, progress);
-        result.baseline = samples[0];
-        result.baseline_bytes = totalBytes(*renderers[0]);
-        for (std::size_t i = 0; i < techniques.size(); ++i) {
-            BenchedTechnique benched;
-            benched.settings = techniques[i];
-            benched.redrawn = samples[i + 1];
-            benched.memory = addedMemory(*renderers[i + 1], *renderers[0]);
-            benched.counters = countersOf(samples[i + 1].back(), renderers[i + 1]->plan(), true);
-            benched.atlas = renderers[i + 1]->plan().atlas;
-            benched.density = densityOf(*renderers[i + 1], shot, settings);
-            result.techniques.push_back(std::move(benched));
-        }
-    }
-    auto renderers = makeRenderers(gpu, shot, settings, techniques, true);
-    drawInTurn(renderers, shot, settings, samples, gpu, progress);
+    result.baseline = std::move(timing.baseline);
+    result.baseline_bytes = timing.baseline_bytes;
     for (std::size_t i = 0; i < techniques.size(); ++i) {
-        result.techniques[i].reused = samples[i + 1];
+        BenchedTechnique benched;
+        benched.settings = techniques[i];
+        benched.redrawn = std::move(timing.techniques[2 * i]);
+        benched.reused = std::move(timing.techniques[2 * i + 1]);
+        result.techniques.push_back(std::move(benched));
     }
-    result.reused_baseline = samples[0];
+    measureFit(gpu, shot, settings, result);
     return result;
 }
 

@@ -14,19 +14,19 @@ namespace {
 
 struct Stage {
     std::string_view name;
-    double StageTimes::*member;
+    double lab::StageTimes::*member;
 };
-constexpr std::array kStages{Stage{"plan", &StageTimes::plan}, Stage{"maps", &StageTimes::maps},
-                             Stage{"filter", &StageTimes::filter}, Stage{"mask", &StageTimes::mask},
-                             Stage{"frame", &StageTimes::frame}};
+constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps", &lab::StageTimes::maps},
+                             Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
+                             Stage{"frame", &lab::StageTimes::frame}};
 
-Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
+lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
 {
     std::vector<double> values;
     for (const host::FrameTimes& sample : samples) {
-        values.push_back(stagesOf(sample).*stage.member);
+        values.push_back(lab::stagesOf(sample).*stage.member);
     }
-    return spreadOf(std::move(values));
+    return lab::spreadOf(std::move(values));
 }
 
 /// Microseconds are all that a clock gives; more digits would only look exact.
@@ -38,7 +38,7 @@ double rounded(double milliseconds)
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples)
 {
     for (const Stage& stage : kStages) {
-        const Spread spread = spreadOfStage(samples, stage);
+        const lab::Spread spread = spreadOfStage(samples, stage);
         json[prefix + "time_ms"][std::string(stage.name)] = rounded(spread.median);
         json[prefix + "iqr_ms"][std::string(stage.name)] = rounded(spread.iqr);
     }
@@ -58,7 +58,7 @@ Json passesJson(const std::vector<host::FrameTimes>& samples)
                 values.push_back(sample.passes[i].milliseconds);
             }
         }
-        passes[samples.front().passes[i].name] = rounded(spreadOf(std::move(values)).median);
+        passes[samples.front().passes[i].name] = rounded(lab::spreadOf(std::move(values)).median);
     }
     return passes;
 }
@@ -68,16 +68,15 @@ double frameMedian(const std::vector<host::FrameTimes>& samples)
     return spreadOfStage(samples, kStages.back()).median;
 }
 
-double ratio(const std::vector<host::FrameTimes>& technique, const std::vector<host::FrameTimes>& baseline)
+double ratio(const lab::Timed& technique, const lab::Timed& baseline)
 {
-    const double without = frameMedian(baseline);
-    return without > 0.0 ? std::round(frameMedian(technique) / without * 1e4) / 1e4 : 0.0;
+    return std::round(lab::frameRatio(technique, baseline) * 1e4) / 1e4;
 }
 
 std::uint64_t memoryBytes(const BenchedTechnique& technique)
 {
     std::uint64_t bytes = 0;
-    for (const auto& [purpose, count] : technique.memory) {
+    for (const auto& [purpose, count] : technique.redrawn.added_memory) {
         bytes += count;
     }
     return bytes;
@@ -103,7 +102,7 @@ std::uint32_t texelBytes(MapFormat format)
     return 0;
 }
 
-Json countersJson(const Counters& counters)
+Json countersJson(const lab::Counters& counters)
 {
     return {{"texels_rendered", counters.texels_rendered},
             {"texels_filtered", 0}, // hard and pcf filter nothing ahead of the mask
@@ -117,17 +116,18 @@ Json countersJson(const Counters& counters)
 
 Json techniqueJson(const BenchedTechnique& technique, const BenchResult& result)
 {
-    const std::uint64_t texels = std::uint64_t{technique.atlas.width} * technique.atlas.height * technique.atlas.layers;
+    const AtlasSize& atlas = technique.redrawn.atlas;
+    const std::uint64_t texels = std::uint64_t{atlas.width} * atlas.height * atlas.layers;
     const MapFormat format = technique.settings.filter.format;
     Json json{{"technique", describeTechnique(technique.settings)},
               {"choices", choicesJson(technique.settings.plan.technique)},
               {"map", {{"texels", texels}, {"bytes", texels * texelBytes(format)}, {"format", nameOf(format)}}}};
-    addTimes(json, "", technique.redrawn);
+    addTimes(json, "", technique.redrawn.samples);
     json["frame_ratio"] = ratio(technique.redrawn, result.baseline);
-    addTimes(json, "static_", technique.reused);
-    json["static_frame_ratio"] = ratio(technique.reused, result.reused_baseline);
+    addTimes(json, "static_", technique.reused.samples);
+    json["static_frame_ratio"] = ratio(technique.reused, result.baseline);
     json["memory_bytes"] = memoryBytes(technique);
-    for (const auto& [purpose, bytes] : technique.memory) {
+    for (const auto& [purpose, bytes] : technique.redrawn.added_memory) {
         json["memory_by_purpose_bytes"][purpose] = bytes;
     }
     json["texel_density"] = {
@@ -135,8 +135,9 @@ Json techniqueJson(const BenchedTechnique& technique, const BenchResult& result)
         {"p50", technique.density.p50},
         {"p99", technique.density.p99},
         {"pixels", {{"counted", technique.density.counted}, {"left_out", technique.density.left_out}}}};
-    json["counters"] = countersJson(technique.counters);
-    json["passes_ms"] = passesJson(technique.redrawn);
+    json["fit_efficiency"] = std::round(technique.fit_efficiency * 1e6) / 1e6;
+    json["counters"] = countersJson(technique.redrawn.counters);
+    json["passes_ms"] = passesJson(technique.redrawn.samples);
     json["settings"] = settingsJson(technique.settings, kBench);
     return json;
 }
@@ -158,9 +159,9 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     }
     json["settings"] = settingsJson(settings, kBench);
     Json baseline;
-    addTimes(baseline, "", result.baseline);
+    addTimes(baseline, "", result.baseline.samples);
     baseline["memory_bytes"] = result.baseline_bytes;
-    baseline["passes_ms"] = passesJson(result.baseline);
+    baseline["passes_ms"] = passesJson(result.baseline.samples);
     json["baseline"] = baseline;
     json["results"] = Json::array();
     for (const BenchedTechnique& technique : result.techniques) {
@@ -184,19 +185,18 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
         text += fmt::format("{:>9}", stage.name);
     }
     text += fmt::format("{:>8}{:>7}{:>9}{:>7}{:>9}\n", "iqr", "ratio", "static", "ratio", "MiB");
-    const Spread without = spreadOfStage(result.baseline, kStages.back());
+    const lab::Spread without = spreadOfStage(result.baseline.samples, kStages.back());
     text += fmt::format("{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9.3f}{:>8.3f}{:>7}\n", "no shadows", width, "", "", "", "",
                         without.median, without.iqr, "1.00");
     for (const BenchedTechnique& technique : result.techniques) {
         text += fmt::format("{:<{}}", describeTechnique(technique.settings), width);
         for (const Stage& stage : kStages) {
-            text += fmt::format("{:>9.3f}", spreadOfStage(technique.redrawn, stage).median);
+            text += fmt::format("{:>9.3f}", spreadOfStage(technique.redrawn.samples, stage).median);
         }
-        text +=
-            fmt::format("{:>8.3f}{:>7.2f}{:>9.3f}{:>7.2f}{:>9.2f}\n",
-                        spreadOfStage(technique.redrawn, kStages.back()).iqr, ratio(technique.redrawn, result.baseline),
-                        frameMedian(technique.reused), ratio(technique.reused, result.reused_baseline),
-                        static_cast<double>(memoryBytes(technique)) / (1024.0 * 1024.0));
+        text += fmt::format(
+            "{:>8.3f}{:>7.2f}{:>9.3f}{:>7.2f}{:>9.2f}\n", spreadOfStage(technique.redrawn.samples, kStages.back()).iqr,
+            ratio(technique.redrawn, result.baseline), frameMedian(technique.reused.samples),
+            ratio(technique.reused, result.baseline), static_cast<double>(memoryBytes(technique)) / (1024.0 * 1024.0));
     }
     return text;
 }

@@ -3,31 +3,28 @@
 #pragma once
 
 #include "app/shot.h"
-#include "bench_stages.h"
+#include "lab/texel_density.h"
+#include "lab/timing.h"
 #include "result_json.h"
-#include "texel_density.h"
 
+#include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gnomon::app {
 
 struct BenchedTechnique {
     Settings settings;
-    std::vector<host::FrameTimes> redrawn; // every map drawn in every frame
-    std::vector<host::FrameTimes> reused;  // maps that still hold are kept
-    std::vector<std::pair<std::string, std::uint64_t>> memory;
-    Counters counters; // of a redrawn frame
-    AtlasSize atlas;
-    TexelDensity density; // of the first light
+    lab::Timed redrawn;        // every map drawn in every frame
+    lab::Timed reused;         // maps that still hold are kept
+    lab::TexelDensity density; // of the first light; and so the next
+    double fit_efficiency = 0.0;
 };
 
 struct BenchResult {
     std::string device;
     std::string driver;
-    std::vector<host::FrameTimes> baseline; // without shadows, in turn with the redrawn frames
-    std::vector<host::FrameTimes> reused_baseline;
+    lab::Timed baseline; // without shadows
     std::uint64_t baseline_bytes = 0;
     std::vector<BenchedTechnique> techniques;
 };

@@ -9,8 +9,6 @@
 
 namespace gnomon::vulkan {
 
-/// How many texels from the receiver, per axis, the centres of a filter's texels can be.
-[[nodiscard]] float filterReachTexels(const FilterOptions& filter);
 /// Width of a separable kernel; 0 for the discs.
 [[nodiscard]] int kernelWidth(const FilterOptions& filter);
 

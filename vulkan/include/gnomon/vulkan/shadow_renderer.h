@@ -28,6 +28,9 @@ struct FilterOptions {
     float gaussian_sigma_texels = 0.0F; // gaussian kernels: 0 picks width / 4; 0.3 .. 4
     BiasOptions bias;
 };
+/// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
+/// many texels away, along x and y each. What PlanOptions::border_texels should have room for.
+[[nodiscard]] float filterReachTexels(const FilterOptions& filter);
 
 struct ShadowRendererOptions {
     FilterOptions filter;

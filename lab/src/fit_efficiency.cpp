@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/texel_density.h"
+
+#include "pixel_rays.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace gnomon::lab {
+namespace {
+
+/// Which texels of one tile are read: a bit each, because maps may have 16384 on a side.
+class ReadTexels {
+public:
+    explicit ReadTexels(const Tile& tile)
+        : width_(tile.width), height_(tile.height), words_per_row_((tile.width + 63) / 64),
+          words_(static_cast<std::size_t>(words_per_row_) * tile.height)
+    {
+    }
+    /// Every texel whose centre is within `reach` of `texel`. A centre exactly that far counts on the far side only, so
+    /// that a reach of 0.5 is the texel itself, and n / 2 always n texels.
+    void add(glm::dvec2 texel, double reach)
+    {
+        const auto [x0, x1] = range(texel.x, reach, width_);
+        const auto [y0, y1] = range(texel.y, reach, height_);
+        for (std::int64_t y = y0; y < y1 && x0 < x1; ++y) {
+            addRun(static_cast<std::size_t>(y) * words_per_row_, static_cast<std::size_t>(x0),
+                   static_cast<std::size_t>(x1));
+        }
+    }
+    [[nodiscard]] std::uint64_t count() const
+    {
+        std::uint64_t sum = 0;
+        for (const std::uint64_t word : words_) {
+            sum += static_cast<std::uint64_t>(std::popcount(word));
+        }
+        return sum;
+    }
+
+private:
+    static std::pair<std::int64_t, std::int64_t> range(double place, double reach, std::uint32_t size)
+    {
+        const auto first = static_cast<std::int64_t>(std::floor(place - reach + 0.5));
+        const auto end = static_cast<std::int64_t>(std::floor(place + reach + 0.5));
+        return {std::max<std::int64_t>(first, 0), std::min<std::int64_t>(end, size)};
+    }
+    /// Sets bits [first, end) of a row, a word at a time.
+    void addRun(std::size_t row, std::size_t first, std::size_t end)
+    {
+        for (std::size_t word = first / 64; word * 64 < end; ++word) {
+            std::uint64_t bits = ~std::uint64_t{0};
+            if (word * 64 < first) {
+                bits &= ~std::uint64_t{0} << (first - word * 64);
+            }
+            if (end - word * 64 < 64) {
+                bits &= ~(~std::uint64_t{0} << (end - word * 64));
+            }
+            words_[row + word] |= bits;
+        }
+    }
+
+    std::uint32_t width_;
+    std::uint32_t height_;
+    std::size_t words_per_row_;
+    std::vector<std::uint64_t> words_;
+};
+
+} // namespace
+
+double fitEfficiency(const host::Picture& picture, const Counted& counted, const Camera& camera, const Plan& plan,
+                     std::uint32_t light, double reach_texels)
+{
+    assert(counted.width == picture.depth.width && counted.height == picture.depth.height);
+    assert(light < plan.lights.size());
+    const LightPlan& light_plan = plan.lights[light];
+    const PixelRays rays(camera, {picture.depth.width, picture.depth.height});
+    std::vector<ReadTexels> read;
+    std::uint64_t rendered = 0;
+    for (std::uint32_t v = 0; v < light_plan.view_count; ++v) {
+        const Tile& tile = plan.views[light_plan.first_view + v].tile;
+        read.emplace_back(tile);
+        rendered += std::uint64_t{tile.width} * tile.height;
+    }
+    for (std::uint32_t y = 0; y < counted.height; ++y) {
+        for (std::uint32_t x = 0; x < counted.width; ++x) {
+            const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(picture, x, y) : std::nullopt;
+            for (std::uint32_t v = 0; surface && v < light_plan.view_count; ++v) {
+                const View& view = plan.views[light_plan.first_view + v];
+                const auto texel = texelOf(view, surface->point_ws);
+                if (texel && insideTile(view, *texel)) {
+                    read[v].add(*texel, reach_texels);
+                    break; // the mask pass reads the first view that has the pixel
+                }
+            }
+        }
+    }
+    std::uint64_t used = 0;
+    for (const ReadTexels& texels : read) {
+        used += texels.count();
+    }
+    return rendered > 0 ? static_cast<double>(used) / static_cast<double>(rendered) : 0.0;
+}
+
+} // namespace gnomon::lab

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// From pixels to the surface that they see, and from there to texels.
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include "host/renderer.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace gnomon::lab {
+
+/// One pixel's surface: a point and the plane through it.
+struct Surface {
+    glm::dvec3 point_ws;
+    glm::dvec3 normal_ws;
+};
+
+class PixelRays {
+public:
+    PixelRays(const Camera& camera, glm::dvec2 size_px)
+        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(camera.clip_from_world)), size_px_(size_px)
+    {
+    }
+    /// `pixel` in pixels from the top left; a pixel's centre is at half.
+    [[nodiscard]] glm::dvec3 point(glm::dvec2 pixel, double depth) const
+    {
+        const glm::dvec2 ndc = pixel / size_px_ * 2.0 - 1.0;
+        const glm::dvec4 p = world_from_clip_ * glm::dvec4(ndc, depth, 1.0);
+        return glm::dvec3(p) / p.w;
+    }
+    /// Where the ray through a pixel meets the surface's plane.
+    [[nodiscard]] glm::dvec3 onPlane(glm::dvec2 pixel, const Surface& surface) const
+    {
+        const glm::dvec3 direction = point(pixel, 0.5) - eye_ws_;
+        const double t =
+            glm::dot(surface.normal_ws, surface.point_ws - eye_ws_) / glm::dot(surface.normal_ws, direction);
+        return eye_ws_ + direction * t;
+    }
+    /// What pixel (x, y) of a picture sees; nothing at background.
+    [[nodiscard]] std::optional<Surface> surfaceAt(const host::Picture& picture, std::uint32_t x, std::uint32_t y) const
+    {
+        const double depth = *picture.depth.pixel(x, y);
+        if (depth <= 0.0) {
+            return std::nullopt;
+        }
+        const float* normal = picture.normals.pixel(x, y);
+        return Surface{point({x + 0.5, y + 0.5}, depth), {normal[0], normal[1], normal[2]}};
+    }
+
+private:
+    glm::dvec3 eye_ws_;
+    glm::dmat4 world_from_clip_;
+    glm::dvec2 size_px_;
+};
+
+/// Texel coordinates within the view's tile, unbounded; nothing behind the view.
+inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& point_ws)
+{
+    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
+    if (clip.w <= 0.0) {
+        return std::nullopt;
+    }
+    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+}
+
+inline bool insideTile(const View& view, const glm::dvec2& texel)
+{
+    return texel.x >= 0.0 && texel.y >= 0.0 && texel.x <= view.tile.width && texel.y <= view.tile.height;
+}
+
+/// Unit, from a point to the light's centre.
+inline glm::dvec3 towardsLight(const Light& light, const glm::dvec3& point_ws)
+{
+    return light.type == LightType::directional ? -light.direction_ws : glm::normalize(light.position_ws - point_ws);
+}
+
+} // namespace gnomon::lab
