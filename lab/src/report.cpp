@@ -1,1 +1,198 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/report.h"
+
+#include "false_colour.h"
+#include "legend.h"
+#include "lettering.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace gnomon::lab {
+namespace {
+
+template <typename T, typename U>
+[[maybe_unused]] bool sameSize(const ImageOf<T>& a, const ImageOf<U>& b)
+{
+    return a.channels == 1 && b.channels == 1 && a.width == b.width && a.height == b.height;
+}
+
+// `colour_of` takes the number of a pixel, from the first row's left.
+template <typename ColourOf>
+Image8 paint(std::uint32_t width, std::uint32_t height, const ColourOf& colour_of)
+{
+    Image8 picture(width, height, 3);
+    std::size_t i = 0;
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::uint32_t x = 0; x < width; ++x, ++i)
+            setPixel(picture, x, y, colour_of(i));
+    }
+    return picture;
+}
+
+// Said only where it is seen.
+void nameNotANumber(Legend& legend, bool any)
+{
+    if (any)
+        legend.swatches.push_back({kNotANumber, kNotANumber, "not a number"});
+}
+
+Legend errorLegend()
+{
+    Legend legend;
+    legend.title = "Error: technique - truth";
+    legend.subtitle = "scale: square root, to show small errors";
+    ScaleBar bar;
+    bar.colour_at = [](double place) {
+        const double s = 2.0 * place - 1.0;
+        return errorColour(s * std::abs(s));
+    };
+    struct Mark {
+        double error;
+        const char* number;
+    };
+    constexpr std::array<Mark, 6> marks = {
+        {{1.0, "1"}, {0.1, "0.1"}, {0.5, "0.5"}, {0.01, "0.01"}, {0.25, "0.25"}, {0.75, "0.75"}}};
+    bar.ticks.push_back({0.5, "0"});
+    for (const Mark& mark : marks) {
+        bar.ticks.push_back({0.5 - 0.5 * std::sqrt(mark.error), std::string("-") + mark.number});
+        bar.ticks.push_back({0.5 + 0.5 * std::sqrt(mark.error), std::string("+") + mark.number});
+    }
+    bar.low = "too dark";
+    bar.middle = "no error";
+    bar.high = "too bright";
+    legend.bar = bar;
+    legend.swatches = {{kLeftOut, kLeftOut, "left out"}};
+    return legend;
+}
+
+Legend classLegend()
+{
+    const auto swatch = [](ErrorClass error_class, const char* text) {
+        return Swatch{kFaintDark, classColour(error_class), text};
+    };
+    Legend legend;
+    legend.title = "Where the error comes from";
+    legend.subtitle = "stronger colour: larger error (square root)";
+    legend.swatches = {swatch(ErrorClass::edge, "edge: aliasing, penumbra width"),
+                       swatch(ErrorClass::acne, "acne: false self-shadowing"),
+                       swatch(ErrorClass::detached, "detached: peter-panning"),
+                       swatch(ErrorClass::bleeding, "bleeding: light leaks"),
+                       swatch(ErrorClass::correct, "no error: the truth in grey"),
+                       {kLeftOut, kLeftOut, "left out"}};
+    return legend;
+}
+
+Legend densityLegend()
+{
+    Legend legend;
+    legend.title = "Shadow texels per screen pixel";
+    legend.subtitle = "along the worse axis; scale: logarithmic";
+    ScaleBar bar;
+    bar.colour_at = [](double place) {
+        return std::abs(place - 0.5) < 0.002 ? kWhite : densityColour(std::exp2((2.0 * place - 1.0) * kDensityOctaves));
+    };
+    constexpr std::array<const char*, 9> labels = {"1/16", "1/8", "1/4", "1/2", "1", "2", "4", "8", "16"};
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        bar.ticks.push_back({static_cast<double>(i) / (labels.size() - 1), labels[i]});
+    bar.low = "blocky";
+    bar.middle = "one to one";
+    bar.high = "finer than pixels";
+    legend.bar = bar;
+    legend.swatches = {{kWhite, kWhite, "passes through 1"}, {kLeftOut, kLeftOut, "left out"}};
+    return legend;
+}
+
+// Two neighbours on different sides of 1 are a line, unless they lie farther apart than a factor of 2: then they are
+// two surfaces, and nothing passes through 1.
+bool passesThroughOne(float a, float b)
+{
+    return a > 0.0F && b > 0.0F && (a >= 1.0F) != (b >= 1.0F) && a <= 2.0F * b && b <= 2.0F * a;
+}
+
+void drawLineAtOne(Image8& picture, const ImageF& density)
+{
+    const auto mark = [&](std::uint32_t x, std::uint32_t y, std::uint32_t to_x, std::uint32_t to_y) {
+        if (passesThroughOne(*density.pixel(x, y), *density.pixel(to_x, to_y))) {
+            setPixel(picture, x, y, kWhite);
+            setPixel(picture, to_x, to_y, kWhite);
+        }
+    };
+    for (std::uint32_t y = 0; y < density.height; ++y) {
+        for (std::uint32_t x = 0; x < density.width; ++x) {
+            if (x + 1 < density.width)
+                mark(x, y, x + 1, y);
+            if (y + 1 < density.height)
+                mark(x, y, x, y + 1);
+        }
+    }
+}
+
+} // namespace
+
+Image8 greyPicture(const ImageF& mask)
+{
+    assert(mask.channels == 1);
+    return paint(mask.width, mask.height, [&](std::size_t i) {
+        if (std::isnan(mask.values[i]))
+            return kNotANumber;
+        const std::uint8_t grey = encodeSrgb(mask.values[i]);
+        return Colour{grey, grey, grey};
+    });
+}
+
+Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
+{
+    assert(sameSize(test, truth) && sameSize(test, counted));
+    bool any_nan = false;
+    const Image8 picture = paint(test.width, test.height, [&](std::size_t i) {
+        if (counted.values[i] == 0)
+            return kLeftOut;
+        const float error = test.values[i] - truth.values[i];
+        any_nan = any_nan || std::isnan(error);
+        return errorColour(error);
+    });
+    Legend legend = errorLegend();
+    nameNotANumber(legend, any_nan);
+    return addLegend(picture, legend);
+}
+
+Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
+{
+    assert(sameSize(classes, test) && sameSize(test, truth));
+    bool any_nan = false;
+    const Image8 picture = paint(classes.width, classes.height, [&](std::size_t i) {
+        if (classes.values[i] == ErrorClass::left_out)
+            return kLeftOut;
+        const double error = std::abs(static_cast<double>(test.values[i]) - truth.values[i]);
+        if (std::isnan(error)) {
+            any_nan = true;
+            return kNotANumber;
+        }
+        const Colour grey = mixLight(kFaintDark, kFaintLight, std::clamp(truth.values[i], 0.0F, 1.0F));
+        if (classes.values[i] == ErrorClass::correct)
+            return grey;
+        return mixLight(grey, classColour(classes.values[i]), std::sqrt(std::min(error, 1.0)));
+    });
+    Legend legend = classLegend();
+    nameNotANumber(legend, any_nan);
+    return addLegend(picture, legend);
+}
+
+Image8 densityPicture(const ImageF& texels_per_pixel)
+{
+    assert(texels_per_pixel.channels == 1);
+    bool any_nan = false;
+    Image8 picture = paint(texels_per_pixel.width, texels_per_pixel.height, [&](std::size_t i) {
+        any_nan = any_nan || std::isnan(texels_per_pixel.values[i]);
+        return densityColour(texels_per_pixel.values[i]);
+    });
+    drawLineAtOne(picture, texels_per_pixel);
+    Legend legend = densityLegend();
+    nameNotANumber(legend, any_nan);
+    return addLegend(picture, legend);
+}
+
+} // namespace gnomon::lab

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the colours of a picture mean, written below it.
+#pragma once
+
+#include "false_colour.h"
+#include "image/image.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::lab {
+
+inline constexpr std::uint32_t kLegendMinimumWidth = 320; // px
+inline constexpr Colour kLegendGround{24, 24, 24};
+
+struct Tick {
+    double place = 0.0; // along the bar, [0, 1]
+    std::string label;
+};
+/// A bar of colours with ticks below it. Where labels would touch, those of later ticks are left away: the most
+/// important come first.
+struct ScaleBar {
+    std::function<Colour(double)> colour_at; // of a place in [0, 1]
+    std::vector<Tick> ticks;
+    std::string low; // below the bar's left end, middle and right end
+    std::string middle;
+    std::string high;
+};
+/// A box that goes from one colour to another, and what it means.
+struct Swatch {
+    Colour from;
+    Colour to;
+    std::string text;
+};
+/// ASCII. A line of text has room for 43 bold or 50 normal letters in the narrowest legend.
+struct Legend {
+    std::string title;
+    std::string subtitle;
+    std::optional<ScaleBar> bar;
+    std::vector<Swatch> swatches;
+};
+
+/// `picture` is RGB. The result holds it on top, unchanged, in the middle when it is narrower than
+/// kLegendMinimumWidth. Letters grow with the picture, so that they can be read when it is shown smaller.
+[[nodiscard]] Image8 addLegend(const Image8& picture, const Legend& legend);
+
+} // namespace gnomon::lab
