@@ -17,17 +17,20 @@
 
 namespace gnomon::lab {
 
-/// The camera's rays and the light of a subject as the tracer takes them.
+/// The camera's rays and the light of a subject as the tracer takes them. Light::near_m 0 becomes 1/1000 of the light's
+/// reach, as for the planner. A light alone does not know how far its scene goes, so where range_m is 0 too, only the
+/// subject's light has a near distance.
 [[nodiscard]] truth::View truthView(const Subject& subject, glm::uvec2 size_px);
+[[nodiscard]] truth::Light truthLight(const Subject& subject);
 [[nodiscard]] truth::Light truthLight(const Light& light);
 
-/// Why pixels do not count, and how many do.
+/// Why pixels do not count, and how many do. A pixel that several reasons leave out belongs to the first of them.
 struct PixelCounts {
     std::uint64_t counted = 0;
     std::uint64_t background = 0;   // neither side sees anything
     std::uint64_t other_object = 0; // the sides see different objects
     std::uint64_t facing_away = 0;  // N·L of the triangle is 0.05 or less
-    std::uint64_t unlit = 0;        // outside the light's cone or range: nothing to shadow
+    std::uint64_t unlit = 0;        // outside the light's cone or farther than its range: nothing to shadow
     std::uint64_t no_receiver = 0;  // the object receives no shadow
 
     [[nodiscard]] std::uint64_t leftOut() const
@@ -57,11 +60,11 @@ struct Score {
     AtlasSize atlas;
 };
 
-/// Draws the subject with one technique and holds its mask against the truth. `with_perception`: ssim and flip too,
-/// which take longer than all else.
+/// Draws the subject with one technique, at the truth's size and without anti-aliasing whatever `options` say, and
+/// holds its mask against the truth. `with_perception`: ssim and flip too, which take longer than all else.
 [[nodiscard]] Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
                                    const host::RenderOptions& options, bool with_perception = true);
-/// The same for any mask of the truth's size, with the geometry of `picture`.
+/// The same for any mask of the truth's size, with the geometry of `picture`; what tells of maps stays 0.
 [[nodiscard]] Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::Picture& picture,
                               const ImageF& mask, bool with_perception = true);
 

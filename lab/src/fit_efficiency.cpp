@@ -75,22 +75,20 @@ double fitEfficiency(const host::Picture& picture, const Counted& counted, const
 {
     assert(counted.width == picture.depth.width && counted.height == picture.depth.height);
     assert(light < plan.lights.size());
-    const LightPlan& light_plan = plan.lights[light];
+    const std::span<const View> views = viewsOf(plan, light);
     const PixelRays rays(camera, {picture.depth.width, picture.depth.height});
     std::vector<ReadTexels> read;
     std::uint64_t rendered = 0;
-    for (std::uint32_t v = 0; v < light_plan.view_count; ++v) {
-        const Tile& tile = plan.views[light_plan.first_view + v].tile;
-        read.emplace_back(tile);
-        rendered += std::uint64_t{tile.width} * tile.height;
+    for (const View& view : views) {
+        read.emplace_back(view.tile);
+        rendered += std::uint64_t{view.tile.width} * view.tile.height;
     }
     for (std::uint32_t y = 0; y < counted.height; ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
             const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(picture, x, y) : std::nullopt;
-            for (std::uint32_t v = 0; surface && v < light_plan.view_count; ++v) {
-                const View& view = plan.views[light_plan.first_view + v];
-                const auto texel = texelOf(view, surface->point_ws);
-                if (texel && insideTile(view, *texel)) {
+            for (std::size_t v = 0; surface && v < views.size(); ++v) {
+                const auto texel = texelOf(views[v], surface->point_ws);
+                if (texel && insideTile(views[v], *texel)) {
                     read[v].add(*texel, reach_texels);
                     break; // the mask pass reads the first view that has the pixel
                 }

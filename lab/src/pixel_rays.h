@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace gnomon::lab {
 
@@ -60,6 +61,16 @@ private:
     glm::dmat4 world_from_clip_;
     glm::dvec2 size_px_;
 };
+
+/// A light's views; none when it has no map.
+inline std::span<const View> viewsOf(const Plan& plan, std::uint32_t light)
+{
+    const LightPlan& light_plan = plan.lights[light];
+    if (!light_plan.outcome.hasMap()) {
+        return {};
+    }
+    return std::span(plan.views).subspan(light_plan.first_view, light_plan.view_count);
+}
 
 /// Texel coordinates within the view's tile, unbounded; nothing behind the view.
 inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& point_ws)

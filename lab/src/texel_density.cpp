@@ -35,11 +35,11 @@ std::optional<double> densityIn(const PixelRays& rays, const View& view, glm::dv
 }
 
 /// In the first of the light's views that has the surface.
-std::optional<double> densityOf(const PixelRays& rays, const Plan& plan, const LightPlan& light, glm::dvec2 pixel,
+std::optional<double> densityOf(const PixelRays& rays, std::span<const View> views, glm::dvec2 pixel,
                                 const Surface& surface)
 {
-    for (std::uint32_t v = 0; v < light.view_count; ++v) {
-        if (const auto density = densityIn(rays, plan.views[light.first_view + v], pixel, surface)) {
+    for (const View& view : views) {
+        if (const auto density = densityIn(rays, view, pixel, surface)) {
             return density;
         }
     }
@@ -62,6 +62,7 @@ TexelDensity texelDensity(const host::Picture& picture, const Counted& counted, 
     const std::uint32_t height = picture.depth.height;
     assert(counted.width == width && counted.height == height && light < plan.lights.size());
     const PixelRays rays(camera, {width, height});
+    const std::span<const View> views = viewsOf(plan, light);
     TexelDensity result;
     result.map = ImageF(width, height, 1);
     std::vector<double> densities;
@@ -73,7 +74,7 @@ TexelDensity texelDensity(const host::Picture& picture, const Counted& counted, 
             }
             std::optional<double> density;
             if (*counted.pixel(x, y) != 0) {
-                density = densityOf(rays, plan, plan.lights[light], {x + 0.5, y + 0.5}, *surface);
+                density = densityOf(rays, views, {x + 0.5, y + 0.5}, *surface);
             }
             if (density) {
                 densities.push_back(*density);
