@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The precondition that all metrics share.
+#pragma once
+
+#include "image/image.h"
+
+namespace gnomon::lab {
+
+/// Both of one size and of one channel each.
+template <typename A, typename B>
+[[nodiscard]] bool areMasksOfOneSize(const ImageOf<A>& a, const ImageOf<B>& b)
+{
+    return a.width == b.width && a.height == b.height && a.channels == 1 && b.channels == 1;
+}
+
+} // namespace gnomon::lab
