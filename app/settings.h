@@ -56,6 +56,7 @@ struct Sweep {
 /// What one run was asked to do. Made by defaultSettings() and changed by applySetting() only, so that `values` tells
 /// all.
 struct Settings {
+    std::uint32_t subcommand = 0; // kRender ...; 0: none, as where no command line was read
     std::string scene = "rts";
     // picture
     glm::uvec2 size_px{0};

@@ -7,6 +7,7 @@
 #include "scene/model.h"
 #include "scene/state.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct Shot {
 /// Moves everything to a frame of --frames; camera and lights of the scene follow.
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
 [[nodiscard]] double timeOf(const Settings& settings, std::uint32_t frame);
+
+/// The light that --light names, by its own name or its node's, else the first. Throws UsageError for one that is not
+/// there.
+[[nodiscard]] std::size_t lightIndex(const Shot& shot, const Settings& settings);
+/// Throws UsageError when --sun-angle or --light-size is given and none of these lights has such a size.
+void requireSizedLights(const Settings& settings, std::span<const host::ShadedLight> lights);
 
 [[nodiscard]] host::RenderOptions renderOptions(const Settings& settings);
 /// The frame that the library plans, over objects filled from the state (host::fillObjectSet).

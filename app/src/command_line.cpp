@@ -19,8 +19,6 @@ struct Missing {
     std::string_view sentence;
 };
 constexpr std::array kMissingSubcommands{
-    Missing{"compare", "comparing with ray-traced truth is not in this version"},
-    Missing{"metrics", "error numbers of two images are not in this version"},
     Missing{"view", "the window is not in this version"},
 };
 
@@ -73,6 +71,7 @@ std::string_view aliasOf(std::string_view key)
 /// The command line's options in the order given, CLI11 doing the splitting.
 struct Parsed {
     std::vector<std::string> scenes;
+    std::vector<std::string> images;
     std::vector<std::string> sets;
     std::vector<std::string> presets;
     std::deque<std::pair<const Setting*, std::vector<std::string>>> options;
@@ -98,13 +97,19 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
         cli.add_option("--set", parsed.sets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         cli.add_option("--preset", parsed.presets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
+    if (subcommand.bit == kMetrics) {
+        cli.add_option("images", parsed.images)->expected(-1);
+    }
     cli.add_flag("-h,--help", parsed.help);
     cli.allow_extras();
 }
 
-/// A word after --json that is neither its file nor a scene, nor another option.
-bool isStrayFile(std::string_view word)
+/// A word after --json that is neither its file nor what the subcommand works on, nor another option.
+bool isStrayFile(std::string_view word, const Subcommand& subcommand)
 {
+    if (subcommand.bit == kMetrics) {
+        return !word.starts_with("-") && !word.ends_with(".png") && !word.ends_with(".exr");
+    }
     const auto worlds = scene::worlds();
     return !word.starts_with("-") && !word.ends_with(".gltf") && !word.ends_with(".glb") &&
            std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });
@@ -124,11 +129,10 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
             json = argument.substr(argument.find('=') + 1);
         } else if (i + 1 < arguments.size() && (arguments[i + 1] == "-" || arguments[i + 1].ends_with(".json"))) {
             json = arguments[++i];
-        } else if (i + 1 < arguments.size() && isStrayFile(arguments[i + 1])) {
-            throw UsageError(
-                fmt::format("--json: \"{0}\" is no scene, and a file for JSON must end in .json or be given "
-                            "as --json={0}",
-                            arguments[i + 1]));
+        } else if (i + 1 < arguments.size() && isStrayFile(arguments[i + 1], subcommand)) {
+            throw UsageError(fmt::format("--json: \"{0}\" is no {1}, and a file for JSON must end in .json or be given "
+                                         "as --json={0}",
+                                         arguments[i + 1], subcommand.bit == kMetrics ? "image" : "scene"));
         } else {
             json = "-";
         }
@@ -159,6 +163,17 @@ void parseWithCli(const Subcommand& subcommand, std::vector<std::string> argumen
         throw UsageError(
             fmt::format("\"{}\" is one argument too many: the scene is \"{}\"", parsed.scenes[1], parsed.scenes[0]));
     }
+}
+
+void applyImages(Settings& settings, const Parsed& parsed)
+{
+    if (parsed.images.size() != 2) {
+        throw UsageError(
+            fmt::format("metrics takes two images, the test and the truth; {} given",
+                        parsed.images.size() == 1 ? "one is" : fmt::format("{} are", parsed.images.size())));
+    }
+    settings.test_image = parsed.images[0];
+    settings.truth_image = parsed.images[1];
 }
 
 void applyGiven(Settings& settings, const Setting& setting, std::string_view text, const Subcommand& subcommand)
@@ -234,6 +249,12 @@ Command parseCommandLine(std::span<const std::string> arguments)
         return command;
     }
     command.settings = defaultSettings();
+    command.settings.subcommand = command.subcommand->bit;
+    if (command.subcommand->bit == kCompare) {
+        applySetting(command.settings, "truth", "area");
+    } else if (command.subcommand->bit == kMetrics) {
+        applyImages(command.settings, parsed);
+    }
     applyAll(command.settings, parsed, *command.subcommand);
     if (json) {
         applyGiven(command.settings, *findSetting("json"), *json, *command.subcommand);

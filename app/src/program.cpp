@@ -21,6 +21,10 @@ namespace {
 constexpr std::array kSubcommands{
     Subcommand{"render", kRender, "[SCENE] [options]",
                "Draws a picture, or one light's visibility mask, to PNG or EXR.", runRender},
+    Subcommand{"compare", kCompare, "[SCENE] [options]", "Holds techniques against ray-traced truth, and times them.",
+               runCompare},
+    Subcommand{"metrics", kMetrics, "TEST TRUTH [options]", "Says how far one image is from another, PNG or EXR.",
+               runMetrics},
     Subcommand{"plan", kPlan, "[SCENE] [options]", "Prints the plan of a frame as JSON; needs no GPU.", runPlan},
     Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
                runBench},

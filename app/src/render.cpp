@@ -88,33 +88,6 @@ private:
     fs::path path_;
 };
 
-std::size_t lightIndex(const Shot& shot, const Settings& settings)
-{
-    if (settings.light.empty()) {
-        return 0;
-    }
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < shot.lights.size(); ++i) {
-        if (shot.lights[i].name == settings.light) {
-            return i;
-        }
-        names.push_back(shot.lights[i].name);
-    }
-    // glTF names the node that holds a light as well; lights are in the order of those nodes.
-    std::size_t index = 0;
-    for (const scene::Node& node : shot.state.nodes) {
-        const bool from_file = !settings.sun_ws && !settings.spot && !settings.point;
-        if (node.light != scene::kNone && from_file) {
-            if (node.name == settings.light) {
-                return index;
-            }
-            ++index;
-        }
-    }
-    throw UsageError(fmt::format("--light: there is no light \"{}\"{}; the scene has {}", settings.light,
-                                 suggestion(settings.light, names), listed(names)));
-}
-
 void writePicture(const fs::path& file, host::Renderer& renderer, const Settings& settings, std::size_t light)
 {
     const bool exr = isExr(file);

@@ -67,12 +67,7 @@ std::optional<std::string_view> missingSetting(std::string_view key)
         std::string_view sentence;
     };
     static constexpr std::array kMissing{
-        Missing{"truth", "ray-traced truth is not in this version"},
-        Missing{"samples", "rays per pixel belong to ray-traced truth, which is not in this version"},
         Missing{"path", "scripted cameras and suns are not in this version"},
-        Missing{"report", "reports belong to the subcommand compare, which is not in this version"},
-        Missing{"sun-angle", "shadows that widen with the sun's size are not in this version"},
-        Missing{"light-size", "shadows that widen with the light's size are not in this version"},
     };
     for (const Missing& missing : kMissing) {
         if (missing.key == key) {
@@ -168,8 +163,17 @@ void validateSettings(const Settings& settings)
     if (settings.mask && settings.given.contains("aa") && settings.anti_aliasing == host::AntiAliasing::fxaa) {
         throw UsageError("--aa: fxaa has an effect only on a picture, not with --mask");
     }
+    if (settings.sweep && settings.given.contains(settings.sweep->key)) {
+        throw UsageError(fmt::format("{} and --sweep both say what {} is; give one",
+                                     spelled(*findSetting(settings.sweep->key)), settings.sweep->key));
+    }
     for (const auto& [key, given] : settings.given) {
         const Setting* setting = findSetting(key);
+        if (settings.subcommand == kRender && settings.truth && setting != nullptr &&
+            setting->group == SettingGroup::technique) {
+            throw UsageError(
+                fmt::format("{} has no effect with --truth, which draws no shadow map", spelled(*setting)));
+        }
         if (given && setting != nullptr && setting->used != nullptr && !setting->used(settings)) {
             throw UsageError(fmt::format("{} has an effect only with {}", spelled(*setting), setting->used_when));
         }

@@ -68,6 +68,13 @@ host::ShadedLight pointLight(const PointLight& point)
     return light;
 }
 
+/// Why the technique gives the light no shadow; the ray tracer takes every light.
+std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings)
+{
+    const bool traced_alone = settings.truth && settings.subcommand != kCompare;
+    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.plan.technique);
+}
+
 /// Lights of the command line; empty when it names none.
 std::vector<host::ShadedLight> givenLights(const Settings& settings)
 {
@@ -82,7 +89,7 @@ std::vector<host::ShadedLight> givenLights(const Settings& settings)
         lights.push_back(pointLight(*settings.point));
     }
     for (const host::ShadedLight& light : lights) {
-        if (const auto reason = refusal(light.caster.type, settings.plan.technique)) {
+        if (const auto reason = refusalOf(light, settings)) {
             throw UsageError(fmt::format("--{}: {}", light.name, *reason));
         }
     }
@@ -106,6 +113,14 @@ void placeLights(Shot& shot, const Settings& settings)
     if (shot.lights.empty()) {
         shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12))));
     }
+    for (host::ShadedLight& light : shot.lights) {
+        if (light.caster.type == LightType::directional) {
+            light.caster.angular_diameter_rad =
+                settings.sun_angle_deg ? glm::radians(*settings.sun_angle_deg) : light.caster.angular_diameter_rad;
+        } else if (settings.light_size_m) {
+            light.caster.radius_m = *settings.light_size_m / 2.0;
+        }
+    }
 }
 
 /// What people should know of the lights: said once, not for every frame.
@@ -118,7 +133,7 @@ void noteLights(Shot& shot, const Settings& settings)
     std::string_view why;
     const std::string* first = nullptr;
     for (const host::ShadedLight& light : shot.lights) {
-        if (const auto reason = refusal(light.caster.type, settings.plan.technique)) {
+        if (const auto reason = refusalOf(light, settings)) {
             first = refused == 0 ? &light.name : first;
             why = *reason;
             ++refused;

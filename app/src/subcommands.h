@@ -9,6 +9,8 @@
 namespace gnomon::app {
 
 int runRender(const Settings& settings);
+int runCompare(const Settings& settings);
+int runMetrics(const Settings& settings);
 int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);

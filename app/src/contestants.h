@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which techniques `bench` and `compare` are about.
+#pragma once
+
+#include "app/settings.h"
+
+#include <vector>
+
+namespace gnomon::app {
+
+/// Whether the options and presets say themselves which technique it is: by what the default list would override.
+[[nodiscard]] bool namesOneTechnique(const Settings& settings);
+
+/// The settings of every technique asked for: those of --techniques; without it the one that the options name, else
+/// hard and every kernel of pcf. Throws UsageError when two of them are the same.
+[[nodiscard]] std::vector<Settings> contestants(const Settings& settings);
+
+} // namespace gnomon::app

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Truth, time, the run itself and its results. A new option is one row here.
+#include "setting_rows.h"
+#include "setting_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::app {
+namespace {
+
+using enum SettingType;
+using Group = SettingGroup;
+using Value = SettingValue;
+
+void applyTechniques(Settings& s, const Value& v)
+{
+    for (const std::string_view piece : split(v.text, ',')) {
+        if (piece.empty()) {
+            throw UsageError(
+                fmt::format("--techniques: \"{}\" has a comma with no technique before or after it", v.text));
+        }
+        if (std::find(s.techniques.begin(), s.techniques.end(), piece) != s.techniques.end()) {
+            throw UsageError(fmt::format("--techniques: {} is listed twice", piece));
+        }
+        s.techniques.emplace_back(piece);
+    }
+    if (s.techniques.size() > 1 && std::find(s.techniques.begin(), s.techniques.end(), "all") != s.techniques.end()) {
+        throw UsageError("--techniques: all stands alone; it is hard and every kernel of pcf");
+    }
+}
+
+void applyLimit(Settings& s, const Value& v)
+{
+    struct Limit {
+        std::string_view name;
+        double max;
+        void (*set)(scene::Limits&, std::uint64_t);
+    };
+    constexpr double k32 = std::numeric_limits<std::uint32_t>::max();
+    constexpr double k63 = 9.0e18;
+    static constexpr std::array kLimits{
+        Limit{"file-bytes", k63,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_file_bytes = n;
+              }},
+        Limit{"total-bytes", k63,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_total_bytes = n;
+              }},
+        Limit{"image-side", k32,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_image_side = std::uint32_t(n);
+              }},
+        Limit{"node-depth", k32,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_node_depth = std::uint32_t(n);
+              }},
+        Limit{"count", k32,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_count = std::uint32_t(n);
+              }},
+        Limit{"vertices", k63,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_vertices = n;
+              }},
+    };
+    const std::size_t equals = v.text.find('=');
+    const std::string_view name = std::string_view(v.text).substr(0, equals);
+    std::vector<std::string_view> names;
+    for (const Limit& limit : kLimits) {
+        names.push_back(limit.name);
+        if (limit.name != name) {
+            continue;
+        }
+        const auto number =
+            equals == std::string::npos ? std::nullopt : toInteger(std::string_view(v.text).substr(equals + 1));
+        if (!number || *number < 1 || static_cast<double>(*number) > limit.max) {
+            throw UsageError(fmt::format("--limit: {} takes a whole number from 1 to {}", name, limit.max));
+        }
+        limit.set(s.limits, static_cast<std::uint64_t>(*number));
+        return;
+    }
+    throw UsageError(fmt::format("--limit: there is no limit \"{}\"{}; it takes NAME=N with one of {}", name,
+                                 suggestion(name, names), listed(names)));
+}
+
+bool hasTruth(const Settings& s)
+{
+    return s.truth.has_value();
+}
+bool isArea(const Settings& s)
+{
+    return s.truth == truth::Kind::area;
+}
+/// The ray tracer's mask is written as it is: nothing is drawn.
+bool draws(const Settings& s)
+{
+    return !(s.mask && s.truth.has_value());
+}
+bool judgesALight(const Settings& s)
+{
+    return s.mask || s.subcommand == kCompare;
+}
+
+void applySamples(Settings& s, const Value& v)
+{
+    if (v.integer % truth::kSampleSets != 0) {
+        throw UsageError(
+            fmt::format("--samples: {} is not a multiple of {}: the rays of a pixel come in {} sets, whose "
+                        "spread tells the standard error",
+                        v.integer, truth::kSampleSets, truth::kSampleSets));
+    }
+    s.samples = static_cast<std::uint32_t>(v.integer);
+}
+
+/// KEY=FROM:TO:STEPS[:log]
+void applySweep(Settings& s, const Value& v)
+{
+    const auto refuse = [&](const std::string& why) {
+        throw UsageError(fmt::format("--sweep: \"{}\": {}", v.text, why));
+    };
+    const std::size_t equals = v.text.find('=');
+    const auto parts = split(equals == std::string::npos ? "" : std::string_view(v.text).substr(equals + 1), ':');
+    if (parts.size() < 3 || parts.size() > 4 || (parts.size() == 4 && parts[3] != "log")) {
+        refuse("it is not KEY=FROM:TO:STEPS or KEY=FROM:TO:STEPS:log");
+    }
+    const std::string key = v.text.substr(0, equals);
+    std::vector<std::string_view> keys;
+    for (const Setting& setting : settingTable()) {
+        if (setting.group == Group::technique && (setting.type == integer || setting.type == real)) {
+            keys.push_back(setting.key);
+        }
+    }
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+        refuse(fmt::format("{} is no setting of a technique that is a number{}; those are {}", key,
+                           suggestion(key, keys), listed(keys)));
+    }
+    const Setting& setting = *findSetting(key);
+    const bool logarithmic = parts.size() == 4;
+    for (const std::string_view end : {parts[0], parts[1]}) {
+        const auto number = toNumber(end);
+        if (!number || !(*number >= setting.min && *number <= setting.max)) {
+            refuse(fmt::format("\"{}\" is not in the range {} to {} of {}", end, setting.min, setting.max, key));
+        }
+        if (setting.type == integer && std::floor(*number) != *number) {
+            refuse(fmt::format("{} takes whole numbers, which \"{}\" is not", key, end));
+        }
+        if (logarithmic && !(*number > 0.0)) {
+            refuse(fmt::format("values by equal factors are above 0, which \"{}\" is not", end));
+        }
+    }
+    constexpr std::int64_t kMaxSteps = 1000;
+    const auto steps = toInteger(parts[2]);
+    if (!steps || *steps < 2 || *steps > kMaxSteps) {
+        refuse(fmt::format("\"{}\" steps are not a whole number in the range 2 to {}", parts[2], kMaxSteps));
+    }
+    const double from = *toNumber(parts[0]);
+    const double to = *toNumber(parts[1]);
+    if (from == to) {
+        refuse("it begins and ends at the same value");
+    }
+    if (setting.type == integer && static_cast<double>(*steps) > std::abs(to - from) + 1.0) {
+        refuse(fmt::format("there are only {} whole numbers from {} to {}", std::abs(to - from) + 1.0, from, to));
+    }
+    s.sweep = Sweep{key, from, to, static_cast<std::uint32_t>(*steps), logarithmic};
+}
+
+const std::vector<Setting>& rows()
+{
+    static const std::vector<Setting> table{
+        // clang-format off
+        {.key = "truth", .group = Group::truth, .type = choice, .form = "KIND", .choices = [] { return std::vector<std::string_view>{"hard", "area"}; },
+         .doc = "rays to the light's centre (hard) or over its area; compare: area unless given", .subcommands = kRender | kCompare,
+         .apply = [](Settings& s, const Value& v) { s.truth = v.text == "hard" ? truth::Kind::hard : truth::Kind::area; }},
+        {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536,
+         .doc = "per pixel and light, a multiple of 4", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area", .apply = applySamples},
+        {.key = "no-cache", .group = Group::truth, .type = flag, .default_text = "0", .doc = "trace anew; neither read nor write the cache of truths",
+         .subcommands = kRender | kCompare, .used = hasTruth, .used_when = "--truth", .apply = [](Settings& s, const Value& v) { s.no_cache = v.flag; }},
+
+        {.key = "time", .group = Group::time, .type = real, .form = "SECONDS", .unit = "s", .default_text = "0", .min = -1e6, .max = 1e6,
+         .doc = "moment of the scene's animation", .apply = [](Settings& s, const Value& v) { s.time_s = v.real; }},
+        {.key = "frames", .group = Group::time, .type = range, .form = "A-B", .min = 0, .max = 999999,
+         .doc = "frames A to B; frame N is at --time plus N / fps", .subcommands = kRender | kPlan,
+         .apply = [](Settings& s, const Value& v) { s.frames = FrameRange{static_cast<std::uint32_t>(v.numbers[0]), static_cast<std::uint32_t>(v.numbers[1])}; }},
+        {.key = "fps", .group = Group::time, .type = real, .form = "N", .unit = "1/s", .default_text = "30", .min = 0.001, .max = 1e4,
+         .doc = "frames per second", .subcommands = kRender | kPlan, .used = [](const Settings& s) { return s.frames.has_value(); },
+         .used_when = "--frames", .apply = [](Settings& s, const Value& v) { s.fps = v.real; }},
+        {.key = "animation", .group = Group::time, .type = text, .form = "NAME", .doc = "which animation of the file plays; else the first",
+         .apply = [](Settings& s, const Value& v) { s.animation = v.text; }},
+
+        {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
+         .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
+        {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
+         .subcommands = kDraw, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+        {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
+         .subcommands = kDraw, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
+        {.key = "limit", .group = Group::run, .type = text, .form = "NAME=N", .doc = "raise a limit of the scene reader, as its message says", .repeatable = true,
+         .apply = applyLimit},
+
+        {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; default gnomon.png), or folder with --frames",
+         .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
+        {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
+         .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
+        {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "which light's mask; else the first one's", .subcommands = kRender | kCompare,
+         .used = judgesALight, .used_when = "--mask", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+        {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
+         .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
+        {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
+         .doc = "timed frames of each technique", .subcommands = kBench | kCompare,
+         .apply = [](Settings& s, const Value& v) { s.repetitions = static_cast<std::uint32_t>(v.integer); }},
+        {.key = "warmup", .group = Group::result, .type = integer, .form = "N", .default_text = "2", .min = 0, .max = 100000,
+         .doc = "frames of each technique before them", .subcommands = kBench | kCompare,
+         .apply = [](Settings& s, const Value& v) { s.warmup = static_cast<std::uint32_t>(v.integer); }},
+        {.key = "report", .group = Group::result, .type = text, .form = "DIR", .doc = "folder for a page with pictures and the table",
+         .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+        {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",
+         .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
+        {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "each technique over values of one of its numbers",
+         .subcommands = kCompare, .apply = applySweep},
+        {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+        // clang-format on
+    };
+    return table;
+}
+
+} // namespace
+
+void addRunRows(std::vector<Setting>& table)
+{
+    table.insert(table.end(), rows().begin(), rows().end());
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is looked at: picture, camera and lights. A new option is one row here.
+#include "setting_rows.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <array>
+
+namespace gnomon::app {
+namespace {
+
+using enum SettingType;
+using Group = SettingGroup;
+using Value = SettingValue;
+
+constexpr std::array<std::string_view, 3> kAntiAliasing{"none", "fxaa", "ssaa4"};
+
+std::vector<std::string_view> antiAliasingNames()
+{
+    return {kAntiAliasing.begin(), kAntiAliasing.end()};
+}
+
+glm::dvec3 vec3(const std::vector<double>& numbers, std::size_t first = 0)
+{
+    return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// A direction's length must be told from rounding noise.
+glm::dvec3 direction(std::string_view key, const glm::dvec3& vector)
+{
+    const double length = glm::length(vector);
+    if (!(length > 1e-12)) {
+        throw UsageError(fmt::format("--{}: the direction is zero", key));
+    }
+    return vector / length;
+}
+
+void applyAntiAliasing(Settings& s, const Value& v)
+{
+    for (std::size_t i = 0; i < kAntiAliasing.size(); ++i) {
+        if (kAntiAliasing[i] == v.text) {
+            s.anti_aliasing = static_cast<host::AntiAliasing>(i);
+        }
+    }
+}
+
+void applySpot(Settings& s, const Value& v)
+{
+    const SpotLight spot{vec3(v.numbers), vec3(v.numbers, 3), v.numbers[6]};
+    (void)direction("spot", spot.target_ws - spot.position_ws);
+    if (!(spot.angle_deg >= 0.1 && spot.angle_deg <= 120.0)) {
+        throw UsageError(
+            fmt::format("--spot: its cone of {} degrees is not in the range 0.1 to 120 degrees", spot.angle_deg));
+    }
+    s.spot = spot;
+}
+
+void applyPoint(Settings& s, const Value& v)
+{
+    if (!(v.numbers[3] > 0.0)) {
+        throw UsageError(fmt::format("--point: its range of {} m is not above 0", v.numbers[3]));
+    }
+    s.point = PointLight{vec3(v.numbers), v.numbers[3]};
+}
+
+/// The ray tracer's mask is written as it is.
+bool drawsAPicture(const Settings& s)
+{
+    return !(s.mask && s.truth.has_value());
+}
+bool isArea(const Settings& s)
+{
+    return s.truth == truth::Kind::area;
+}
+
+const std::vector<Setting>& rows()
+{
+    static const std::vector<Setting> table{
+        // clang-format off
+        {.key = "size", .group = Group::picture, .type = size, .form = "WxH", .unit = "pixels", .default_text = "1280x720", .min = 1, .max = 1e6,
+         .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
+        {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "none", .choices = antiAliasingNames,
+         .doc = "anti-aliasing of the picture: none, fxaa or ssaa4", .subcommands = kRender | kBench, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+        {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
+         .apply = [](Settings& s, const Value& v) { s.ground = v.flag; }},
+        {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
+         .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
+         .subcommands = kDraw, .apply = [](Settings& s, const Value& v) { s.material_override = v.text == "none" ? "" : v.text; }},
+
+        {.key = "camera", .group = Group::camera, .type = text, .form = "NAME", .doc = "a camera or view of the scene by its name",
+         .apply = [](Settings& s, const Value& v) { s.camera = v.text; }},
+        {.key = "eye", .group = Group::camera, .type = numbers, .form = "x,y,z", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 3,
+         .doc = "where the camera is", .apply = [](Settings& s, const Value& v) { s.eye_ws = vec3(v.numbers); }},
+        {.key = "target", .group = Group::camera, .type = numbers, .form = "x,y,z", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 3,
+         .doc = "what it looks at", .apply = [](Settings& s, const Value& v) { s.target_ws = vec3(v.numbers); }},
+        {.key = "up", .group = Group::camera, .type = numbers, .form = "x,y,z", .default_text = "0,1,0", .min = -kFarthest, .max = kFarthest, .count = 3,
+         .doc = "what is up for it", .used = [](const Settings& s) { return s.eye_ws.has_value(); }, .used_when = "--eye",
+         .apply = [](Settings& s, const Value& v) { s.up_ws = direction("up", vec3(v.numbers)); }},
+        {.key = "fov", .group = Group::camera, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 179,
+         .doc = "vertical field of view; else the camera's own, or 45", .apply = [](Settings& s, const Value& v) { s.fov_deg = v.real; }},
+
+        {.key = "sun", .group = Group::light, .type = numbers, .form = "x,y,z", .min = -kFarthest, .max = kFarthest, .count = 3,
+         .doc = "direction the light travels; replaces the scene's lights",
+         .apply = [](Settings& s, const Value& v) { s.sun_ws = direction("sun", vec3(v.numbers)); }},
+        {.key = "spot", .group = Group::light, .type = numbers, .form = "x,y,z,tx,ty,tz,DEG", .unit = "m, degrees", .min = -kFarthest, .max = kFarthest, .count = 7,
+         .doc = "spot light: place, target, whole cone; likewise", .apply = applySpot},
+        {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 4,
+         .doc = "point light: place and reach; likewise", .apply = applyPoint},
+        {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
+         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area",
+         .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
+        {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
+         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area",
+         .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
+        // clang-format on
+    };
+    return table;
+}
+
+} // namespace
+
+void addSceneRows(std::vector<Setting>& table)
+{
+    table.insert(table.end(), rows().begin(), rows().end());
+}
+
+} // namespace gnomon::app

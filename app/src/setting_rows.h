@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rows of the one setting table, by what they are about. settingTable() joins them in this order.
+#pragma once
+
+#include "app/settings.h"
+
+#include <vector>
+
+namespace gnomon::app {
+
+inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has no use for a coordinate
+
+void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
+void addTechniqueRows(std::vector<Setting>& table); // the six choices and what belongs to them
+void addRunRows(std::vector<Setting>& table);       // truth, time, run, result
+
+} // namespace gnomon::app
