@@ -1,1 +1,148 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "truth/visibility.h"
+
+#include "camera_rays.h"
+#include "parallel.h"
+#include "scene_geometry.h"
+#include "shadow_rays.h"
+
+#include <gnomon/error.h>
+
+#include <glm/geometric.hpp>
+
+#include <cassert>
+#include <chrono>
+#include <limits>
+#include <new>
+
+namespace gnomon::truth {
+namespace {
+
+/// Up to so many triangles each object gets its own copy in the world, which rays cross in half the time that instances
+/// take; a triangle takes some 200 bytes.
+constexpr std::uint64_t kFlatTriangles = 3'000'000;
+
+std::unique_ptr<SceneGeometry> buildGeometry(const scene::Scene& scene, const scene::State& state)
+{
+    try {
+        return std::make_unique<SceneGeometry>(scene, state, kFlatTriangles);
+    } catch (const std::bad_alloc&) {
+        throw Error("building the ray tracer's structure", "memory ran out", "use a smaller scene");
+    }
+}
+
+glm::dvec3 read3(const float* values)
+{
+    return {values[0], values[1], values[2]};
+}
+
+void write3(float* values, const glm::dvec3& v)
+{
+    values[0] = static_cast<float>(v.x);
+    values[1] = static_cast<float>(v.y);
+    values[2] = static_cast<float>(v.z);
+}
+
+template <typename F>
+void forEachPixel(const Tile& tile, const F& f)
+{
+    for (std::uint32_t y = tile.min.y; y < tile.max.y; ++y) {
+        for (std::uint32_t x = tile.min.x; x < tile.max.x; ++x) {
+            f(x, y);
+        }
+    }
+}
+
+} // namespace
+
+struct Tracer::Impl {
+    std::unique_ptr<SceneGeometry> geometry;
+
+    /// Nothing where no shadow ray is to be traced.
+    [[nodiscard]] std::optional<Receiver> receiverAt(const Surfaces& surfaces, const View& view, std::uint32_t x,
+                                                     std::uint32_t y) const;
+};
+
+std::optional<Receiver> Tracer::Impl::receiverAt(const Surfaces& surfaces, const View& view, std::uint32_t x,
+                                                 std::uint32_t y) const
+{
+    const std::uint32_t id = *surfaces.object_ids.pixel(x, y);
+    if (id == 0) {
+        return {};
+    }
+    Receiver receiver;
+    receiver.object = id - 1;
+    receiver.triangle = *surfaces.triangle_ids.pixel(x, y);
+    receiver.pixel = std::uint64_t{y} * view.size_px.x + x;
+    const std::optional<Triangle> triangle = geometry->triangle(receiver.object, receiver.triangle);
+    if (!triangle || !geometry->part(receiver.object).receives) {
+        return {};
+    }
+    const glm::dvec3 normal = read3(surfaces.normals.pixel(x, y));
+    receiver.normal = glm::dot(normal, triangle->front) < 0.0 ? -triangle->front : triangle->front;
+    const glm::dvec3 rel = view.eye_ws + read3(surfaces.points.pixel(x, y)) - geometry->originWs();
+    receiver.rel = offSurface(rel, *triangle, receiver.normal);
+    return receiver;
+}
+
+Tracer::Tracer(const scene::Scene& scene, const scene::State& state) : impl_(std::make_unique<Impl>())
+{
+    impl_->geometry = buildGeometry(scene, state);
+}
+
+Tracer::~Tracer() = default;
+
+std::optional<Surfaces> Tracer::see(const View& view, const Options& options) const
+{
+    assert(view.size_px.x >= 1 && view.size_px.y >= 1);
+    const glm::uvec2 size = view.size_px;
+    Surfaces surfaces{ImageOf<std::uint32_t>(size.x, size.y, 1, 0),
+                      ImageOf<std::uint32_t>(size.x, size.y, 1, scene::kNone), ImageF(size.x, size.y, 3, 0.0F),
+                      ImageF(size.x, size.y, 3, 0.0F)};
+    const CameraRays rays(*impl_->geometry, view);
+    const bool finished = forEachTile(size, options, [&](const Tile& tile) {
+        forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
+            if (const auto seen = rays.trace(x, y)) {
+                *surfaces.object_ids.pixel(x, y) = seen->object + 1;
+                *surfaces.triangle_ids.pixel(x, y) = seen->triangle;
+                write3(surfaces.points.pixel(x, y), seen->point);
+                write3(surfaces.normals.pixel(x, y), seen->normal);
+            }
+        });
+    });
+    return finished ? std::optional(std::move(surfaces)) : std::nullopt;
+}
+
+std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& view, const Light& light,
+                                        const Options& options) const
+{
+    assert(surfaces.object_ids.width == view.size_px.x && surfaces.object_ids.height == view.size_px.y);
+    assert(options.samples >= kSampleSets && options.samples <= 65536 && options.samples % kSampleSets == 0);
+    const auto start = std::chrono::steady_clock::now();
+    const glm::uvec2 size = view.size_px;
+    Visibility result{options.kind, ImageF(size.x, size.y, 1, 1.0F), ImageF(size.x, size.y, 1, 0.0F),
+                      ImageF(size.x, size.y, 1, std::numeric_limits<float>::infinity())};
+    const ShadowRays shadow_rays(*impl_->geometry, light, options);
+    std::atomic<std::uint64_t> rays{0};
+    const bool finished = forEachTile(size, options, [&](const Tile& tile) {
+        std::uint64_t rays_of_tile = 0;
+        forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
+            if (const auto receiver = impl_->receiverAt(surfaces, view, x, y)) {
+                const ShadowRays::Result traced = shadow_rays.trace(*receiver);
+                *result.visibility.pixel(x, y) = static_cast<float>(traced.visibility);
+                *result.standard_error.pixel(x, y) = static_cast<float>(traced.standard_error);
+                *result.first_blocker_m.pixel(x, y) = static_cast<float>(traced.first_blocker_m);
+                rays_of_tile += traced.rays;
+            }
+        });
+        rays += rays_of_tile;
+    });
+    if (!finished) {
+        return {};
+    }
+    result.rays = rays;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+} // namespace gnomon::truth

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera_rays.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::truth {
+
+CameraRays::CameraRays(const SceneGeometry& geometry, const View& view)
+    : geometry_(geometry), view_(view), eye_rel_(view.eye_ws - geometry.originWs())
+{
+}
+
+CameraRays::Ray CameraRays::through(double clip_x, double clip_y) const
+{
+    // The middle of the depth range is in front of the camera whichever end of it is near, and not at infinity.
+    const glm::dvec4 middle = view_.world_from_clip * glm::dvec4(clip_x, clip_y, 0.5, 1.0);
+    Ray ray;
+    ray.direction = glm::normalize(glm::dvec3(middle) / middle.w - view_.eye_ws);
+    const auto distanceAt = [&](double depth) {
+        const glm::dvec4 end = view_.world_from_clip * glm::dvec4(clip_x, clip_y, depth, 1.0);
+        const double along = glm::dot(glm::dvec3(end) / end.w - view_.eye_ws, ray.direction);
+        // A far plane at infinity has w = 0, or by rounding a point very far away on either side.
+        return std::isfinite(along) && along > 0.0 ? along : std::numeric_limits<double>::infinity();
+    };
+    const double a = distanceAt(0.0);
+    const double b = distanceAt(1.0);
+    ray.near_m = std::min(a, b);
+    ray.far_m = std::max(a, b);
+    return ray;
+}
+
+std::optional<CameraRays::Seen> CameraRays::trace(std::uint32_t x, std::uint32_t y) const
+{
+    const Ray ray = through((x + 0.5) / view_.size_px.x * 2.0 - 1.0, (y + 0.5) / view_.size_px.y * 2.0 - 1.0);
+    if (!(glm::dot(ray.direction, ray.direction) > 0.5) || !std::isfinite(ray.near_m)) {
+        return {}; // a camera that looks nowhere
+    }
+    RayContext context;
+    context.from_camera = true;
+    context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RTCRayHit query{};
+    query.ray.org_x = static_cast<float>(eye_rel_.x);
+    query.ray.org_y = static_cast<float>(eye_rel_.y);
+    query.ray.org_z = static_cast<float>(eye_rel_.z);
+    query.ray.dir_x = static_cast<float>(ray.direction.x);
+    query.ray.dir_y = static_cast<float>(ray.direction.y);
+    query.ray.dir_z = static_cast<float>(ray.direction.z);
+    query.ray.tnear = static_cast<float>(ray.near_m);
+    query.ray.tfar = static_cast<float>(ray.far_m);
+    query.ray.mask = 0xFFFFFFFFU;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(geometry_.seen(), &context.base, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return {};
+    }
+    return surfaceAt(ray, query.hit);
+}
+
+std::optional<CameraRays::Seen> CameraRays::surfaceAt(const Ray& ray, const RTCHit& hit) const
+{
+    Seen seen;
+    seen.object = hit.instID[0] != RTC_INVALID_GEOMETRY_ID ? hit.instID[0] : hit.geomID;
+    seen.triangle = hit.primID;
+    const std::optional<Triangle> triangle = geometry_.triangle(seen.object, seen.triangle);
+    if (!triangle) {
+        return {};
+    }
+    // Embree says which triangle; where on it is found again in double precision, because its distance is a float.
+    const double facing = glm::dot(triangle->front, ray.direction);
+    const double distance_m = glm::dot(triangle->rel[0] - eye_rel_, triangle->front) / facing;
+    if (!std::isfinite(distance_m) || distance_m <= 0.0) {
+        return {}; // seen exactly edge on
+    }
+    seen.point = ray.direction * distance_m;
+    seen.normal = facing < 0.0 ? triangle->front : -triangle->front;
+    return seen;
+}
+
+} // namespace gnomon::truth

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filters.h"
+
+#include "scene_geometry.h"
+
+namespace gnomon::truth {
+namespace {
+
+struct Hit {
+    std::uint32_t object;
+    std::uint32_t triangle;
+    float u;
+    float v;
+};
+
+/// An instance is attached under its object's index, and so are triangles that are not instanced.
+Hit hitOf(const RTCFilterFunctionNArguments& args, unsigned lane)
+{
+    const unsigned instance = RTCHitN_instID(args.hit, args.N, lane, 0);
+    return {instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args.hit, args.N, lane),
+            RTCHitN_primID(args.hit, args.N, lane), RTCHitN_u(args.hit, args.N, lane),
+            RTCHitN_v(args.hit, args.N, lane)};
+}
+
+/// Ray and normal are both in the space of the triangles that Embree holds. Instances keep the order of their vertices,
+/// so their normal faces front there; what is not instanced was taken to the world, where a mirror turns it over.
+bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane, const Part& part)
+{
+    const float along = RTCHitN_Ng_x(args.hit, args.N, lane) * RTCRayN_dir_x(args.ray, args.N, lane) +
+                        RTCHitN_Ng_y(args.hit, args.N, lane) * RTCRayN_dir_y(args.ray, args.N, lane) +
+                        RTCHitN_Ng_z(args.hit, args.N, lane) * RTCRayN_dir_z(args.ray, args.N, lane);
+    const bool turned = part.mirrored && !part.instanced;
+    return turned ? along < 0.0F : along > 0.0F;
+}
+
+bool passes(const Part& part, const Hit& hit, const RayContext& context)
+{
+    return (hit.object == context.own_object && hit.triangle == context.own_triangle) ||
+           (part.alpha && !part.alpha->isSolid(hit.triangle, hit.u, hit.v));
+}
+
+} // namespace
+
+void filterNearest(const RTCFilterFunctionNArguments* args)
+{
+    const auto* parts = static_cast<const Part*>(args->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const RayContext*>(args->context);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) {
+            continue;
+        }
+        const Hit hit = hitOf(*args, lane);
+        const Part& part = parts[hit.object];
+        const bool culled = context.from_camera && !part.double_sided && isBehind(*args, lane, part);
+        if (culled || passes(part, hit, context)) {
+            args->valid[lane] = 0;
+        }
+    }
+}
+
+void filterAny(const RTCFilterFunctionNArguments* args)
+{
+    const auto* parts = static_cast<const Part*>(args->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const RayContext*>(args->context);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) {
+            continue;
+        }
+        const Hit hit = hitOf(*args, lane);
+        if (passes(parts[hit.object], hit, context)) {
+            args->valid[lane] = 0;
+        }
+    }
+}
+
+} // namespace gnomon::truth

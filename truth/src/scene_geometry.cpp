@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Wald, Woop, Benthin, Johnson, Ernst, "Embree: a kernel framework for efficient CPU ray tracing", 2014.
+#include "scene_geometry.h"
+
+#include "filters.h"
+
+#include <gnomon/error.h>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::truth {
+namespace {
+
+constexpr const char* kTried = "building the ray tracer's structure";
+
+bool isFinite(const glm::dmat4& m)
+{
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) {
+            if (!std::isfinite(m[c][r])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Flat to within rounding of the floats that it came in.
+bool isSingular(const glm::dmat3& m)
+{
+    const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    return !(std::abs(glm::determinant(m)) > 1e-9 * lengths);
+}
+
+std::uint64_t triangleCount(const scene::Primitive& primitive)
+{
+    return primitive.indices.size() / 3;
+}
+
+glm::dvec3 transformPoint(const glm::dmat4& m, const glm::vec3& p)
+{
+    return glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1.0));
+}
+
+double largest(const glm::dvec3& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+} // namespace
+
+SceneGeometry::SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles)
+    // One thread builds, so that the structure, and with it the choice between equally near triangles, is always the
+    // same.
+    : device_(rtcNewDevice("threads=1,set_affinity=0"))
+{
+    if (!device_) {
+        throw Error("starting the ray tracer", "Embree gave no device (error " +
+                                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+    }
+    const glm::dvec3 centre(state.bounds_ws.centre());
+    if (!state.bounds_ws.empty() && std::isfinite(centre.x) && std::isfinite(centre.y) && std::isfinite(centre.z)) {
+        origin_ws_ = centre;
+    }
+    describe(scene, state);
+    chooseInstances(state, flat_triangles);
+    build(state);
+}
+
+void SceneGeometry::describe(const scene::Scene& scene, const scene::State& state)
+{
+    static const scene::Material kDefault;
+    parts_.resize(state.objects.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const scene::Object& object = state.objects[i];
+        const scene::Primitive& primitive = scene.meshes[object.mesh].primitives[object.primitive];
+        const scene::Material& material =
+            object.material < scene.materials.size() ? scene.materials[object.material] : kDefault;
+        Part& part = parts_[i];
+        part.casts = object.casts;
+        part.receives = object.receives;
+        part.double_sided = material.double_sided;
+        part.rel_from_object = glm::dmat4(object.world_from_object);
+        part.rel_from_object[3] -= glm::dvec4(origin_ws_, 0.0);
+        if (triangleCount(primitive) == 0 || primitive.positions.empty() || !isFinite(part.rel_from_object) ||
+            isSingular(glm::dmat3(part.rel_from_object)) || material.alpha_mode == scene::AlphaMode::blend) {
+            continue;
+        }
+        part.mirrored = glm::determinant(glm::dmat3(part.rel_from_object)) < 0.0;
+        part.primitive = &primitive;
+        part.positions =
+            object.deformed == scene::kNone ? &primitive.positions : &state.deformed[object.deformed].positions;
+        if (material.alpha_mode == scene::AlphaMode::mask) {
+            part.alpha.emplace(scene, primitive, material);
+        }
+    }
+}
+
+void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t flat_triangles)
+{
+    std::uint64_t triangles = 0;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> uses;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (parts_[i].primitive != nullptr) {
+            triangles += triangleCount(*parts_[i].primitive);
+            ++uses[{state.objects[i].mesh, state.objects[i].primitive}];
+        }
+    }
+    if (triangles <= flat_triangles) {
+        return;
+    }
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const scene::Object& object = state.objects[i];
+        parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone &&
+                              uses[{object.mesh, object.primitive}] > 1;
+    }
+}
+
+void SceneGeometry::build(const scene::State& state)
+{
+    seen_ = newScene();
+    const bool all_cast = std::all_of(parts_.begin(), parts_.end(),
+                                      [](const Part& part) { return part.casts || part.primitive == nullptr; });
+    if (!all_cast) {
+        casters_ = newScene();
+    }
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+        const Part& part = parts_[i];
+        if (part.primitive == nullptr) {
+            continue;
+        }
+        const GeometryPointer geometry =
+            part.instanced ? instanceOf(state.objects[i], part) : trianglesOf(part, part.rel_from_object);
+        rtcAttachGeometryByID(seen_.get(), geometry.get(), i);
+        if (casters_ && part.casts) {
+            rtcAttachGeometryByID(casters_.get(), geometry.get(), i);
+        }
+    }
+    commit(seen_.get());
+    if (casters_) {
+        commit(casters_.get());
+    }
+}
+
+GeometryPointer SceneGeometry::trianglesOf(const Part& part, const glm::dmat4& to_from_object)
+{
+    GeometryPointer geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    check();
+    // Copied even where the transform is the identity: Embree reads 16 bytes at each vertex, past the end of a vector.
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), part.positions->size()));
+    check();
+    for (const glm::vec3& position : *part.positions) {
+        const glm::dvec3 p = transformPoint(to_from_object, position);
+        *vertices++ = static_cast<float>(p.x);
+        *vertices++ = static_cast<float>(p.y);
+        *vertices++ = static_cast<float>(p.z);
+    }
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               part.primitive->indices.data(), 0, 3 * sizeof(std::uint32_t),
+                               triangleCount(*part.primitive));
+    rtcSetGeometryUserData(geometry.get(), parts_.data());
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), filterNearest);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), filterAny);
+    rtcCommitGeometry(geometry.get());
+    check();
+    return geometry;
+}
+
+GeometryPointer SceneGeometry::instanceOf(const scene::Object& object, const Part& part)
+{
+    ScenePointer& scene = instanced_[{object.mesh, object.primitive}];
+    if (!scene) {
+        scene = newScene();
+        rtcAttachGeometry(scene.get(), trianglesOf(part, glm::dmat4(1.0)).get());
+        commit(scene.get());
+    }
+    GeometryPointer geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    check();
+    rtcSetGeometryInstancedScene(geometry.get(), scene.get());
+    const glm::mat4 transform(part.rel_from_object);
+    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &transform[0][0]);
+    rtcCommitGeometry(geometry.get());
+    check();
+    return geometry;
+}
+
+ScenePointer SceneGeometry::newScene()
+{
+    ScenePointer scene(rtcNewScene(device_.get()));
+    check();
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    return scene;
+}
+
+void SceneGeometry::commit(RTCScene scene) const
+{
+    rtcCommitScene(scene);
+    check();
+}
+
+void SceneGeometry::check() const
+{
+    const RTCError error = rtcGetDeviceError(device_.get());
+    if (error == RTC_ERROR_OUT_OF_MEMORY) {
+        throw Error(kTried, "memory ran out", "use a smaller scene");
+    }
+    if (error != RTC_ERROR_NONE) {
+        throw Error(kTried, "Embree's error " + std::to_string(static_cast<int>(error)));
+    }
+}
+
+std::optional<Triangle> SceneGeometry::triangle(std::uint32_t object, std::uint32_t index) const
+{
+    if (object >= parts_.size() || parts_[object].primitive == nullptr ||
+        index >= triangleCount(*parts_[object].primitive)) {
+        return {};
+    }
+    const Part& part = parts_[object];
+    Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = part.primitive->indices[std::size_t{index} * 3 + k];
+        triangle.rel[k] = transformPoint(part.rel_from_object, (*part.positions)[vertex]);
+        triangle.reach_m = std::max(triangle.reach_m, largest(triangle.rel[k]));
+    }
+    if (part.instanced) {
+        triangle.reach_m = std::max(triangle.reach_m, largest(glm::dvec3(part.rel_from_object[3])));
+    }
+    const glm::dvec3 across = glm::cross(triangle.rel[1] - triangle.rel[0], triangle.rel[2] - triangle.rel[0]);
+    const double length = glm::length(across);
+    if (!(length > 0.0) || !std::isfinite(length)) {
+        return {};
+    }
+    triangle.front = across * ((part.mirrored ? -1.0 : 1.0) / length);
+    return triangle;
+}
+
+} // namespace gnomon::truth

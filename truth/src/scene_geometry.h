@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene at one moment as Embree holds it, and each triangle of it in double precision.
+#pragma once
+
+#include "alpha.h"
+
+#include "scene/state.h"
+
+#include <embree3/rtcore.h>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gnomon::truth {
+
+struct DeviceDeleter {
+    using pointer = RTCDevice;
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+    using pointer = RTCScene;
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct GeometryDeleter {
+    using pointer = RTCGeometry;
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using DevicePointer = std::unique_ptr<RTCDevice, DeviceDeleter>;
+using ScenePointer = std::unique_ptr<RTCScene, SceneDeleter>;
+using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
+
+/// What a ray carries into the filters that Embree calls at every hit.
+struct RayContext {
+    RTCIntersectContext base; // first: a filter is handed a pointer to it
+    bool from_camera = false; // single-sided triangles are passed through from behind
+    /// The triangle that the ray starts on, which it does not hit. Of a shadow ray.
+    std::uint32_t own_object = RTC_INVALID_GEOMETRY_ID;
+    std::uint32_t own_triangle = RTC_INVALID_GEOMETRY_ID;
+
+    RayContext() { rtcInitIntersectContext(&base); }
+};
+
+/// An object of the state as the rays know it; `primitive` is null where it takes no part at all.
+struct Part {
+    const scene::Primitive* primitive = nullptr;
+    const std::vector<glm::vec3>* positions = nullptr;
+    glm::dmat4 rel_from_object{1.0}; // relative to SceneGeometry::originWs()
+    std::optional<AlphaTest> alpha;  // masked materials
+    bool mirrored = false;
+    bool double_sided = false;
+    bool casts = true;
+    bool receives = true;
+    bool instanced = false;
+};
+
+struct Triangle {
+    std::array<glm::dvec3, 3> rel; // relative to SceneGeometry::originWs()
+    glm::dvec3 front;              // unit normal of the side that faces front
+    double reach_m = 0.0;          // how large the coordinates are that Embree computes with near it
+};
+
+class SceneGeometry {
+public:
+    /// `scene` and `state` must outlive it. Objects that take more than `flat_triangles` together are instanced where a
+    /// mesh is used more than once. Throws Error when memory runs out.
+    SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles);
+
+    /// All that a camera sees, and all that casts.
+    [[nodiscard]] RTCScene seen() const { return seen_.get(); }
+    [[nodiscard]] RTCScene casters() const { return casters_ ? casters_.get() : seen_.get(); }
+    /// Rays are traced relative to this point, the middle of the scene, so that a scene far from the world's origin
+    /// loses nothing.
+    [[nodiscard]] const glm::dvec3& originWs() const { return origin_ws_; }
+    [[nodiscard]] const Part& part(std::uint32_t object) const { return parts_[object]; }
+    /// Nothing where there is no such triangle, or where it has no area.
+    [[nodiscard]] std::optional<Triangle> triangle(std::uint32_t object, std::uint32_t index) const;
+
+private:
+    void describe(const scene::Scene& scene, const scene::State& state);
+    void chooseInstances(const scene::State& state, std::uint64_t flat_triangles);
+    void build(const scene::State& state);
+    [[nodiscard]] GeometryPointer trianglesOf(const Part& part, const glm::dmat4& to_from_object);
+    [[nodiscard]] GeometryPointer instanceOf(const scene::Object& object, const Part& part);
+    [[nodiscard]] ScenePointer newScene();
+    void commit(RTCScene scene) const;
+    void check() const;
+
+    DevicePointer device_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ScenePointer> instanced_; // by mesh and primitive
+    ScenePointer seen_;
+    ScenePointer casters_; // null: all that is seen casts
+    std::vector<Part> parts_;
+    glm::dvec3 origin_ws_{0.0};
+};
+
+} // namespace gnomon::truth

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow_rays.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace gnomon::truth {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kLanes = 16;
+
+/// A ray's own end is off by rounding, and a shell drawn around the emitter must not stand in its light.
+constexpr double kEndShare = 1.0 - 0x1p-18;
+
+} // namespace
+
+glm::dvec3 offSurface(const glm::dvec3& rel, const Triangle& triangle, const glm::dvec3& normal)
+{
+    const glm::dvec3 on = rel - normal * glm::dot(rel - triangle.rel[0], normal);
+    // Embree computes with differences of floats no larger than about reach_m, so it places a triangle's plane to a few
+    // units in the last place of that, 2^-23. Sixteen half units keep the start on its own side of its own plane and of
+    // planes beside it that are meant to be the same. Then a ray above the horizon leaves them for good.
+    return on + normal * (triangle.reach_m * 0x1p-20);
+}
+
+/// Rays from one point to a disc, sixteen at a time.
+struct ShadowRays::Packet {
+    RayContext context;
+    RTCRay16 rays{};
+    alignas(64) std::array<int, kLanes> valid{};
+    alignas(64) std::array<float, kLanes> ends{};
+
+    Packet(const Receiver& receiver, const Seen& light);
+    void aim(std::span<const DiscPoint> set, std::uint32_t first, const DiscShift& shift);
+
+private:
+    glm::vec3 normal_;
+    glm::vec3 centre_;
+    glm::vec3 right_;
+    glm::vec3 up_;
+    // A ray's direction is w = c + tangent * rho * e, with c and e unit and perpendicular. It enters the sphere of
+    // radius R around the centre, at distance d, where |t w - d c| = R. With s = R / d the smaller root is
+    //     t = d (1 - s^2) / (1 + sqrt(s^2 - (1 - s^2) tangent^2 rho^2)),
+    // in which nothing cancels; the root's argument is 0 where the ray just touches the sphere.
+    float s2_;
+    float slope_; // (1 - s^2) tangent^2
+    float reach_; // d (1 - s^2)
+};
+
+ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
+    : normal_(receiver.normal), centre_(light.direction)
+{
+    context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.own_object = receiver.object;
+    context.own_triangle = receiver.triangle;
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+        rays.org_x[k] = static_cast<float>(receiver.rel.x);
+        rays.org_y[k] = static_cast<float>(receiver.rel.y);
+        rays.org_z[k] = static_cast<float>(receiver.rel.z);
+        rays.mask[k] = 0xFFFFFFFFU;
+    }
+    const glm::dvec3 other = std::abs(light.direction.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 right = glm::normalize(glm::cross(other, light.direction));
+    right_ = right * light.tangent;
+    up_ = glm::cross(light.direction, right) * light.tangent;
+    const double s = light.end_radius_m / light.distance_m; // 0 for a directional light
+    s2_ = static_cast<float>(s * s);
+    slope_ = static_cast<float>((1.0 - s * s) * light.tangent * light.tangent);
+    reach_ = static_cast<float>(light.distance_m * (1.0 - s * s) * kEndShare);
+}
+
+/// Rays `first` and on of `set`, as many as there are; those below the horizon are not valid.
+void ShadowRays::Packet::aim(std::span<const DiscPoint> set, std::uint32_t first, const DiscShift& shift)
+{
+    const auto count = static_cast<std::uint32_t>(set.size());
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+        const DiscPoint point = moved(set[std::min(first + k, count - 1)], shift);
+        const float rho = std::sqrt(point.area);
+        const float a = rho * point.direction.x;
+        const float b = rho * point.direction.y;
+        rays.dir_x[k] = centre_.x + right_.x * a + up_.x * b;
+        rays.dir_y[k] = centre_.y + right_.y * a + up_.y * b;
+        rays.dir_z[k] = centre_.z + right_.z * a + up_.z * b;
+        ends[k] = reach_ / (1.0F + std::sqrt(std::max(s2_ - slope_ * point.area, 0.0F)));
+        rays.tfar[k] = ends[k];
+        const float height = rays.dir_x[k] * normal_.x + rays.dir_y[k] * normal_.y + rays.dir_z[k] * normal_.z;
+        valid[k] = height > 0.0F && first + k < count ? -1 : 0;
+    }
+}
+
+ShadowRays::ShadowRays(const SceneGeometry& geometry, const Light& light, const Options& options)
+    : geometry_(geometry), light_(light), light_rel_(light.position_ws - geometry.originWs()), seed_(options.seed)
+{
+    const bool directional = light.type == scene::LightType::directional;
+    light_.direction_ws = glm::normalize(light.direction_ws);
+    area_ = options.kind == Kind::area && (directional ? light.angular_diameter_rad : light.radius_m) > 0.0;
+    if (area_) {
+        set_ = makeDiscSet(options.samples / kSampleSets);
+    }
+}
+
+ShadowRays::Seen ShadowRays::see(const glm::dvec3& rel) const
+{
+    Seen seen;
+    if (light_.type == scene::LightType::directional) {
+        seen.direction = -light_.direction_ws;
+        seen.distance_m = kInfinity;
+        seen.tangent = std::tan(light_.angular_diameter_rad * 0.5);
+        return seen;
+    }
+    const glm::dvec3 to_centre = light_rel_ - rel;
+    seen.distance_m = glm::length(to_centre);
+    const double radius_m = area_ ? light_.radius_m : 0.0;
+    seen.inside = seen.distance_m <= radius_m || seen.distance_m <= 0.0;
+    if (!seen.inside) {
+        seen.direction = to_centre / seen.distance_m;
+        // The cone that touches the sphere: sine r / d, so tangent r / sqrt(d^2 - r^2).
+        seen.tangent = radius_m / std::sqrt((seen.distance_m - radius_m) * (seen.distance_m + radius_m));
+        seen.end_radius_m = std::max(radius_m, light_.near_m);
+    }
+    return seen;
+}
+
+ShadowRays::Result ShadowRays::trace(const Receiver& receiver) const
+{
+    const Seen light = see(receiver.rel);
+    Result result;
+    result.first_blocker_m = kInfinity;
+    if (light.inside) {
+        return result;
+    }
+    if (!(glm::dot(receiver.normal, light.direction) > 0.0)) {
+        result.visibility = 0.0;
+        return result;
+    }
+    if (light.distance_m <= light.end_radius_m) {
+        return result; // all between the point and the light is too near to the light to cast
+    }
+    return area_ ? traceDisc(receiver, light) : traceCentre(receiver, light);
+}
+
+double ShadowRays::blockerAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const
+{
+    RayContext context;
+    context.own_object = receiver.object;
+    context.own_triangle = receiver.triangle;
+    RTCRayHit query{};
+    query.ray.org_x = static_cast<float>(receiver.rel.x);
+    query.ray.org_y = static_cast<float>(receiver.rel.y);
+    query.ray.org_z = static_cast<float>(receiver.rel.z);
+    query.ray.dir_x = static_cast<float>(direction.x);
+    query.ray.dir_y = static_cast<float>(direction.y);
+    query.ray.dir_z = static_cast<float>(direction.z);
+    query.ray.tfar = static_cast<float>(end);
+    query.ray.mask = 0xFFFFFFFFU;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(geometry_.casters(), &context.base, &query);
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kInfinity : query.ray.tfar * glm::length(direction);
+}
+
+ShadowRays::Result ShadowRays::traceCentre(const Receiver& receiver, const Seen& light) const
+{
+    Result result;
+    result.rays = 1;
+    const double end_m = (light.distance_m - light.end_radius_m) * kEndShare;
+    result.first_blocker_m = blockerAlong(receiver, light.direction, end_m);
+    result.visibility = result.first_blocker_m == kInfinity ? 1.0 : 0.0;
+    return result;
+}
+
+ShadowRays::Result ShadowRays::traceDisc(const Receiver& receiver, const Seen& light) const
+{
+    Packet packet(receiver, light);
+    Result result;
+    std::array<double, kSampleSets> lit{};
+    Blocked blocked;
+    const auto count = static_cast<std::uint32_t>(set_.size());
+    for (std::uint32_t set = 0; set < kSampleSets; ++set) {
+        const DiscShift shift = shiftOf(seed_, receiver.pixel, set);
+        std::uint32_t unblocked = 0;
+        for (std::uint32_t first = 0; first < count; first += kLanes) {
+            packet.aim(set_, first, shift);
+            rtcOccluded16(packet.valid.data(), geometry_.casters(), &packet.context.base, &packet.rays);
+            for (std::uint32_t k = 0; k < kLanes; ++k) {
+                const bool traced = packet.valid[k] != 0;
+                const bool is_free = traced && packet.rays.tfar[k] >= 0.0F; // Embree leaves -infinity where it hits
+                result.rays += traced ? 1 : 0;
+                unblocked += is_free ? 1 : 0;
+                if (traced && !is_free && blocked.count < kBlockedKept) {
+                    blocked.rays[blocked.count++] = {packet.rays.dir_x[k], packet.rays.dir_y[k], packet.rays.dir_z[k],
+                                                     packet.ends[k]};
+                }
+            }
+        }
+        lit[set] = static_cast<double>(unblocked) / count;
+    }
+    result.visibility = (lit[0] + lit[1] + lit[2] + lit[3]) / kSampleSets;
+    result.standard_error = standardError(lit);
+    findBlocker(receiver, light, blocked, result);
+    return result;
+}
+
+/// Along the ray to the light's centre, which is what a shadow map's texel holds; where that is free, the nearest along
+/// the first few rays that were blocked.
+void ShadowRays::findBlocker(const Receiver& receiver, const Seen& light, const Blocked& blocked, Result& result) const
+{
+    result.first_blocker_m = kInfinity;
+    if (blocked.count == 0) {
+        return;
+    }
+    ++result.rays;
+    result.first_blocker_m =
+        blockerAlong(receiver, light.direction, (light.distance_m - light.end_radius_m) * kEndShare);
+    if (result.first_blocker_m < kInfinity) {
+        return;
+    }
+    for (std::uint32_t i = 0; i < blocked.count; ++i) {
+        ++result.rays;
+        const glm::vec4& ray = blocked.rays[i];
+        result.first_blocker_m =
+            std::min(result.first_blocker_m, blockerAlong(receiver, glm::dvec3(glm::vec3(ray)), double{ray.w}));
+    }
+}
+
+} // namespace gnomon::truth
