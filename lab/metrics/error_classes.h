@@ -38,11 +38,11 @@ struct Classification {
 };
 
 /// `first_blocker_m`: distance from each pixel's surface to the first thing that blocks its light, +infinity for none.
-/// `scene_diagonal_m` > 0. Counted pixels strictly between 0 and 1 in `truth` are penumbra. Edges are looked for
-/// between counted neighbours, in hard and area truth alike; both pixels of such a pair are edge pixels. An error that
-/// is not a number makes its class's error NaN; it and one to the side that masks in [0, 1] do not allow go by the
-/// pixel's place: near an edge, else lit (acne), else by the blocker. Nothing when no pixel counts. Precondition: all
-/// images of one size and one channel.
+/// `scene_diagonal_m` > 0 where a pixel counts. Counted pixels strictly between 0 and 1 in `truth` are penumbra. Edges
+/// are looked for between counted neighbours, in hard and area truth alike; both pixels of such a pair are edge pixels.
+/// An error that is not a number makes its class's error NaN; it and one to the side that masks in [0, 1] do not allow
+/// go by the pixel's place: near an edge, else lit (acne), else by the blocker. Nothing when no pixel counts.
+/// Precondition: all images of one size and one channel.
 [[nodiscard]] std::optional<Classification> classifyErrors(const ImageF& test, const ImageF& truth,
                                                            const Counted& counted, const ImageF& first_blocker_m,
                                                            double scene_diagonal_m);

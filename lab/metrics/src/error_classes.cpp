@@ -127,11 +127,14 @@ std::optional<Classification> classifyErrors(const ImageF& test, const ImageF& t
     assert(areMasksOfOneSize(test, truth));
     assert(areMasksOfOneSize(test, counted));
     assert(areMasksOfOneSize(test, first_blocker_m));
-    assert(scene_diagonal_m > 0.0);
+    const auto count = counted.values.size() - std::count(counted.values.begin(), counted.values.end(), 0);
+    if (count == 0) {
+        return std::nullopt;
+    }
+    assert(scene_diagonal_m > 0.0); // where nothing is seen there may be no scene
     const double contact_m = kContactShareOfDiagonal * scene_diagonal_m;
     const Marks near_edge = dilate(findEdges(truth, counted));
     Classification result{ImageOf<ErrorClass>(test.width, test.height, 1, ErrorClass::left_out), {}};
-    std::size_t count = 0;
     for (std::size_t i = 0; i < counted.values.size(); ++i) {
         if (counted.values[i] == 0) {
             continue;
@@ -143,10 +146,6 @@ std::optional<Classification> classifyErrors(const ImageF& test, const ImageF& t
         if (double* sum = sumOf(result.errors, kind)) {
             *sum += e * e;
         }
-        ++count;
-    }
-    if (count == 0) {
-        return std::nullopt;
     }
     for (double* sum : {&result.errors.edge, &result.errors.acne, &result.errors.detached, &result.errors.bleeding}) {
         *sum /= static_cast<double>(count);

@@ -281,6 +281,7 @@ TEST(ErrorClasses, NothingWhenNoPixelCounts)
     EXPECT_FALSE(classifyErrors(mask, mask, Counted(9, 9, 1), mask, kDiagonal_m));
     const ImageF empty(0, 0, 1);
     EXPECT_FALSE(classifyErrors(empty, empty, countAll(0, 0), empty, kDiagonal_m));
+    EXPECT_FALSE(classifyErrors(mask, mask, Counted(9, 9, 1), mask, 0.0)); // a scene of nothing has no size
 }
 
 /// Blobs of umbra and penumbra with errors of every size, some beyond [0, 1], some pixels left out.
