@@ -8,6 +8,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -80,10 +81,14 @@ struct TimingResult {
     std::uint64_t baseline_bytes = 0;
 };
 
+/// Whose turn it is, of `count` who draw once in each round: the places 0 .. count - 1 in order, and in every other
+/// round backwards.
+[[nodiscard]] std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count);
+
 /// Draws every contestant and the frame without shadows (the first one's options otherwise) once in turn, again and
-/// again; every other round goes backwards, so that none always follows the same one. `step` is called after every
-/// frame drawn and may throw to stop; it may be empty. Every contestant's images are in memory at once. Precondition:
-/// one contestant at least.
+/// again, in the order of turnsOf(), so that none always follows the same one; the frame without shadows has place 0.
+/// `step` is called after every frame drawn and may throw to stop; it may be empty. Every contestant's images are in
+/// memory at once. Precondition: one contestant at least.
 [[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);

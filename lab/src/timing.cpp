@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string_view>
 
 namespace gnomon::lab {
@@ -122,14 +123,24 @@ Spread spreadOf(std::vector<double> values)
     return {quantile(values, 0.5), quantile(values, 0.75) - quantile(values, 0.25)};
 }
 
+std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count)
+{
+    std::vector<std::size_t> places(count);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    if (round % 2 == 1) {
+        std::reverse(places.begin(), places.end());
+    }
+    return places;
+}
+
 TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject, const std::vector<Contestant>& contestants,
                         const TimingOptions& options, const std::function<void()>& step)
 {
     assert(subject.scene != nullptr && subject.state != nullptr && !contestants.empty() && options.repetitions > 0);
     std::vector<Turn> turns = makeTurns(gpu, subject, contestants, options);
     for (std::uint32_t round = 0; round < options.warmup + options.repetitions; ++round) {
-        for (std::size_t i = 0; i < turns.size(); ++i) {
-            Turn& turn = turns[round % 2 == 0 ? i : turns.size() - 1 - i];
+        for (const std::size_t place : turnsOf(round, turns.size())) {
+            Turn& turn = turns[place];
             const host::FrameTimes times = turn.renderer->draw(*subject.state, subject.eye, subject.lights);
             if (step) {
                 step();

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stage.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::lab::test {
+namespace {
+
+host::Eye eyeOf(const scene::Scene& scene, const std::string& name)
+{
+    for (const scene::NamedView& view : scene.views) {
+        if (view.name == name) {
+            return {.position_ws = view.eye, .target_ws = view.target, .fov_y_rad = double{view.fov_y_rad}};
+        }
+    }
+    throw std::invalid_argument("no view " + name);
+}
+
+truth::Traced traceHard(const Subject& subject, glm::uvec2 size_px)
+{
+    const truth::Tracer tracer(*subject.scene, *subject.state);
+    const truth::View view = truthView(subject, size_px);
+    const truth::Options options{.kind = truth::Kind::hard};
+    truth::Traced traced;
+    traced.surfaces = tracer.see(view, options).value();
+    traced.visibility = tracer.trace(traced.surfaces, view, truthLight(subject), options).value();
+    return traced;
+}
+
+} // namespace
+
+Stage::Stage(scene::Scene scene, const std::string& view, glm::uvec2 size_px, std::uint32_t light)
+    : scene_(std::move(scene)), state_(scene::evaluate(scene_, 0.0)),
+      gpu_({.gpu = "software", .validate = true}), subject_{.scene = &scene_,
+                                                            .state = &state_,
+                                                            .eye = eyeOf(scene_, view),
+                                                            .lights = host::lightsOf(scene_, state_),
+                                                            .light = light},
+      size_px_(size_px)
+{
+}
+
+Stage::~Stage()
+{
+    for (const std::string& message : gpu_.messages()) {
+        ADD_FAILURE() << message;
+    }
+}
+
+const truth::Traced& Stage::hardTruth()
+{
+    if (!hard_truth_) {
+        hard_truth_ = traceHard(subject_, size_px_);
+    }
+    return *hard_truth_;
+}
+
+host::Picture Stage::geometry()
+{
+    host::RenderOptions options;
+    options.width = size_px_.x;
+    options.height = size_px_.y;
+    options.shadows = false;
+    host::Renderer renderer(gpu_, scene_, state_, options);
+    renderer.draw(state_, subject_.eye, subject_.lights);
+    return renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});
+}
+
+Score Stage::score(const host::RenderOptions& options, bool with_perception)
+{
+    return scoreTechnique(gpu_, subject_, hardTruth(), options, with_perception);
+}
+
+host::RenderOptions hardOptions(std::uint32_t map_size)
+{
+    host::RenderOptions options;
+    options.plan.technique.filter = Filter::hard;
+    options.plan.map_size = map_size;
+    options.filter.filter = Filter::hard;
+    return options;
+}
+
+} // namespace gnomon::lab::test

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene, a device with validation listening, and the truth of one of its lights.
+#pragma once
+
+#include "lab/compare.h"
+
+#include "host/gpu.h"
+#include "scene/model.h"
+#include "scene/state.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace gnomon::lab::test {
+
+class Stage {
+public:
+    /// Looks from the scene's view of that name.
+    Stage(scene::Scene scene, const std::string& view, glm::uvec2 size_px, std::uint32_t light = 0);
+    /// Fails the test with every validation message there was.
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    [[nodiscard]] const Subject& subject() const { return subject_; }
+    [[nodiscard]] host::Gpu& gpu() { return gpu_; }
+    /// Traced when first asked for.
+    [[nodiscard]] const truth::Traced& hardTruth();
+    /// Geometry alone, without shadows.
+    [[nodiscard]] host::Picture geometry();
+    [[nodiscard]] Score score(const host::RenderOptions& options, bool with_perception = false);
+
+private:
+    scene::Scene scene_;
+    scene::State state_;
+    host::Gpu gpu_;
+    Subject subject_;
+    glm::uvec2 size_px_;
+    std::optional<truth::Traced> hard_truth_;
+};
+
+/// The filter `hard`, with automatic bias.
+[[nodiscard]] host::RenderOptions hardOptions(std::uint32_t map_size);
+
+} // namespace gnomon::lab::test

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// What maps deliver, where it can be worked out by hand: a plane seen from straight above.
+#include "lab/texel_density.h"
+
+#include <gnomon/planner.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gnomon::lab {
+namespace {
+
+constexpr std::uint32_t kSide_px = 32;
+constexpr double kFov_rad = 0.6;
+
+/// The plane y = 0 from straight above, every pixel the same square of it.
+struct Above {
+    explicit Above(double pixel_m)
+    {
+        const double height = pixel_m * kSide_px / (2.0 * std::tan(kFov_rad / 2.0));
+        const host::Eye eye{.position_ws = {0.0, height, 0.0},
+                            .target_ws = {0.0, 0.0, 0.0},
+                            .up_ws = {0.0, 0.0, -1.0},
+                            .fov_y_rad = kFov_rad,
+                            .near_m = height / 10.0,
+                            .far_m = height * 10.0};
+        camera = host::cameraOf(eye, kSide_px, kSide_px, {});
+        const glm::dvec4 clip = camera.clip_from_world * glm::dvec4(0.0, 0.0, 0.0, 1.0);
+        picture.depth = ImageF(kSide_px, kSide_px, 1, static_cast<float>(clip.z / clip.w));
+        picture.normals = ImageF(kSide_px, kSide_px, 3);
+        for (std::uint32_t i = 0; i < kSide_px * kSide_px; ++i) {
+            picture.normals.values[std::size_t{i} * 3 + 1] = 1.0F;
+        }
+        all = countAll(kSide_px, kSide_px);
+    }
+    Camera camera;
+    host::Picture picture;
+    Counted all;
+};
+
+/// A map under a parallel light that falls by `tilt_rad` from the vertical, towards +x. The map is turned by `turn_rad`
+/// about the light's axis; its middle is at the origin.
+Plan planOf(double tilt_rad, double turn_rad, glm::dvec2 texel_m, std::uint32_t width, std::uint32_t height)
+{
+    const glm::dvec3 forward(std::sin(tilt_rad), -std::cos(tilt_rad), 0.0);
+    const glm::dvec3 along(std::cos(tilt_rad), std::sin(tilt_rad), 0.0);
+    const glm::dvec3 across(0.0, 0.0, 1.0);
+    const glm::dvec3 x = along * std::cos(turn_rad) + across * std::sin(turn_rad);
+    const glm::dvec3 y = across * std::cos(turn_rad) - along * std::sin(turn_rad);
+    const glm::dvec3 rows[] = {x * 2.0 / (texel_m.x * width), y * 2.0 / (texel_m.y * height), forward * 1e-3};
+    View view;
+    view.clip_from_world = glm::dmat4(1.0);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            view.clip_from_world[column][row] = rows[row][column];
+        }
+    }
+    view.clip_from_world[3][2] = 0.5;
+    view.tile = {.width = width, .height = height};
+    Plan plan;
+    plan.views.push_back(view);
+    plan.lights.push_back({.first_view = 0, .view_count = 1});
+    return plan;
+}
+
+void expectDensity(const Above& above, const Plan& plan, double expected)
+{
+    const TexelDensity density = texelDensity(above.picture, above.all, above.camera, plan, 0);
+    const double tolerance = expected * 1e-4; // of depth in single precision
+    EXPECT_NEAR(density.p01, expected, tolerance);
+    EXPECT_NEAR(density.p50, expected, tolerance);
+    EXPECT_NEAR(density.p99, expected, tolerance);
+    EXPECT_EQ(density.counted, kSide_px * kSide_px);
+    EXPECT_EQ(density.left_out, 0U);
+    EXPECT_NEAR(*density.map.pixel(3, 29), expected, tolerance);
+}
+
+TEST(TexelDensity, UnderALightFromAboveIsPixelOverTexel)
+{
+    for (const double pixel_m : {0.02, 0.1, 1.5}) {
+        for (const double turn : {0.0, 0.4, 1.1}) {
+            SCOPED_TRACE(testing::Message() << pixel_m << " m, turned by " << turn);
+            expectDensity(Above(pixel_m), planOf(0.0, turn, {0.05, 0.05}, 2048, 2048), pixel_m / 0.05);
+        }
+    }
+}
+
+TEST(TexelDensity, TakesTheTexelsLongerSide)
+{
+    const Above above(0.1);
+    expectDensity(above, planOf(0.0, 0.0, {0.2, 0.05}, 256, 256), 0.5);
+    expectDensity(above, planOf(0.0, 0.7, {0.05, 0.2}, 256, 256), 0.5);
+}
+
+TEST(TexelDensity, ASlantedLightStretchesTexels)
+{
+    // At 60 degrees from the vertical a texel covers twice its width of the ground.
+    expectDensity(Above(0.1), planOf(glm::radians(60.0), 0.0, {0.05, 0.05}, 512, 512), 1.0);
+}
+
+TEST(TexelDensity, LeavesOutWhatDoesNotCountAndWhatNoMapHas)
+{
+    Above above(0.1);
+    for (std::uint32_t x = 0; x < kSide_px; ++x) {
+        *above.picture.depth.pixel(x, 0) = 0.0F; // background: not even left out
+        *above.all.pixel(x, 1) = 0;
+    }
+    // A map of half the picture's width: 16 columns of pixels.
+    const TexelDensity half =
+        texelDensity(above.picture, above.all, above.camera, planOf(0.0, 0.0, {0.05, 0.05}, kSide_px, 4 * kSide_px), 0);
+    EXPECT_EQ(half.counted, 16U * 30U);
+    EXPECT_EQ(half.left_out, 32U + 16U * 30U);
+    EXPECT_EQ(*half.map.pixel(2, 16), 0.0F);
+    EXPECT_GT(*half.map.pixel(16, 16), 0.0F);
+
+    Plan none = planOf(0.0, 0.0, {0.05, 0.05}, 64, 64);
+    none.lights[0].outcome.kind = OutcomeKind::no_caster;
+    const TexelDensity without = texelDensity(above.picture, above.all, above.camera, none, 0);
+    EXPECT_EQ(without.counted, 0U);
+    EXPECT_EQ(without.left_out, 31U * 32U);
+    EXPECT_EQ(without.p50, 0.0);
+    EXPECT_EQ(fitEfficiency(above.picture, above.all, above.camera, none, 0, 0.5), 0.0);
+}
+
+double efficiencyOf(const Above& above, const Plan& plan, double reach_texels)
+{
+    return fitEfficiency(above.picture, above.all, above.camera, plan, 0, reach_texels);
+}
+
+TEST(FitEfficiency, IsTheShareOfTexelsWithinReachOfSomePixel)
+{
+    // 32 x 32 pixels of 4 m on texels of 1 m.
+    const Above sparse(4.0);
+    const Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
+    const double texels = 256.0 * 256.0;
+    Plan shifted = plan; // away from texel borders, where rounding would decide
+    shifted.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 0.5), 1024.0 / texels);        // the texel itself
+    EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 1.0), 1024.0 * 4.0 / texels);  // 2 x 2
+    EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 2.0), 1024.0 * 16.0 / texels); // 4 x 4: all of 128 x 128
+    EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 3.0), 130.0 * 130.0 / texels); // they overlap
+    EXPECT_DOUBLE_EQ(efficiencyOf(sparse, shifted, 40.0), 204.0 * 204.0 / texels);
+}
+
+TEST(FitEfficiency, CountsATexelOnceAndStaysInTheTile)
+{
+    const Above dense(0.05); // 20 pixels to a texel; all of them within 0.8 texels of the map's middle
+    const Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 64, 64);
+    EXPECT_DOUBLE_EQ(efficiencyOf(dense, plan, 0.5), 4.0 / 4096.0);
+    EXPECT_DOUBLE_EQ(efficiencyOf(dense, plan, 1000.0), 1.0);
+    Above none(0.05);
+    none.all = Counted(kSide_px, kSide_px, 1);
+    EXPECT_EQ(efficiencyOf(none, plan, 0.5), 0.0);
+}
+
+TEST(FitEfficiency, OfAFilterFollowsItsReach)
+{
+    vulkan::FilterOptions filter;
+    filter.filter = Filter::hard;
+    EXPECT_EQ(vulkan::filterReachTexels(filter), 0.5F);
+    filter.filter = Filter::pcf;
+    filter.pcf_kernel = PcfKernel::bilinear_2x2;
+    EXPECT_EQ(vulkan::filterReachTexels(filter), 1.0F);
+    filter.pcf_kernel = PcfKernel::gaussian_7x7;
+    EXPECT_EQ(vulkan::filterReachTexels(filter), 4.0F);
+    filter.pcf_kernel = PcfKernel::vogel;
+    filter.disc_radius_texels = 3.25F;
+    EXPECT_EQ(vulkan::filterReachTexels(filter), 4.25F);
+}
+
+TEST(FacingPixels, AreThoseWhoseSurfaceFacesTheLight)
+{
+    Above above(0.1);
+    Light sun;
+    sun.direction_ws = glm::normalize(glm::dvec3(1.0, -0.06, 0.0)); // N·L is 0.06
+    EXPECT_EQ(facingPixels(above.picture, above.camera, sun).values, above.all.values);
+    sun.direction_ws = glm::normalize(glm::dvec3(1.0, -0.04, 0.0));
+    EXPECT_EQ(facingPixels(above.picture, above.camera, sun).values, Counted(kSide_px, kSide_px, 1).values);
+
+    Light lamp;
+    lamp.type = LightType::spot;
+    lamp.position_ws = {0.0, 0.1, 0.0}; // faced within 2 m, where the height is 0.05 of the distance
+    *above.picture.depth.pixel(16, 16) = 0.0F;
+    const Counted lit = facingPixels(above.picture, above.camera, lamp);
+    EXPECT_EQ(*lit.pixel(16, 16), 0); // background
+    EXPECT_EQ(*lit.pixel(16, 20), 1);
+    EXPECT_EQ(*lit.pixel(0, 0), 0); // 2.19 m away
+    EXPECT_EQ(*lit.pixel(0, 16), 1);
+}
+
+} // namespace
+} // namespace gnomon::lab
