@@ -19,6 +19,10 @@ struct Traced {
     Visibility visibility;
 };
 
+/// Part of every key. Count it up with any change after which the tracer gives other results for the same input, so
+/// that old truths are traced anew.
+inline constexpr std::uint32_t kTracerVersion = 1;
+
 /// Of scene, state, view, light, kind, samples, seed and the tracer's own version; not of threads or callbacks.
 [[nodiscard]] scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const View& view,
                                    const Light& light, const Options& options);
@@ -30,14 +34,14 @@ public:
     [[nodiscard]] static std::optional<std::filesystem::path> defaultFolder();
 
     /// Makes nothing until the first store. `max_bytes`: what all entries together may take; the least recently used
-    /// go first.
+    /// go first. Of the folder's files only those are ever removed that bear an entry's name, or its temporary one.
     explicit Cache(std::filesystem::path folder, std::uint64_t max_bytes = 4ULL << 30);
 
     /// Nothing when there is no entry, or one that is torn, of another version or of other sizes than it says (it is
-    /// then removed). Never throws for what is in the file.
+    /// then removed). Never throws.
     [[nodiscard]] std::optional<Traced> load(const scene::Hash128& key) const;
     /// Returns false, with a sentence in `why` if given, when the entry could not be written; then nothing is left
-    /// behind. Never throws for the file system.
+    /// behind, but for the folder. Images must be all of one size, up to 16384 a side. Never throws.
     bool store(const scene::Hash128& key, const Traced& traced, std::string* why = nullptr) const;
 
 private:
