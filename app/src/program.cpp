@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/command_line.h"
 
+#include "interrupt.h"
 #include "subcommands.h"
 
 #include <gnomon/error.h>
@@ -73,10 +74,13 @@ int runProgram(std::span<const std::string> arguments)
     // A closed pipe and a file size limit are to come back as errors of the call, not to end the process half way.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    watchForInterrupts();
     constexpr int kFailure = 1;
     constexpr int kWrongUsage = 2;
     try {
         return dispatch(arguments);
+    } catch (const Interrupted& interrupted) {
+        return complain(interrupted.what(), interruptStatus());
     } catch (const UsageError& error) {
         return complain(error.what(), kWrongUsage);
     } catch (const std::bad_alloc&) {

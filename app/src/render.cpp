@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon render`: pictures and masks to files.
+// `gnomon render`: pictures and masks to files, with a technique's shadows or with the ray tracer's.
 #include "app/shot.h"
 #include "app/visual.h"
+#include "interrupt.h"
 #include "progress.h"
+#include "render_target.h"
 #include "subcommands.h"
+#include "truth_masks.h"
 
 #include "host/gpu.h"
 #include "image/image_io.h"
@@ -26,79 +29,20 @@ bool isExr(const fs::path& file)
     return file.extension() == ".exr";
 }
 
-/// Where the results go; says what is wrong before any work is done.
-class Target {
-public:
-    explicit Target(const Settings& settings) : folder_wanted_(settings.frames.has_value())
-    {
-        path_ = !settings.output.empty() ? settings.output : folder_wanted_ ? "gnomon_frames" : "gnomon.png";
-        if (!folder_wanted_) {
-            if (fs::is_directory(path_)) {
-                throw Error("writing " + path_.string(), "it is a directory", "name a file in it");
-            }
-            if (path_.extension() != ".png" && path_.extension() != ".exr") {
-                throw UsageError(fmt::format("--out: \"{}\" ends neither in .png nor in .exr", path_.string()));
-            }
-            requireWritable(path_);
-            return;
-        }
-        if (path_.extension() == ".png" || path_.extension() == ".exr") {
-            throw UsageError(
-                fmt::format("--out: \"{}\" names a picture, but with --frames it is a folder", path_.string()));
-        }
-        if (fs::exists(path_) && !fs::is_directory(path_)) {
-            throw Error("writing frames to " + path_.string(), "it is not a folder");
-        }
-        if (!fs::exists(path_)) {
-            const fs::path parent = fs::absolute(path_).parent_path();
-            if (!fs::is_directory(parent)) {
-                throw Error("writing frames to " + path_.string(), "there is no folder " + parent.string());
-            }
-        }
-    }
-    ~Target()
-    {
-        std::error_code ignored;
-        if (created_) {
-            fs::remove(path_, ignored); // only while it is empty: no frame was written
-        }
-    }
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-    [[nodiscard]] fs::path frame(std::uint32_t index)
-    {
-        if (!folder_wanted_) {
-            return path_;
-        }
-        if (!fs::exists(path_)) {
-            std::error_code error;
-            if (!fs::create_directory(path_, error)) {
-                throw Error("making folder " + path_.string(), error.message());
-            }
-            created_ = true;
-        }
-        return path_ / fmt::format("frame_{:04}.png", index);
-    }
-
-private:
-    bool folder_wanted_;
-    bool created_ = false;
-    fs::path path_;
-};
+void writeMask(const fs::path& file, const ImageF& mask)
+{
+    isExr(file) ? writeExr(file, mask) : writePng(file, maskAs16Bit(mask));
+}
 
 void writePicture(const fs::path& file, host::Renderer& renderer, const Settings& settings, std::size_t light)
 {
     const bool exr = isExr(file);
     const host::Picture picture = renderer.read(
         {.colour = !settings.mask && !exr, .linear = !settings.mask && exr, .masks = settings.mask, .geometry = false});
-    if (!settings.mask) {
-        exr ? writeExr(file, picture.linear, true) : writePng(file, picture.colour);
-    } else if (exr) {
-        writeExr(file, picture.masks.at(light));
+    if (settings.mask) {
+        writeMask(file, picture.masks.at(light));
     } else {
-        writePng(file, maskAs16Bit(picture.masks.at(light)));
+        exr ? writeExr(file, picture.linear, true) : writePng(file, picture.colour);
     }
 }
 
@@ -114,35 +58,42 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
-std::string sentence(const Settings& settings, const Shot& shot, const fs::path& path, double seconds)
+std::string sentence(const Settings& settings, const Shot& shot, const fs::path& path, const std::string& how,
+                     double seconds)
 {
     const std::string what = settings.frames
                                  ? fmt::format("{} frames", settings.frames->last - settings.frames->first + 1)
                                  : fmt::format("{}x{}", settings.size_px.x, settings.size_px.y);
     return fmt::format("{}: {} of {}, camera {}, {}, in {:.2f} s\n", path.string(), what, settings.scene, shot.camera,
-                       describeTechnique(settings), seconds);
+                       how, seconds);
 }
 
-} // namespace
-
-int runRender(const Settings& settings)
+/// Moves the shot from frame to frame and calls `draw` with the index and whether it is the first.
+template <typename Draw>
+void forEachFrame(Shot& shot, const Settings& settings, const Draw& draw)
 {
-    const auto start = std::chrono::steady_clock::now();
-    Target target(settings);
-    Shot shot = makeShot(settings);
-    const std::size_t light = lightIndex(shot, settings);
+    const FrameRange range = settings.frames.value_or(FrameRange{});
+    Progress progress("drawing", range.last - range.first + 1);
+    for (std::uint32_t index = range.first; index <= range.last; ++index) {
+        if (index != range.first) {
+            moveShot(shot, settings, index);
+        }
+        requireNotInterrupted();
+        draw(index, index == range.first);
+        progress.step();
+    }
+}
+
+/// Returns how it was drawn.
+std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& target, std::size_t light)
+{
     const auto gpu = openGpu(settings);
     {
         host::Renderer renderer(*gpu, shot.scene, shot.state, renderOptions(settings));
-        const FrameRange range = settings.frames.value_or(FrameRange{});
-        Progress progress("drawing", range.last - range.first + 1);
-        for (std::uint32_t index = range.first; index <= range.last; ++index) {
-            if (index != range.first) {
-                moveShot(shot, settings, index);
-            }
+        forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
             renderer.draw(shot.state, shot.eye, shot.lights);
             requireSilence(*gpu);
-            if (index == range.first) {
+            if (first) {
                 const Outcome& outcome = renderer.plan().lights[light].outcome;
                 if (settings.mask && !outcome.hasMap()) {
                     throw Error("drawing the mask of light " + shot.lights[light].name, std::string(outcome.reason));
@@ -151,12 +102,68 @@ int runRender(const Settings& settings)
                 noteOutcomes(shot, renderer.plan());
             }
             writePicture(target.frame(index), renderer, settings, light);
-            progress.step();
-        }
+        });
     }
     requireSilence(*gpu);
+    return describeTechnique(settings);
+}
+
+/// The same shading with the ray tracer's masks.
+std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target)
+{
+    requireSizedLights(settings, shot.lights);
+    TruthMasks truth(shot, settings);
+    const auto gpu = openGpu(settings);
+    {
+        host::RenderOptions options = renderOptions(settings);
+        options.shadows = false;
+        host::Renderer renderer(*gpu, shot.scene, shot.state, options);
+        forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
+            if (first) {
+                std::for_each(shot.notices.begin(), shot.notices.end(), notice);
+                truth.noteSizes();
+                renderer.draw(shot.state, shot.eye, shot.lights); // says what the host refuses before rays are traced
+            }
+            const std::vector<ImageF> masks = truth.ofAllLights();
+            renderer.draw(shot.state, shot.eye, shot.lights, &masks);
+            requireSilence(*gpu);
+            writePicture(target.frame(index), renderer, settings, 0);
+        });
+    }
+    requireSilence(*gpu);
+    return truth.summary();
+}
+
+/// The ray tracer's mask as it is; nothing is drawn, so no GPU is asked for.
+std::string writeTruth(Shot& shot, const Settings& settings, RenderTarget& target, std::size_t light)
+{
+    requireSizedLights(settings, {&shot.lights[light], 1});
+    TruthMasks truth(shot, settings);
+    forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
+        if (first) {
+            std::for_each(shot.notices.begin(), shot.notices.end(), notice);
+            truth.noteSize(light);
+        }
+        const ImageF mask = truth.ofLight(light);
+        requireNotInterrupted();
+        writeMask(target.frame(index), mask);
+    });
+    return truth.summary();
+}
+
+} // namespace
+
+int runRender(const Settings& settings)
+{
+    const auto start = std::chrono::steady_clock::now();
+    RenderTarget target(settings);
+    Shot shot = makeShot(settings);
+    const std::size_t light = lightIndex(shot, settings);
+    const std::string how = !settings.truth ? drawTechnique(shot, settings, target, light)
+                            : settings.mask ? writeTruth(shot, settings, target, light)
+                                            : drawTruth(shot, settings, target);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    writeStdout(sentence(settings, shot, target.path(), seconds.count()));
+    writeStdout(sentence(settings, shot, target.path(), how, seconds.count()));
     return 0;
 }
 

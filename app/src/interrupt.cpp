@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interrupt.h"
+
+#include <csignal>
+#include <unistd.h>
+
+namespace gnomon::app {
+namespace {
+
+constexpr int kShellBase = 128; // what shells add to the number of a signal that ended a program
+
+std::atomic<bool> flag{false};
+std::atomic<int> first_signal{SIGINT};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler may touch no other atomics");
+
+extern "C" void onSignal(int number)
+{
+    if (flag.exchange(true)) {
+        ::_exit(kShellBase + number);
+    }
+    first_signal = number;
+}
+
+} // namespace
+
+void watchForInterrupts()
+{
+    for (const int number : {SIGINT, SIGTERM}) {
+        struct sigaction before {};
+        ::sigaction(number, nullptr, &before);
+        if (before.sa_handler == SIG_IGN) {
+            continue;
+        }
+        struct sigaction action {};
+        action.sa_handler = onSignal;
+        action.sa_flags = SA_RESTART; // reads and writes of drivers and libraries go on
+        ::sigemptyset(&action.sa_mask);
+        ::sigaction(number, &action, nullptr);
+    }
+}
+
+const std::atomic<bool>& interruptFlag()
+{
+    return flag;
+}
+
+int interruptStatus()
+{
+    return kShellBase + first_signal;
+}
+
+void requireNotInterrupted()
+{
+    if (flag) {
+        throw Interrupted();
+    }
+}
+
+} // namespace gnomon::app

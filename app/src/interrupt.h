@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ending a run from outside. SIGINT and SIGTERM only set a flag; long work looks at it between its steps (Progress does
+// so by itself), so that files and devices are given back in order. A second signal ends the program at once.
+#pragma once
+
+#include <atomic>
+#include <exception>
+
+namespace gnomon::app {
+
+/// Not an error: the run was asked to end.
+class Interrupted : public std::exception {
+public:
+    [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// From now on; a signal that is ignored already, as in the background of a script, stays so.
+void watchForInterrupts();
+/// True once a signal came. For work that polls by itself.
+[[nodiscard]] const std::atomic<bool>& interruptFlag();
+/// 128 + the signal's number: 130 for SIGINT, 143 for SIGTERM.
+[[nodiscard]] int interruptStatus();
+/// Throws Interrupted once a signal came.
+void requireNotInterrupted();
+
+} // namespace gnomon::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth_run.h"
+
+#include "interrupt.h"
+#include "lab/compare.h"
+#include "progress.h"
+
+#include <cassert>
+#include <optional>
+#include <utility>
+
+namespace gnomon::app {
+
+struct TruthTracer::Impl {
+    const Shot& shot;
+    const Settings& settings;
+    std::optional<truth::Cache> cache;
+    // Of the shot's present moment, made when first needed.
+    std::optional<truth::Tracer> tracer;
+    std::optional<truth::Surfaces> surfaces;
+
+    void openCache();
+    void keep(const scene::Hash128& key, const truth::Traced& traced);
+    truth::Traced traceAnew(const truth::View& view, const truth::Light& light, truth::Options options);
+};
+
+void TruthTracer::Impl::openCache()
+{
+    if (settings.no_cache) {
+        return;
+    }
+    if (const auto folder = truth::Cache::defaultFolder()) {
+        cache.emplace(*folder);
+    } else {
+        notice("truths are not kept: neither XDG_CACHE_HOME nor HOME names a folder");
+    }
+}
+
+void TruthTracer::Impl::keep(const scene::Hash128& key, const truth::Traced& traced)
+{
+    std::string why;
+    if (cache && !cache->store(key, traced, &why)) {
+        notice("the truth is not kept: " + why);
+        cache.reset(); // said once, and not tried for every frame
+    }
+}
+
+truth::Traced TruthTracer::Impl::traceAnew(const truth::View& view, const truth::Light& light, truth::Options options)
+{
+    Progress progress("tracing");
+    options.progress = [&](double share) {
+        progress.show(share);
+    };
+    options.cancel = &interruptFlag();
+    requireNotInterrupted(); // building takes a while
+    if (!tracer) {
+        tracer.emplace(shot.scene, shot.state);
+        surfaces.reset();
+    }
+    if (!surfaces) {
+        surfaces = tracer->see(view, options);
+    }
+    std::optional<truth::Visibility> visibility;
+    if (surfaces) {
+        visibility = tracer->trace(*surfaces, view, light, options);
+    }
+    if (!visibility) {
+        throw Interrupted();
+    }
+    return {*surfaces, std::move(*visibility)};
+}
+
+TruthTracer::TruthTracer(const Shot& shot, const Settings& settings) : impl_(new Impl{shot, settings, {}, {}, {}})
+{
+    assert(settings.truth);
+    impl_->openCache();
+}
+
+TruthTracer::~TruthTracer() = default;
+
+void TruthTracer::moved()
+{
+    impl_->tracer.reset();
+    impl_->surfaces.reset();
+}
+
+TruthRun TruthTracer::trace(std::size_t light)
+{
+    const Shot& shot = impl_->shot;
+    const Settings& settings = impl_->settings;
+    const lab::Subject subject{&shot.scene, &shot.state, shot.eye, shot.lights, static_cast<std::uint32_t>(light)};
+    const truth::View view = lab::truthView(subject, settings.size_px);
+    const truth::Light rays_to = lab::truthLight(subject);
+    truth::Options options;
+    options.kind = *settings.truth;
+    options.samples = settings.samples;
+    options.seed = settings.seed;
+    TruthRun run;
+    if (impl_->cache) {
+        run.key = truth::keyOf(shot.scene, shot.state, view, rays_to, options);
+        if (auto kept = impl_->cache->load(run.key)) {
+            run.traced = std::move(*kept);
+            run.from_cache = true;
+        }
+    }
+    if (!run.from_cache) {
+        run.traced = impl_->traceAnew(view, rays_to, std::move(options));
+        impl_->keep(run.key, run.traced);
+    }
+    run.rays = run.traced.visibility.rays;
+    run.seconds = run.traced.visibility.seconds;
+    return run;
+}
+
+bool isPointLike(const Light& light)
+{
+    return light.type == LightType::directional ? light.angular_diameter_rad == 0.0 : light.radius_m == 0.0;
+}
+
+} // namespace gnomon::app
