@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon compare`: techniques on one frame of a scene against ray-traced truth.
+#include "app/shot.h"
+#include "app/visual.h"
+#include "compare_folder.h"
+#include "compare_json.h"
+#include "compare_text.h"
+#include "contestants.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "subcommands.h"
+#include "truth_run.h"
+
+#include "image/image_io.h"
+#include "scene/hash.h"
+
+#include <gnomon/choices.h>
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace gnomon::app {
+namespace {
+
+/// What a sweep has no use for is refused, not ignored.
+void validateSweep(const Settings& settings)
+{
+    for (const char* key : {"equal-error", "repetitions", "warmup"}) {
+        if (settings.sweep && settings.given.contains(key)) {
+            throw UsageError(fmt::format("--{} has no effect with --sweep, which measures no time", key));
+        }
+    }
+}
+
+/// A light that every technique refuses leaves nothing to compare.
+void requireCaster(const host::ShadedLight& light, const std::vector<Settings>& techniques)
+{
+    std::optional<std::string_view> why;
+    for (const Settings& technique : techniques) {
+        why = refusal(light.caster.type, technique.plan.technique);
+        if (!why) {
+            return;
+        }
+    }
+    throw Error("comparing shadows of light " + light.name, std::string(why.value_or("there is no technique")),
+                "choose another with --light");
+}
+
+void requireMapFits(const host::Gpu& gpu, const Settings& technique)
+{
+    const VkPhysicalDeviceLimits& limits = gpu.properties().limits;
+    const std::uint32_t max_side =
+        std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
+    if (technique.plan.map_size > max_side) {
+        throw Error("drawing " + describeTechnique(technique),
+                    fmt::format("{} draws maps of at most {} texels on a side", gpu.properties().deviceName, max_side));
+    }
+}
+
+/// One run: what it is about, and what is done between two frames.
+class Comparison {
+public:
+    Comparison(const Settings& settings, const Shot& shot, host::Gpu& gpu)
+        : settings_(settings), shot_(shot), gpu_(gpu), light_(lightIndex(shot, settings))
+    {
+        result_.light = shot.lights[light_];
+        subject_ = {&shot.scene, &shot.state, shot.eye, {result_.light}, 0};
+        result_.device = gpu.properties().deviceName;
+        result_.driver = gpu.driver();
+        result_.scene_hash = scene::toString(scene::sceneHash(shot.scene));
+    }
+
+    void trace();
+    void scoreAll(const std::vector<Settings>& techniques);
+    void timeAll();
+    void matchAll();
+    void sweep(SweepPlan plan);
+    void note();
+    [[nodiscard]] const CompareResult& result() const { return result_; }
+
+private:
+    /// Called after every frame drawn.
+    void step(Progress& progress) const
+    {
+        requireSilence(gpu_);
+        progress.step();
+    }
+    void noteOutcomes();
+
+    const Settings& settings_;
+    const Shot& shot_;
+    host::Gpu& gpu_;
+    std::size_t light_; // which of the shot's
+    lab::Subject subject_;
+    CompareResult result_;
+};
+
+void Comparison::trace()
+{
+    TruthTracer tracer(shot_, settings_);
+    TruthRun run = tracer.trace(light_);
+    result_.truth = std::move(run.traced);
+    result_.from_cache = run.from_cache;
+    result_.samples = result_.truth.visibility.kind == truth::Kind::area ? settings_.samples : 1;
+}
+
+/// Pictures of every pixel are kept for a report only: of many techniques they would fill the memory.
+void Comparison::scoreAll(const std::vector<Settings>& techniques)
+{
+    Progress progress("comparing", techniques.size());
+    for (const Settings& technique : techniques) {
+        ComparedTechnique compared;
+        compared.settings = technique;
+        compared.name = describeTechnique(technique);
+        compared.score = lab::scoreTechnique(gpu_, subject_, result_.truth, renderOptions(technique));
+        if (result_.techniques.empty()) {
+            result_.pixels = compared.score.pixels.counts;
+            result_.standard_error = lab::truthNoise(result_.truth.visibility, compared.score.pixels.counted);
+        }
+        if (settings_.report.empty()) {
+            compared.score.mask = {};
+            compared.score.pixels.counted = {};
+            compared.score.density.map = {};
+            if (compared.score.classification) {
+                compared.score.classification->classes = {};
+            }
+        }
+        result_.techniques.push_back(std::move(compared));
+        step(progress);
+    }
+    const auto rmse = [](const ComparedTechnique& technique) {
+        const bool known = technique.score.error && std::isfinite(technique.score.error->rmse);
+        return known ? technique.score.error->rmse : std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(result_.techniques.begin(), result_.techniques.end(),
+                     [&](const ComparedTechnique& a, const ComparedTechnique& b) { return rmse(a) < rmse(b); });
+}
+
+void Comparison::timeAll()
+{
+    std::vector<lab::Contestant> contestants;
+    for (const ComparedTechnique& technique : result_.techniques) {
+        contestants.push_back({technique.name, renderOptions(technique.settings)});
+    }
+    const std::uint64_t frames = std::uint64_t{settings_.repetitions} + settings_.warmup;
+    Progress progress("timing", frames * (contestants.size() + 1));
+    lab::TimingResult timed =
+        lab::timeInTurn(gpu_, subject_, contestants,
+                        {.repetitions = settings_.repetitions, .warmup = settings_.warmup, .reuse_maps = false},
+                        [&] { step(progress); });
+    result_.baseline = std::move(timed.baseline);
+    result_.baseline_bytes = timed.baseline_bytes;
+    for (std::size_t i = 0; i < result_.techniques.size(); ++i) {
+        result_.techniques[i].timed = std::move(timed.techniques[i]);
+    }
+}
+
+void Comparison::matchAll()
+{
+    // As many steps as there are at most: every PCF drawn once, every technique timed beside one.
+    const std::uint64_t frames = 3 * (std::uint64_t{settings_.repetitions} + settings_.warmup);
+    const std::size_t rungs = pcfLadder(settings_, kEqualErrorMaxMap).size();
+    Progress progress("matching", rungs + frames * result_.techniques.size());
+    const std::function<void()> after = [&] {
+        step(progress);
+    };
+    EqualErrorSearch search(gpu_, subject_, result_.truth, settings_, after);
+    for (ComparedTechnique& technique : result_.techniques) {
+        const auto& error = technique.score.error;
+        technique.equal_error = search.match(technique.settings, error ? std::optional(error->rmse) : std::nullopt);
+    }
+}
+
+void Comparison::sweep(SweepPlan plan)
+{
+    Progress progress("sweeping", plan.lines.size() * plan.values.size());
+    result_.sweep = runSweep(gpu_, subject_, result_.truth, std::move(plan), [&] { step(progress); });
+    result_.pixels = result_.sweep->pixels.counts;
+    result_.standard_error = lab::truthNoise(result_.truth.visibility, result_.sweep->pixels.counted);
+}
+
+void Comparison::noteOutcomes()
+{
+    struct Seen {
+        Outcome outcome;
+        std::string who;
+    };
+    std::vector<Seen> seen;
+    std::size_t count = 0;
+    const auto add = [&](const Outcome& outcome, const std::string& who) {
+        ++count;
+        if (outcome.kind == OutcomeKind::ok) {
+            return;
+        }
+        const auto same = std::find_if(seen.begin(), seen.end(), [&](const Seen& other) {
+            return other.outcome.kind == outcome.kind && other.outcome.reason == outcome.reason;
+        });
+        if (same == seen.end()) {
+            seen.push_back({outcome, who});
+        } else if (!same->who.ends_with(who)) {
+            same->who += ", " + who;
+        }
+    };
+    for (const ComparedTechnique& technique : result_.techniques) {
+        add(technique.score.outcome, technique.name);
+    }
+    for (std::size_t i = 0; result_.sweep && i < result_.sweep->points.size(); ++i) {
+        for (const SweepResult::Point& point : result_.sweep->points[i]) {
+            add(point.outcome, result_.sweep->plan.lines[i].technique);
+        }
+    }
+    for (const Seen& one : seen) {
+        const std::string what = one.outcome.hasMap() ? fmt::format("{}", nameOf(one.outcome.kind))
+                                                      : "no shadow map, so the mask is all lit";
+        result_.notes.push_back(
+            fmt::format("light {} with {}: {}: {}", result_.light.name, one.who, what, one.outcome.reason));
+    }
+}
+
+/// Says what kept a number from being there, or from meaning what one would think.
+void Comparison::note()
+{
+    if (result_.pixels.counted == 0) {
+        result_.notes.push_back(
+            fmt::format("no pixel counts, so there are no error numbers: {}", pixelsText(result_.pixels)));
+    }
+    noteOutcomes();
+    if (result_.truth.visibility.kind == truth::Kind::area && isPointLike(result_.light.caster)) {
+        result_.notes.push_back(fmt::format(
+            "light {} has no extent, so its area truth is the hard one; {} gives it one", result_.light.name,
+            result_.light.caster.type == LightType::directional ? "--sun-angle" : "--light-size"));
+    }
+    if (result_.sweep) {
+        result_.notes.insert(result_.notes.end(), result_.sweep->plan.left_out.begin(),
+                             result_.sweep->plan.left_out.end());
+    }
+}
+
+void put(const Comparison& comparison, const Shot& shot, const Settings& settings, ReportFolder* folder)
+{
+    const CompareResult& result = comparison.result();
+    std::for_each(result.notes.begin(), result.notes.end(), notice);
+    const std::string json = jsonText(compareJson(result, shot, settings));
+    if (folder != nullptr) {
+        const std::size_t pages = result.sweep ? result.sweep->plan.lines.size() : result.techniques.size();
+        Progress progress("drawing the report", pages);
+        writeReport(*folder, result, shot, settings, json, [&] { progress.step(); });
+    }
+    if (settings.json.empty()) {
+        writeStdout(compareText(result, shot, settings));
+    } else {
+        writeResult(settings.json, json);
+    }
+}
+
+} // namespace
+
+int runCompare(const Settings& settings)
+{
+    validateSweep(settings);
+    if (!settings.json.empty() && settings.json != "-") {
+        requireWritable(settings.json);
+    }
+    const std::vector<Settings> techniques = contestants(settings);
+    std::optional<SweepPlan> sweep;
+    if (settings.sweep) {
+        sweep = planSweep(*settings.sweep, techniques);
+    }
+    std::unique_ptr<ReportFolder> folder;
+    if (!settings.report.empty()) {
+        folder = std::make_unique<ReportFolder>(settings.report);
+    }
+    const Shot shot = makeShot(settings);
+    requireCaster(shot.lights[lightIndex(shot, settings)], techniques);
+    const auto gpu = openGpu(settings);
+    for (const Settings& technique : techniques) {
+        requireMapFits(*gpu, technique);
+    }
+    for (std::size_t i = 0; sweep && i < sweep->lines.size(); ++i) {
+        for (const Settings& point : sweep->lines[i].points) {
+            requireMapFits(*gpu, point);
+        }
+    }
+    std::for_each(shot.notices.begin(), shot.notices.end(), notice);
+    Comparison comparison(settings, shot, *gpu);
+    comparison.trace();
+    if (sweep) {
+        comparison.sweep(std::move(*sweep));
+    } else {
+        comparison.scoreAll(techniques);
+        comparison.timeAll();
+        if (settings.equal_error) {
+            comparison.matchAll();
+        }
+    }
+    comparison.note();
+    requireSilence(*gpu);
+    requireNotInterrupted();
+    put(comparison, shot, settings, folder.get());
+    return 0;
+}
+
+} // namespace gnomon::app

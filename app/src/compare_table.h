@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of techniques as text.
+#pragma once
+
+#include "lab/metrics/error.h"
+#include "lab/metrics/error_classes.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::app {
+
+/// The first column is flush left, the others flush right.
+struct TextTable {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows; // each as long as `columns`
+};
+[[nodiscard]] std::string tableText(const TextTable& table);
+
+/// What a cell shows that has no number.
+inline constexpr std::string_view kNoNumber = "-";
+[[nodiscard]] std::string cell(const std::optional<double>& value, int decimals);
+
+/// The headings of addErrorCells().
+[[nodiscard]] std::vector<std::string> errorColumns();
+/// rmse, mae, bias, and the share of each class in the squared error in percent; kNoNumber where there is none.
+void addErrorCells(std::vector<std::string>& row, const std::optional<lab::ErrorNumbers>& error,
+                   const lab::ClassErrors& classes);
+
+/// The parts after the first of "pcf+map-size=64+pcf.kernel=3x3" that all techniques have, "+" between; empty with
+/// fewer than two techniques.
+[[nodiscard]] std::string commonParts(const std::vector<std::string>& techniques);
+/// `technique` less the parts of `parts`.
+[[nodiscard]] std::string withoutParts(std::string_view technique, std::string_view parts);
+
+} // namespace gnomon::app

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep.h"
+
+#include "app/shot.h"
+#include "setting_values.h"
+#include "technique_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::app {
+namespace {
+
+/// As one would type it: twelve digits hide what binary fractions make of 0.1.
+std::string valueText(double value)
+{
+    return fmt::format("{:.12g}", value);
+}
+
+std::vector<double> sweepValues(const Sweep& sweep, bool whole)
+{
+    std::vector<double> values;
+    for (std::uint32_t i = 0; i < sweep.steps; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(sweep.steps - 1);
+        double value = sweep.logarithmic ? sweep.from * std::pow(sweep.to / sweep.from, share)
+                                         : sweep.from + (sweep.to - sweep.from) * share;
+        value = whole ? std::round(value) : toNumber(valueText(value)).value_or(value);
+        if (values.empty() || values.back() != value) {
+            values.push_back(value);
+        }
+    }
+    return values;
+}
+
+/// Applies one value; false when it has no effect on the technique.
+bool applyPoint(Settings& settings, const Setting& setting, double value)
+{
+    applySetting(settings, setting, valueText(value));
+    if (setting.key == "border") {
+        settings.border_given = true;
+    }
+    completeTechnique(settings);
+    return setting.used == nullptr || setting.used(settings);
+}
+
+struct Column {
+    std::string_view name; // as JSON and plots have it
+    std::optional<double> (*value)(const SweepResult::Point& point);
+};
+
+template <double lab::ClassErrors::*member>
+std::optional<double> classOf(const SweepResult::Point& point)
+{
+    return point.error ? std::optional(point.classes.*member) : std::nullopt;
+}
+template <double lab::ErrorNumbers::*member>
+std::optional<double> numberOf(const SweepResult::Point& point)
+{
+    return point.error ? std::optional((*point.error).*member) : std::nullopt;
+}
+constexpr std::array kNumbers{
+    Column{"rmse", numberOf<&lab::ErrorNumbers::rmse>}, Column{"mae", numberOf<&lab::ErrorNumbers::mae>},
+    Column{"bias", numberOf<&lab::ErrorNumbers::bias>}, Column{"p99", numberOf<&lab::ErrorNumbers::p99>}};
+constexpr std::array kClasses{
+    Column{"edge", classOf<&lab::ClassErrors::edge>}, Column{"acne", classOf<&lab::ClassErrors::acne>},
+    Column{"detached", classOf<&lab::ClassErrors::detached>}, Column{"bleeding", classOf<&lab::ClassErrors::bleeding>}};
+
+std::string labelOf(const SweepPlan& plan)
+{
+    return plan.unit.empty() ? plan.key : fmt::format("{} ({})", plan.key, plan.unit);
+}
+
+/// Plots want ascending values.
+template <typename T>
+std::vector<T> ascending(const SweepPlan& plan, std::vector<T> values)
+{
+    if (plan.values.front() > plan.values.back()) {
+        std::reverse(values.begin(), values.end());
+    }
+    return values;
+}
+
+lab::Plot emptyPlot(const SweepPlan& plan, std::string title)
+{
+    lab::Plot plot;
+    plot.title = std::move(title);
+    plot.x_label = labelOf(plan);
+    plot.y_label = "root of the mean squared error";
+    plot.x = ascending(plan, plan.values);
+    plot.x_logarithmic = plan.logarithmic;
+    return plot;
+}
+
+lab::PlotLine lineOf(const SweepResult& result, std::size_t line, const Column& column, bool root, std::string name)
+{
+    lab::PlotLine made;
+    made.name = std::move(name);
+    for (const SweepResult::Point& point : result.points[line]) {
+        const std::optional<double> value = column.value(point);
+        const double shown = value.value_or(std::numeric_limits<double>::quiet_NaN());
+        made.values.push_back(root ? std::sqrt(shown) : shown);
+    }
+    made.values = ascending(result.plan, std::move(made.values));
+    return made;
+}
+
+} // namespace
+
+SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
+{
+    const Setting* setting = findSetting(sweep.key);
+    assert(setting != nullptr && setting->group == SettingGroup::technique && sweep.steps >= 2);
+    SweepPlan plan;
+    plan.key = setting->key;
+    plan.unit = setting->unit;
+    plan.logarithmic = sweep.logarithmic;
+    plan.values = sweepValues(sweep, setting->type == SettingType::integer);
+    for (const Settings& technique : techniques) {
+        SweepPlan::Line line;
+        line.technique = describeTechnique(technique);
+        bool used = true;
+        for (const double value : plan.values) {
+            line.points.push_back(technique);
+            used = applyPoint(line.points.back(), *setting, value) && used;
+        }
+        if (!used) {
+            plan.left_out.push_back(fmt::format("{} is left out: {} has an effect only with {}", line.technique,
+                                                plan.key, setting->used_when));
+            continue;
+        }
+        line.technique = withoutParts(describeTechnique(line.points.front()),
+                                      fmt::format("{}={}", plan.key, valueText(plan.values.front())));
+        for (const SweepPlan::Line& other : plan.lines) {
+            if (describeTechnique(other.points.front()) == describeTechnique(line.points.front())) {
+                throw UsageError(fmt::format("--sweep: {} is twice among the techniques once {} is swept",
+                                             line.technique, plan.key));
+            }
+        }
+        plan.lines.push_back(std::move(line));
+    }
+    if (plan.lines.empty()) {
+        throw UsageError(fmt::format("--sweep: {} has an effect only with {}", plan.key, setting->used_when));
+    }
+    return plan;
+}
+
+SweepResult runSweep(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth, SweepPlan plan,
+                     const std::function<void()>& step)
+{
+    SweepResult result;
+    result.plan = std::move(plan);
+    for (const SweepPlan::Line& line : result.plan.lines) {
+        std::vector<SweepResult::Point>& points = result.points.emplace_back();
+        for (const Settings& settings : line.points) {
+            const lab::Score score = lab::scoreTechnique(gpu, subject, truth, renderOptions(settings), false);
+            points.push_back(
+                {score.error, score.classification ? score.classification->errors : lab::ClassErrors{}, score.outcome});
+            if (result.pixels.counted.values.empty()) {
+                result.pixels = score.pixels;
+            }
+            step();
+        }
+    }
+    return result;
+}
+
+Json sweepJson(const SweepResult& result)
+{
+    Json json{{"key", result.plan.key},
+              {"unit", result.plan.unit.empty() ? Json(nullptr) : Json(result.plan.unit)},
+              {"logarithmic", result.plan.logarithmic},
+              {"values", result.plan.values}};
+    json["results"] = Json::array();
+    for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
+        Json line{{"technique", result.plan.lines[i].technique}};
+        const auto add = [&](const Column& column) {
+            Json& list = line[std::string(column.name)] = Json::array();
+            for (const SweepResult::Point& point : result.points[i]) {
+                list.push_back(numberJson(column.value(point)));
+            }
+        };
+        std::for_each(kNumbers.begin(), kNumbers.end(), add);
+        std::for_each(kClasses.begin(), kClasses.end(), add);
+        line["settings"] = settingsJson(result.plan.lines[i].points.front(), kCompare);
+        line["settings"].erase(result.plan.key);
+        json["results"].push_back(line);
+    }
+    return json;
+}
+
+TextTable sweepTable(const SweepResult& result)
+{
+    TextTable table;
+    table.columns = {"technique", result.plan.key};
+    const std::vector<std::string> columns = errorColumns();
+    table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+    for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
+        for (std::size_t j = 0; j < result.plan.values.size(); ++j) {
+            const SweepResult::Point& point = result.points[i][j];
+            std::vector<std::string> row{result.plan.lines[i].technique, valueText(result.plan.values[j])};
+            addErrorCells(row, point.error, point.classes);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+lab::Plot sweepPlot(const SweepResult& result, const std::string& scene)
+{
+    lab::Plot plot = emptyPlot(result.plan, fmt::format("{}: error over {}", scene, result.plan.key));
+    for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
+        plot.lines.push_back(lineOf(result, i, kNumbers[0], false, result.plan.lines[i].technique));
+    }
+    return plot;
+}
+
+lab::Plot sweepClassPlot(const SweepResult& result, std::size_t line, const std::string& scene)
+{
+    lab::Plot plot = emptyPlot(result.plan, fmt::format("{}, {}: where the error over {} comes from", scene,
+                                                        result.plan.lines[line].technique, result.plan.key));
+    plot.lines.push_back(lineOf(result, line, kNumbers[0], false, "all (rmse)"));
+    plot.lines.back().emphasised = true;
+    for (const Column& column : kClasses) {
+        plot.lines.push_back(lineOf(result, line, column, true, std::string(column.name)));
+    }
+    return plot;
+}
+
+} // namespace gnomon::app

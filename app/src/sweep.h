@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// One setting takes many values, and every technique is held against the same truth at each: error over value.
+#pragma once
+
+#include "app/settings.h"
+#include "compare_table.h"
+#include "lab/compare.h"
+#include "lab/plot.h"
+#include "result_json.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::app {
+
+/// What a sweep draws, worked out and checked before anything is drawn.
+struct SweepPlan {
+    struct Line {
+        std::string technique;        // without the setting that is swept
+        std::vector<Settings> points; // one for each of `values`
+    };
+    std::string key;
+    std::string unit; // empty: none
+    bool logarithmic = false;
+    std::vector<double> values; // ascending or descending, as asked for
+    std::vector<Line> lines;
+    std::vector<std::string> left_out; // techniques on which the setting has no effect, a sentence each
+};
+/// `sweep` is as --sweep makes it: a number of a technique, two steps or more. Whole numbers are rounded and taken once
+/// each. Throws UsageError when the setting has no effect on any technique, or is all that tells two of them apart.
+[[nodiscard]] SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques);
+
+struct SweepResult {
+    struct Point {
+        std::optional<lab::ErrorNumbers> error; // absent when no pixel counts
+        lab::ClassErrors classes;               // zeros without an error
+        Outcome outcome;
+    };
+    SweepPlan plan;
+    std::vector<std::vector<Point>> points; // by line and value
+    lab::CountedPixels pixels;              // the same at every point
+};
+/// `step` is called after every technique drawn and may throw to stop.
+[[nodiscard]] SweepResult runSweep(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth,
+                                   SweepPlan plan, const std::function<void()>& step);
+
+/// {"key", "unit", "values", "results": [{"technique", "rmse", ...}]}, each list as long as the values.
+[[nodiscard]] Json sweepJson(const SweepResult& result);
+/// A row for each technique and value: the error and where it comes from.
+[[nodiscard]] TextTable sweepTable(const SweepResult& result);
+/// The rmse of every technique over the value.
+[[nodiscard]] lab::Plot sweepPlot(const SweepResult& result, const std::string& scene);
+/// One technique's rmse and the root of each class's mean squared error.
+[[nodiscard]] lab::Plot sweepClassPlot(const SweepResult& result, std::size_t line, const std::string& scene);
+
+} // namespace gnomon::app

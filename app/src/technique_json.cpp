@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "technique_json.h"
+
+#include <array>
+#include <cmath>
+
+namespace gnomon::app {
+namespace {
+
+struct Stage {
+    std::string_view name;
+    double lab::StageTimes::*member;
+};
+constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps", &lab::StageTimes::maps},
+                             Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
+                             Stage{"frame", &lab::StageTimes::frame}};
+
+lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
+{
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const host::FrameTimes& sample : samples) {
+        values.push_back(lab::stagesOf(sample).*stage.member);
+    }
+    return lab::spreadOf(std::move(values));
+}
+
+/// Microseconds are all that a clock gives; more digits would only look exact.
+double rounded(double milliseconds)
+{
+    return std::round(milliseconds * 1e4) / 1e4;
+}
+
+std::uint32_t texelBytes(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::d16:
+        return 2;
+    case MapFormat::d32f:
+    case MapFormat::r32f:
+    case MapFormat::rg16:
+    case MapFormat::rg16f:
+        return 4;
+    case MapFormat::rg32f:
+    case MapFormat::rgba16:
+    case MapFormat::rgba16f:
+        return 8;
+    case MapFormat::rgba32f:
+        return 16;
+    }
+    return 0;
+}
+
+} // namespace
+
+Json numberJson(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json numberJson(const std::optional<double>& value)
+{
+    return value ? numberJson(*value) : Json(nullptr);
+}
+
+Json vectorJson(const glm::dvec3& vector)
+{
+    return Json::array({numberJson(vector.x), numberJson(vector.y), numberJson(vector.z)});
+}
+
+double frameMedian(const std::vector<host::FrameTimes>& samples)
+{
+    return spreadOfStage(samples, kStages.back()).median;
+}
+
+std::uint64_t totalBytes(const MemoryByPurpose& memory)
+{
+    std::uint64_t total = 0;
+    for (const auto& [purpose, bytes] : memory) {
+        total += bytes;
+    }
+    return total;
+}
+
+void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples)
+{
+    for (const Stage& stage : kStages) {
+        const lab::Spread spread = spreadOfStage(samples, stage);
+        json[prefix + "time_ms"][std::string(stage.name)] = rounded(spread.median);
+        json[prefix + "iqr_ms"][std::string(stage.name)] = rounded(spread.iqr);
+    }
+}
+
+void addMemory(Json& json, const MemoryByPurpose& memory)
+{
+    json["memory_bytes"] = totalBytes(memory);
+    json["memory_by_purpose_bytes"] = Json::object();
+    for (const auto& [purpose, bytes] : memory) {
+        json["memory_by_purpose_bytes"][purpose] = bytes;
+    }
+}
+
+Json mapJson(const AtlasSize& atlas, MapFormat format)
+{
+    const std::uint64_t texels = std::uint64_t{atlas.width} * atlas.height * atlas.layers;
+    return {{"texels", texels}, {"bytes", texels * texelBytes(format)}, {"format", nameOf(format)}};
+}
+
+Json passesJson(const std::vector<host::FrameTimes>& samples)
+{
+    Json passes = Json::object();
+    if (samples.empty()) {
+        return passes;
+    }
+    for (std::size_t i = 0; i < samples.front().passes.size(); ++i) {
+        std::vector<double> values;
+        for (const host::FrameTimes& sample : samples) {
+            if (i < sample.passes.size()) {
+                values.push_back(sample.passes[i].milliseconds);
+            }
+        }
+        passes[samples.front().passes[i].name] = rounded(lab::spreadOf(std::move(values)).median);
+    }
+    return passes;
+}
+
+Json countersJson(const lab::Counters& counters)
+{
+    return {{"texels_rendered", counters.texels_rendered},
+            {"texels_filtered", 0}, // hard and pcf filter nothing ahead of the mask
+            {"vertex_invocations", counters.vertex_invocations},
+            {"primitives", counters.primitives},
+            {"fragment_invocations", counters.fragment_invocations},
+            {"compute_invocations", counters.compute_invocations},
+            {"draws", counters.draws},
+            {"passes", counters.passes}};
+}
+
+Json densityJson(const lab::TexelDensity& density)
+{
+    const auto percentile = [&](double value) {
+        return density.counted == 0 ? Json(nullptr) : numberJson(value);
+    };
+    return {{"p01", percentile(density.p01)},
+            {"p50", percentile(density.p50)},
+            {"p99", percentile(density.p99)},
+            {"pixels", {{"counted", density.counted}, {"left_out", density.left_out}}}};
+}
+
+Json eyeJson(const host::Eye& eye)
+{
+    return {{"position_ws", vectorJson(eye.position_ws)},
+            {"target_ws", vectorJson(eye.target_ws)},
+            {"up_ws", vectorJson(eye.up_ws)},
+            {"fov_y_rad", numberJson(eye.fov_y_rad)},
+            {"near_m", numberJson(eye.near_m)},
+            {"far_m", numberJson(eye.far_m)}};
+}
+
+Json lightJson(const host::ShadedLight& light)
+{
+    const Light& caster = light.caster;
+    Json json{{"name", light.name}, {"type", nameOf(caster.type)}};
+    const bool placed = caster.type != LightType::directional;
+    if (placed) {
+        json["position_ws"] = vectorJson(caster.position_ws);
+    }
+    if (caster.type != LightType::point) {
+        json["direction_ws"] = vectorJson(caster.direction_ws);
+    }
+    if (caster.type == LightType::spot) {
+        json["outer_half_angle_rad"] = numberJson(caster.outer_half_angle_rad);
+    }
+    if (placed) {
+        json["range_m"] = numberJson(caster.range_m);
+        json["near_m"] = numberJson(caster.near_m);
+        json["radius_m"] = numberJson(caster.radius_m);
+    } else {
+        json["angular_diameter_rad"] = numberJson(caster.angular_diameter_rad);
+    }
+    json["casts_shadow"] = caster.casts_shadow;
+    return json;
+}
+
+} // namespace gnomon::app

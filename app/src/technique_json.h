@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON of what is known of a technique, a camera and a light, for every result file alike. Key order is fixed; a number
+// that is absent or not finite is null.
+#pragma once
+
+#include "app/settings.h"
+#include "host/renderer.h"
+#include "lab/texel_density.h"
+#include "lab/timing.h"
+#include "result_json.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::app {
+
+using MemoryByPurpose = std::vector<std::pair<std::string, std::uint64_t>>;
+
+[[nodiscard]] Json numberJson(double value);
+[[nodiscard]] Json numberJson(const std::optional<double>& value);
+[[nodiscard]] Json vectorJson(const glm::dvec3& vector);
+
+/// Median of the whole frame, ms; 0 without samples.
+[[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
+[[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
+
+/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}.
+void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples);
+/// "memory_bytes" and "memory_by_purpose_bytes".
+void addMemory(Json& json, const MemoryByPurpose& memory);
+/// {"texels", "bytes", "format"} of all layers of the map's image.
+[[nodiscard]] Json mapJson(const AtlasSize& atlas, MapFormat format);
+/// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went.
+[[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
+[[nodiscard]] Json countersJson(const lab::Counters& counters);
+/// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
+[[nodiscard]] Json densityJson(const lab::TexelDensity& density);
+/// Where the picture is taken from, resolved.
+[[nodiscard]] Json eyeJson(const host::Eye& eye);
+/// The light, resolved: what has no meaning for its type is left out.
+[[nodiscard]] Json lightJson(const host::ShadedLight& light);
+
+} // namespace gnomon::app
