@@ -165,17 +165,17 @@ Colour densityColour(double texels_per_pixel)
 
 Colour classColour(ErrorClass error_class)
 {
-    // The four of Okabe and Ito's eight that stay farthest from each other and from grey; sky blue, the calmest, for
-    // the edges, which are most of what there is.
+    // The four of Okabe and Ito's eight that stay farthest from each other and from grey. The two light ones are for
+    // the classes that lie over the dark grey of the umbra only.
     switch (error_class) {
     case ErrorClass::edge:
-        return {0x56, 0xb4, 0xe9}; // sky blue
+        return {0x00, 0x72, 0xb2}; // blue
     case ErrorClass::acne:
         return {0xd5, 0x5e, 0x00}; // vermillion
     case ErrorClass::detached:
         return {0xf0, 0xe4, 0x42}; // yellow
     case ErrorClass::bleeding:
-        return {0x00, 0x72, 0xb2}; // blue
+        return {0x56, 0xb4, 0xe9}; // sky blue
     case ErrorClass::correct:
         return kFaintLight;
     case ErrorClass::left_out:

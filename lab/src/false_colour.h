@@ -18,12 +18,12 @@ struct Colour {
 };
 
 inline constexpr Colour kNotANumber{255, 0, 255};
-inline constexpr Colour kLeftOut{56, 56, 56};
+inline constexpr Colour kLeftOut{44, 44, 44};
 inline constexpr Colour kWhite{255, 255, 255};
 
 /// The truth under the class colours: grey from kFaintDark (0) to kFaintLight (1), which no class colour comes near.
-inline constexpr Colour kFaintDark{76, 76, 76};
-inline constexpr Colour kFaintLight{160, 160, 160};
+inline constexpr Colour kFaintDark{92, 92, 92};
+inline constexpr Colour kFaintLight{190, 190, 190};
 
 /// Densities from 2^-kDensityOctaves to 2^kDensityOctaves have a colour of their own; beyond, the end's.
 inline constexpr double kDensityOctaves = 4.0;

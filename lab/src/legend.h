@@ -13,7 +13,7 @@
 namespace gnomon::lab {
 
 inline constexpr std::uint32_t kLegendMinimumWidth = 320; // px
-inline constexpr Colour kLegendGround{24, 24, 24};
+inline constexpr Colour kLegendGround{18, 18, 18};
 
 struct Tick {
     double place = 0.0; // along the bar, [0, 1]

@@ -70,17 +70,18 @@ Legend errorLegend()
 
 Legend classLegend()
 {
-    const auto swatch = [](ErrorClass error_class, const char* text) {
-        return Swatch{kFaintDark, classColour(error_class), text};
+    // From the grey that the class lies over.
+    const auto swatch = [](Colour over, ErrorClass error_class, const char* text) {
+        return Swatch{over, classColour(error_class), text};
     };
     Legend legend;
     legend.title = "Where the error comes from";
     legend.subtitle = "stronger colour: larger error (square root)";
-    legend.swatches = {swatch(ErrorClass::edge, "edge: aliasing, penumbra width"),
-                       swatch(ErrorClass::acne, "acne: false self-shadowing"),
-                       swatch(ErrorClass::detached, "detached: peter-panning"),
-                       swatch(ErrorClass::bleeding, "bleeding: light leaks"),
-                       swatch(ErrorClass::correct, "no error: the truth in grey"),
+    legend.swatches = {swatch(kFaintDark, ErrorClass::edge, "edge: aliasing, penumbra width"),
+                       swatch(kFaintLight, ErrorClass::acne, "acne: false self-shadowing"),
+                       swatch(kFaintDark, ErrorClass::detached, "detached: peter-panning"),
+                       swatch(kFaintDark, ErrorClass::bleeding, "bleeding: light leaks"),
+                       swatch(kFaintDark, ErrorClass::correct, "no error: the truth in grey"),
                        {kLeftOut, kLeftOut, "left out"}};
     return legend;
 }
