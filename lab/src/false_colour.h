@@ -18,7 +18,7 @@ struct Colour {
 };
 
 inline constexpr Colour kNotANumber{255, 0, 255};
-inline constexpr Colour kLeftOut{44, 44, 44};
+inline constexpr Colour kLeftOut{34, 34, 34};
 inline constexpr Colour kWhite{255, 255, 255};
 
 /// The truth under the class colours: grey from kFaintDark (0) to kFaintLight (1), which no class colour comes near.

@@ -37,7 +37,7 @@ tbody tr:first-child { background: var(--best); }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34rem), 1fr)); gap: 1.25rem; }
 figure { margin: 0; padding: 0.6rem; border: 1px solid var(--line); border-radius: 6px; background: var(--panel); }
 figure a { display: block; }
-img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
+img { display: block; max-width: 100%; height: auto; margin: 0 auto; outline: 1px solid var(--line); }
 figcaption { margin-top: 0.5rem; color: var(--faint); font-size: 0.9rem; }
 @media print { body { max-width: none; } figure, tr { break-inside: avoid; } }
 )css";
