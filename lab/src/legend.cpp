@@ -23,7 +23,7 @@ constexpr std::int64_t kTickHeight = 4;
 constexpr std::int64_t kSwatchWidth = 28;
 constexpr std::int64_t kSwatchHeight = 11;
 constexpr std::int64_t kSwatchSpacing = 14; // between one swatch's text and the next swatch
-constexpr std::int64_t kLabelSpacing = 6;   // at least, between labels of ticks
+constexpr std::int64_t kLabelSpacing = 4;   // at least, between labels of ticks
 
 struct Place {
     std::int64_t x = 0;

@@ -19,6 +19,7 @@ body { margin: 0 auto; padding: 1.5rem clamp(0.75rem, 3vw, 2.5rem) 4rem; max-wid
   color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
 h1 { margin: 0.5rem 0 1.5rem; font-size: 1.75rem; line-height: 1.2; }
 h2 { margin: 3rem 0 0.75rem; font-size: 1.25rem; }
+.overview h2 { margin-top: 0; }
 h1, h2, dd, td, th, figcaption { overflow-wrap: anywhere; }
 a { color: var(--link); }
 a:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
@@ -34,7 +35,8 @@ th, td { padding: 0.45rem 0.9rem; border-top: 1px solid var(--line); text-align:
 th:first-child { text-align: left; }
 thead th { color: var(--faint); font-weight: 600; vertical-align: bottom; }
 tbody tr:first-child { background: var(--best); }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34rem), 1fr)); gap: 1.25rem; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34rem), 1fr)); gap: 1.25rem;
+  align-items: start; }
 figure { margin: 0; padding: 0.6rem; border: 1px solid var(--line); border-radius: 6px; background: var(--panel); }
 figure a { display: block; }
 img { display: block; max-width: 100%; height: auto; margin: 0 auto; outline: 1px solid var(--line); }
@@ -101,7 +103,7 @@ void addFigure(std::string& page, const std::string& file, const std::string& al
         return;
     const std::string url = urlOf(file);
     page += "<figure>\n<a href=\"" + url + "\"><img src=\"" + url + "\" alt=\"" + escapeHtml(alternative) +
-            "\" loading=\"lazy\"></a>\n<figcaption>" + escapeHtml(caption) + "</figcaption>\n</figure>\n";
+            "\"></a>\n<figcaption>" + escapeHtml(caption) + "</figcaption>\n</figure>\n";
 }
 
 void addFacts(std::string& page, const Report& report)
