@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage.h"
 
+#include <glm/geometric.hpp>
+
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -48,6 +50,12 @@ Stage::~Stage()
     for (const std::string& message : gpu_.messages()) {
         ADD_FAILURE() << message;
     }
+}
+
+void Stage::turnLight(const glm::dvec3& direction_ws)
+{
+    subject_.lights[subject_.light].caster.direction_ws = glm::normalize(direction_ws);
+    hard_truth_.reset();
 }
 
 const truth::Traced& Stage::hardTruth()

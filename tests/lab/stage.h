@@ -9,6 +9,7 @@
 #include "scene/state.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,8 @@ public:
 
     [[nodiscard]] const Subject& subject() const { return subject_; }
     [[nodiscard]] host::Gpu& gpu() { return gpu_; }
+    /// Lets the judged light shine along another direction; any length.
+    void turnLight(const glm::dvec3& direction_ws);
     /// Traced when first asked for.
     [[nodiscard]] const truth::Traced& hardTruth();
     /// Geometry alone, without shadows.
