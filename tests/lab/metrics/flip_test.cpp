@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "flip_images.h"
+#include "lab/metrics/flip.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace gnomon::lab {
+namespace {
+
+using namespace flip_images;
+
+double meanOf(const ImageF& map)
+{
+    return std::accumulate(map.values.begin(), map.values.end(), 0.0) / static_cast<double>(map.values.size());
+}
+
+/// One channel of values 0 or 1 / 255 and up.
+ImageF noiseMask(std::uint32_t width, std::uint32_t height, std::uint32_t start)
+{
+    ImageF mask(width, height, 1);
+    Noise noise(start);
+    for (float& value : mask.values) {
+        value = noise.next();
+    }
+    return mask;
+}
+
+void expectEverywhere(const ImageF& map, double expected, double tolerance)
+{
+    for (const float value : map.values) {
+        ASSERT_NEAR(value, expected, tolerance);
+    }
+}
+
+TEST(Flip, IsNothingForEqualPictures)
+{
+    const Pair pair = colouredNoise();
+    for (const float value : flipMap(pair.test, pair.test).values) {
+        ASSERT_EQ(value, 0.0F);
+    }
+}
+
+// Flat pictures have no features and no filter changes them, so the colours' distance alone is left.
+TEST(Flip, IsTheDistanceOfColoursForFlatPictures)
+{
+    const double largest = 41.276098; // HyAB(green, blue)^0.7
+    const double knee = 0.4 * largest;
+    const ImageF black = uniform(24, 20, 0, 0, 0);
+    // Black to white: L* differs by 100, beyond the knee.
+    const double to_white = 0.95 + (std::pow(100.0, 0.7) - knee) / (largest - knee) * 0.05;
+    expectEverywhere(flipMap(uniform(24, 20, 1, 1, 1), black), to_white, 1e-6);
+    // Black to the grey of L* = 50: before the knee.
+    const auto grey = static_cast<float>(std::pow(66.0 / 116.0, 3));
+    expectEverywhere(flipMap(uniform(24, 20, grey, grey, grey), black), 0.95 / knee * std::pow(50.0, 0.7), 1e-6);
+    // Green to blue: the farthest that there is.
+    expectEverywhere(flipMap(uniform(24, 20, 0, 1, 0), uniform(24, 20, 0, 0, 1)), 1.0, 1e-6);
+}
+
+TEST(Flip, IsSymmetric)
+{
+    const Pair pair = colouredTiles();
+    EXPECT_EQ(flipMap(pair.test, pair.reference).values, flipMap(pair.reference, pair.test).values);
+}
+
+TEST(Flip, StaysWithinZeroAndOne)
+{
+    for (const Pair& pair : {colouredTiles(), saturatedTiles(), colouredNoise(), linesAndDots(), shadowOfDisc()}) {
+        const ImageF map = flipMap(pair.test, pair.reference);
+        for (const float value : map.values) {
+            ASSERT_GE(value, 0.0F);
+            ASSERT_LE(value, 1.0F);
+        }
+        EXPECT_GT(meanOf(map), 0.0);
+    }
+}
+
+TEST(Flip, MakesAnEdgeStandOutOfThatWhichTheColoursDiffer)
+{
+    // The same difference of colour at the step, where the reference has no edge, and far from it.
+    ImageF reference = uniform(96, 48, 0.2F, 0.2F, 0.2F);
+    ImageF test = reference;
+    for (std::uint32_t y = 0; y < 48; ++y) {
+        for (std::uint32_t x = 48; x < 96; ++x) {
+            setGrey(test, x, y, 0.4F);
+        }
+    }
+    const ImageF map = flipMap(test, reference);
+    EXPECT_GT(*map.pixel(52, 24), 1.1F * *map.pixel(80, 24));
+    EXPECT_EQ(*map.pixel(10, 24), 0.0F);
+}
+
+/// Mean over the pixels that no filter of up to `margin_px` carries beyond the border from.
+double meanInside(const ImageF& map, std::uint32_t margin_px)
+{
+    double sum = 0.0;
+    for (std::uint32_t y = margin_px; y < map.height - margin_px; ++y) {
+        for (std::uint32_t x = margin_px; x < map.width - margin_px; ++x) {
+            sum += *map.pixel(x, y);
+        }
+    }
+    return sum / ((map.width - 2.0 * margin_px) * (map.height - 2.0 * margin_px));
+}
+
+TEST(Flip, FallsAsPixelsGetTooSmallToSee)
+{
+    constexpr std::uint32_t kSide = 120;
+    constexpr std::uint32_t kMargin = 40; // 3 sqrt(0.04 / (2 pi^2)) x 268 = 36.2
+    Pair noise{uniform(kSide, kSide, 0, 0, 0), uniform(kSide, kSide, 0, 0, 0)};
+    Pair board{uniform(kSide, kSide, 0, 0, 0), uniform(kSide, kSide, 0.5F, 0.5F, 0.5F)};
+    Noise values(11u);
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            setGrey(noise.reference, x, y, values.next());
+            setGrey(noise.test, x, y, values.next());
+            setGrey(board.reference, x, y, static_cast<float>((x + y) % 2));
+        }
+    }
+    double last_noise = 1.0;
+    double last_board = 1.0;
+    for (const double pixels_per_degree : {17.0, 67.0, 268.0}) {
+        const double of_noise = meanInside(flipMap(noise.test, noise.reference, pixels_per_degree), kMargin);
+        const double of_board = meanInside(flipMap(board.test, board.reference, pixels_per_degree), kMargin);
+        EXPECT_LT(of_noise, last_noise) << pixels_per_degree;
+        EXPECT_LT(of_board, last_board) << pixels_per_degree;
+        last_noise = of_noise;
+        last_board = of_board;
+    }
+    EXPECT_LT(last_noise, 0.2); // of noise what is slow enough to see stays
+    EXPECT_LT(last_board, 1e-5);
+}
+
+TEST(Flip, ClampsItsPictures)
+{
+    const float infinity = std::numeric_limits<float>::infinity();
+    const Pair pair = saturatedTiles(); // values 0 and 1 only
+    ImageF beyond = pair.test;
+    for (std::size_t i = 0; i < beyond.values.size(); ++i) {
+        const float excess = i % 2 == 0 ? 3.0F : infinity;
+        beyond.values[i] = beyond.values[i] > 0.0F ? 1.0F + excess : -excess;
+    }
+    EXPECT_EQ(flipMap(beyond, pair.reference).values, flipMap(pair.test, pair.reference).values);
+    EXPECT_EQ(flipMap(pair.reference, beyond).values, flipMap(pair.reference, pair.test).values);
+}
+
+TEST(Flip, DoesNotHideWhatIsNotANumber)
+{
+    ImageF test = noiseMask(64, 48, 1u);
+    const ImageF truth = noiseMask(64, 48, 2u);
+    test.values[64 * 20 + 30] = std::numeric_limits<float>::quiet_NaN();
+    const std::optional<double> value = flip(test, truth, countAll(64, 48));
+    ASSERT_TRUE(value.has_value());
+    EXPECT_TRUE(std::isnan(*value));
+    Counted without_it = countAll(64, 48);
+    without_it.values[64 * 20 + 30] = 0;
+    const std::optional<double> rest = flip(test, truth, without_it);
+    ASSERT_TRUE(rest.has_value());
+    EXPECT_TRUE(std::isfinite(*rest));
+}
+
+TEST(Flip, WorksOnTheSmallestPictures)
+{
+    EXPECT_NEAR(*flipMap(uniform(1, 1, 0, 1, 0), uniform(1, 1, 0, 0, 1)).pixel(0, 0), 1.0, 1e-6);
+    const ImageF map = flipMap(uniform(3, 2, 0, 0, 0), uniform(3, 2, 1, 1, 1));
+    ASSERT_EQ(map.values.size(), 6u);
+    expectEverywhere(map, 0.9673797, 1e-6);
+    EXPECT_TRUE(flipMap(ImageF(0, 0, 3), ImageF(0, 0, 3)).values.empty());
+    EXPECT_TRUE(flipMap(ImageF(4, 0, 3), ImageF(4, 0, 3)).values.empty());
+}
+
+TEST(Flip, WorksAtTheLimitsOfDistance)
+{
+    const Pair pair = tiny();
+    for (const double pixels_per_degree : {kFlipLeastPixelsPerDegree, kFlipMostPixelsPerDegree}) {
+        for (const float value : flipMap(pair.test, pair.reference, pixels_per_degree).values) {
+            ASSERT_GE(value, 0.0F);
+            ASSERT_LE(value, 1.0F);
+        }
+    }
+}
+
+TEST(Flip, IsOneWhereAPictureHasPointsOfOnePixelThatFillTheFilter)
+{
+    // From so near a filter is one pixel wide: a point of a checkerboard has all that is positive against all that is
+    // negative, along x and y, which is the largest difference of features, and dE_c^0 = 1.
+    ImageF board = uniform(12, 12, 0, 0, 0);
+    for (std::uint32_t y = 0; y < 12; ++y) {
+        for (std::uint32_t x = 0; x < 12; ++x) {
+            setGrey(board, x, y, static_cast<float>((x + y) % 2));
+        }
+    }
+    EXPECT_NEAR(*flipMap(uniform(12, 12, 0.5F, 0.5F, 0.5F), board, 4.0).pixel(6, 6), 1.0, 1e-6);
+}
+
+TEST(Flip, ShowsMasksAsGreyLight)
+{
+    const ImageF test = noiseMask(40, 30, 1u);
+    const ImageF truth = noiseMask(40, 30, 2u);
+    Pair grey{uniform(40, 30, 0, 0, 0), uniform(40, 30, 0, 0, 0)};
+    for (std::uint32_t y = 0; y < 30; ++y) {
+        for (std::uint32_t x = 0; x < 40; ++x) {
+            setGrey(grey.test, x, y, *test.pixel(x, y));
+            setGrey(grey.reference, x, y, *truth.pixel(x, y));
+        }
+    }
+    const std::optional<double> value = flip(test, truth, countAll(40, 30), 50.0);
+    ASSERT_TRUE(value.has_value());
+    EXPECT_NEAR(*value, meanOf(flipMap(grey.test, grey.reference, 50.0)), 1e-12);
+    EXPECT_GT(*value, 0.1);
+}
+
+TEST(Flip, LeavesOutPixelsThatDoNotCount)
+{
+    const ImageF truth = noiseMask(40, 30, 2u);
+    Counted counted = countAll(40, 30);
+    ImageF test = truth;
+    for (std::uint32_t y = 0; y < 30; ++y) {
+        for (std::uint32_t x = 0; x < 10; ++x) {
+            *counted.pixel(x, y) = 0;
+            *test.pixel(x, y) = 1.0F - *truth.pixel(x, y);
+        }
+    }
+    // They hold the truth, so that they do not show in their neighbours either.
+    EXPECT_EQ(flip(test, truth, counted), std::optional(0.0));
+    EXPECT_GT(flip(test, truth, countAll(40, 30)), std::optional(0.01));
+    // The mean is over those that count: one wrong pixel weighs more among fewer.
+    *test.pixel(35, 15) = *truth.pixel(35, 15) > 0.5F ? 0.0F : 1.0F;
+    const std::optional<double> among_fewer = flip(test, truth, counted);
+    ImageF only_that = truth;
+    *only_that.pixel(35, 15) = *test.pixel(35, 15);
+    const std::optional<double> among_all = flip(only_that, truth, countAll(40, 30));
+    ASSERT_TRUE(among_fewer.has_value() && among_all.has_value());
+    EXPECT_NEAR(*among_fewer, *among_all * 40.0 / 30.0, 1e-12);
+}
+
+TEST(Flip, IsNotThereWhereNothingCounts)
+{
+    const ImageF mask = noiseMask(8, 8, 3u);
+    EXPECT_FALSE(flip(mask, mask, Counted(8, 8, 1, 0)).has_value());
+    EXPECT_FALSE(flip(ImageF(0, 0, 1), ImageF(0, 0, 1), Counted(0, 0, 1)).has_value());
+}
+
+TEST(Flip, IsTheSameEachTime)
+{
+    const Pair pair = colouredNoise();
+    EXPECT_EQ(flipMap(pair.test, pair.reference).values, flipMap(pair.test, pair.reference).values);
+}
+
+} // namespace
+} // namespace gnomon::lab
