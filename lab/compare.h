@@ -17,12 +17,10 @@
 
 namespace gnomon::lab {
 
-/// The camera's rays and the light of a subject as the tracer takes them. Light::near_m 0 becomes 1/1000 of the light's
-/// reach, as for the planner. A light alone does not know how far its scene goes, so where range_m is 0 too, only the
-/// subject's light has a near distance.
+/// The camera's rays and the judged light of a subject as the tracer takes them. Light::near_m 0 becomes 1/1000 of the
+/// light's reach, as for the planner.
 [[nodiscard]] truth::View truthView(const Subject& subject, glm::uvec2 size_px);
 [[nodiscard]] truth::Light truthLight(const Subject& subject);
-[[nodiscard]] truth::Light truthLight(const Light& light);
 
 /// Why pixels do not count, and how many do. A pixel that several reasons leave out belongs to the first of them.
 struct PixelCounts {

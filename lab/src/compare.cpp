@@ -11,8 +11,32 @@
 namespace gnomon::lab {
 namespace {
 
-truth::Light castingLight(const Light& light, double near_m)
+/// What frame.h says of near_m and range_m where they are 0.
+double nearOf(const Light& light, const Aabb& scene_bounds_ws)
 {
+    if (light.near_m > 0.0) {
+        return light.near_m;
+    }
+    double reach_m = light.range_m;
+    if (!(reach_m > 0.0)) {
+        const glm::dvec3 low = glm::abs(glm::dvec3(scene_bounds_ws.min) - light.position_ws);
+        const glm::dvec3 high = glm::abs(glm::dvec3(scene_bounds_ws.max) - light.position_ws);
+        reach_m = glm::length(glm::max(low, high));
+    }
+    return 0.001 * reach_m;
+}
+
+} // namespace
+
+truth::View truthView(const Subject& subject, glm::uvec2 size_px)
+{
+    const Camera camera = host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
+    return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = size_px};
+}
+
+truth::Light truthLight(const Subject& subject)
+{
+    const Light& light = subject.lights[subject.light].caster;
     truth::Light out;
     switch (light.type) {
     case LightType::directional:
@@ -29,35 +53,10 @@ truth::Light castingLight(const Light& light, double near_m)
     out.direction_ws = light.direction_ws;
     out.angular_diameter_rad = light.angular_diameter_rad;
     out.radius_m = light.radius_m;
-    out.near_m = light.type == LightType::directional ? 0.0 : near_m;
-    return out;
-}
-
-constexpr double kNearShareOfReach = 0.001; // Light::near_m 0, as frame.h has it
-
-} // namespace
-
-truth::View truthView(const Subject& subject, glm::uvec2 size_px)
-{
-    const Camera camera = host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
-    return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = size_px};
-}
-
-truth::Light truthLight(const Light& light)
-{
-    return castingLight(light, light.near_m > 0.0 ? light.near_m : kNearShareOfReach * light.range_m);
-}
-
-truth::Light truthLight(const Subject& subject)
-{
-    const Light& light = subject.lights[subject.light].caster;
-    if (light.near_m > 0.0 || light.range_m > 0.0) {
-        return truthLight(light);
+    if (light.type != LightType::directional) {
+        out.near_m = nearOf(light, subject.state->bounds_ws);
     }
-    const Aabb& bounds = subject.state->bounds_ws;
-    const glm::dvec3 low = glm::abs(glm::dvec3(bounds.min) - light.position_ws);
-    const glm::dvec3 high = glm::abs(glm::dvec3(bounds.max) - light.position_ws);
-    return castingLight(light, kNearShareOfReach * glm::length(glm::max(low, high)));
+    return out;
 }
 
 std::optional<double> truthNoise(const truth::Visibility& visibility, const Counted& counted)
