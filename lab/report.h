@@ -42,14 +42,20 @@ struct ReportTechnique {
     std::string class_file;
     std::string density_file;
 };
+struct ReportPlot {
+    std::string file; // likewise
+    std::string caption;
+};
 struct Report {
     std::string title;
     std::string truth_file;
     std::vector<std::pair<std::string, std::string>> facts; // what was compared, how: name and value
-    std::vector<std::string> columns;                       // of the table, the first the technique's name
-    std::vector<std::vector<std::string>> rows;             // best first; each as long as `columns`
-    std::vector<ReportTechnique> techniques;                // as `rows`
-    std::vector<std::string> notes;                         // sentences
+    std::vector<ReportPlot> plots;                          // before the table
+    std::string table_caption = "Best first.";
+    std::vector<std::string> columns;           // of the table, the first the technique's name
+    std::vector<std::vector<std::string>> rows; // each as long as `columns`
+    std::vector<ReportTechnique> techniques;    // as `rows`
+    std::vector<std::string> notes;             // sentences
 };
 /// HTML text in UTF-8; every string is escaped.
 [[nodiscard]] std::string reportPage(const Report& report);

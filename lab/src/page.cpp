@@ -126,11 +126,21 @@ void addTruth(std::string& page, const Report& report)
     page += "</section>\n";
 }
 
+void addPlots(std::string& page, const Report& report)
+{
+    if (report.plots.empty())
+        return;
+    page += "<section aria-labelledby=\"plots\">\n<h2 id=\"plots\">Plots</h2>\n<div class=\"pictures\">\n";
+    for (const ReportPlot& plot : report.plots)
+        addFigure(page, plot.file, plot.caption, plot.caption);
+    page += "</div>\n</section>\n";
+}
+
 void addTable(std::string& page, const Report& report)
 {
     page += "<section aria-labelledby=\"numbers\">\n<h2 id=\"numbers\">Numbers</h2>\n<div class=\"scroll\" "
-            "role=\"region\" aria-labelledby=\"numbers\" tabindex=\"0\">\n<table>\n<caption>Best first.</caption>\n"
-            "<thead>\n<tr>";
+            "role=\"region\" aria-labelledby=\"numbers\" tabindex=\"0\">\n<table>\n<caption>" +
+            escapeHtml(report.table_caption) + "</caption>\n<thead>\n<tr>";
     for (const std::string& column : report.columns)
         page += "<th scope=\"col\">" + escapeHtml(column) + "</th>";
     page += "</tr>\n</thead>\n<tbody>\n";
@@ -192,6 +202,7 @@ std::string reportPage(const Report& report)
     addFacts(page, report);
     addTruth(page, report);
     page += "</div>\n";
+    addPlots(page, report);
     addTable(page, report);
     addNotes(page, report);
     for (std::size_t i = 0; i < report.techniques.size(); ++i)
