@@ -78,17 +78,15 @@ void writeTechnique(ReportFolder& folder, const CompareResult& result, std::size
 void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& settings, lab::Report& page,
                 const std::function<void()>& step)
 {
+    const std::string& key = sweep.plan.key;
+    page.table_caption = fmt::format("Every technique over {}.", key);
     folder.write("sweep.svg", lab::plotSvg(sweepPlot(sweep, settings.scene)));
-    lab::ReportTechnique all;
-    all.name = "all techniques";
-    all.mask_file = "sweep.svg";
-    page.techniques.push_back(all);
+    page.plots.push_back({"sweep.svg", fmt::format("Error of every technique over {}.", key)});
     for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {
-        lab::ReportTechnique one;
-        one.name = sweep.plan.lines[i].technique;
-        one.class_file = numbered(i, "sweep.svg");
-        folder.write(one.class_file, lab::plotSvg(sweepClassPlot(sweep, i, settings.scene)));
-        page.techniques.push_back(one);
+        const std::string file = numbered(i, "sweep.svg");
+        folder.write(file, lab::plotSvg(sweepClassPlot(sweep, i, settings.scene)));
+        page.plots.push_back(
+            {file, fmt::format("{}: where its error over {} comes from.", sweep.plan.lines[i].technique, key)});
         step();
     }
 }

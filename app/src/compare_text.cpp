@@ -35,10 +35,10 @@ std::string equalErrorText(const CompareResult& result)
             continue;
         }
         const EqualError& equal = *technique.equal_error;
-        text += equal.ratio
-                    ? fmt::format("  {}: {:.2f} times {} (rmse {}; {:.2f} against {:.2f} ms)\n", technique.name,
-                                  *equal.ratio, equal.pcf, cell(equal.pcf_rmse, 4), *equal.technique_ms, *equal.pcf_ms)
-                    : fmt::format("  {}: none: {}\n", technique.name, equal.reason);
+        text += equal.ratio ? fmt::format("  {}: {:.2f} times the frame of {} (rmse {}; {:.2f} against {:.2f} ms)\n",
+                                          technique.name, *equal.ratio, equal.pcf, cell(equal.pcf_rmse, 4),
+                                          *equal.technique_ms, *equal.pcf_ms)
+                            : fmt::format("  {}: none: {}\n", technique.name, equal.reason);
     }
     return text;
 }
@@ -83,10 +83,10 @@ std::string truthText(const CompareResult& result)
         area ? fmt::format("area, {} rays per pixel, standard error {}", result.samples, cell(result.standard_error, 4))
              : std::string("hard, one ray per pixel");
     constexpr double kMillion = 1e6;
-    const double rays = static_cast<double>(visibility.rays) / kMillion;
-    text += fmt::format("; {:.2f} million rays in {:.2f} s", rays, visibility.seconds);
-    if (visibility.seconds > 0.0) {
-        text += fmt::format(", {:.1f} million/s", rays / visibility.seconds);
+    const double rays = static_cast<double>(visibility.rays);
+    text += fmt::format("; {} rays in {:.2f} s", visibility.rays, visibility.seconds);
+    if (rays > 0.0 && visibility.seconds > 0.0) {
+        text += fmt::format(", {:.2f} million/s", rays / visibility.seconds / kMillion);
     }
     return text + (result.from_cache ? " (from the cache)" : "");
 }

@@ -7,23 +7,9 @@
 namespace gnomon::app {
 namespace {
 
-struct Stage {
-    std::string_view name;
-    double lab::StageTimes::*member;
-};
 constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps", &lab::StageTimes::maps},
                              Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
                              Stage{"frame", &lab::StageTimes::frame}};
-
-lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
-{
-    std::vector<double> values;
-    values.reserve(samples.size());
-    for (const host::FrameTimes& sample : samples) {
-        values.push_back(lab::stagesOf(sample).*stage.member);
-    }
-    return lab::spreadOf(std::move(values));
-}
 
 /// Microseconds are all that a clock gives; more digits would only look exact.
 double rounded(double milliseconds)
@@ -52,6 +38,21 @@ std::uint32_t texelBytes(MapFormat format)
 }
 
 } // namespace
+
+std::span<const Stage> stages()
+{
+    return kStages;
+}
+
+lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
+{
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const host::FrameTimes& sample : samples) {
+        values.push_back(lab::stagesOf(sample).*stage.member);
+    }
+    return lab::spreadOf(std::move(values));
+}
 
 Json numberJson(double value)
 {

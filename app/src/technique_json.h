@@ -9,8 +9,11 @@
 #include "lab/timing.h"
 #include "result_json.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,14 @@ using MemoryByPurpose = std::vector<std::pair<std::string, std::uint64_t>>;
 [[nodiscard]] Json numberJson(const std::optional<double>& value);
 [[nodiscard]] Json vectorJson(const glm::dvec3& vector);
 
+/// A stage of lab::StageTimes by its name in results. In order; the last is the whole frame.
+struct Stage {
+    std::string_view name;
+    double lab::StageTimes::*member;
+};
+[[nodiscard]] std::span<const Stage> stages();
+/// Milliseconds; zeros without samples.
+[[nodiscard]] lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage);
 /// Median of the whole frame, ms; 0 without samples.
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
