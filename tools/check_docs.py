@@ -21,7 +21,7 @@ from pathlib import Path
 from sources import project_files
 
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-COMMAND = re.compile(r"(?:build/)?gnomon (render|plan|bench|list)\b([^`\n]*)")
+COMMAND = re.compile(r"(?:build/)?gnomon (render|compare|metrics|plan|bench|list)\b([^`\n]*)")
 # Options of the command line itself, which are no settings.
 PLAIN_OPTIONS = {"set", "preset", "json", "help", "version", "o"}
 

@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
+#include <fstream>
+#include <string_view>
 
 namespace gnomon::app {
 namespace {
@@ -30,9 +32,13 @@ ImageF readFinite(const std::string& file)
     return image;
 }
 
-bool isExrName(const std::string& file)
+/// By its first bytes, as readImage() tells, not by its name.
+bool holdsExr(const std::string& file)
 {
-    return std::filesystem::path(file).extension() == ".exr";
+    constexpr std::string_view kMagic = "\x76\x2f\x31\x01";
+    std::array<char, kMagic.size()> start{};
+    std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+    return std::string_view(start.data(), start.size()) == kMagic;
 }
 
 Json metricsJson(const ImageMetrics& metrics, const Settings& settings, const ImageF& image)
@@ -80,11 +86,18 @@ int runMetrics(const Settings& settings)
         throw Error(fmt::format("measuring {} against {}", settings.test_image, settings.truth_image),
                     "one is grey, the other is in colour");
     }
-    if (isColour(test) && isExrName(settings.test_image) != isExrName(settings.truth_image)) {
+    if (isColour(test) && holdsExr(settings.test_image) != holdsExr(settings.truth_image)) {
         throw Error(fmt::format("measuring {} against {}", settings.test_image, settings.truth_image),
                     "a PNG holds encoded colours, an EXR linear ones", "take two of one kind");
     }
-    const ImageMetrics metrics = measureImages(test, truth, !isExrName(settings.test_image));
+    const ImageMetrics metrics = measureImages(test, truth, !holdsExr(settings.test_image));
+    for (const double number :
+         {metrics.error.rmse, metrics.error.mae, metrics.error.bias, metrics.error.p99, metrics.ssim, metrics.flip}) {
+        if (!std::isfinite(number)) {
+            throw Error(fmt::format("measuring {} against {}", settings.test_image, settings.truth_image),
+                        "their values are too large for the error numbers");
+        }
+    }
     if (settings.json.empty()) {
         writeStdout(metricsText(metrics, settings, test));
     } else {

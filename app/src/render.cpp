@@ -112,6 +112,10 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
 std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target)
 {
     requireSizedLights(settings, shot.lights);
+    constexpr std::size_t kMostLights = 64; // of the host, which would say so only after all rays were traced
+    if (shot.lights.size() > kMostLights) {
+        throw Error("lighting the scene", fmt::format("{} lights", shot.lights.size()), "use at most 64");
+    }
     TruthMasks truth(shot, settings);
     const auto gpu = openGpu(settings);
     {
@@ -122,7 +126,6 @@ std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target
             if (first) {
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 truth.noteSizes();
-                renderer.draw(shot.state, shot.eye, shot.lights); // says what the host refuses before rays are traced
             }
             const std::vector<ImageF> masks = truth.ofAllLights();
             renderer.draw(shot.state, shot.eye, shot.lights, &masks);

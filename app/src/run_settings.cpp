@@ -175,7 +175,7 @@ const std::vector<Setting>& rows()
     static const std::vector<Setting> table{
         // clang-format off
         {.key = "truth", .group = Group::truth, .type = choice, .form = "KIND", .choices = [] { return std::vector<std::string_view>{"hard", "area"}; },
-         .doc = "rays to the light's centre (hard) or over its area; compare: area unless given", .subcommands = kRender | kCompare,
+         .doc = "rays to the light's centre (hard) or over all of it (area)", .subcommands = kRender | kCompare,
          .apply = [](Settings& s, const Value& v) { s.truth = v.text == "hard" ? truth::Kind::hard : truth::Kind::area; }},
         {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536,
          .doc = "per pixel and light, a multiple of 4", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area", .apply = applySamples},
@@ -207,7 +207,7 @@ const std::vector<Setting>& rows()
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "which light's mask; else the first one's", .subcommands = kRender | kCompare,
-         .used = judgesALight, .used_when = "--mask", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+         .used = judgesALight, .used_when = "--mask, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,

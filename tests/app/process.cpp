@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "process.h"
 
+#include "folder.h"
+
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +18,7 @@ namespace gnomon::test {
 namespace {
 
 /// In the child, after fork: only calls that are safe there, and exec.
-[[noreturn]] void become(const std::vector<std::string>& arguments, const How& how, int out, int err)
+[[noreturn]] void become(const std::vector<std::string>& arguments, const How& how, const char* cache, int out, int err)
 {
     if (how.stdout_to != nullptr) {
         out = ::open(how.stdout_to, O_WRONLY);
@@ -25,6 +28,7 @@ namespace {
     if (::chdir(how.folder.c_str()) != 0) {
         ::_exit(126);
     }
+    ::setenv("XDG_CACHE_HOME", cache, 1);
     for (const auto& [name, value] : how.environment) {
         ::setenv(name.c_str(), value.c_str(), 1);
     }
@@ -42,7 +46,8 @@ namespace {
 }
 
 /// Both pipes at once, so that neither can fill up and block the program.
-void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts)
+template <typename Read>
+void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const Read& on_read)
 {
     std::array<char, 4096> buffer{};
     int open = 2;
@@ -55,6 +60,7 @@ void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts)
             const ssize_t count = ::read(pipes[i].fd, buffer.data(), buffer.size());
             if (count > 0) {
                 texts[i]->append(buffer.data(), static_cast<std::size_t>(count));
+                on_read();
             } else if (count == 0 || errno != EINTR) {
                 ::close(pipes[i].fd);
                 pipes[i].fd = -1;
@@ -85,17 +91,25 @@ Ran gnomon(const std::vector<std::string>& arguments, const How& how)
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {
         throw std::runtime_error("no pipe");
     }
+    static const Folder cache;
+    const std::string cache_path = cache.path().string(); // made before the fork
     const pid_t child = ::fork();
     if (child < 0) {
         throw std::runtime_error("no process");
     }
     if (child == 0) {
-        become(arguments, how, out[1], err[1]);
+        become(arguments, how, cache_path.c_str(), out[1], err[1]);
     }
     ::close(out[1]);
     ::close(err[1]);
     Ran ran;
-    drain({pollfd{out[0], POLLIN, 0}, pollfd{err[0], POLLIN, 0}}, {&ran.out, &ran.err});
+    bool sent = how.signal_at.empty();
+    drain({pollfd{out[0], POLLIN, 0}, pollfd{err[0], POLLIN, 0}}, {&ran.out, &ran.err}, [&] {
+        if (!sent && ran.err.find(how.signal_at) != std::string::npos) {
+            ::kill(child, how.signal);
+            sent = true;
+        }
+    });
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

@@ -25,8 +25,11 @@ struct How {
     std::vector<std::pair<std::string, std::string>> environment; // added to ours
     rlim_t max_file_bytes = RLIM_INFINITY;
     const char* stdout_to = nullptr; // a file to send standard output to instead of Ran::out
+    std::string signal_at;           // once standard error has this, the signal is sent; empty: none is
+    int signal = 0;
 };
 
+/// Truths are kept in a folder of the test program's own, never in the user's, unless the environment says where.
 [[nodiscard]] Ran gnomon(const std::vector<std::string>& arguments, const How& how);
 
 } // namespace gnomon::test
