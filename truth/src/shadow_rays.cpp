@@ -23,9 +23,10 @@ constexpr double kEndShare = 1.0 - 0x1p-18;
 glm::dvec3 offSurface(const glm::dvec3& rel, const Triangle& triangle, const glm::dvec3& normal)
 {
     const glm::dvec3 on = rel - normal * glm::dot(rel - triangle.rel[0], normal);
-    // Embree computes with differences of floats no larger than about reach_m, so it places a triangle's plane to a few
-    // units in the last place of that, 2^-23. Sixteen half units keep the start on its own side of its own plane and of
-    // planes beside it that are meant to be the same. Then a ray above the horizon leaves them for good.
+    // Embree computes with differences of floats no larger than about reach_m, so it places a plane to a few units in
+    // the last place of that, 2^-23. The own triangle is left out by its index; eight units also keep the start above
+    // planes beside it and on it that are meant to be the same, which a ray above the horizon then leaves for good.
+    // (Tests see the first false shadows at two units.)
     return on + normal * (triangle.reach_m * 0x1p-20);
 }
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alpha-masked surfaces let light and sight through exactly where their texture says.
+#include "support.h"
+
+#include "alpha.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gnomon::truth::test {
+namespace {
+
+/// 4 by 2 texels, no two rows or columns alike: 255 is solid.
+scene::Image pattern()
+{
+    scene::Image image{.name = "pattern", .width = 4, .height = 2};
+    for (const std::uint8_t alpha : std::initializer_list<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 0}) {
+        image.rgba.insert(image.rgba.end(), {255, 255, 255, alpha});
+    }
+    return image;
+}
+
+/// A masked leaf [-1, 1] x [-1, 1] at height 1 over the ground, facing down; uv as `ceiling` has it: u along x, v along
+/// z.
+scene::Scene leaf(const scene::Texture& texture, const scene::TextureUse& use)
+{
+    scene::Scene scene;
+    scene.images.push_back(pattern());
+    scene.textures.push_back(texture);
+    scene::Material material;
+    material.alpha_mode = scene::AlphaMode::mask;
+    material.base_colour_texture = use;
+    scene.materials.push_back(material);
+    place(scene, addQuad(scene, level(0.0F, 8.0F)));
+    place(scene, addQuad(scene, ceiling(1.0F, -1.0F, 1.0F, 1.0F), 0));
+    return scene;
+}
+
+int wrapped(int i, int n, scene::Wrap wrap)
+{
+    if (wrap == scene::Wrap::clamp_to_edge) {
+        return std::min(std::max(i, 0), n - 1);
+    }
+    const int period = wrap == scene::Wrap::repeat ? n : 2 * n;
+    const int k = ((i % period) + period) % period;
+    return k < n ? k : 2 * n - 1 - k;
+}
+
+/// Alpha at texture coordinates in double precision; `margin` is how far the nearest change of texel is (nearest).
+double alphaAt(const scene::Texture& texture, double u, double v, double& margin)
+{
+    const double x = u * 4.0;
+    const double y = v * 2.0;
+    const auto texel = [&](int i, int j) {
+        const scene::Image image = pattern();
+        return image.rgba[(wrapped(j, 2, texture.wrap_v) * 4 + wrapped(i, 4, texture.wrap_u)) * 4 + 3] / 255.0;
+    };
+    if (!texture.magnify_linear) {
+        margin = std::min(std::abs(x - std::round(x)), std::abs(y - std::round(y)));
+        return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    }
+    const int i = static_cast<int>(std::floor(x - 0.5));
+    const int j = static_cast<int>(std::floor(y - 0.5));
+    const double a = x - 0.5 - i;
+    const double b = y - 0.5 - j;
+    const double alpha = (texel(i, j) * (1.0 - a) + texel(i + 1, j) * a) * (1.0 - b) +
+                         (texel(i, j + 1) * (1.0 - a) + texel(i + 1, j + 1) * a) * b;
+    margin = std::abs(alpha - 0.5);
+    return alpha;
+}
+
+struct Sampling {
+    scene::Texture texture;
+    scene::TextureUse use;
+};
+
+class MaskedLeaf : public ::testing::TestWithParam<Sampling> {};
+
+TEST_P(MaskedLeaf, shadow_is_the_texture)
+{
+    const auto& [texture, use] = GetParam();
+    scene::Scene scene = leaf(texture, use);
+    const View view = lookDown(0.0, 0.5, 1.2, {120, 120});
+    const Traced traced = trace(scene, view, sun({0.0, -1.0, 0.0}), hard());
+    std::uint32_t solid = 0;
+    std::uint32_t open = 0;
+    const double c = std::cos(double{use.rotation_rad});
+    const double s = std::sin(double{use.rotation_rad});
+    for (std::uint32_t y = 0; y < 120; ++y) {
+        for (std::uint32_t x = 0; x < 120; ++x) {
+            const glm::dvec3 p = traced.point(x, y);
+            if (std::abs(p.x) > 0.999 || std::abs(p.z) > 0.999) {
+                continue;
+            }
+            const double u = (p.x + 1.0) / 2.0 * use.scale.x;
+            const double v = (p.z + 1.0) / 2.0 * use.scale.y;
+            double margin = 0.0;
+            // Counter-clockwise as seen with v down: u towards -v.
+            const double alpha = alphaAt(texture, c * u + s * v + use.offset.x, -s * u + c * v + use.offset.y, margin);
+            if (margin < 1e-4) {
+                continue;
+            }
+            ASSERT_EQ(traced.at(x, y), alpha >= 0.5 ? 0.0 : 1.0) << x << ' ' << y << " alpha " << alpha;
+            ++(alpha >= 0.5 ? solid : open);
+        }
+    }
+    EXPECT_GT(solid, 800U);
+    EXPECT_GT(open, 800U);
+}
+
+using scene::Wrap;
+INSTANTIATE_TEST_SUITE_P(
+    samplings, MaskedLeaf,
+    ::testing::Values(
+        Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0}}, Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0}},
+        Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0, 0, {0.3F, -7.1F}, {2.5F, 3.0F}, 0.0F}},
+        Sampling{{0, Wrap::mirrored_repeat, Wrap::repeat, false}, {0, 0, {-1.3F, 0.1F}, {3.0F, 2.0F}, 0.0F}},
+        Sampling{{0, Wrap::mirrored_repeat, Wrap::mirrored_repeat, true}, {0, 0, {-1.3F, 0.1F}, {3.0F, 3.0F}, 0.0F}},
+        Sampling{{0, Wrap::clamp_to_edge, Wrap::repeat, true}, {0, 0, {-0.4F, 0.1F}, {1.7F, 2.0F}, 0.0F}},
+        Sampling{{0, Wrap::repeat, Wrap::clamp_to_edge, false}, {0, 0, {0.0F, -0.6F}, {2.0F, 2.0F}, 0.0F}},
+        Sampling{{0, Wrap::repeat, Wrap::mirrored_repeat, false}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, 0.6F}},
+        Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, -2.2F}}));
+
+TEST(MaskedLeaf, factor_texture_and_vertex_colour_multiply_and_the_cutoff_is_solid)
+{
+    const auto visibility = [](float factor, float of_vertices, float cutoff) {
+        scene::Scene scene = leaf({0, Wrap::repeat, Wrap::repeat, false}, {});
+        scene.materials[0].base_colour.a = factor;
+        scene.materials[0].alpha_cutoff = cutoff;
+        scene.meshes[1].primitives[0].colours.assign(4, glm::vec4(1.0F, 1.0F, 1.0F, of_vertices));
+        return trace(scene, lookDown(0.0, 0.5, 0.2, {4, 4}), sun({0.0, -1.0, 0.0}), hard()).at(1, 1);
+    };
+    EXPECT_EQ(visibility(0.5F, 1.0F, 0.5F), 0.0);
+    EXPECT_EQ(visibility(0.49F, 1.0F, 0.5F), 1.0);
+    EXPECT_EQ(visibility(0.75F, 0.75F, 0.5F), 0.0);
+    EXPECT_EQ(visibility(0.75F, 0.5F, 0.5F), 1.0);
+    EXPECT_EQ(visibility(0.1F, 0.1F, 0.0F), 0.0);
+    EXPECT_EQ(visibility(1.0F, 1.0F, 1.5F), 1.0);
+}
+
+TEST(MaskedLeaf, camera_looks_through_its_holes)
+{
+    scene::Scene scene = leaf({0, Wrap::repeat, Wrap::repeat, false}, {0});
+    scene.materials[0].double_sided = true;
+    // From above the leaf: 4 by 2 texels over the picture, v downwards along +z.
+    const Traced traced = trace(scene, lookDown(0.0, 2.0, 1.6, {160, 160}), sun({0.0, -1.0, 0.0}), hard());
+    for (std::uint32_t j = 0; j < 2; ++j) {
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            // The leaf is half as far away as the ground, so it is 200 px wide and reaches past the picture's rim.
+            const double u = (-1.0 + (i + 0.5) * 0.5) / 0.8;
+            const double v = (-1.0 + (j + 0.5)) / 0.8;
+            if (std::abs(u) >= 1.0 || std::abs(v) >= 1.0) {
+                continue;
+            }
+            const auto x = static_cast<std::uint32_t>((u + 1.0) * 80.0);
+            const auto y = static_cast<std::uint32_t>((v + 1.0) * 80.0);
+            const bool solid = pattern().rgba[(j * 4 + i) * 4 + 3] != 0;
+            EXPECT_EQ(traced.id(x, y), solid ? 2U : 1U) << i << ' ' << j;
+        }
+    }
+}
+
+TEST(SampleAlpha, coordinates_that_are_no_numbers_or_huge_do_no_harm)
+{
+    const scene::Image image = pattern();
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+        for (const bool linear : {false, true}) {
+            for (const float u : {NAN, INFINITY, -INFINITY, 3e38F, -3e38F, -1e-30F, 1.0F, 2.0F, -1.0F}) {
+                for (const float v : {NAN, 3e38F, -1e-30F, 1.0F}) {
+                    const float alpha = sampleAlpha(image, {0, wrap, wrap, linear}, {u, v});
+                    EXPECT_TRUE(alpha >= 0.0F && alpha <= 1.0F) << u << ' ' << v;
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::truth::test
