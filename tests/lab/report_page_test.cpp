@@ -21,6 +21,8 @@ Report makeReport(const std::string& text)
     report.title = "title " + text;
     report.truth_file = "truth.png";
     report.facts = {{"fact " + text, "value " + text}};
+    report.plots = {{"plot.svg", "plot " + text}};
+    report.table_caption = "caption " + text;
     report.columns = {"technique " + text, "rmse"};
     report.rows = {{"first " + text, "0.1 " + text}, {"second", "0.2"}};
     report.techniques = {{"first " + text, "m.png", "e.png", "c.png", "d.png"},
@@ -115,6 +117,7 @@ TEST(ReportPage, EveryStringIsThereAndEscaped)
          {"<title>title " + text + "</title>", "<h1>title " + text + "</h1>",
           "<dt>fact " + text + "</dt><dd>value " + text + "</dd>", "<th scope=\"col\">technique " + text + "</th>",
           "<th scope=\"row\"><a href=\"#technique-1\">first " + text + "</a></th>", "<td>0.1 " + text + "</td>",
+          "<caption>caption " + text + "</caption>", "<figcaption>plot " + text + "</figcaption>",
           "<li>note " + text + "</li>", ">first " + text + "</h2>", "alt=\"Mask of first " + text})
         EXPECT_EQ(occurrences(page, place), 1U) << place;
 }
@@ -142,11 +145,11 @@ TEST(ReportPage, NothingRunsAndNothingIsFetched)
 TEST(ReportPage, PicturesWithAFileAreShownWithAltAndCaption)
 {
     const std::string page = reportPage(makeReport("plain"));
-    EXPECT_EQ(occurrences(page, "<img "), 1U + 4U + 3U); // the second technique has no density
-    EXPECT_EQ(occurrences(page, "<figcaption>"), 8U);
+    EXPECT_EQ(occurrences(page, "<img "), 2U + 4U + 3U); // the second technique has no density
+    EXPECT_EQ(occurrences(page, "<figcaption>"), 9U);
     EXPECT_EQ(occurrences(page, "alt=\"\""), 0U);
-    EXPECT_EQ(occurrences(page, " alt=\""), 8U);
-    for (const char* file : {"truth.png", "m.png", "e.png", "c.png", "d.png", "n.png", "f.png", "g.png"})
+    EXPECT_EQ(occurrences(page, " alt=\""), 9U);
+    for (const char* file : {"truth.png", "plot.svg", "m.png", "e.png", "c.png", "d.png", "n.png", "f.png", "g.png"})
         EXPECT_EQ(occurrences(page, "src=\"./" + std::string(file) + "\""), 1U) << file;
 }
 
@@ -155,7 +158,7 @@ TEST(ReportPage, RowsAndTechniquesKeepTheirOrderAndAreLinked)
     const std::string page = reportPage(makeReport("plain"));
     EXPECT_LT(page.find("0.1 plain"), page.find("0.2"));
     EXPECT_LT(page.find("id=\"technique-1\""), page.find("id=\"technique-2\""));
-    EXPECT_LT(page.find("Best first."), page.find("0.1 plain"));
+    EXPECT_LT(page.find("<caption>caption plain</caption>"), page.find("0.1 plain"));
     for (const char* id : {"technique-1", "technique-2"}) {
         EXPECT_EQ(occurrences(page, "href=\"#" + std::string(id) + "\""), 1U);
         EXPECT_EQ(occurrences(page, " id=\"" + std::string(id) + "\""), 1U);
