@@ -3,6 +3,7 @@
 #include "app/shot.h"
 #include "app/visual.h"
 #include "bench_report.h"
+#include "contestants.h"
 #include "progress.h"
 #include "subcommands.h"
 
@@ -12,49 +13,8 @@
 
 #include <gnomon/error.h>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-
 namespace gnomon::app {
 namespace {
-
-constexpr std::string_view kAll[] = {"hard",
-                                     "pcf+pcf.kernel=2x2",
-                                     "pcf+pcf.kernel=3x3",
-                                     "pcf+pcf.kernel=5x5",
-                                     "pcf+pcf.kernel=7x7",
-                                     "pcf+pcf.kernel=poisson",
-                                     "pcf+pcf.kernel=vogel"};
-
-/// Whether the options and presets say themselves which technique it is: by what the default list would override.
-bool namesOneTechnique(const Settings& settings)
-{
-    return std::any_of(settings.named.begin(), settings.named.end(),
-                       [](const std::string& key) { return key == "filter" || key.starts_with("pcf."); });
-}
-
-std::vector<Settings> contestants(const Settings& settings)
-{
-    if (settings.techniques.empty() && namesOneTechnique(settings)) {
-        return {settings};
-    }
-    std::vector<std::string> texts = settings.techniques;
-    if (texts.empty() || texts.front() == "all") {
-        texts.assign(std::begin(kAll), std::end(kAll));
-    }
-    std::vector<Settings> made;
-    for (const std::string& text : texts) {
-        made.push_back(parseTechnique(settings, text));
-        for (std::size_t i = 0; i + 1 < made.size(); ++i) {
-            if (describeTechnique(made[i]) == describeTechnique(made.back())) {
-                throw UsageError(fmt::format("--techniques: {} and {} are the same technique", texts[i], text));
-            }
-        }
-    }
-    return made;
-}
 
 lab::Subject subjectOf(const Shot& shot)
 {

@@ -53,7 +53,12 @@ std::string_view aliasOf(std::string_view key)
             throw UsageError(fmt::format("{}: {}", name, *sentence));
         }
     }
-    std::vector<std::string> options{"--set", "--preset", "--help"};
+    std::vector<std::string> options{"--help"};
+    if ((subcommand.bit & kFrames) != 0) {
+        options.insert(options.end(), {"--set", "--preset"});
+    } else if (name == "--set" || name == "--preset") {
+        throw UsageError(fmt::format("{} is not an option of {}", name, subcommand.name));
+    }
     for (const Setting& setting : settingTable()) {
         if (fmt::format("--{}", setting.key) == name) {
             throw UsageError(setting.own_option && (setting.subcommands & subcommand.bit) == 0

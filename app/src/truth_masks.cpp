@@ -13,6 +13,12 @@
 namespace gnomon::app {
 namespace {
 
+/// "6144", "22.1 million".
+std::string countText(double count)
+{
+    return count < 1e6 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g} million", count / 1e6);
+}
+
 constexpr std::uint32_t kMaxSidePx = 16384; // as the cache of truths and the reader of images have it
 
 } // namespace
@@ -94,10 +100,10 @@ std::string TruthMasks::summary() const
         text += fmt::format(", {} rays per pixel, standard error {:.2g}", settings_.samples,
                             pixels_ == 0 ? 0.0 : std::sqrt(squared_error_ / static_cast<double>(pixels_)));
     }
-    const double millions = static_cast<double>(rays_) / 1e6;
-    text += fmt::format(", {:.3g} million rays", millions);
+    const auto rays = static_cast<double>(rays_);
+    text += fmt::format(", {} rays", countText(rays));
     if (seconds_ > 0.0) {
-        text += fmt::format(" at {:.3g} million a second", millions / seconds_);
+        text += fmt::format(" at {} a second", countText(rays / seconds_));
     }
     if (from_cache_ == traces_ && traces_ != 0) {
         return text + ", from the cache";

@@ -189,6 +189,8 @@ const std::vector<Wrong> kWrong{
     {"MetricsOfOne", {"metrics", "a.png"}, 2, "one is given"},
     {"MetricsOfThree", {"metrics", "a.png", "b.png", "c.png"}, 2, "3 are given"},
     {"MetricsWithAScenesOption", {"metrics", "a.png", "b.png", "--size", "8x8"}, 2, "not an option of metrics"},
+    {"MetricsWithAPreset", {"metrics", "a.png", "b.png", "--preset", "demo"}, 2, "not an option of metrics"},
+    {"ListWithASetting", {"list", "--set", "map-size=64"}, 2, "--set is not an option of list"},
     {"MetricsJsonOfAnotherName", {"metrics", "a.png", "b.png", "--json", "out.txt"}, 2, "no image, and a file"},
     {"MetricsMissing", {"metrics", "a.png", "b.png"}, 1, "a.png"},
     {"MetricsOfAFolder", {"metrics", "a_folder", "b.png"}, 1, "a_folder"},
