@@ -129,8 +129,8 @@ TEST(Area, is_the_mean_of_many_hard_shadows)
     const View view = lookDown(1.3, 1.9, 1.6, {48, 32}); // below the box
     const Traced soft = trace(scene, view, sun(-to_sun, angle), area(1024));
     const Tracer tracer(scene, soft.state);
-    // A grid of the disc's own: rings of equal area, each with as many points at the angles' middles.
-    constexpr int kRings = 16;
+    // A grid of the disc's own: rings of equal area, each with as many points, turned from ring to ring.
+    constexpr int kRings = 32;
     constexpr int kAround = 32;
     std::vector<double> mean(soft.visibility.visibility.values.size(), 0.0);
     const glm::dvec3 right = glm::normalize(glm::cross(to_sun, glm::dvec3(0.0, 0.0, 1.0)));
@@ -138,7 +138,7 @@ TEST(Area, is_the_mean_of_many_hard_shadows)
     for (int ring = 0; ring < kRings; ++ring) {
         for (int i = 0; i < kAround; ++i) {
             const double rho = std::tan(angle / 2.0) * std::sqrt((ring + 0.5) / kRings);
-            const double turn = 2.0 * std::numbers::pi * (i + 0.5 * (ring % 2)) / kAround;
+            const double turn = 2.0 * std::numbers::pi * (i + ring * std::numbers::phi) / kAround;
             const Light light = sun(-(to_sun + rho * (std::cos(turn) * right + std::sin(turn) * up)));
             const Visibility one = tracer.trace(soft.surfaces, view, light, hard()).value();
             for (std::size_t k = 0; k < mean.size(); ++k) {

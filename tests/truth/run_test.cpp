@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run promises: the same bits from any number of threads, a seed that matters, progress, an end when asked.
+#include "support.h"
+
+#include "light_samples.h"
+#include "parallel.h"
+
+#include "scene/worlds.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+namespace gnomon::truth::test {
+namespace {
+
+const Light kSun = sun({3.0, -4.0, 0.5}, 0.1);
+const View kView = lookAt({6.5, 5.0, 9.5}, {0.6, 1.0, 0.0}, 0.75, {100, 70});
+
+TEST(Run, bits_do_not_depend_on_threads_and_do_on_the_seed)
+{
+    scene::Scene scene = scene::makePlanes(1);
+    const Traced one = trace(scene, kView, kSun, area(64, 1));
+    for (const std::uint32_t threads : {1U, 2U, 3U}) {
+        const Traced other = trace(scene, kView, kSun, area(64, threads));
+        EXPECT_EQ(one.surfaces.points.values, other.surfaces.points.values);
+        EXPECT_EQ(one.surfaces.triangle_ids.values, other.surfaces.triangle_ids.values);
+        EXPECT_EQ(one.visibility.visibility.values, other.visibility.visibility.values);
+        EXPECT_EQ(one.visibility.standard_error.values, other.visibility.standard_error.values);
+        EXPECT_EQ(one.visibility.first_blocker_m.values, other.visibility.first_blocker_m.values);
+        EXPECT_EQ(one.visibility.rays, other.visibility.rays);
+    }
+    Options options = area(64);
+    options.seed = 2;
+    const Traced reseeded = trace(scene, kView, kSun, options);
+    EXPECT_NE(one.visibility.visibility.values, reseeded.visibility.visibility.values);
+    EXPECT_GT(one.visibility.rays, 64U * 1000U);
+    EXPECT_GT(one.visibility.seconds, 0.0);
+}
+
+TEST(Run, ends_when_cancelled)
+{
+    scene::Scene scene = scene::makePlanes(1);
+    const Traced traced = trace(scene, kView, kSun, hard());
+    const Tracer tracer(scene, traced.state);
+    std::atomic<bool> cancel{true};
+    Options options = area(4096);
+    options.cancel = &cancel;
+    EXPECT_FALSE(tracer.see(kView, options).has_value());
+    EXPECT_FALSE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
+    // From another thread, in the middle of it.
+    cancel = false;
+    options.samples = 65536;
+    std::thread later([&cancel] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        cancel = true;
+    });
+    EXPECT_FALSE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
+    later.join();
+}
+
+TEST(Run, progress_rises_to_one_on_the_calling_thread)
+{
+    scene::Scene scene = scene::makePlanes(1);
+    const Traced traced = trace(scene, kView, kSun, hard());
+    const Tracer tracer(scene, traced.state);
+    std::vector<double> shares;
+    Options options = area(4096);
+    options.progress = [&, caller = std::this_thread::get_id()](double share) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        shares.push_back(share);
+    };
+    ASSERT_TRUE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
+    ASSERT_FALSE(shares.empty());
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GE(shares.front(), 0.0);
+    EXPECT_EQ(shares.back(), 1.0);
+}
+
+TEST(Tiles, cover_each_pixel_once_and_hand_on_what_is_thrown)
+{
+    for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(16, 16), glm::uvec2(17, 33), glm::uvec2(100, 3)}) {
+        std::vector<std::atomic<int>> visits(std::size_t{size.x} * size.y);
+        ASSERT_TRUE(forEachTile(size, {.threads = 3}, [&](const Tile& tile) {
+            for (std::uint32_t y = tile.min.y; y < tile.max.y; ++y) {
+                for (std::uint32_t x = tile.min.x; x < tile.max.x; ++x) {
+                    ++visits[std::size_t{y} * size.x + x];
+                }
+            }
+        }));
+        EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](const auto& n) { return n == 1; }));
+    }
+    const auto fail = [](const Tile&) {
+        throw std::runtime_error("no");
+    };
+    EXPECT_THROW((void)forEachTile({64, 64}, {.threads = 2}, fail), std::runtime_error);
+    const Options bad_progress{.threads = 2, .progress = [](double) {
+                                   throw std::logic_error("no");
+                               }};
+    EXPECT_THROW((void)forEachTile({64, 64}, bad_progress, [](const Tile&) {}), std::logic_error);
+}
+
+TEST(DiscSet, is_stratified_and_uniform)
+{
+    for (const std::uint32_t count : {1U, 3U, 16U, 64U, 1000U}) {
+        std::set<int> rings;
+        glm::dvec2 mean(0.0);
+        double second = 0.0;
+        for (const DiscPoint& base : makeDiscSet(count)) {
+            const DiscPoint point = moved(base, shiftOf(1, 7, 2));
+            ASSERT_TRUE(point.area >= 0.0F && point.area < 1.0F);
+            ASSERT_NEAR(glm::length(point.direction), 1.0F, 1e-5F);
+            rings.insert(static_cast<int>(base.area * static_cast<float>(count)));
+            mean += glm::dvec2(point.direction) * std::sqrt(double{point.area}) / double(count);
+            second += double{point.area} / count;
+        }
+        EXPECT_EQ(rings.size(), count); // one in each ring of equal area
+        if (count >= 64) {
+            EXPECT_LT(glm::length(mean), 0.03);
+            EXPECT_NEAR(second, 0.5, 0.02);
+        }
+    }
+}
+
+TEST(DiscShift, differs_by_seed_pixel_and_set_and_fills_the_unit_interval)
+{
+    std::set<float> areas;
+    double mean = 0.0;
+    glm::dvec2 turn(0.0);
+    constexpr int kShifts = 4096;
+    for (int i = 0; i < kShifts; ++i) {
+        const DiscShift shift =
+            shiftOf(i % 4, static_cast<std::uint64_t>(i / 16), static_cast<std::uint32_t>(i / 4 % 4));
+        areas.insert(shift.area);
+        mean += double{shift.area} / kShifts;
+        turn += glm::dvec2(shift.turn) / double(kShifts);
+    }
+    EXPECT_GT(areas.size(), kShifts - 8U);
+    EXPECT_NEAR(mean, 0.5, 0.02);
+    EXPECT_LT(glm::length(turn), 0.05);
+}
+
+TEST(StandardError, is_that_of_the_mean_of_four)
+{
+    const std::array<double, kSampleSets> estimates{0.0, 0.0, 1.0, 1.0};
+    EXPECT_NEAR(standardError(estimates), std::sqrt(1.0 / 3.0 / 4.0), 1e-15); // sample variance 1/3, over four
+    const std::array<double, kSampleSets> equal{0.3, 0.3, 0.3, 0.3};
+    EXPECT_NEAR(standardError(equal), 0.0, 1e-15);
+}
+
+} // namespace
+} // namespace gnomon::truth::test
