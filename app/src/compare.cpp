@@ -276,7 +276,9 @@ int runCompare(const Settings& settings)
         folder = std::make_unique<ReportFolder>(settings.report);
     }
     const Shot shot = makeShot(settings);
-    requireCaster(shot.lights[lightIndex(shot, settings)], techniques);
+    const host::ShadedLight& light = shot.lights[lightIndex(shot, settings)];
+    requireSizedLights(settings, {&light, 1});
+    requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
     for (const Settings& technique : techniques) {
         requireMapFits(*gpu, technique);

@@ -80,6 +80,12 @@ void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& 
 {
     const std::string& key = sweep.plan.key;
     page.table_caption = fmt::format("Every technique over {}.", key);
+    if (sweep.plan.lines.size() == 1) {
+        folder.write("sweep.svg", lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
+        page.plots.push_back({"sweep.svg", fmt::format("Error over {}, and where it comes from.", key)});
+        step();
+        return;
+    }
     folder.write("sweep.svg", lab::plotSvg(sweepPlot(sweep, settings.scene)));
     page.plots.push_back({"sweep.svg", fmt::format("Error of every technique over {}.", key)});
     for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {

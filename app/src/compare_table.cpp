@@ -28,7 +28,9 @@ void addErrorCells(std::vector<std::string>& row, const std::optional<lab::Error
     };
     row.push_back(cell(number(&lab::ErrorNumbers::rmse), 4));
     row.push_back(cell(number(&lab::ErrorNumbers::mae), 4));
-    row.push_back(error && std::isfinite(error->bias) ? fmt::format("{:+.4f}", error->bias) : std::string(kNoNumber));
+    std::string bias =
+        error && std::isfinite(error->bias) ? fmt::format("{:+.4f}", error->bias) : std::string(kNoNumber);
+    row.push_back(bias == "-0.0000" || bias == "+0.0000" ? "0.0000" : bias);
     const double squared = error ? error->rmse * error->rmse : 0.0;
     for (const double part : {classes.edge, classes.acne, classes.detached, classes.bleeding}) {
         row.push_back(cell(squared > 0.0 ? std::optional(100.0 * part / squared) : std::nullopt, 1));

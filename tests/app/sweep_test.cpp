@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// One setting over many values, against one truth.
+#include "folder.h"
+#include "process.h"
+
+#include "sweep.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+app::Settings technique(const std::string& text)
+{
+    return app::parseTechnique(app::defaultSettings(), text);
+}
+
+TEST(SweepPlan, TakesValuesByEqualStepsOrFactors)
+{
+    const app::SweepPlan steps = app::planSweep({"bias.slope", 0.0, 0.5, 6, false}, {technique("hard")});
+    EXPECT_EQ(steps.values, (std::vector<double>{0.0, 0.1, 0.2, 0.3, 0.4, 0.5}));
+    EXPECT_EQ(steps.unit, "texel depths");
+    const app::SweepPlan factors = app::planSweep({"map-size", 1024.0, 64.0, 5, true}, {technique("hard")});
+    EXPECT_EQ(factors.values, (std::vector<double>{1024.0, 512.0, 256.0, 128.0, 64.0}));
+    // Whole numbers once each: 4, 4.9, 6, 7.3, 9 by equal factors.
+    const app::SweepPlan whole = app::planSweep({"pcf.taps", 4.0, 6.0, 5, true}, {technique("pcf+pcf.kernel=vogel")});
+    EXPECT_EQ(whole.values, (std::vector<double>{4.0, 5.0, 6.0}));
+    ASSERT_EQ(whole.lines.size(), 1U);
+    EXPECT_EQ(whole.lines[0].points[1].filter.disc_taps, 5U);
+}
+
+TEST(SweepPlan, SetsTheValueAndNamesTheTechniqueWithoutIt)
+{
+    const app::SweepPlan plan = app::planSweep({"map-size", 64.0, 256.0, 3, true},
+                                               {technique("hard+map-size=512"), technique("pcf+bias=none")});
+    ASSERT_EQ(plan.lines.size(), 2U);
+    EXPECT_EQ(plan.lines[0].technique, "hard");
+    EXPECT_EQ(plan.lines[1].technique, "pcf+bias=none+pcf.kernel=3x3");
+    for (const app::SweepPlan::Line& line : plan.lines) {
+        ASSERT_EQ(line.points.size(), 3U);
+        EXPECT_EQ(line.points[0].plan.map_size, 64U);
+        EXPECT_EQ(line.points[2].plan.map_size, 256U);
+    }
+}
+
+TEST(SweepPlan, LeavesOutTechniquesThatItDoesNotTouch)
+{
+    const app::SweepPlan plan =
+        app::planSweep({"pcf.radius", 1.0, 4.0, 3, false}, {technique("hard"), technique("pcf+pcf.kernel=poisson")});
+    ASSERT_EQ(plan.lines.size(), 1U);
+    ASSERT_EQ(plan.left_out.size(), 1U);
+    EXPECT_TRUE(plan.left_out[0].starts_with("hard is left out: pcf.radius has an effect only with"));
+    EXPECT_EQ(plan.lines[0].points[2].plan.border_texels, 5.0); // the room that a disc of 4 texels needs
+    EXPECT_THROW((void)app::planSweep({"pcf.radius", 1.0, 4.0, 3, false}, {technique("hard")}), app::UsageError);
+    EXPECT_THROW((void)app::planSweep({"map-size", 64.0, 128.0, 2, false},
+                                      {technique("hard+map-size=64"), technique("hard+map-size=512")}),
+                 app::UsageError);
+}
+
+TEST(SweepPlan, KeepsABorderThatIsSwept)
+{
+    const app::SweepPlan plan = app::planSweep({"border", 0.0, 8.0, 3, false}, {technique("hard")});
+    EXPECT_EQ(plan.lines[0].points[0].plan.border_texels, 0.0);
+    EXPECT_EQ(plan.lines[0].points[2].plan.border_texels, 8.0);
+}
+
+TEST(SweepPlot, RunsUpwardAndLeavesGaps)
+{
+    app::SweepResult result;
+    result.plan = app::planSweep({"map-size", 256.0, 64.0, 3, true}, {technique("hard")});
+    result.points = {{{lab::ErrorNumbers{0.1, 0.0, 0.0, 0.0}, lab::ClassErrors{0.0075, 0.0025, 0.0, 0.0}, {}},
+                      {std::nullopt, {}, {}},
+                      {lab::ErrorNumbers{0.4, 0.0, 0.0, 0.0}, lab::ClassErrors{0.16, 0.0, 0.0, 0.0}, {}}}};
+    const lab::Plot plot = app::sweepPlot(result, "planes");
+    EXPECT_EQ(plot.x, (std::vector<double>{64.0, 128.0, 256.0}));
+    ASSERT_EQ(plot.lines.size(), 1U);
+    EXPECT_EQ(plot.lines[0].values[0], 0.4);
+    EXPECT_TRUE(std::isnan(plot.lines[0].values[1]));
+    EXPECT_TRUE(plot.x_logarithmic);
+    const lab::Plot classes = app::sweepClassPlot(result, 0, "planes");
+    ASSERT_EQ(classes.lines.size(), 5U);
+    EXPECT_NEAR(classes.lines[1].values[2], std::sqrt(0.0075), 1e-12); // edge
+    EXPECT_NEAR(classes.lines[2].values[2], 0.05, 1e-12);              // acne
+    const app::Json json = app::sweepJson(result);
+    EXPECT_TRUE(json["results"][0]["rmse"][1].is_null());
+    EXPECT_TRUE(json["results"][0]["acne"][1].is_null());
+    EXPECT_FALSE(json["results"][0]["settings"].contains("map-size"));
+}
+
+TEST(Sweep, ErrorFallsAsTheMapGrows)
+{
+    const test::Folder folder;
+    const test::Folder cache;
+    const test::Ran ran =
+        test::gnomon({"compare", "planes", "--size", "160x90", "--samples", "16", "--sun", "1,-2,0.7", "--techniques",
+                      "hard,pcf", "--sweep", "map-size=64:1024:3:log", "--report", "out", "--json"},
+                     {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", cache.path().string()}}});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const nlohmann::json result = nlohmann::json::parse(ran.out);
+    EXPECT_TRUE(result["results"].empty());
+    const nlohmann::json& sweep = result["sweep"];
+    EXPECT_EQ(sweep["key"], "map-size");
+    EXPECT_EQ(sweep["unit"], "texels");
+    EXPECT_EQ(sweep["values"], (std::vector<double>{64, 256, 1024}));
+    ASSERT_EQ(sweep["results"].size(), 2U);
+    for (const auto& line : sweep["results"]) {
+        const std::vector<double> rmse = line["rmse"];
+        ASSERT_EQ(rmse.size(), 3U);
+        EXPECT_GT(rmse[0], 2.0 * rmse[2]) << line;
+        for (std::size_t i = 0; i < rmse.size(); ++i) {
+            double parts = 0.0;
+            for (const char* part : {"edge", "acne", "detached", "bleeding"}) {
+                parts += line[part][i].get<double>();
+            }
+            EXPECT_NEAR(parts, rmse[i] * rmse[i], 1e-12);
+        }
+    }
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"01_sweep.svg", "02_sweep.svg", "index.html", "result.json", "sweep.svg",
+                                               "truth.png"}));
+    EXPECT_TRUE(test::slurp(folder / "out/sweep.svg").find("<svg") != std::string::npos);
+    EXPECT_TRUE(test::slurp(folder / "out/index.html").find("sweep.svg") != std::string::npos);
+}
+
+} // namespace
+} // namespace gnomon
