@@ -190,6 +190,18 @@ TEST(Truth, LeavesNothingWhenTheFileCannotBeWritten)
     EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(Truth, OfAStillSceneIsTracedOnceForAllFrames)
+{
+    const test::Folder folder;
+    const test::Folder cache;
+    auto arguments = maskOf("hard", "out");
+    arguments.insert(arguments.end(), {"--frames", "0-2"});
+    const test::Ran ran = test::gnomon(arguments, withCache(folder, cache));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_TRUE(says(ran.out, "2 of 3 from the cache")) << ran.out;
+    EXPECT_EQ(test::slurp(folder / "out/frame_0000.png"), test::slurp(folder / "out/frame_0002.png"));
+}
+
 /// A file without lights, of which the program says so before it traces: the moment to interrupt it.
 std::string lightless()
 {

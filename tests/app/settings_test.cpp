@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the options of truth and comparison become.
+#include "folder.h"
+
+#include "app/command_line.h"
+#include "app/preset.h"
+#include "app/shot.h"
+#include "contestants.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace gnomon {
+namespace {
+
+app::Settings settingsOf(const std::vector<std::string>& arguments)
+{
+    return app::parseCommandLine(arguments).settings;
+}
+
+TEST(Settings, KeysAreUnique)
+{
+    std::set<std::string_view> keys;
+    for (const app::Setting& setting : app::settingTable()) {
+        EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
+        EXPECT_EQ(setting.used == nullptr, setting.used_when.empty()) << setting.key;
+    }
+}
+
+TEST(Settings, CompareIsAgainstAreaTruthUnlessTold)
+{
+    EXPECT_EQ(settingsOf({"compare"}).truth, truth::Kind::area);
+    EXPECT_EQ(settingsOf({"compare", "--truth", "hard"}).truth, truth::Kind::hard);
+    EXPECT_EQ(settingsOf({"compare"}).values.at("truth"), "area");
+    EXPECT_EQ(settingsOf({"compare", "--samples", "64"}).samples, 64U);
+    EXPECT_FALSE(settingsOf({"render"}).truth.has_value());
+    EXPECT_EQ(settingsOf({"render"}).samples, 256U);
+    EXPECT_EQ(settingsOf({"compare", "--light", "sun"}).light, "sun"); // without --mask
+}
+
+TEST(Settings, SweepsAreTakenApart)
+{
+    const auto sweep = settingsOf({"compare", "--sweep", "map-size=256:4096:5:log"}).sweep;
+    ASSERT_TRUE(sweep.has_value());
+    EXPECT_EQ(sweep->key, "map-size");
+    EXPECT_EQ(sweep->from, 256.0);
+    EXPECT_EQ(sweep->to, 4096.0);
+    EXPECT_EQ(sweep->steps, 5U);
+    EXPECT_TRUE(sweep->logarithmic);
+    const auto down = settingsOf({"compare", "--sweep", "pcf.radius=8:0.5:16"}).sweep;
+    ASSERT_TRUE(down.has_value());
+    EXPECT_EQ(down->from, 8.0);
+    EXPECT_FALSE(down->logarithmic);
+}
+
+TEST(Settings, SizesOfLightsAreWhatWasSaid)
+{
+    const app::Shot sun =
+        app::makeShot(settingsOf({"render", "planes", "--sun", "0,-1,0", "--truth", "area", "--sun-angle", "90"}));
+    ASSERT_EQ(sun.lights.size(), 1U);
+    EXPECT_NEAR(sun.lights[0].caster.angular_diameter_rad, 1.5707963, 1e-6);
+    const app::Shot lamp = app::makeShot(
+        settingsOf({"render", "planes", "--point", "0,5,0,20", "--truth", "area", "--light-size", "0.5"}));
+    ASSERT_EQ(lamp.lights.size(), 1U);
+    EXPECT_EQ(lamp.lights[0].caster.radius_m, 0.25); // the size is the diameter
+}
+
+TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
+{
+    const test::Folder folder;
+    test::spill(folder / "a.json", R"({"truth": "area", "samples": 64, "sun-angle": 2, "filter": "hard"})");
+    const app::Settings settings = settingsOf({"render", "--preset", (folder / "a.json").string()});
+    EXPECT_EQ(settings.truth, truth::Kind::area);
+    EXPECT_EQ(settings.samples, 64U);
+    EXPECT_EQ(settings.sun_angle_deg, 2.0);
+    EXPECT_FALSE(settingsOf({"plan", "--preset", (folder / "a.json").string()}).truth.has_value());
+}
+
+TEST(Contestants, AreTheOnesNamed)
+{
+    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 7U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 7U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--filter", "hard"})).size(), 1U);
+    EXPECT_EQ(app::contestants(settingsOf({"bench", "--techniques", "hard,pcf"})).size(), 2U);
+    EXPECT_THROW((void)app::contestants(settingsOf({"bench", "--techniques", "pcf,pcf+pcf.kernel=3x3"})),
+                 app::UsageError);
+}
+
+} // namespace
+} // namespace gnomon
