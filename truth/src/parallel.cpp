@@ -12,10 +12,6 @@
 #include <utility>
 #include <vector>
 
-#if defined(__SSE3__) || defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
-
 namespace gnomon::truth {
 namespace {
 
@@ -24,27 +20,28 @@ constexpr std::uint32_t kTileSide = 16;
 /// Denormal numbers, which cost a trap each, become zero while this lives. Of the thread that makes it.
 class NoDenormals {
 public:
-#if defined(__SSE3__) || defined(__x86_64__)
-    NoDenormals() : before_(_mm_getcsr())
+#if defined(__SSE__)
+    NoDenormals() : before_(__builtin_ia32_stmxcsr())
     {
-        _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
+        __builtin_ia32_ldmxcsr(before_ | kFlushToZero | kReadAsZero);
     }
     ~NoDenormals()
     {
-        _mm_setcsr(before_);
+        __builtin_ia32_ldmxcsr(before_);
     }
-
-private:
-    static constexpr unsigned kFlushToZero = 0x8000;
-    static constexpr unsigned kDenormalsAreZero = 0x0040;
-    unsigned before_;
-
-public:
 #else
     NoDenormals() = default;
+    ~NoDenormals() = default;
 #endif
     NoDenormals(const NoDenormals&) = delete;
     NoDenormals& operator=(const NoDenormals&) = delete;
+
+private:
+#if defined(__SSE__)
+    static constexpr unsigned kFlushToZero = 0x8000; // bits of the control register
+    static constexpr unsigned kReadAsZero = 0x0040;
+    unsigned before_;
+#endif
 };
 
 class Tiles {
