@@ -11,10 +11,11 @@ JOBS ?= $(shell nproc)
 CTEST_JOBS ?= $(JOBS)
 FUZZ_SECONDS ?= 60
 PICTURE := $(CURDIR)/out/rts.png
+COMPARISON := $(CURDIR)/out/compare
 
 .PHONY: help
 help:
-	@echo "make demo    install what is missing, build, render the built-in rts world, say where the picture is"
+	@echo "make demo    install what is missing, build, render the built-in rts world, compare its shadows with the truth"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "make check   layout, headers that stand alone, include rules, forbidden words"
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
@@ -36,6 +37,10 @@ demo: configure
 	@mkdir -p out
 	@build/gnomon render rts --preset demo -o $(PICTURE)
 	@echo "The picture is $(PICTURE)"
+	@echo "Holding the techniques against ray-traced truth"
+	@build/gnomon compare rts --camera camp --size 640x360 --samples 64 --repetitions 3 --warmup 1 \
+	    --report $(COMPARISON)
+	@echo "The pictures of the comparison are in $(COMPARISON); open $(COMPARISON)/index.html"
 
 .PHONY: build
 build: configure
