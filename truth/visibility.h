@@ -35,8 +35,9 @@ struct Light {
 /// ((x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1) of clip space, y down.
 struct View {
     glm::dvec3 eye_ws{0.0};
-    glm::dmat4 world_from_clip{1.0}; // of any perspective camera whose depth range is [0, 1]
-    glm::uvec2 size_px{0};           // >= 1 each
+    /// Of any perspective camera whose depth range is [0, 1]. What is outside that range is not seen.
+    glm::dmat4 world_from_clip{1.0};
+    glm::uvec2 size_px{0}; // >= 1 each
 };
 
 struct Options {
@@ -65,9 +66,10 @@ struct Surfaces {
 /// One light's visibility at every pixel.
 struct Visibility {
     Kind kind = Kind::area;
-    ImageF visibility;      // [0, 1]: 1 fully lit, and at background and objects that do not receive
-    ImageF standard_error;  // area: of each pixel's estimate, noisy by itself (pool squares over pixels); hard: all 0
-    ImageF first_blocker_m; // metres from the surface to the first thing that blocks; +infinity where nothing does
+    ImageF visibility;     // [0, 1]: 1 fully lit, and at background and objects that do not receive
+    ImageF standard_error; // area: of each pixel's estimate, noisy by itself (pool squares over pixels); hard: all 0
+    /// Metres from the surface to the first thing that blocks; +infinity where nothing does but the surface itself.
+    ImageF first_blocker_m;
     std::uint64_t rays = 0; // shadow rays traced
     double seconds = 0.0;   // that tracing took; kept when the result comes from a cache
 };
