@@ -52,7 +52,7 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     for (const host::ShadedLight& light : shot.lights) {
         json["lights"].push_back(lightJson(light));
     }
-    json["settings"] = settingsJson(settings, kBench);
+    json["settings"] = repeatJson(settings, kBench);
     Json baseline;
     addTimes(baseline, "", result.baseline.samples);
     baseline["memory_bytes"] = result.baseline_bytes;

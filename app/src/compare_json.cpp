@@ -108,6 +108,8 @@ Json unitsJson()
             {"texel_density", "shadow texels per screen pixel along the worse axis"},
             {"fit_efficiency", "texels read / texels rendered"},
             {"standard_error", "visibility, root mean square over the counted pixels"},
+            {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
+            {"eye.far_m", "metres; 0: behind everything"},
             {"map.texels", "texels of all layers"},
             {"pixels", "pixels"},
             {"truth.samples", "rays per pixel"}};
@@ -143,7 +145,7 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
         json["baseline"] = baseline;
     }
     json["notes"] = result.notes;
-    json["settings"] = settingsJson(settings, kCompare);
+    json["settings"] = repeatJson(settings, kCompare);
     json["units"] = unitsJson();
     return json;
 }

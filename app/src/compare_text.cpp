@@ -113,7 +113,7 @@ std::string lightText(const host::ShadedLight& light)
 {
     const Light& caster = light.caster;
     const auto point = [](const glm::dvec3& p) {
-        return fmt::format("{:.4g},{:.4g},{:.4g}", p.x, p.y, p.z);
+        return fmt::format("{:.4g},{:.4g},{:.4g}", p.x + 0.0, p.y + 0.0, p.z + 0.0); // no minus nothing
     };
     if (caster.type == LightType::directional) {
         return fmt::format("directional, direction {}, {:.3g} degrees wide", point(caster.direction_ws),

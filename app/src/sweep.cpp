@@ -41,9 +41,6 @@ std::vector<double> sweepValues(const Sweep& sweep, bool whole)
 bool applyPoint(Settings& settings, const Setting& setting, double value)
 {
     applySetting(settings, setting, valueText(value));
-    if (setting.key == "border") {
-        settings.border_given = true;
-    }
     completeTechnique(settings);
     return setting.used == nullptr || setting.used(settings);
 }
@@ -186,7 +183,7 @@ Json sweepJson(const SweepResult& result)
         };
         std::for_each(kNumbers.begin(), kNumbers.end(), add);
         std::for_each(kClasses.begin(), kClasses.end(), add);
-        line["settings"] = settingsJson(result.plan.lines[i].points.front(), kCompare);
+        line["settings"] = repeatJson(result.plan.lines[i].points.front(), kCompare);
         line["settings"].erase(result.plan.key);
         json["results"].push_back(line);
     }

@@ -56,7 +56,7 @@ lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const St
 
 Json numberJson(double value)
 {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+    return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); // minus nothing is nothing
 }
 
 Json numberJson(const std::optional<double>& value)
@@ -146,6 +146,20 @@ Json densityJson(const lab::TexelDensity& density)
             {"p50", percentile(density.p50)},
             {"p99", percentile(density.p99)},
             {"pixels", {{"counted", density.counted}, {"left_out", density.left_out}}}};
+}
+
+Json repeatJson(const Settings& settings, std::uint32_t subcommand)
+{
+    Json json = settingsJson(settings, subcommand);
+    if (!settings.format_given) {
+        json.erase("map-format");
+    }
+    if (!settings.border_given) {
+        json.erase("border");
+    }
+    json.erase("json");
+    json.erase("report");
+    return json;
 }
 
 Json eyeJson(const host::Eye& eye)

@@ -48,7 +48,10 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);
-/// Where the picture is taken from, resolved.
+/// The settings that make the same run again, as a preset has them: without what follows from others (the filter's own
+/// format, the border that a kernel needs, which differ between techniques) and without where the result went.
+[[nodiscard]] Json repeatJson(const Settings& settings, std::uint32_t subcommand);
+/// Where the picture is taken from, resolved; near_m and far_m are 0 where the scene's size decides.
 [[nodiscard]] Json eyeJson(const host::Eye& eye);
 /// The light, resolved: what has no meaning for its type is left out.
 [[nodiscard]] Json lightJson(const host::ShadedLight& light);
