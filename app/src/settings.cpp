@@ -195,10 +195,8 @@ void completeTechnique(Settings& settings)
                                      nameOf(settings.filter.format), nameOf(settings.filter.filter), *reason));
     }
     if (!settings.border_given) {
-        const bool disc = settings.filter.filter == Filter::pcf && (settings.filter.pcf_kernel == PcfKernel::poisson ||
-                                                                    settings.filter.pcf_kernel == PcfKernel::vogel);
-        const double reach = disc ? std::ceil(static_cast<double>(settings.filter.disc_radius_texels)) + 1.0 : 0.0;
-        settings.plan.border_texels = std::max(PlanOptions{}.border_texels, reach);
+        const auto reach = static_cast<double>(vulkan::filterReachTexels(settings.filter));
+        settings.plan.border_texels = std::max(PlanOptions{}.border_texels, std::ceil(reach));
         settings.values["border"] = fmt::format("{}", settings.plan.border_texels);
     }
 }

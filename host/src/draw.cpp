@@ -244,9 +244,7 @@ void Renderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     depth.clearValue.depthStencil.depth = 0.0F;
     beginRendering(cmd, targets.drawn, colours, &depth);
     setViewport(cmd, targets.drawn);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set, 0, nullptr);
-    draws.bindStreams(cmd);
-    profiler.addDraws(draws.recordOpaque(cmd, pipelines));
+    profiler.addDraws(draws.recordOpaque(cmd, pipelines, frame_set));
     vkCmdEndRendering(cmd);
     for (const Image& image : targets.gbuffer) {
         barrier(cmd, image, kColourWrite, kSampled);
@@ -294,12 +292,13 @@ void Renderer::Impl::recordLight(VkCommandBuffer cmd)
     const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
     beginRendering(cmd, targets.drawn, {&colour, 1}, &depth);
     setViewport(cmd, targets.drawn);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
-                            nullptr);
     const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
                                              [](const Light& l) { return l.type == LightType::directional; });
     for (VkPipeline pipeline : {pipelines.shadeFor(light_count, all_directional), pipelines.sky}) {
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
+                                nullptr);
         vkCmdDraw(cmd, 3, 1, 0, 0);
     }
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set, 0, nullptr);

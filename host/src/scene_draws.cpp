@@ -162,7 +162,20 @@ void SceneDraws::setSides(VkCommandBuffer commands, const Batch& batch) const
     vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
-std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines) const
+std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
+                                      const vulkan::BatchDraws& some) const
+{
+    const Batch& batch = batches_[some.batch];
+    setSides(commands, batch);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1,
+                            &materials_.all()[batch.material].set, 0, nullptr);
+    vkCmdDrawIndexedIndirect(commands, commands_.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
+                             some.command_count, sizeof(VkDrawIndexedIndirectCommand));
+    return some.command_count;
+}
+
+std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines,
+                                       VkDescriptorSet frame_set) const
 {
     std::uint32_t draws = 0;
     VkPipeline bound = VK_NULL_HANDLE;
@@ -172,16 +185,17 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
         if (facts.blended) {
             continue;
         }
+        const bool first = bound == VK_NULL_HANDLE;
         if (pipelines.gbuffer(batch.kind) != bound) {
             bound = pipelines.gbuffer(batch.kind);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bound);
         }
-        setSides(commands, batch);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1, &facts.set, 0,
-                                nullptr);
-        vkCmdDrawIndexedIndirect(commands, commands_.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
-                                 some.command_count, sizeof(VkDrawIndexedIndirectCommand));
-        draws += some.command_count;
+        if (first) { // not before the pipeline: llvmpipe 22.3 crashes on a set that no pipeline was ever bound for
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set,
+                                    0, nullptr);
+            bindStreams(commands);
+        }
+        draws += recordBatch(commands, pipelines, some);
     }
     return draws;
 }
@@ -198,12 +212,7 @@ std::uint32_t SceneDraws::recordEmissive(VkCommandBuffer commands, const Pipelin
         if (draws == 0) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emissive);
         }
-        setSides(commands, batch);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1, &facts.set, 0,
-                                nullptr);
-        vkCmdDrawIndexedIndirect(commands, commands_.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
-                                 some.command_count, sizeof(VkDrawIndexedIndirectCommand));
-        draws += some.command_count;
+        draws += recordBatch(commands, pipelines, some);
     }
     return draws;
 }

@@ -25,8 +25,9 @@ public:
     /// Writes instances and commands for the objects that the camera sees.
     void build(const scene::State& state, const glm::dvec3& eye_ws, std::span<const std::uint32_t> visible);
 
-    /// Inside rendering; the frame's set is bound. Return the number of draw calls.
-    std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set and the vertex streams
+    /// itself; before the others they are bound.
+    std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, VkDescriptorSet frame_set) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
     std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines) const;
     void bindStreams(VkCommandBuffer commands) const;
@@ -51,6 +52,8 @@ private:
     };
     void collect(const scene::State& state);
     void writeInstance(InstanceData& out, std::uint32_t object, bool receives, const glm::dvec3& eye_ws) const;
+    std::uint32_t recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
+                              const vulkan::BatchDraws& some) const;
     void setSides(VkCommandBuffer commands, const Batch& batch) const;
 
     const Geometry& geometry_;

@@ -228,6 +228,8 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
         EXPECT_GT(result["counters"]["draws"].get<int>(), 0);
         EXPECT_GT(result["texel_density"]["p50"].get<double>(), 0.0);
         EXPECT_LE(result["texel_density"]["p01"].get<double>(), result["texel_density"]["p99"].get<double>());
+        EXPECT_GT(result["fit_efficiency"].get<double>(), 0.0);
+        EXPECT_LE(result["fit_efficiency"].get<double>(), 1.0);
     }
 }
 

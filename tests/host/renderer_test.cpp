@@ -307,6 +307,21 @@ TEST(Renderer, AccountsForItsMemory)
     EXPECT_FALSE(purposes.contains("staging")) << "the staging buffer is given back after the upload";
 }
 
+TEST(Renderer, DrawsAViewThatSeesNothing)
+{
+    for (const bool shadows : {true, false}) {
+        RenderOptions options = smallOptions();
+        options.shadows = shadows;
+        Stage stage(smallScene(), options);
+        stage.eye = {.position_ws = {0.0, 50.0, 0.0}, .target_ws = {100.0, 90.0, 0.0}};
+        const Picture picture = stage.drawAndRead();
+        EXPECT_EQ(*std::max_element(picture.object_ids.values.begin(), picture.object_ids.values.end()), 0U);
+        for (const ImageF& mask : picture.masks) {
+            EXPECT_EQ(*std::min_element(mask.values.begin(), mask.values.end()), 1.0F);
+        }
+    }
+}
+
 TEST(Renderer, RefusesSizesThatNoDeviceHas)
 {
     const scene::Scene scene = smallScene();
