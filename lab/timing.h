@@ -51,6 +51,7 @@ struct Counters {
     std::uint64_t compute_invocations = 0;
     std::uint64_t draws = 0;
     std::uint64_t passes = 0;
+    std::uint64_t bytes_minimum = 0; // leastBytes() of lab/score/traffic.h; 0 without shadows
 };
 [[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
 
