@@ -37,11 +37,14 @@ public:
     /// go first. Of the folder's files only those are ever removed that bear an entry's name, or its temporary one.
     explicit Cache(std::filesystem::path folder, std::uint64_t max_bytes = 4ULL << 30);
 
-    /// Nothing when there is no entry, or one that is torn, of another version or of other sizes than it says (it is
-    /// then removed). Never throws.
-    [[nodiscard]] std::optional<Traced> load(const scene::Hash128& key) const;
+    /// The truth of `key`, which is of `kind` and whose images are of `size_px`. Nothing when there is no entry, or one
+    /// that is torn, of another version, kind or size, or with a value that no truth has: not a number, a visibility
+    /// outside [0, 1], a point or normal that is not finite, a negative error or distance (it is then removed). Object
+    /// and triangle numbers are not looked at: the key says which scene they are of. Never throws.
+    [[nodiscard]] std::optional<Traced> load(const scene::Hash128& key, const glm::uvec2& size_px, Kind kind) const;
     /// Returns false, with a sentence in `why` if given, when the entry could not be written; then nothing is left
-    /// behind, but for the folder. Images must be all of one size, up to 16384 a side. Never throws.
+    /// behind, but for the folder. Images must be all of one size, up to 16384 a side, and their values such as load()
+    /// gives back. Never throws.
     bool store(const scene::Hash128& key, const Traced& traced, std::string* why = nullptr) const;
 
 private:

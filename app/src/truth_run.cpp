@@ -15,6 +15,7 @@ struct TruthTracer::Impl {
     const Shot& shot;
     const Settings& settings;
     std::optional<truth::Cache> cache;
+    bool stores = true;
     // Of the shot's present moment, made when first needed.
     std::optional<truth::Tracer> tracer;
     std::optional<truth::Surfaces> surfaces;
@@ -39,9 +40,9 @@ void TruthTracer::Impl::openCache()
 void TruthTracer::Impl::keep(const scene::Hash128& key, const truth::Traced& traced)
 {
     std::string why;
-    if (cache && !cache->store(key, traced, &why)) {
+    if (cache && stores && !cache->store(key, traced, &why)) {
         notice("the truth is not kept: " + why);
-        cache.reset(); // said once, and not tried for every frame
+        stores = false; // said once, and not tried for every frame; what is there already can still be had
     }
 }
 
@@ -55,7 +56,6 @@ truth::Traced TruthTracer::Impl::traceAnew(const truth::View& view, const truth:
     requireNotInterrupted(); // building takes a while
     if (!tracer) {
         tracer.emplace(shot.scene, shot.state);
-        surfaces.reset();
     }
     if (!surfaces) {
         surfaces = tracer->see(view, options);
@@ -67,10 +67,12 @@ truth::Traced TruthTracer::Impl::traceAnew(const truth::View& view, const truth:
     if (!visibility) {
         throw Interrupted();
     }
-    return {*surfaces, std::move(*visibility)};
+    truth::Traced traced{std::move(*surfaces), std::move(*visibility)};
+    surfaces.reset();
+    return traced;
 }
 
-TruthTracer::TruthTracer(const Shot& shot, const Settings& settings) : impl_(new Impl{shot, settings, {}, {}, {}})
+TruthTracer::TruthTracer(const Shot& shot, const Settings& settings) : impl_(new Impl{shot, settings})
 {
     assert(settings.truth);
     impl_->openCache();
@@ -82,6 +84,12 @@ void TruthTracer::moved()
 {
     impl_->tracer.reset();
     impl_->surfaces.reset();
+}
+
+void TruthTracer::takeBack(truth::Surfaces surfaces)
+{
+    assert(glm::uvec2(surfaces.object_ids.width, surfaces.object_ids.height) == impl_->settings.size_px);
+    impl_->surfaces = std::move(surfaces);
 }
 
 TruthRun TruthTracer::trace(std::size_t light)
@@ -98,7 +106,7 @@ TruthRun TruthTracer::trace(std::size_t light)
     TruthRun run;
     if (impl_->cache) {
         run.key = truth::keyOf(shot.scene, shot.state, view, rays_to, options);
-        if (auto kept = impl_->cache->load(run.key)) {
+        if (auto kept = impl_->cache->load(run.key, view.size_px, *settings.truth)) {
             run.traced = std::move(*kept);
             run.from_cache = true;
         }

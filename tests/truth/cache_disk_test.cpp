@@ -23,7 +23,7 @@ TEST_F(CacheTest, AFileInPlaceOfTheFolder)
     for (const char* place : {"file", "file/below"}) {
         const Cache cache(folder_.path() / place);
         std::string why;
-        EXPECT_FALSE(cache.load(kKey).has_value());
+        EXPECT_FALSE(load(cache).has_value());
         EXPECT_FALSE(cache.store(kKey, sample(4, 4), &why));
         EXPECT_FALSE(why.empty());
     }
@@ -89,7 +89,7 @@ TEST_F(CacheTest, TheLeastRecentlyUsedGoFirst)
         fs::last_write_time(entryOf(folder_, {0, i}), now - std::chrono::hours(100 - static_cast<int>(i)));
     }
     test::spill(folder_ / "notes.txt", std::string(100'000, 'x'));
-    EXPECT_TRUE(cache.load({0, 0}).has_value()); // 1 is now the one not used for longest
+    EXPECT_TRUE(load(cache, {16, 16}, {0, 0}).has_value()); // 1 is now the one not used for longest
     ASSERT_TRUE(cache.store({0, 3}, sample(16, 16)));
     EXPECT_TRUE(fs::exists(entryOf(folder_, {0, 0})));
     EXPECT_FALSE(fs::exists(entryOf(folder_, {0, 1})));
@@ -128,6 +128,8 @@ TEST_F(CacheTest, OnlyTemporariesOfKilledProcessesAreSwept)
 
 // Side by side
 
+constexpr glm::uvec2 kSharedSize{24, 16};
+
 /// Stores one of two truths and loads, 200 times; what is loaded must be one of the two, whole. 0 when it was.
 int storeAndLoad(const fs::path& folder, const Traced& first, const Traced& second)
 {
@@ -135,7 +137,7 @@ int storeAndLoad(const fs::path& folder, const Traced& first, const Traced& seco
     int found = 0;
     for (int round = 0; round < 200; ++round) {
         cache.store(kKey, round % 2 == 0 ? first : second);
-        const std::optional<Traced> loaded = cache.load(kKey);
+        const std::optional<Traced> loaded = load(cache, kSharedSize);
         if (!loaded) {
             return 1; // nobody removes it, and replacing must not leave a gap
         }
@@ -149,8 +151,8 @@ int storeAndLoad(const fs::path& folder, const Traced& first, const Traced& seco
 
 TEST_F(CacheTest, TwoProcessesMayUseOneKey)
 {
-    const Traced first = sample(24, 16, 1);
-    const Traced second = sample(31, 11, 2);
+    const Traced first = sample(kSharedSize.x, kSharedSize.y, 1);
+    const Traced second = sample(kSharedSize.x, kSharedSize.y, 2);
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
@@ -166,8 +168,8 @@ TEST_F(CacheTest, TwoProcessesMayUseOneKey)
 
 TEST_F(CacheTest, ThreadsMayUseOneKey)
 {
-    const Traced first = sample(24, 16, 1);
-    const Traced second = sample(31, 11, 2);
+    const Traced first = sample(kSharedSize.x, kSharedSize.y, 1);
+    const Traced second = sample(kSharedSize.x, kSharedSize.y, 2);
     std::array<int, 3> results{};
     std::vector<std::thread> threads;
     for (int& result : results) {

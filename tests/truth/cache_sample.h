@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -23,17 +22,19 @@ using test::Folder;
 inline constexpr scene::Hash128 kKey{0x0123456789ABCDEFULL, 42};
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Values from 0 to `largest`.
 template <typename T>
-void fill(ImageOf<T>& image, std::mt19937& random)
+void fill(ImageOf<T>& image, std::mt19937& random, T largest)
 {
     for (T& value : image.values) {
         // Half of them repeat, as in truths.
         const bool repeats = &value != image.values.data() && random() % 2 == 0;
-        value = repeats ? *(&value - 1) : static_cast<T>(random());
+        value = repeats ? *(&value - 1)
+                        : static_cast<T>(static_cast<double>(random()) / 4294967295.0 * static_cast<double>(largest));
     }
 }
 
-/// Any numbers, with those that a careless copy loses: NaN, infinity, minus zero, denormals.
+/// Any numbers that truths may have, with those that a careless copy loses: infinity, minus zero, denormals.
 inline Traced sample(std::uint32_t width, std::uint32_t height, unsigned seed = 1)
 {
     std::mt19937 random(seed);
@@ -45,11 +46,11 @@ inline Traced sample(std::uint32_t width, std::uint32_t height, unsigned seed = 
     traced.visibility.visibility = {width, height, 1, 1.0F};
     traced.visibility.standard_error = {width, height, 1};
     traced.visibility.first_blocker_m = {width, height, 1, kInfinity};
-    fill(traced.surfaces.object_ids, random);
-    fill(traced.surfaces.points, random);
-    fill(traced.surfaces.normals, random);
-    fill(traced.visibility.visibility, random);
-    traced.visibility.first_blocker_m.values.back() = std::nanf("7");
+    fill(traced.surfaces.object_ids, random, scene::kNone);
+    fill(traced.surfaces.points, random, 3e38F);
+    fill(traced.surfaces.normals, random, 1.0F);
+    fill(traced.visibility.visibility, random, 1.0F);
+    traced.visibility.first_blocker_m.values.back() = 0.25F;
     traced.surfaces.points.values.front() = -0.0F;
     traced.surfaces.normals.values.back() = std::numeric_limits<float>::denorm_min();
     traced.visibility.kind = Kind::hard;
@@ -87,15 +88,23 @@ inline std::string entryBytes(std::uint32_t width = 13, std::uint32_t height = 7
     return encodeEntry(kKey, sample(width, height)).value();
 }
 
+inline std::optional<Traced> load(const Cache& cache, const glm::uvec2& size_px = {4, 4},
+                                  const scene::Hash128& key = kKey)
+{
+    return cache.load(key, size_px, Kind::hard);
+}
+
 class CacheTest : public testing::Test {
 protected:
     const Folder folder_;
     const Cache cache_{folder_.path()};
 
-    void expectRefusedAndRemoved(const std::string& bytes, const std::string& what)
+    /// Of whoever asks for a truth of that size and kind.
+    void expectRefusedAndRemoved(const std::string& bytes, const std::string& what, const glm::uvec2& size_px = {13, 7},
+                                 Kind kind = Kind::hard)
     {
         test::spill(entryOf(folder_), bytes);
-        EXPECT_FALSE(cache_.load(kKey).has_value()) << what;
+        EXPECT_FALSE(cache_.load(kKey, size_px, kind).has_value()) << what;
         EXPECT_TRUE(folder_.names().empty()) << what;
     }
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <sys/stat.h>
 #include <utility>
@@ -16,16 +18,16 @@ namespace {
 TEST_F(CacheTest, GivesBackWhatItTookBitForBit)
 {
     // One pixel; a row of whole mask bytes; a size that leaves mask bits unused.
-    for (const auto& [width, height] : {std::pair(1U, 1U), std::pair(16U, 1U), std::pair(61U, 35U)}) {
-        Traced traced = sample(width, height);
-        EXPECT_FALSE(cache_.load(kKey).has_value());
+    for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(16, 1), glm::uvec2(61, 35)}) {
+        Traced traced = sample(size.x, size.y);
+        EXPECT_FALSE(load(cache_, size).has_value());
         ASSERT_TRUE(cache_.store(kKey, traced));
-        const std::optional<Traced> loaded = cache_.load(kKey);
+        const std::optional<Traced> loaded = load(cache_, size);
         ASSERT_TRUE(loaded.has_value());
         EXPECT_TRUE(same(*loaded, traced));
         traced.surfaces.points.values[0] = 0.0F; // no longer the -0 that was stored
         EXPECT_FALSE(same(*loaded, traced));
-        EXPECT_FALSE(cache_.load({kKey.high, kKey.low + 1}).has_value());
+        EXPECT_FALSE(load(cache_, size, {kKey.high, kKey.low + 1}).has_value());
         fs::remove(entryOf(folder_));
     }
 }
@@ -34,7 +36,7 @@ TEST_F(CacheTest, AnotherStoreReplacesTheEntry)
 {
     ASSERT_TRUE(cache_.store(kKey, sample(8, 8, 1)));
     ASSERT_TRUE(cache_.store(kKey, sample(9, 5, 2)));
-    EXPECT_TRUE(same(cache_.load(kKey).value(), sample(9, 5, 2)));
+    EXPECT_TRUE(same(load(cache_, {9, 5}).value(), sample(9, 5, 2)));
     EXPECT_EQ(folder_.names().size(), 1U);
 }
 
@@ -42,10 +44,10 @@ TEST_F(CacheTest, MakesItsFolderWithTheFirstStore)
 {
     const fs::path deep = folder_ / "a" / "b";
     const Cache cache(deep);
-    EXPECT_FALSE(cache.load(kKey).has_value());
+    EXPECT_FALSE(load(cache).has_value());
     EXPECT_TRUE(folder_.names().empty());
     EXPECT_TRUE(cache.store(kKey, sample(4, 4)));
-    EXPECT_TRUE(cache.load(kKey).has_value());
+    EXPECT_TRUE(load(cache).has_value());
 }
 
 TEST_F(CacheTest, AnEntryUnderAnotherKeysNameIsRefused)
@@ -53,7 +55,7 @@ TEST_F(CacheTest, AnEntryUnderAnotherKeysNameIsRefused)
     const scene::Hash128 other{kKey.high, kKey.low + 1};
     ASSERT_TRUE(cache_.store(kKey, sample(4, 4)));
     fs::rename(entryOf(folder_), entryOf(folder_, other));
-    EXPECT_FALSE(cache_.load(other).has_value());
+    EXPECT_FALSE(load(cache_, {4, 4}, other).has_value());
     EXPECT_TRUE(folder_.names().empty());
 }
 
@@ -72,7 +74,7 @@ TEST_F(CacheTest, TornFilesNeverLoad)
     std::fill(zeroed.begin() + static_cast<std::ptrdiff_t>(zeroed.size() / 2), zeroed.end(), '\0');
     expectRefusedAndRemoved(zeroed, "second half of zeros");
     test::spill(entryOf(folder_), whole);
-    EXPECT_TRUE(cache_.load(kKey).has_value()); // whole, it does load
+    EXPECT_TRUE(load(cache_, {13, 7}).has_value()); // whole, it does load
 }
 
 TEST_F(CacheTest, FlippedBitsNeverLoad)
@@ -100,68 +102,168 @@ std::string reseal(std::string bytes, const std::function<void(EntryHeader&)>& c
     return bytes;
 }
 
-TEST_F(CacheTest, SizesThatDoNotFitTheFileAreRefusedBeforeMemoryIsTaken)
+struct Lie {
+    const char* what;
+    std::function<void(EntryHeader&)> tell;
+};
+
+std::vector<Lie> liesOfHeaders()
 {
-    constexpr std::uint32_t kHuge = 0xFFFFFFFFU;
-    const std::string whole = entryBytes(13, 7);
-    const std::vector<std::pair<const char*, std::function<void(EntryHeader&)>>> changes{
-        {"huge sides",
-         [](EntryHeader& h) {
-             h.width = h.height = kHuge;
-         }},
-        {"sides whose product wraps to 0",
-         [](EntryHeader& h) {
-             h.width = h.height = 1U << 16U;
-         }},
-        {"the largest sides",
-         [](EntryHeader& h) {
-             h.width = h.height = kMaxCachedSide;
-         }},
-        {"width 0",
-         [](EntryHeader& h) {
-             h.width = 0;
-         }},
-        {"height 0",
-         [](EntryHeader& h) {
-             h.height = 0;
-         }},
-        {"huge payload",
-         [](EntryHeader& h) {
-             h.payload_bytes = ~0ULL;
-         }},
-        {"payload that wraps",
-         [](EntryHeader& h) {
-             h.payload_bytes = ~0ULL - kEntryHeaderBytes + 1;
-         }},
-        {"another kind",
-         [](EntryHeader& h) {
-             h.kind = 2;
-         }},
+    const auto sides = [](std::uint32_t width, std::uint32_t height) {
+        return [=](EntryHeader& header) {
+            header.width = width;
+            header.height = height;
+        };
+    };
+    const auto payload = [](std::uint64_t bytes) {
+        return [=](EntryHeader& header) {
+            header.payload_bytes = bytes;
+        };
+    };
+    return {
+        {"huge sides", sides(0xFFFFFFFFU, 0xFFFFFFFFU)},
+        {"sides whose product wraps to 0", sides(1U << 16U, 1U << 16U)},
+        {"the largest sides", sides(kMaxCachedSide, kMaxCachedSide)},
+        {"width 0", sides(0, 7)},
+        {"height 0", sides(13, 0)},
+        {"huge payload", payload(~0ULL)},
+        {"payload that wraps", payload(~0ULL - kEntryHeaderBytes + 1)},
         {"another version",
-         [](EntryHeader& h) {
-             ++h.format_version;
+         [](EntryHeader& header) {
+             ++header.format_version;
          }},
         {"another byte order",
-         [](EntryHeader& h) {
-             h.magic = 0x474E4F4D54524831ULL;
+         [](EntryHeader& header) {
+             header.magic = 0x474E4F4D54524831ULL;
+         }},
+        {"another key",
+         [](EntryHeader& header) {
+             ++header.key.low;
          }},
     };
-    for (const auto& [what, change] : changes) {
-        const std::string bytes = reseal(whole, change);
-        EXPECT_FALSE(parseHeader(bytes, bytes.size(), kKey).has_value()) << what;
-        expectRefusedAndRemoved(bytes, what);
+}
+
+TEST_F(CacheTest, HeadersThatDoNotFitTheFileAreRefusedBeforeMemoryIsTaken)
+{
+    const std::string whole = entryBytes(13, 7);
+    for (const Lie& lie : liesOfHeaders()) {
+        const std::string bytes = reseal(whole, lie.tell);
+        EntryHeader told;
+        std::memcpy(&told, bytes.data(), sizeof(told));
+        const glm::uvec2 size_px(told.width, told.height); // asked for, so that only the file's size can betray it
+        EXPECT_FALSE(parseHeader(bytes, bytes.size(), {kKey, size_px, Kind::hard}).has_value()) << lie.what;
+        expectRefusedAndRemoved(bytes, lie.what, size_px);
     }
-    // Sizes that could be true are found out by what is packed.
-    for (const auto& [width, height] : {std::pair(13U, 6U), std::pair(13U, 8U), std::pair(91U, 2U)}) {
-        expectRefusedAndRemoved(reseal(whole,
-                                       [w = width, h = height](EntryHeader& header) {
-                                           header.width = w;
-                                           header.height = h;
-                                       }),
-                                std::to_string(width) + " x " + std::to_string(height));
+    test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.rays = 7; }));
+    EXPECT_EQ(load(cache_, {13, 7}).value().visibility.rays, 7U); // so the seal is right, and the sizes were looked at
+}
+
+TEST_F(CacheTest, SizesThatCouldBeTrueAreFoundOutByWhatIsPacked)
+{
+    const std::string whole = entryBytes(13, 7);
+    for (const glm::uvec2 size_px : {glm::uvec2(13, 6), glm::uvec2(13, 8), glm::uvec2(91, 2)}) {
+        const std::string bytes = reseal(whole, [&](EntryHeader& header) {
+            header.width = size_px.x;
+            header.height = size_px.y;
+        });
+        expectRefusedAndRemoved(bytes, std::to_string(size_px.x) + " x " + std::to_string(size_px.y), size_px);
     }
-    test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& h) { h.rays = 7; }));
-    EXPECT_EQ(cache_.load(kKey).value().visibility.rays, 7U); // so the seal is right, and the sizes were looked at
+}
+
+TEST_F(CacheTest, AWholeEntryOfAnotherSizeOrKindThanAskedIsRefused)
+{
+    const std::string whole = entryBytes(13, 7);
+    for (const glm::uvec2 size_px : {glm::uvec2(7, 13), glm::uvec2(13, 8), glm::uvec2(12, 7), glm::uvec2(91, 1)}) {
+        expectRefusedAndRemoved(whole, std::to_string(size_px.x) + " x " + std::to_string(size_px.y), size_px);
+    }
+    expectRefusedAndRemoved(whole, "another kind", {13, 7}, Kind::area);
+    expectRefusedAndRemoved(reseal(whole, [](EntryHeader& header) { header.kind = 2; }), "no kind");
+    test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.kind = 1; }));
+    EXPECT_EQ(cache_.load(kKey, {13, 7}, Kind::area).value().visibility.kind, Kind::area);
+}
+
+struct Mark {
+    const char* what;
+    std::function<float&(Traced&)> of;
+};
+
+std::vector<Mark> marks()
+{
+    return {
+        {"point",
+         [](Traced& t) -> float& {
+             return t.surfaces.points.values[31];
+         }},
+        {"normal",
+         [](Traced& t) -> float& {
+             return t.surfaces.normals.values[31];
+         }},
+        {"visibility",
+         [](Traced& t) -> float& {
+             return t.visibility.visibility.values.back();
+         }},
+        {"standard error",
+         [](Traced& t) -> float& {
+             return t.visibility.standard_error.values.front();
+         }},
+        {"first blocker",
+         [](Traced& t) -> float& {
+             return t.visibility.first_blocker_m.values[40];
+         }},
+    };
+}
+
+/// A sealed entry whose marked value is `value`, whatever that is.
+std::string withValue(const Mark& mark, float value)
+{
+    constexpr float kMarked = 0.7654321F;
+    Traced traced = sample(13, 7);
+    mark.of(traced) = kMarked;
+    std::string bytes = encodeEntry(kKey, traced).value();
+    const std::string marked(reinterpret_cast<const char*>(&kMarked), sizeof(kMarked));
+    const std::size_t at = bytes.find(marked);
+    EXPECT_EQ(at, bytes.rfind(marked)); // once
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+    return reseal(bytes, [](EntryHeader&) {});
+}
+
+TEST_F(CacheTest, ValuesThatNoTruthHasAreNeitherLoadedNorStored)
+{
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const auto expectRefused = [&](const Mark& mark, float value) {
+        const std::string what = std::string(mark.what) + ' ' + std::to_string(value);
+        expectRefusedAndRemoved(withValue(mark, value), what);
+        Traced traced = sample(13, 7);
+        mark.of(traced) = value;
+        EXPECT_FALSE(cache_.store(kKey, traced)) << what;
+        EXPECT_TRUE(folder_.names().empty()) << what;
+    };
+    for (const Mark& mark : marks()) {
+        const std::string name = mark.what;
+        for (const float bad : {kNan, -kNan, -kInfinity}) {
+            expectRefused(mark, bad);
+        }
+        if (name != "first blocker") {
+            expectRefused(mark, kInfinity);
+        }
+        if (name != "point" && name != "first blocker") {
+            expectRefused(mark, 1.001F);
+        }
+        if (name != "point" && name != "normal") {
+            expectRefused(mark, -1e-6F);
+        }
+        test::spill(entryOf(folder_), withValue(mark, 0.25F));
+        std::optional<Traced> loaded = load(cache_, {13, 7});
+        ASSERT_TRUE(loaded.has_value()) << name;
+        EXPECT_EQ(mark.of(*loaded), 0.25F); // so it was the value that was refused
+        fs::remove(entryOf(folder_));
+    }
+    for (const double seconds : {double{kNan}, double{kInfinity}, -1.0}) {
+        const auto tell = [=](EntryHeader& header) {
+            header.seconds = seconds;
+        };
+        expectRefusedAndRemoved(reseal(entryBytes(), tell), std::to_string(seconds) + " s");
+    }
 }
 
 TEST_F(CacheTest, MasksThatDoNotFitThePayloadAreRefused)
@@ -186,20 +288,20 @@ TEST_F(CacheTest, AHugeFileIsRefusedByItsHeader)
     if (error) {
         GTEST_SKIP() << "no sparse files here: " << error.message();
     }
-    EXPECT_FALSE(cache_.load(kKey).has_value());
+    EXPECT_FALSE(load(cache_, {13, 7}).has_value());
     EXPECT_TRUE(folder_.names().empty());
 }
 
 TEST_F(CacheTest, WhatIsNoFileIsLeftAlone)
 {
     fs::create_directory(entryOf(folder_));
-    EXPECT_FALSE(cache_.load(kKey).has_value());
+    EXPECT_FALSE(load(cache_).has_value());
     std::string why;
     EXPECT_FALSE(cache_.store(kKey, sample(4, 4), &why));
     EXPECT_NE(why.find("not a plain file"), std::string::npos) << why;
     fs::remove(entryOf(folder_));
     ASSERT_EQ(mkfifo(entryOf(folder_).c_str(), 0600), 0);
-    EXPECT_FALSE(cache_.load(kKey).has_value());
+    EXPECT_FALSE(load(cache_).has_value());
     EXPECT_FALSE(cache_.store(kKey, sample(4, 4), &why));
     EXPECT_TRUE(fs::is_fifo(entryOf(folder_)));
 }

@@ -87,7 +87,7 @@ struct Loaded {
     bool bad = false;
 };
 
-Loaded readEntry(const fs::path& file, const scene::Hash128& key, std::uint64_t max_bytes)
+Loaded readEntry(const fs::path& file, const EntryOf& asked, std::uint64_t max_bytes)
 {
     // Without O_NONBLOCK a pipe of that name would be waited for.
     const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -106,7 +106,7 @@ Loaded readEntry(const fs::path& file, const scene::Hash128& key, std::uint64_t 
     if (const Read read = readExactly(descriptor.number(), head.data(), head.size()); read != Read::whole) {
         return refusal(read);
     }
-    const std::optional<EntryHeader> header = parseHeader({head.data(), head.size()}, file_bytes, key);
+    const std::optional<EntryHeader> header = parseHeader({head.data(), head.size()}, file_bytes, asked);
     if (!header) {
         return {std::nullopt, true};
     }
@@ -174,7 +174,7 @@ std::string writeEntry(const fs::path& folder, const fs::path& file, const scene
     const std::optional<std::string> bytes = encodeEntry(key, traced);
     if (!bytes) {
         return "writing " + file.string() + ": its images are not of one size from 1 to " +
-               std::to_string(kMaxCachedSide) + " pixels a side";
+               std::to_string(kMaxCachedSide) + " pixels a side, or have values that no truth has";
     }
     if (bytes->size() > max_bytes) {
         return "writing " + file.string() + ": its " + std::to_string(bytes->size()) +
@@ -218,11 +218,11 @@ std::optional<fs::path> Cache::defaultFolder()
 
 Cache::Cache(fs::path folder, std::uint64_t max_bytes) : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
-std::optional<Traced> Cache::load(const scene::Hash128& key) const
+std::optional<Traced> Cache::load(const scene::Hash128& key, const glm::uvec2& size_px, Kind kind) const
 {
     try {
         const fs::path file = fileOf(folder_, key);
-        Loaded loaded = readEntry(file, key, max_bytes_);
+        Loaded loaded = readEntry(file, {key, size_px, kind}, max_bytes_);
         if (loaded.bad) {
             std::error_code ignored;
             fs::remove(file, ignored);

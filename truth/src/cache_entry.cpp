@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <span>
 
 namespace gnomon::truth {
@@ -48,6 +49,29 @@ bool fitsTogether(const Traced& traced)
                image.values.size() == std::size_t{width} * height * channels;
     });
     return fits;
+}
+
+/// Whether every value v of `image` has low <= v <= high, which NaN has not. Without a branch in the loop, so that it
+/// takes several at a time.
+bool allWithin(const ImageF& image, float low, float high)
+{
+    unsigned outside = 0;
+    for (const float value : image.values) {
+        outside |= static_cast<unsigned>(!(value >= low)) | static_cast<unsigned>(!(value <= high));
+    }
+    return outside == 0;
+}
+
+bool hasValuesOfATruth(const Traced& traced)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    constexpr float kLongestAxis = 1.0F + 0x1p-20F; // of a unit vector, after rounding
+    const Visibility& visibility = traced.visibility;
+    return visibility.seconds >= 0.0 && visibility.seconds <= std::numeric_limits<double>::max() &&
+           allWithin(traced.surfaces.points, -kLargest, kLargest) &&
+           allWithin(traced.surfaces.normals, -kLongestAxis, kLongestAxis) &&
+           allWithin(visibility.visibility, 0.0F, 1.0F) && allWithin(visibility.standard_error, 0.0F, 1.0F) &&
+           allWithin(visibility.first_blocker_m, 0.0F, std::numeric_limits<float>::infinity());
 }
 
 template <typename T>
@@ -118,7 +142,7 @@ scene::Hash128 checksumOf(const EntryHeader& header, std::string_view payload)
 
 std::optional<std::string> encodeEntry(const scene::Hash128& key, const Traced& traced)
 {
-    if (!fitsTogether(traced)) {
+    if (!fitsTogether(traced) || !hasValuesOfATruth(traced)) {
         return std::nullopt;
     }
     EntryHeader header;
@@ -138,18 +162,19 @@ std::optional<std::string> encodeEntry(const scene::Hash128& key, const Traced& 
     return bytes;
 }
 
-std::optional<EntryHeader> parseHeader(std::string_view bytes, std::uint64_t file_bytes, const scene::Hash128& key)
+std::optional<EntryHeader> parseHeader(std::string_view bytes, std::uint64_t file_bytes, const EntryOf& asked)
 {
     EntryHeader header;
     if (bytes.size() < sizeof(header) || file_bytes < sizeof(header)) {
         return std::nullopt;
     }
     std::memcpy(&header, bytes.data(), sizeof(header));
-    const bool ours = header.magic == kMagic && header.format_version == kFormatVersion && header.key == key &&
-                      header.kind <= static_cast<std::uint32_t>(Kind::area);
+    const bool ours = header.magic == kMagic && header.format_version == kFormatVersion && header.key == asked.key;
+    const bool as_asked = header.kind == static_cast<std::uint32_t>(asked.kind) && header.width == asked.size_px.x &&
+                          header.height == asked.size_px.y;
     const bool sides =
         header.width >= 1 && header.width <= kMaxCachedSide && header.height >= 1 && header.height <= kMaxCachedSide;
-    if (!ours || !sides || header.payload_bytes != file_bytes - sizeof(header)) {
+    if (!ours || !as_asked || !sides || header.payload_bytes != file_bytes - sizeof(header)) {
         return std::nullopt;
     }
     // What is unpacked is thus at most some fifty times the file.
@@ -178,6 +203,9 @@ std::optional<Traced> decodePayload(const EntryHeader& header, std::string_view 
     traced.visibility.kind = static_cast<Kind>(header.kind);
     traced.visibility.rays = header.rays;
     traced.visibility.seconds = header.seconds;
+    if (!hasValuesOfATruth(traced)) {
+        return std::nullopt;
+    }
     return traced;
 }
 

@@ -35,15 +35,23 @@ struct EntryHeader {
 inline constexpr std::size_t kEntryHeaderBytes = 80;
 static_assert(sizeof(EntryHeader) == kEntryHeaderBytes);
 
-/// Nothing when the images' sizes do not fit together, are empty or above kMaxCachedSide.
+/// What is asked of an entry before it is believed.
+struct EntryOf {
+    scene::Hash128 key;
+    glm::uvec2 size_px{0};
+    Kind kind = Kind::area;
+};
+
+/// Nothing when the images' sizes do not fit together, are empty or above kMaxCachedSide, or a value is none that a
+/// truth has.
 [[nodiscard]] std::optional<std::string> encodeEntry(const scene::Hash128& key, const Traced& traced);
 
-/// The header at the start of a file of `file_bytes` bytes; nothing unless it is the entry of `key` in this format and
+/// The header at the start of a file of `file_bytes` bytes; nothing unless it is `asked` in this format and
 /// all its sizes agree with the file's. Takes no memory, whatever the header says.
 [[nodiscard]] std::optional<EntryHeader> parseHeader(std::string_view bytes, std::uint64_t file_bytes,
-                                                     const scene::Hash128& key);
+                                                     const EntryOf& asked);
 
-/// Nothing when the checksum is wrong or the payload is not what the header says.
+/// Nothing when the checksum is wrong, the payload is not what the header says or a value is none that a truth has.
 [[nodiscard]] std::optional<Traced> decodePayload(const EntryHeader& header, std::string_view payload);
 
 } // namespace gnomon::truth
