@@ -67,6 +67,23 @@ void axesAcross(const glm::dvec3& forward_ws, glm::dvec3& right_ws, glm::dvec3& 
     up_ws = glm::cross(n, right_ws);
 }
 
+LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws)
+{
+    if (light.type == LightType::directional)
+        return {};
+    LightExtent extent{.near_m = light.near_m, .reach_m = light.range_m};
+    if (!(extent.reach_m > 0.0)) {
+        const glm::dvec3 low = glm::abs(glm::dvec3(scene_bounds_ws.min) - light.position_ws);
+        const glm::dvec3 high = glm::abs(glm::dvec3(scene_bounds_ws.max) - light.position_ws);
+        extent.reach_m = std::max(glm::length(glm::max(low, high)), 2.0 * light.near_m);
+        if (!(extent.reach_m > 0.0))
+            extent.reach_m = 1.0;
+    }
+    if (!(extent.near_m > 0.0))
+        extent.near_m = 0.001 * extent.reach_m;
+    return extent;
+}
+
 LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad, const Aabb& scene_ws)
 {
     LightSpace space;
@@ -77,15 +94,9 @@ LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double ha
     space.perspective = true;
     space.origin_ws = light.position_ws;
     space.tangent = std::tan(std::min(half_angle_rad, kWidestHalfAngle_rad));
-    space.reach_m = light.range_m;
-    if (!(space.reach_m > 0.0)) {
-        const glm::dvec3 low = glm::abs(glm::dvec3(scene_ws.min) - light.position_ws);
-        const glm::dvec3 high = glm::abs(glm::dvec3(scene_ws.max) - light.position_ws);
-        space.reach_m = std::max(glm::length(glm::max(low, high)), 2.0 * light.near_m);
-        if (!(space.reach_m > 0.0))
-            space.reach_m = 1.0;
-    }
-    space.near_m = light.near_m > 0.0 ? light.near_m : 0.001 * space.reach_m;
+    const LightExtent extent = extentOf(light, scene_ws);
+    space.near_m = extent.near_m;
+    space.reach_m = extent.reach_m;
     return space;
 }
 

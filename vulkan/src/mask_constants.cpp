@@ -19,14 +19,6 @@ std::uint32_t shownViews(const LightPlan& light)
     return light.outcome.hasMap() ? light.view_count : 0U;
 }
 
-// How far from its tile's edge a receiver must be, so that no texel outside is read: the centre of a texel that it
-// reads may be half a texel from the edge.
-double edgeMargin(const FilterOptions& filter)
-{
-    constexpr double kRounding = 1e-3; // a receiver on the far edge itself is in the next texel
-    return kRounding + static_cast<double>(filterReachTexels(filter)) - 0.5;
-}
-
 shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
 {
     const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
@@ -139,7 +131,7 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     out.screen = {size, 1.0F / size};
     fillFilter(filter, quantum, out);
 
-    const double margin = edgeMargin(filter);
+    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(filter)));
     std::uint32_t further = shared::kLightsPerLayer;
     for (shared::GpuLight& light : out.lights) {
         light = {}; // no map

@@ -36,6 +36,16 @@ struct Light {
     bool casts_shadow = true; // false: no map; its mask channel reads 1
 };
 
+/// How far along a spot or point light's rays things count.
+struct LightExtent {
+    double near_m = 0.0;  // nothing nearer casts
+    double reach_m = 0.0; // nothing farther matters
+};
+/// What Light::near_m and range_m stand for, zeros included: a range of 0 reaches the farthest corner of the scene, but
+/// at least twice the near distance, or 1 m where the scene is but the light's own place. The bounds are those of all
+/// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
+[[nodiscard]] LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
+
 struct Frame {
     std::uint64_t index = 0;
     double time_s = 0.0;

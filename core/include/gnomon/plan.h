@@ -50,6 +50,16 @@ struct Tile {
     std::uint32_t height = 0;
 };
 
+/// How far from its tile's edge a receiver's place in the map must be, in texels, so that a filter which reads texels
+/// whose centres are up to `reach_texels` away (>= 0.5, along x and y each) reads none outside the tile: the centre of
+/// a texel at the edge is half a texel inside. The mask takes a view for a receiver that is so far inside its tile
+/// only.
+[[nodiscard]] constexpr double tileMarginTexels(double reach_texels)
+{
+    constexpr double kRounding_texels = 1e-3; // a receiver on the far edge itself is in the next texel
+    return kRounding_texels + reach_texels - 0.5;
+}
+
 /// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near), d in metres along the axis.
 struct DepthMetric {
     glm::dvec4 metric_ws{0.0};
