@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_metrics.h"
 
+#include "image/srgb.h"
 #include "lab/metrics/flip.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numeric>
 
 namespace gnomon::app {
@@ -33,18 +33,12 @@ ImageF luminance(const ImageF& image)
     return grey;
 }
 
-/// IEC 61966-2-1, the inverse of its encoding.
-float decodeSrgb(float encoded)
-{
-    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
-}
-
 ImageF linearRgb(const ImageF& image, bool encoded)
 {
     ImageF rgb(image.width, image.height, 3);
     for (std::size_t i = 0; i < rgb.values.size(); ++i) {
         const float value = image.values[i / 3 * image.channels + i % 3];
-        rgb.values[i] = encoded ? decodeSrgb(value) : value;
+        rgb.values[i] = encoded ? static_cast<float>(decodeSrgb(double{value})) : value;
     }
     return rgb;
 }

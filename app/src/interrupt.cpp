@@ -9,17 +9,20 @@ namespace {
 
 constexpr int kShellBase = 128; // what shells add to the number of a signal that ended a program
 
+std::atomic<int> first_signal{0};
 std::atomic<bool> flag{false};
-std::atomic<int> first_signal{SIGINT};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may touch no other atomics");
 
 extern "C" void onSignal(int number)
 {
-    if (flag.exchange(true)) {
+    // The number before the flag: whoever sees the flag knows which signal it was, and of two signals that come at the
+    // same time, to two threads or one in the other's handler, one is the first.
+    int none = 0;
+    if (!first_signal.compare_exchange_strong(none, number)) {
         ::_exit(kShellBase + number);
     }
-    first_signal = number;
+    flag = true;
 }
 
 } // namespace

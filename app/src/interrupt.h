@@ -18,7 +18,7 @@ public:
 void watchForInterrupts();
 /// True once a signal came. For work that polls by itself.
 [[nodiscard]] const std::atomic<bool>& interruptFlag();
-/// 128 + the signal's number: 130 for SIGINT, 143 for SIGTERM.
+/// 128 + the first signal's number: 130 for SIGINT, 143 for SIGTERM. Precondition: one came.
 [[nodiscard]] int interruptStatus();
 /// Throws Interrupted once a signal came.
 void requireNotInterrupted();

@@ -51,6 +51,7 @@ ImageF TruthMasks::take(std::size_t light)
             ++pixels_;
         }
     }
+    tracer_.takeBack(std::move(run.traced.surfaces));
     return std::move(run.traced.visibility.visibility);
 }
 

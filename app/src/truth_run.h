@@ -30,9 +30,12 @@ public:
     /// To be called when `shot` was moved to another moment.
     void moved();
     /// The truth of light `light` of the shot, of --size. The scene's acceleration structure is built at the first
-    /// light that the cache does not have. A cache that cannot be written is a notice, once. Throws Interrupted; Error
-    /// when memory runs out.
+    /// light that the cache does not have. A cache that cannot be written is a notice, once; it is read all the same.
+    /// Throws Interrupted; Error when memory runs out.
     [[nodiscard]] TruthRun trace(std::size_t light);
+    /// The surfaces that trace() gave, from whoever needs them no more: the next light of the same moment is traced
+    /// from them, where it would have to look for them again.
+    void takeBack(truth::Surfaces surfaces);
 
 private:
     struct Impl;
