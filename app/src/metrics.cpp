@@ -46,7 +46,7 @@ Json metricsJson(const ImageMetrics& metrics, const Settings& settings, const Im
     return {{"version", GNOMON_VERSION},
             {"test", settings.test_image},
             {"truth", settings.truth_image},
-            {"size", fmt::format("{}x{}", image.width, image.height)},
+            {"size_px", {image.width, image.height}},
             {"channels", metrics.channels},
             {"interpretation", metrics.interpretation},
             {"error",
@@ -56,7 +56,11 @@ Json metricsJson(const ImageMetrics& metrics, const Settings& settings, const Im
               {"p99", metrics.error.p99},
               {"ssim", metrics.ssim},
               {"flip", metrics.flip}}},
-            {"pixels", {{"counted", metrics.counted}}}};
+            {"pixels", {{"counted", metrics.counted}}},
+            {"units",
+             {{"error", metrics.channels == 1 ? "visibility, 0 to 1"
+                                              : "values as stored, ssim of their luminance, flip of the colours"},
+              {"pixels", "pixels"}}}};
 }
 
 std::string metricsText(const ImageMetrics& metrics, const Settings& settings, const ImageF& image)

@@ -45,10 +45,12 @@ TEST(Metrics, OfMasksAreOfLinearVisibility)
     writePng(folder / "lit.png", Image16(16, 12, 1, 65535));
     writePng(folder / "half.png", Image8(16, 12, 1, 51));
     const json found = numbersOf(folder, "dark.png", "lit.png");
-    for (const char* key : {"version", "test", "truth", "size", "channels", "interpretation", "error", "pixels"}) {
+    for (const char* key :
+         {"version", "test", "truth", "size_px", "channels", "interpretation", "error", "pixels", "units"}) {
         EXPECT_TRUE(found.contains(key)) << key;
     }
-    EXPECT_EQ(found["size"], "16x12");
+    EXPECT_EQ(found["size_px"], json({16, 12}));
+    EXPECT_EQ(found["units"]["error"], "visibility, 0 to 1");
     EXPECT_EQ(found["channels"], 1);
     EXPECT_EQ(found["interpretation"], "grey values as linear visibility");
     EXPECT_EQ(found["pixels"]["counted"], 16 * 12);
@@ -101,6 +103,7 @@ TEST(Metrics, OfColoursAreOfAllChannelsButAlpha)
     writePng(folder / "other.png", other);
     const json found = numbersOf(folder, "other.png", "one.png");
     EXPECT_EQ(found["interpretation"], "sRGB-encoded colours");
+    EXPECT_EQ(found["units"]["error"], "values as stored, ssim of their luminance, flip of the colours");
     EXPECT_NEAR(found["error"]["rmse"].get<double>(), 0.2 / std::sqrt(3.0), 1e-6);
     EXPECT_NEAR(found["error"]["mae"].get<double>(), 0.2 / 3.0, 1e-6);
     EXPECT_NEAR(found["error"]["p99"].get<double>(), 0.2, 1e-6);

@@ -17,8 +17,34 @@
 namespace gnomon::test {
 namespace {
 
-/// In the child, after fork: only calls that are safe there, and exec.
-[[noreturn]] void become(const std::vector<std::string>& arguments, const How& how, const char* cache, int out, int err)
+/// Our own variables with `changed` ones in the place of those of the same names; of one name the last counts.
+std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& changed)
+{
+    std::vector<std::string> lines;
+    for (char** line = environ; *line != nullptr; ++line) {
+        lines.emplace_back(*line);
+    }
+    for (const auto& [name, value] : changed) {
+        std::erase_if(lines, [&prefix = name](const std::string& line) { return line.starts_with(prefix + "="); });
+        lines.push_back(name + "=" + value);
+    }
+    return lines;
+}
+
+/// As exec takes them; they are valid as long as `lines`.
+std::vector<char*> pointersTo(std::vector<std::string>& lines)
+{
+    std::vector<char*> pointers;
+    for (std::string& line : lines) {
+        pointers.push_back(line.data());
+    }
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// In the child, after fork. Other threads may have held any lock, that of the heap too, so nothing is called but what
+/// POSIX calls async-signal-safe.
+[[noreturn]] void become(const How& how, char* const* argv, char* const* environment, int out, int err)
 {
     if (how.stdout_to != nullptr) {
         out = ::open(how.stdout_to, O_WRONLY);
@@ -28,31 +54,27 @@ namespace {
     if (::chdir(how.folder.c_str()) != 0) {
         ::_exit(126);
     }
-    ::setenv("XDG_CACHE_HOME", cache, 1);
-    for (const auto& [name, value] : how.environment) {
-        ::setenv(name.c_str(), value.c_str(), 1);
-    }
     if (how.max_file_bytes != RLIM_INFINITY) {
         const rlimit limit{how.max_file_bytes, how.max_file_bytes};
         ::setrlimit(RLIMIT_FSIZE, &limit);
     }
-    std::vector<char*> argv{const_cast<char*>(GNOMON_PROGRAM)};
-    for (const std::string& argument : arguments) {
-        argv.push_back(const_cast<char*>(argument.c_str()));
-    }
-    argv.push_back(nullptr);
-    ::execv(GNOMON_PROGRAM, argv.data());
+    ::execve(GNOMON_PROGRAM, argv, environment);
     ::_exit(127);
 }
 
-/// Both pipes at once, so that neither can fill up and block the program.
-template <typename Read>
-void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const Read& on_read)
+/// Both pipes at once, so that neither can fill up and block the program. `waits` is asked after whatever happens, and
+/// every few milliseconds while it says that there is something to wait for besides the pipes.
+template <typename Waits>
+void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const Waits& waits)
 {
     std::array<char, 4096> buffer{};
     int open = 2;
     while (open > 0) {
-        ::poll(pipes.data(), pipes.size(), -1);
+        constexpr int kAskEveryMs = 5;
+        constexpr int kForEver = -1;
+        if (::poll(pipes.data(), pipes.size(), waits() ? kAskEveryMs : kForEver) <= 0) {
+            continue;
+        }
         for (std::size_t i = 0; i < pipes.size(); ++i) {
             if (pipes[i].fd < 0 || pipes[i].revents == 0) {
                 continue;
@@ -60,7 +82,6 @@ void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const
             const ssize_t count = ::read(pipes[i].fd, buffer.data(), buffer.size());
             if (count > 0) {
                 texts[i]->append(buffer.data(), static_cast<std::size_t>(count));
-                on_read();
             } else if (count == 0 || errno != EINTR) {
                 ::close(pipes[i].fd);
                 pipes[i].fd = -1;
@@ -92,23 +113,32 @@ Ran gnomon(const std::vector<std::string>& arguments, const How& how)
         throw std::runtime_error("no pipe");
     }
     static const Folder cache;
-    const std::string cache_path = cache.path().string(); // made before the fork
+    std::vector<std::pair<std::string, std::string>> changed{{"XDG_CACHE_HOME", cache.path().string()}};
+    changed.insert(changed.end(), how.environment.begin(), how.environment.end());
+    std::vector<std::string> environment = environmentWith(changed);
+    std::vector<std::string> words{GNOMON_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const std::vector<char*> argv = pointersTo(words);
+    const std::vector<char*> envp = pointersTo(environment);
     const pid_t child = ::fork();
     if (child < 0) {
         throw std::runtime_error("no process");
     }
     if (child == 0) {
-        become(arguments, how, cache_path.c_str(), out[1], err[1]);
+        become(how, argv.data(), envp.data(), out[1], err[1]);
     }
     ::close(out[1]);
     ::close(err[1]);
     Ran ran;
-    bool sent = how.signal_at.empty();
+    bool sent = how.signal == 0;
     drain({pollfd{out[0], POLLIN, 0}, pollfd{err[0], POLLIN, 0}}, {&ran.out, &ran.err}, [&] {
-        if (!sent && ran.err.find(how.signal_at) != std::string::npos) {
+        const bool now = !sent && ran.err.find(how.signal_at) != std::string::npos &&
+                         (how.signal_when.empty() || std::filesystem::exists(how.signal_when));
+        if (now) {
             ::kill(child, how.signal);
             sent = true;
         }
+        return !sent && !how.signal_when.empty();
     });
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -24,9 +24,10 @@ struct How {
     std::filesystem::path folder;                                 // working folder
     std::vector<std::pair<std::string, std::string>> environment; // added to ours
     rlim_t max_file_bytes = RLIM_INFINITY;
-    const char* stdout_to = nullptr; // a file to send standard output to instead of Ran::out
-    std::string signal_at;           // once standard error has this, the signal is sent; empty: none is
-    int signal = 0;
+    const char* stdout_to = nullptr;   // a file to send standard output to instead of Ran::out
+    int signal = 0;                    // 0: none is sent; else once both of these are so
+    std::string signal_at;             // standard error has this
+    std::filesystem::path signal_when; // there is such a file; empty: need not be
 };
 
 /// Truths are kept in a folder of the test program's own, never in the user's, unless the environment says where.
