@@ -77,6 +77,9 @@ private:
     std::size_t size_ = 0;
 };
 
+/// Lights of one frame at most.
+inline constexpr std::size_t kMaxLights = 64;
+
 /// CPU stages and GPU passes of one frame, milliseconds.
 struct FrameTimes {
     double advance_ms = 0.0; // ObjectSet update + transform upload
@@ -111,10 +114,10 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     /// Draws one frame of `state` (same scene, any time; only its dynamic objects may differ) and waits for the GPU.
-    /// Blended surfaces are lit without shadow, cast none and are not in the masks. At most 64 lights. Throws Error.
-    /// Allocates nothing once warm, unless the plan outgrows the maps or the number of lights changes.
-    /// `masks_instead`: use these visibility masks (one per light,
-    /// as Picture::masks) instead of the library's, e.g. the ray tracer's.
+    /// Blended surfaces are lit without shadow, cast none and are not in the masks. Throws Error, for more than
+    /// kMaxLights lights too. Allocates nothing once warm, unless the plan outgrows the maps or the number of lights
+    /// changes. `masks_instead`: use these visibility masks (one per light, as Picture::masks) instead of the
+    /// library's, e.g. the ray tracer's.
     FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                     const std::vector<ImageF>* masks_instead = nullptr);
     /// Reads back the last frame drawn.

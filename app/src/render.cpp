@@ -112,9 +112,9 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
 std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target)
 {
     requireSizedLights(settings, shot.lights);
-    constexpr std::size_t kMostLights = 64; // of the host, which would say so only after all rays were traced
-    if (shot.lights.size() > kMostLights) {
-        throw Error("lighting the scene", fmt::format("{} lights", shot.lights.size()), "use at most 64");
+    if (shot.lights.size() > host::kMaxLights) { // the host would say so only after all rays were traced
+        throw Error("lighting the scene", fmt::format("{} lights", shot.lights.size()),
+                    fmt::format("use at most {}", host::kMaxLights));
     }
     TruthMasks truth(shot, settings);
     const auto gpu = openGpu(settings);

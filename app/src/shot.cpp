@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/shot.h"
 
+#include "light_extent.h"
 #include "shot_camera.h"
 
 #include <gnomon/error.h>
@@ -146,6 +147,21 @@ void noteLights(Shot& shot, const Settings& settings)
     }
 }
 
+/// A picture of a light that swallows what it is to shine on is right, and not what one had in mind.
+void noteExtents(Shot& shot, const Settings& settings)
+{
+    for (const host::ShadedLight& light : shot.lights) {
+        const Light& caster = light.caster;
+        if (settings.truth == truth::Kind::area && caster.casts_shadow && caster.type != LightType::directional &&
+            holdsSurface(shot.scene, shot.state, caster.position_ws, caster.radius_m)) {
+            shot.notices.push_back(
+                fmt::format("light {}, a sphere of {} m across, reaches into the scene; what is inside "
+                            "it is lit in full and casts nothing in the truth",
+                            light.name, 2.0 * caster.radius_m));
+        }
+    }
+}
+
 void addGround(scene::Scene& scene, const Aabb& bounds)
 {
     const glm::vec3 centre = bounds.centre();
@@ -218,6 +234,7 @@ Shot makeShot(const Settings& settings)
     }
     placeLights(shot, settings);
     noteLights(shot, settings);
+    noteExtents(shot, settings);
     return shot;
 }
 

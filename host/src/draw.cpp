@@ -90,7 +90,8 @@ void Renderer::Impl::update(const scene::State& state)
 void Renderer::Impl::look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
 {
     if (lights.size() > kMaxLights) {
-        throw Error("lighting the scene", std::to_string(lights.size()) + " lights", "use at most 64");
+        throw Error("lighting the scene", std::to_string(lights.size()) + " lights",
+                    "use at most " + std::to_string(kMaxLights));
     }
     sight = sightOf(eye, options.width, options.height, state.bounds_ws);
     frame.index = next_index++;

@@ -11,8 +11,6 @@
 
 namespace gnomon::host {
 
-inline constexpr std::size_t kMaxLights = 64;
-
 /// Laid out as in host/shaders/frame.glsl (std140).
 struct LightData {
     glm::vec4 place;
