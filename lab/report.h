@@ -22,11 +22,13 @@ namespace gnomon::lab {
 /// root of |test - truth|, so that an error of 0.01 is seen too.
 ///
 /// This picture and the next two are RGB and get a legend below them: they are higher than what they show, and at
-/// least 320 px wide (padded on both sides with the legend's dark grey). Precondition: one size, one channel each.
+/// least 320 px wide. What is smaller than 320 px is shown larger by the whole factor that fits, and padded on both
+/// sides with the legend's dark grey. Precondition: one size, one channel each.
 [[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
 
-/// One colour-blind-safe colour for each class over a faint grey truth, with a legend that names them. The colour is as
-/// strong as the square root of |test - truth|: a pixel near an edge without error stays grey.
+/// One colour-blind-safe colour for each class, which plots have for it too, over a faint grey truth, with a legend
+/// that names them. The colour is as strong as the square root of |test - truth|: a pixel near an edge without error
+/// stays grey.
 [[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
 
 /// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line where it
@@ -40,7 +42,7 @@ struct ReportTechnique {
     std::string mask_file; // paths relative to the page, with /
     std::string error_file;
     std::string class_file;
-    std::string density_file;
+    std::string density_file; // may be an earlier technique's: then the page points there
 };
 struct ReportPlot {
     std::string file; // likewise
@@ -48,11 +50,12 @@ struct ReportPlot {
 };
 struct Report {
     std::string title;
-    std::string truth_file;
+    std::string truth_file;                                 // shown at the top and again beside every mask
     std::vector<std::pair<std::string, std::string>> facts; // what was compared, how: name and value
     std::vector<ReportPlot> plots;                          // before the table
     std::string table_caption = "Best first.";
     std::vector<std::string> columns;           // of the table, the first the technique's name
+    std::vector<std::string> column_meanings;   // none, or as `columns`; empty where the name says it
     std::vector<std::vector<std::string>> rows; // each as long as `columns`
     std::vector<ReportTechnique> techniques;    // as `rows`
     std::vector<std::string> notes;             // sentences

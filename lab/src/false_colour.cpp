@@ -9,6 +9,8 @@
 // - CIE 15: L*a*b* for white D65; colours between control points are interpolated in it.
 #include "false_colour.h"
 
+#include "image/srgb.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,12 +36,6 @@ constexpr double kWhiteZ = 1.08883;
 constexpr double kLabEpsilon = 216.0 / 24389.0;
 constexpr double kLabKappa = 24389.0 / 27.0;
 
-double decodeSrgb(std::uint8_t code)
-{
-    const double value = code / 255.0;
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
 double labCurve(double t)
 {
     return t > kLabEpsilon ? std::cbrt(t) : (kLabKappa * t + 16.0) / 116.0;
@@ -52,7 +48,7 @@ double inverseLabCurve(double f)
 
 Light decode(Colour colour)
 {
-    return {decodeSrgb(colour.red), decodeSrgb(colour.green), decodeSrgb(colour.blue)};
+    return {decodeSrgb(colour.red / 255.0), decodeSrgb(colour.green / 255.0), decodeSrgb(colour.blue / 255.0)};
 }
 
 Colour encode(const Light& light)
@@ -140,9 +136,7 @@ Table makeDensityTable()
 
 std::uint8_t encodeSrgb(double linear)
 {
-    const double value = std::clamp(linear, 0.0, 1.0);
-    const double code = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * code));
+    return static_cast<std::uint8_t>(std::lround(255.0 * gnomon::encodeSrgb(std::clamp(linear, 0.0, 1.0))));
 }
 
 Colour errorColour(double error)
@@ -165,8 +159,8 @@ Colour densityColour(double texels_per_pixel)
 
 Colour classColour(ErrorClass error_class)
 {
-    // The four of Okabe and Ito's eight that stay farthest from each other and from grey. The two light ones are for
-    // the classes that lie over the dark grey of the umbra only.
+    // Four of Okabe and Ito's eight that differ in hue and stay apart from each other and from the faint greys for
+    // every kind of colour vision. Their bluish green comes too near to blue, orange to vermillion.
     switch (error_class) {
     case ErrorClass::edge:
         return {0x00, 0x72, 0xb2}; // blue
@@ -175,7 +169,7 @@ Colour classColour(ErrorClass error_class)
     case ErrorClass::detached:
         return {0xf0, 0xe4, 0x42}; // yellow
     case ErrorClass::bleeding:
-        return {0x56, 0xb4, 0xe9}; // sky blue
+        return {0xcc, 0x79, 0xa7}; // reddish purple
     case ErrorClass::correct:
         return kFaintLight;
     case ErrorClass::left_out:

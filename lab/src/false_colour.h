@@ -22,8 +22,8 @@ inline constexpr Colour kLeftOut{34, 34, 34};
 inline constexpr Colour kWhite{255, 255, 255};
 
 /// The truth under the class colours: grey from kFaintDark (0) to kFaintLight (1), which no class colour comes near.
-inline constexpr Colour kFaintDark{92, 92, 92};
-inline constexpr Colour kFaintLight{190, 190, 190};
+inline constexpr Colour kFaintDark{68, 68, 68};
+inline constexpr Colour kFaintLight{104, 104, 104};
 
 /// Densities from 2^-kDensityOctaves to 2^kDensityOctaves have a colour of their own; beyond, the end's.
 inline constexpr double kDensityOctaves = 4.0;

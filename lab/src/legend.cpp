@@ -136,6 +136,16 @@ void LegendPainter::drawSwatch(const Swatch& swatch, Place place)
     write(place.x + kSwatchWidth + kGap, place.y, swatch.text, Font::normal, kInk);
 }
 
+Image8 enlarge(const Image8& picture, std::uint32_t times)
+{
+    Image8 large(picture.width * times, picture.height * times, picture.channels);
+    for (std::uint32_t y = 0; y < large.height; ++y) {
+        for (std::uint32_t x = 0; x < large.width; ++x)
+            std::copy_n(picture.pixel(x / times, y / times), picture.channels, large.pixel(x, y));
+    }
+    return large;
+}
+
 Image8 makeCanvas(const Image8& picture, std::uint32_t legend_height)
 {
     Image8 canvas(std::max(picture.width, kLegendMinimumWidth), picture.height + legend_height, 3);
@@ -148,9 +158,17 @@ Image8 makeCanvas(const Image8& picture, std::uint32_t legend_height)
 
 } // namespace
 
-Image8 addLegend(const Image8& picture, const Legend& legend)
+std::uint32_t enlargementOf(std::uint32_t width, std::uint32_t height)
 {
-    assert(picture.channels == 3);
+    return std::max(1U, kLegendMinimumWidth / std::max({width, height, 1U}));
+}
+
+Image8 addLegend(const Image8& original, const Legend& legend)
+{
+    assert(original.channels == 3);
+    const std::uint32_t times = enlargementOf(original.width, original.height);
+    const Image8 larger = times > 1 ? enlarge(original, times) : Image8();
+    const Image8& picture = times > 1 ? larger : original;
     const std::int64_t scale = scaleFor(picture);
     const std::int64_t room = std::max<std::int64_t>(picture.width, kLegendMinimumWidth) / scale - 2 * kMargin;
     const std::vector<Place> places = placeSwatches(legend.swatches, room);

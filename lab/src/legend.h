@@ -42,8 +42,12 @@ struct Legend {
     std::vector<Swatch> swatches;
 };
 
-/// `picture` is RGB. The result holds it on top, unchanged, in the middle when it is narrower than
-/// kLegendMinimumWidth. Letters grow with the picture, so that they can be read when it is shown smaller.
+/// By how many times a picture is shown larger, so that one of a few pixels is more than a dot above its legend: the
+/// largest whole number that keeps width and height within kLegendMinimumWidth, 1 at least.
+[[nodiscard]] std::uint32_t enlargementOf(std::uint32_t width, std::uint32_t height);
+
+/// `picture` is RGB. The result holds it on top, each pixel a square of enlargementOf() px, in the middle when it is
+/// narrower than kLegendMinimumWidth. Letters grow with the picture, so that they can be read when it is shown smaller.
 [[nodiscard]] Image8 addLegend(const Image8& picture, const Legend& legend);
 
 } // namespace gnomon::lab

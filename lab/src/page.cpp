@@ -27,6 +27,7 @@ a:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
   align-items: start; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.3rem 1.25rem; margin: 0; }
 dt { color: var(--faint); }
+.meanings { margin-top: 0.75rem; font-size: 0.9rem; }
 dd { margin: 0; }
 .scroll { overflow-x: auto; border: 1px solid var(--line); border-radius: 6px; background: var(--panel); }
 table { border-collapse: collapse; min-width: 100%; font-variant-numeric: tabular-nums; }
@@ -136,13 +137,32 @@ void addPlots(std::string& page, const Report& report)
     page += "</div>\n</section>\n";
 }
 
+std::string_view meaningOf(const Report& report, std::size_t column)
+{
+    return column < report.column_meanings.size() ? report.column_meanings[column] : std::string_view();
+}
+
+void addMeanings(std::string& page, const Report& report)
+{
+    std::string meanings;
+    for (std::size_t column = 0; column < report.columns.size(); ++column) {
+        if (const std::string_view meaning = meaningOf(report, column); !meaning.empty())
+            meanings += "<dt>" + escapeHtml(report.columns[column]) + "</dt><dd>" + escapeHtml(meaning) + "</dd>\n";
+    }
+    if (!meanings.empty())
+        page += "<dl class=\"meanings\">\n" + meanings + "</dl>\n";
+}
+
 void addTable(std::string& page, const Report& report)
 {
     page += "<section aria-labelledby=\"numbers\">\n<h2 id=\"numbers\">Numbers</h2>\n<div class=\"scroll\" "
             "role=\"region\" aria-labelledby=\"numbers\" tabindex=\"0\">\n<table>\n<caption>" +
             escapeHtml(report.table_caption) + "</caption>\n<thead>\n<tr>";
-    for (const std::string& column : report.columns)
-        page += "<th scope=\"col\">" + escapeHtml(column) + "</th>";
+    for (std::size_t column = 0; column < report.columns.size(); ++column) {
+        const std::string_view meaning = meaningOf(report, column);
+        page += "<th scope=\"col\"" + (meaning.empty() ? "" : " title=\"" + escapeHtml(meaning) + "\"") + ">" +
+                escapeHtml(report.columns[column]) + "</th>";
+    }
     page += "</tr>\n</thead>\n<tbody>\n";
     for (std::size_t row = 0; row < report.rows.size(); ++row) {
         assert(report.rows[row].size() == report.columns.size());
@@ -158,14 +178,36 @@ void addTable(std::string& page, const Report& report)
         }
         page += "</tr>\n";
     }
-    page += "</tbody>\n</table>\n</div>\n</section>\n";
+    page += "</tbody>\n</table>\n</div>\n";
+    addMeanings(page, report);
+    page += "</section>\n";
 }
 
-void addTechnique(std::string& page, const ReportTechnique& technique, std::size_t number)
+constexpr std::string_view kDensity = "Shadow texels per screen pixel: below 1 a texel covers more than a pixel.";
+
+// Techniques that render the same map have the same picture, which is shown once.
+void addDensity(std::string& page, const Report& report, std::size_t number)
 {
+    const ReportTechnique& technique = report.techniques[number];
+    for (std::size_t i = 0; i < number && !technique.density_file.empty(); ++i) {
+        if (report.techniques[i].density_file == technique.density_file) {
+            page += "<p>" + std::string(kDensity) + " The picture is <a href=\"#" + sectionId(i) + "\">that of " +
+                    escapeHtml(report.techniques[i].name) + "</a>.</p>\n";
+            return;
+        }
+    }
+    addFigure(page, technique.density_file, "Shadow texels per pixel of " + technique.name + " in false colour",
+              kDensity);
+}
+
+void addTechnique(std::string& page, const Report& report, std::size_t number)
+{
+    const ReportTechnique& technique = report.techniques[number];
     const std::string id = sectionId(number);
     page += "<section aria-labelledby=\"" + id + "\">\n<h2 id=\"" + id + "\">" + escapeHtml(technique.name) +
             "</h2>\n<div class=\"pictures\">\n";
+    addFigure(page, report.truth_file, "The ray-traced mask in grey",
+              "The truth again, to look from one to the other.");
     addFigure(page, technique.mask_file, "Mask of " + technique.name + " in grey",
               "Mask: white is lit, black is in shadow.");
     addFigure(page, technique.error_file, "Signed error of " + technique.name + " in false colour",
@@ -173,8 +215,7 @@ void addTechnique(std::string& page, const ReportTechnique& technique, std::size
     addFigure(page, technique.class_file,
               "Classes of the error of " + technique.name + " in colour over the grey truth",
               "Where the error comes from, over the truth.");
-    addFigure(page, technique.density_file, "Shadow texels per pixel of " + technique.name + " in false colour",
-              "Shadow texels per screen pixel: below 1 a texel covers more than a pixel.");
+    addDensity(page, report, number);
     page += "</div>\n</section>\n";
 }
 
@@ -206,7 +247,7 @@ std::string reportPage(const Report& report)
     addTable(page, report);
     addNotes(page, report);
     for (std::size_t i = 0; i < report.techniques.size(); ++i)
-        addTechnique(page, report.techniques[i], i);
+        addTechnique(page, report, i);
     page += "</main>\n</body>\n</html>\n";
     return page;
 }

@@ -3,12 +3,15 @@
 // Dashes, markers and colours repeat after 4, 5 and 7 lines, so that 140 lines differ, and 20 without colour.
 #include "lab/plot.h"
 
+#include "false_colour.h"
 #include "plot_axis.h"
 #include "svg_text.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <cstdio>
 
 namespace gnomon::lab {
 namespace {
@@ -27,6 +30,9 @@ constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "
                                               "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<const char*, 4> kDashes{"", "9 4", "2 3", "10 3 2 3"};
 constexpr std::size_t kMarkers = 5;
+constexpr const char* kBandColour = "#c8c8c8";
+constexpr const char* kRimColour = "#484848"; // keeps a light line visible on white
+constexpr std::size_t kFewValues = 12;        // on a logarithmic x axis: each has a tick
 
 struct Point {
     double x = 0.0;
@@ -99,18 +105,42 @@ std::string markerAt(Point p, std::size_t index, double radius)
     }
 }
 
-/// Opens the group that all of a line's parts are drawn in.
-std::string groupOf(const PlotLine& line, std::size_t index)
+struct Look {
+    std::string colour;
+    std::string dash; // empty: drawn through
+    double width_px = 1.7;
+    double marker_px = 3.2; // radius
+    bool rim = false;
+};
+
+Look lookOf(const PlotLine& line, std::size_t index)
 {
-    const std::string colour = kColours[index % kColours.size()];
-    const std::string dash = kDashes[index % kDashes.size()];
-    return "<g fill=\"" + colour + "\" stroke=\"" + colour + "\" stroke-width=\"" + (line.emphasised ? "3.4" : "1.7") +
-           "\" stroke-linejoin=\"round\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"") + ">\n";
+    if (line.emphasised) {
+        return {kBandColour, "", 8.0, 5.0};
+    }
+    Look look{kColours[index % kColours.size()], kDashes[index % kDashes.size()]};
+    if (line.error_class) {
+        const Colour colour = classColour(*line.error_class);
+        std::array<char, 8> text{};
+        (void)std::snprintf(text.data(), text.size(), "#%02x%02x%02x", colour.red, colour.green, colour.blue);
+        look.colour = text.data();
+        look.rim = colour.green > 200; // the yellow
+    }
+    return look;
 }
 
-double markerRadius(const PlotLine& line)
+/// A line's parts in a group of its own: the path, of which `path` has the attributes that place it, and its markers.
+std::string groupOf(const Look& look, const std::string& path, const std::string& markers)
 {
-    return line.emphasised ? 4.0 : 3.2;
+    std::string group = "<g fill=\"" + look.colour + "\" stroke=\"" + look.colour + "\"" +
+                        attribute("stroke-width", look.width_px) + " stroke-linejoin=\"round\"" +
+                        (look.dash.empty() ? "" : " stroke-dasharray=\"" + look.dash + "\"") + ">\n";
+    if (!look.rim) {
+        return group + "<path " + path + "/>\n" + markers + "</g>\n";
+    }
+    const std::string rim = std::string(" stroke=\"") + kRimColour + "\"";
+    return group + "<path " + path + rim + attribute("stroke-width", look.width_px + 1.8) + "/>\n<path " + path +
+           "/>\n<g" + rim + " stroke-width=\"1\">\n" + markers + "</g>\n</g>\n";
 }
 
 /// The line, broken where a value cannot be shown. Markers sit on every point of a short line, on some of a long one
@@ -118,6 +148,7 @@ double markerRadius(const PlotLine& line)
 std::string drawLine(const Plot& plot, const Layout& layout, std::size_t index)
 {
     const PlotLine& line = plot.lines[index];
+    const Look look = lookOf(line, index);
     const std::size_t count = std::min(plot.x.size(), line.values.size());
     const auto shown = [&](std::size_t i) {
         return i < count && isPlottable(plot.x[i], layout.x.logarithmic) &&
@@ -135,10 +166,10 @@ std::string drawLine(const Plot& plot, const Layout& layout, std::size_t index)
         const bool starts = i == 0 || !shown(i - 1);
         d += (starts ? "M" : "L") + at(p.x, p.y);
         if (i % stride == offset || (starts && !shown(i + 1))) {
-            markers += markerAt(p, index, markerRadius(line));
+            markers += markerAt(p, index, look.marker_px);
         }
     }
-    return d.empty() ? "" : groupOf(line, index) + "<path d=\"" + d + "\" fill=\"none\"/>\n" + markers + "</g>\n";
+    return d.empty() ? "" : groupOf(look, "d=\"" + d + "\" fill=\"none\"", markers);
 }
 
 std::string drawLegend(const Plot& plot, const Layout& layout)
@@ -152,8 +183,9 @@ std::string drawLegend(const Plot& plot, const Layout& layout)
         const PlotLine& line = plot.lines[i];
         const double y = kTop_px + (static_cast<double>(i) + 0.5) * row;
         const double x = layout.right_px + 18.0;
-        out += groupOf(line, i) + "<path d=\"M" + at(x, y) + "L" + at(x + kSample_px, y) + "\"/>\n" +
-               markerAt({x + kSample_px / 2.0, y}, i, std::min(markerRadius(line), row / 3.0)) + "</g>\n";
+        const Look look = lookOf(line, i);
+        out += groupOf(look, "d=\"M" + at(x, y) + "L" + at(x + kSample_px, y) + "\"",
+                       markerAt({x + kSample_px / 2.0, y}, i, std::min(look.marker_px, row / 3.0)));
         out += "<g>";
         if (columnsOf(line.name) > kLegendColumns) {
             out += "<title>" + svgText(line.name, line.name.size()) + "</title>"; // shown where the pointer rests
@@ -204,9 +236,23 @@ std::string drawAxes(const Plot& plot, const Layout& layout)
     return out;
 }
 
-Layout layOut(const Plot& plot)
+Axis axisOfX(const Plot& plot, double length_px)
 {
     constexpr int kNumbersAcross = 8;
+    constexpr double kLeastSpan = 1e-3; // decades; in less, labels of four digits do not differ
+    const auto plottable = [&](double x) {
+        return isPlottable(x, plot.x_logarithmic);
+    };
+    if (plot.x_logarithmic && plot.x.size() <= kFewValues && plot.x.size() >= 2 &&
+        std::all_of(plot.x.begin(), plot.x.end(), plottable) &&
+        std::log10(plot.x.front()) + kLeastSpan < std::log10(plot.x.back())) {
+        return makeAxisAt(plot.x, kLetter_px / length_px);
+    }
+    return makeAxis(plot.x, plot.x_logarithmic, Ends::tight, kNumbersAcross);
+}
+
+Layout layOut(const Plot& plot)
+{
     constexpr int kNumbersUp = 6;
     std::vector<double> values;
     double names_px = 0.0;
@@ -222,7 +268,6 @@ Layout layOut(const Plot& plot)
         names_px = std::max(names_px, letter_px * static_cast<double>(std::min(columnsOf(line.name), kLegendColumns)));
     }
     Layout layout;
-    layout.x = makeAxis(plot.x, plot.x_logarithmic, Ends::tight, kNumbersAcross);
     layout.y = makeAxis(values, plot.y_logarithmic, Ends::round, kNumbersUp);
     std::size_t number_columns = 0;
     for (const Tick& tick : layout.y.ticks) {
@@ -233,6 +278,7 @@ Layout layOut(const Plot& plot)
     if (!plot.lines.empty()) {
         layout.right_px -= kSample_px + 10.0 + names_px;
     }
+    layout.x = axisOfX(plot, layout.right_px - layout.left_px);
     return layout;
 }
 
@@ -248,7 +294,7 @@ std::string plotSvg(const Plot& plot)
                       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     svg += drawAxes(plot, layout);
     std::string lines;
-    for (const bool emphasised : {false, true}) { // the latter on top
+    for (const bool emphasised : {true, false}) { // the latter on top
         for (std::size_t i = 0; i < plot.lines.size(); ++i) {
             if (plot.lines[i].emphasised == emphasised) {
                 lines += drawLine(plot, layout, i);

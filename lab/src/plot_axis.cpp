@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace gnomon::lab {
 namespace {
@@ -24,6 +26,13 @@ double decimal(double n, int exponent)
     return exponent < 0 ? n / power : n * power;
 }
 
+/// "1e-07" to "1e-7", "2e+06" to "2e6".
+std::string tidyExponent(const std::string& text)
+{
+    const std::size_t e = text.find('e');
+    return e == std::string::npos ? text : text.substr(0, e + 1) + std::to_string(std::atoi(text.c_str() + e + 1));
+}
+
 std::string labelOf(double value, bool scientific, int decimals)
 {
     if (value == 0.0) {
@@ -34,11 +43,19 @@ std::string labelOf(double value, bool scientific, int decimals)
     if (!scientific) {
         return {room.data(), std::to_chars(room.data(), end, value, std::chars_format::fixed, decimals).ptr};
     }
-    // "1e-07" to "1e-7", "2e+06" to "2e6".
-    std::string text(room.data(), std::to_chars(room.data(), end, value, std::chars_format::scientific).ptr);
-    const std::size_t e = text.find('e');
-    const int exponent = std::atoi(text.c_str() + e + 1);
-    return text.substr(0, e + 1) + std::to_string(exponent);
+    return tidyExponent({room.data(), std::to_chars(room.data(), end, value, std::chars_format::scientific).ptr});
+}
+
+/// Of a number that need not be round: whole numbers as they are, others to four digits.
+std::string labelOfAny(double value)
+{
+    constexpr double kLongest = 1e6;
+    if (value == std::round(value) && std::abs(value) < kLongest) {
+        return labelOf(value, false, 0);
+    }
+    std::array<char, 64> room{};
+    char* const end = room.data() + room.size();
+    return tidyExponent({room.data(), std::to_chars(room.data(), end, value, std::chars_format::general, 4).ptr});
 }
 
 /// 1, 2 or 5 times a power of ten.
@@ -172,6 +189,41 @@ Axis makeAxis(const std::vector<double>& values, bool logarithmic, Ends ends, in
         high = logarithmic ? 10.0 : 1.0;
     }
     return logarithmic ? makeLogarithmic(low, high, wanted) : makeLinear(low, high, ends, wanted);
+}
+
+Axis makeAxisAt(const std::vector<double>& values, double letter)
+{
+    assert(values.size() >= 2 && isPlottable(values.front(), true) && values.front() < values.back());
+    Axis axis;
+    axis.low = values.front();
+    axis.high = values.back();
+    axis.logarithmic = true;
+    for (const double value : values) {
+        if (axis.ticks.empty() || axis.ticks.back().value < value) {
+            axis.ticks.push_back({value, ""});
+        }
+    }
+    struct Span {
+        double from;
+        double to;
+    };
+    std::vector<Span> taken;
+    const auto label = [&](Tick& tick) {
+        constexpr double kGap = 1.5; // letters between two labels
+        std::string text = labelOfAny(tick.value);
+        const double half = 0.5 * (static_cast<double>(text.size()) + kGap) * letter;
+        const Span span{axis.fraction(tick.value) - half, axis.fraction(tick.value) + half};
+        const bool free = std::none_of(taken.begin(), taken.end(),
+                                       [&](const Span& other) { return span.from < other.to && other.from < span.to; });
+        if (free) {
+            taken.push_back(span);
+            tick.label = std::move(text);
+        }
+    };
+    label(axis.ticks.front());
+    label(axis.ticks.back());
+    std::for_each(axis.ticks.begin() + 1, axis.ticks.end() - 1, label);
+    return axis;
 }
 
 } // namespace gnomon::lab

@@ -34,4 +34,9 @@ enum class Ends { tight, round };
 /// 2 or 5 times a power of ten around the values. `wanted`: about so many numbers.
 [[nodiscard]] Axis makeAxis(const std::vector<double>& values, bool logarithmic, Ends ends, int wanted);
 
+/// Logarithmic, from the smallest to the largest of `values` and with a tick at each, for a few that have been chosen
+/// one by one. Both ends have labels, the others where there is room: `letter` is a letter's width as a share of the
+/// axis. Precondition: ascending, plottable, two different values at least.
+[[nodiscard]] Axis makeAxisAt(const std::vector<double>& values, double letter);
+
 } // namespace gnomon::lab

@@ -2,6 +2,7 @@
 #include "lab/report.h"
 
 #include "false_colour.h"
+#include "lab/metrics/same_shape.h"
 #include "legend.h"
 #include "lettering.h"
 
@@ -12,12 +13,6 @@
 
 namespace gnomon::lab {
 namespace {
-
-template <typename T, typename U>
-[[maybe_unused]] bool sameSize(const ImageOf<T>& a, const ImageOf<U>& b)
-{
-    return a.channels == 1 && b.channels == 1 && a.width == b.width && a.height == b.height;
-}
 
 // `colour_of` takes the number of a pixel, from the first row's left.
 template <typename ColourOf>
@@ -146,7 +141,7 @@ Image8 greyPicture(const ImageF& mask)
 
 Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
 {
-    assert(sameSize(test, truth) && sameSize(test, counted));
+    assert(areMasksOfOneSize(test, truth) && areMasksOfOneSize(test, counted));
     bool any_nan = false;
     const Image8 picture = paint(test.width, test.height, [&](std::size_t i) {
         if (counted.values[i] == 0)
@@ -162,7 +157,7 @@ Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& coun
 
 Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
 {
-    assert(sameSize(classes, test) && sameSize(test, truth));
+    assert(areMasksOfOneSize(classes, test) && areMasksOfOneSize(test, truth));
     bool any_nan = false;
     const Image8 picture = paint(classes.width, classes.height, [&](std::size_t i) {
         if (classes.values[i] == ErrorClass::left_out)

@@ -2,13 +2,13 @@
 // Plots are read back from their SVG: well-formed, with points where they belong and gaps where there is nothing.
 #include "lab/plot.h"
 
-#include "lab/src/plot_axis.h"
 #include "lab/src/svg_text.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <clocale>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <set>
@@ -116,21 +116,6 @@ Plot plotOf(std::vector<double> x, std::vector<double> values)
     plot.lines.push_back({"line", std::move(values)});
     return plot;
 }
-
-std::vector<std::string> labels(const Axis& axis)
-{
-    std::vector<std::string> found;
-    for (const Tick& tick : axis.ticks) {
-        EXPECT_GE(tick.value, axis.low);
-        EXPECT_LE(tick.value, axis.high);
-        if (!tick.label.empty()) {
-            found.push_back(tick.label);
-        }
-    }
-    return found;
-}
-
-using Labels = std::vector<std::string>;
 
 TEST(WellFormedness, IsNoticedWhenItIsMissing)
 {
@@ -267,7 +252,24 @@ TEST(Plot, TellsLinesApartWithoutColour)
     }
     EXPECT_GE(looks.size(), 20U);
     EXPECT_EQ(count(svg, "font-weight=\"bold\">line 3<"), 1U);
-    EXPECT_EQ(count(svg, "stroke-width=\"3.4\""), 2U);
+    // A band below all others, in the plot and in the legend.
+    EXPECT_EQ(count(svg, "stroke-width=\"8\""), 2U);
+    EXPECT_LT(svg.find("stroke-width=\"8\""), svg.find("stroke-width=\"1.7\""));
+}
+
+TEST(Plot, ClassesHaveTheColoursOfTheirPictures)
+{
+    Plot plot{"title", "x", "y", {1, 2}, {}};
+    plot.lines.push_back({"all", {1.0, 2.0}, true});
+    plot.lines.push_back({"other", {2.0, 3.0}, false});
+    plot.lines.push_back({"bleeding", {1.0, 2.0}, false, ErrorClass::bleeding});
+    plot.lines.push_back({"detached", {2.0, 3.0}, false, ErrorClass::detached});
+    const std::string svg = plotSvg(plot);
+    EXPECT_EQ(whyNotWellFormed(svg), "");
+    EXPECT_EQ(count(svg, "<g fill=\"#cc79a7\""), 2U); // as in ReportColour, whatever the place
+    EXPECT_EQ(count(svg, "<g fill=\"#f0e442\""), 2U);
+    // Yellow vanishes on white: it alone has a rim, as line and around its markers.
+    EXPECT_EQ(count(svg, " stroke=\"#484848\""), 4U);
 }
 
 TEST(Plot, IsTheSameInEveryLocale)
@@ -286,75 +288,21 @@ TEST(Plot, IsTheSameInEveryLocale)
     }
 }
 
-TEST(PlotAxis, NumbersAreRound)
+TEST(Plot, HasItsTicksAtTheValuesOfALogarithmicAxis)
 {
-    EXPECT_EQ(labels(makeAxis({0, 10}, false, Ends::round, 6)), (Labels{"0", "2", "4", "6", "8", "10"}));
-    EXPECT_EQ(labels(makeAxis({0.1, 0.7}, false, Ends::tight, 6)),
-              (Labels{"0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
-    EXPECT_EQ(labels(makeAxis({0, 239}, false, Ends::tight, 8)), (Labels{"0", "50", "100", "150", "200"}));
-    EXPECT_EQ(labels(makeAxis({-3, 3}, false, Ends::round, 6)), (Labels{"-3", "-2", "-1", "0", "1", "2", "3"}));
-    EXPECT_EQ(labels(makeAxis({0, 3e-7}, false, Ends::round, 3)), (Labels{"0", "1e-7", "2e-7", "3e-7"}));
-    EXPECT_EQ(labels(makeAxis({0, 2.5e6}, false, Ends::round, 3)), (Labels{"0", "1e6", "2e6", "3e6"}));
-}
-
-TEST(PlotAxis, StartsAtZeroWhereThatIsNear)
-{
-    EXPECT_DOUBLE_EQ(makeAxis({3, 10}, false, Ends::round, 6).low, 0.0);
-    EXPECT_DOUBLE_EQ(makeAxis({90, 100}, false, Ends::round, 6).low, 90.0);
-    EXPECT_DOUBLE_EQ(makeAxis({-10, -3}, false, Ends::round, 6).high, 0.0);
-    EXPECT_DOUBLE_EQ(makeAxis({3, 10}, false, Ends::tight, 6).low, 3.0);
-}
-
-TEST(PlotAxis, LogarithmicNumbersAreOneTwoFive)
-{
-    EXPECT_EQ(labels(makeAxis({1, 64}, true, Ends::round, 6)), (Labels{"1", "2", "5", "10", "20", "50", "100"}));
-    EXPECT_EQ(labels(makeAxis({0.003, 40}, true, Ends::round, 6)), (Labels{"0.01", "0.1", "1", "10"}));
-    EXPECT_EQ(labels(makeAxis({1e-12, 1e12}, true, Ends::round, 6)),
-              (Labels{"1e-12", "1e-8", "0.0001", "1", "10000", "1e8", "1e12"}));
-    EXPECT_EQ(labels(makeAxis({1, 1}, true, Ends::round, 6)), (Labels{"0.5", "1", "2"}));
-    EXPECT_EQ(labels(makeAxis({}, true, Ends::round, 6)), (Labels{"1", "2", "5", "10"}));
-}
-
-TEST(PlotAxis, ManyRangesHaveAFewNumbersInOrder)
-{
-    for (const bool logarithmic : {false, true}) {
-        for (const Ends ends : {Ends::tight, Ends::round}) {
-            for (double low = 1e-9; low < 1e9; low *= 3.7) {
-                for (double factor = 1.0001; factor < 1e6; factor *= 4.3) {
-                    const Axis axis = makeAxis({low, low * factor}, logarithmic, ends, 6);
-                    EXPECT_LE(axis.low, low);
-                    EXPECT_GE(axis.high, low * factor);
-                    const Labels found = labels(axis);
-                    EXPECT_GE(found.size(), 2U) << low << " x " << factor;
-                    EXPECT_LE(found.size(), 9U) << low << " x " << factor;
-                    EXPECT_EQ(std::set<std::string>(found.begin(), found.end()).size(), found.size());
-                    for (std::size_t i = 1; i < axis.ticks.size(); ++i) {
-                        EXPECT_LT(axis.ticks[i - 1].value, axis.ticks[i].value);
-                    }
-                }
-            }
-        }
+    Plot plot = plotOf({256, 724, 4096}, {1, 2, 3});
+    plot.x_logarithmic = true;
+    const std::string few = plotSvg(plot);
+    EXPECT_EQ(count(few, ">724</text>"), 1U);
+    EXPECT_EQ(count(few, ">500</text>"), 0U);
+    plot = plotOf({}, {});
+    plot.x_logarithmic = true;
+    plot.lines[0].values.clear();
+    for (int i = 0; i < 30; ++i) {
+        plot.x.push_back(256.0 * std::exp2(i / 7.0));
+        plot.lines[0].values.push_back(i);
     }
-}
-
-TEST(SvgText, CutsBetweenCharacters)
-{
-    EXPECT_EQ(svgText("abcdef", 6), "abcdef");
-    EXPECT_EQ(svgText("abcdefg", 6), "abcde\xE2\x80\xA6");
-    EXPECT_EQ(svgText("\xC3\xA4\xC3\xB6\xC3\xBC", 2), "\xC3\xA4\xE2\x80\xA6");
-    EXPECT_EQ(columnsOf("\xE5\xBD\xB1"), 2U); // one character, as wide as two letters
-    EXPECT_EQ(svgText("a<b", 3), "a&lt;b");
-    EXPECT_EQ(svgText("\xF0\x9F\x8C\x9E", 9), "\xF0\x9F\x8C\x9E");
-    EXPECT_EQ(svgText("\xE5\xBD", 9), "\xEF\xBF\xBD\xEF\xBF\xBD"); // torn
-}
-
-TEST(SvgText, NumbersHaveNoNeedlessDigits)
-{
-    EXPECT_EQ(svgNumber(12.0), "12");
-    EXPECT_EQ(svgNumber(0.1 + 0.2), "0.3");
-    EXPECT_EQ(svgNumber(-0.001), "0");
-    EXPECT_EQ(svgNumber(100.0), "100");
-    EXPECT_EQ(svgNumber(-3.456), "-3.46");
+    EXPECT_EQ(count(plotSvg(plot), ">500</text>"), 1U);
 }
 
 } // namespace

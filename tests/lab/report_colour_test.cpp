@@ -83,8 +83,8 @@ TEST(ReportColour, TheSimulationConfusesWhatIsConfused)
     const Colour green{110, 120, 30};
     EXPECT_GT(distance(red, green, kVisions[0]), 60.0);
     EXPECT_LT(distance(red, green, kVisions[2]), 20.0);
-    // The colour of Okabe and Ito that is not used beside grey, and why.
-    EXPECT_LT(distance({0x00, 0x9e, 0x73}, grey(130), kVisions[2]), 15.0);
+    // Why the truth below the class colours is no lighter: their purple has its lightness.
+    EXPECT_LT(distance({0xcc, 0x79, 0xa7}, grey(150), kVisions[2]), 15.0);
 }
 
 TEST(ReportColour, ErrorIsWhiteAtZeroBlueBelowAndOrangeAbove)
@@ -168,8 +168,26 @@ TEST(ReportColour, ClassesAreToldApartByEveryone)
         }
     }
     EXPECT_GT(lightness(kFaintDark) - lightness(kLeftOut), 15.0);
+    EXPECT_GT(lightness(kFaintLight) - lightness(kFaintDark), 14.0);
     EXPECT_EQ(classColour(ErrorClass::left_out), kLeftOut);
     EXPECT_EQ(classColour(ErrorClass::correct), kFaintLight);
+}
+
+// A hue has a name; two blues have one. Angles of a* and b* for normal vision.
+TEST(ReportColour, ClassesDifferInHue)
+{
+    const std::array<ErrorClass, 4> classes = {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached,
+                                               ErrorClass::bleeding};
+    const auto hue = [](ErrorClass error_class) {
+        const Triple lab = seen(classColour(error_class), kVisions[0]);
+        return std::atan2(lab[2], lab[1]) * 180.0 / 3.14159265358979;
+    };
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        for (std::size_t j = i + 1; j < classes.size(); ++j) {
+            const double apart = std::abs(hue(classes[i]) - hue(classes[j]));
+            EXPECT_GT(std::min(apart, 360.0 - apart), 40.0) << i << j;
+        }
+    }
 }
 
 TEST(ReportColour, DensityGrowsLighterOctaveByOctave)

@@ -24,6 +24,7 @@ Report makeReport(const std::string& text)
     report.plots = {{"plot.svg", "plot " + text}};
     report.table_caption = "caption " + text;
     report.columns = {"technique " + text, "rmse"};
+    report.column_meanings = {"", "meaning " + text};
     report.rows = {{"first " + text, "0.1 " + text}, {"second", "0.2"}};
     report.techniques = {{"first " + text, "m.png", "e.png", "c.png", "d.png"},
                          {"second", "n.png", "f.png", "g.png", ""}};
@@ -116,6 +117,7 @@ TEST(ReportPage, EveryStringIsThereAndEscaped)
     for (const std::string& place :
          {"<title>title " + text + "</title>", "<h1>title " + text + "</h1>",
           "<dt>fact " + text + "</dt><dd>value " + text + "</dd>", "<th scope=\"col\">technique " + text + "</th>",
+          "<th scope=\"col\" title=\"meaning " + text + "\">rmse</th>", "<dt>rmse</dt><dd>meaning " + text + "</dd>",
           "<th scope=\"row\"><a href=\"#technique-1\">first " + text + "</a></th>", "<td>0.1 " + text + "</td>",
           "<caption>caption " + text + "</caption>", "<figcaption>plot " + text + "</figcaption>",
           "<li>note " + text + "</li>", ">first " + text + "</h2>", "alt=\"Mask of first " + text})
@@ -128,7 +130,7 @@ TEST(ReportPage, FileNamesArePathsWithinTheFolder)
     report.truth_file = "javascript:alert(1)";
     report.techniques[0].mask_file = "//elsewhere/a+b \"c'#?%.png";
     const std::string page = reportPage(report);
-    EXPECT_EQ(occurrences(page, "src=\"./javascript%3Aalert%281%29\""), 1U);
+    EXPECT_EQ(occurrences(page, "src=\"./javascript%3Aalert%281%29\""), 3U);
     EXPECT_EQ(occurrences(page, "src=\".///elsewhere/a%2Bb%20%22c%27%23%3F%25.png\""), 1U);
     for (std::size_t i = page.find("src=\""); i != std::string::npos; i = page.find("src=\"", i + 1))
         EXPECT_EQ(page.substr(i + 5, 2), "./");
@@ -145,12 +147,34 @@ TEST(ReportPage, NothingRunsAndNothingIsFetched)
 TEST(ReportPage, PicturesWithAFileAreShownWithAltAndCaption)
 {
     const std::string page = reportPage(makeReport("plain"));
-    EXPECT_EQ(occurrences(page, "<img "), 2U + 4U + 3U); // the second technique has no density
-    EXPECT_EQ(occurrences(page, "<figcaption>"), 9U);
+    EXPECT_EQ(occurrences(page, "<img "), 2U + 5U + 4U); // the second technique has no density
+    EXPECT_EQ(occurrences(page, "<figcaption>"), 11U);
     EXPECT_EQ(occurrences(page, "alt=\"\""), 0U);
-    EXPECT_EQ(occurrences(page, " alt=\""), 9U);
-    for (const char* file : {"truth.png", "plot.svg", "m.png", "e.png", "c.png", "d.png", "n.png", "f.png", "g.png"})
+    EXPECT_EQ(occurrences(page, " alt=\""), 11U);
+    EXPECT_EQ(occurrences(page, "src=\"./truth.png\""), 3U); // at the top, and beside each mask
+    for (const char* file : {"plot.svg", "m.png", "e.png", "c.png", "d.png", "n.png", "f.png", "g.png"})
         EXPECT_EQ(occurrences(page, "src=\"./" + std::string(file) + "\""), 1U) << file;
+}
+
+TEST(ReportPage, AMapsPictureIsShownOnce)
+{
+    Report report = makeReport("plain");
+    report.techniques[1].density_file = "d.png";
+    const std::string page = reportPage(report);
+    EXPECT_EQ(readTags(page).error, "");
+    EXPECT_EQ(occurrences(page, "src=\"./d.png\""), 1U);
+    const std::size_t link = page.find("The picture is <a href=\"#technique-1\">that of first plain</a>");
+    EXPECT_LT(page.find("id=\"technique-2\""), link);
+    EXPECT_NE(link, std::string::npos);
+}
+
+TEST(ReportPage, ColumnsWithoutAMeaningStandAlone)
+{
+    Report report = makeReport("plain");
+    report.column_meanings.clear();
+    const std::string page = reportPage(report);
+    EXPECT_EQ(occurrences(page, "<th scope=\"col\">rmse</th>"), 1U);
+    EXPECT_EQ(occurrences(page, "class=\"meanings\""), 0U);
 }
 
 TEST(ReportPage, RowsAndTechniquesKeepTheirOrderAndAreLinked)

@@ -62,22 +62,6 @@ struct Size {
 };
 constexpr std::array<Size, 6> kSizes = {{{1, 1}, {319, 7}, {320, 200}, {641, 480}, {1280, 720}, {4000, 10}}};
 
-TEST(ReportGrey, IsEncodedClampedAndMarked)
-{
-    ImageF mask(6, 1, 1);
-    mask.values = {0.0F, 0.5F, 1.0F, -3.0F, 7.0F, kNan};
-    const Image8 picture = greyPicture(mask);
-    ASSERT_EQ(picture.width, 6U);
-    ASSERT_EQ(picture.height, 1U);
-    ASSERT_EQ(picture.channels, 3U);
-    EXPECT_EQ(at(picture, 0, 0), (Colour{0, 0, 0}));
-    EXPECT_EQ(at(picture, 1, 0), (Colour{188, 188, 188}));
-    EXPECT_EQ(at(picture, 2, 0), kWhite);
-    EXPECT_EQ(at(picture, 3, 0), (Colour{0, 0, 0}));
-    EXPECT_EQ(at(picture, 4, 0), kWhite);
-    EXPECT_EQ(at(picture, 5, 0), kNotANumber);
-}
-
 TEST(ReportPictures, KeepTheirSizeAboveALegend)
 {
     for (const Size size : kSizes) {
@@ -87,20 +71,29 @@ TEST(ReportPictures, KeepTheirSizeAboveALegend)
         for (const Image8& picture : {errorPicture(one, one, countAll(size.width, size.height)),
                                       classPicture(classes, one, one), densityPicture(one)}) {
             EXPECT_EQ(picture.width, std::max(size.width, kLegendMinimumWidth));
-            expectLegend(picture, size.height);
+            expectLegend(picture, size.height * enlargementOf(size.width, size.height));
         }
     }
 }
 
-TEST(ReportPictures, NarrowOnesLieInTheMiddle)
+TEST(ReportPictures, SmallOnesAreShownLargerInTheMiddle)
 {
-    const ImageF dark(100, 4, 1, 0.0F);
+    EXPECT_EQ(enlargementOf(1, 1), 320U);
+    EXPECT_EQ(enlargementOf(7, 3), 45U);
+    EXPECT_EQ(enlargementOf(3, 7), 45U);
+    EXPECT_EQ(enlargementOf(161, 1), 1U);
+    EXPECT_EQ(enlargementOf(20, 4000), 1U);
+    EXPECT_EQ(enlargementOf(0, 0), 320U);
+    ImageF dark(100, 4, 1, 0.0F);
     const ImageF lit(100, 4, 1, 1.0F);
+    *dark.pixel(99, 3) = 1.0F;
     const Image8 picture = errorPicture(dark, lit, countAll(100, 4));
-    ASSERT_EQ(picture.width, 320U);
-    for (std::uint32_t y = 0; y < 4; ++y) {
-        for (std::uint32_t x = 0; x < 320; ++x)
-            EXPECT_EQ(at(picture, x, y), x >= 110 && x < 210 ? errorColour(-1.0) : kLegendGround) << x << " " << y;
+    ASSERT_EQ(picture.width, 320U); // three px for one, and 10 on each side
+    for (std::uint32_t y = 0; y < 12; ++y) {
+        for (std::uint32_t x = 0; x < 320; ++x) {
+            const Colour inside = x >= 307 && y >= 9 ? kWhite : errorColour(-1.0);
+            EXPECT_EQ(at(picture, x, y), x >= 10 && x < 310 ? inside : kLegendGround) << x << " " << y;
+        }
     }
 }
 
@@ -109,7 +102,6 @@ TEST(ReportPictures, AnEmptyPictureIsALegend)
     const ImageF none(0, 0, 1);
     expectLegend(errorPicture(none, none, Counted(0, 0, 1)), 0);
     expectLegend(densityPicture(none), 0);
-    EXPECT_EQ(greyPicture(none).values.size(), 0U);
 }
 
 TEST(ReportPictures, LegendsGrowWithThePicture)
