@@ -32,6 +32,7 @@ FOLDERS = [
     ("truth/", [".", "core/include", "truth/src"]),
     ("host/src/", [*PUBLIC, "host/src", "shaders"]),
     ("host/", PUBLIC),
+    ("lab/score/", ["core/include", "shaders/shared", ".", "lab/score/src"]),
     ("lab/", [*PUBLIC, "lab/src"]),
     ("app/", [*PUBLIC, "app/src"]),
 ]

@@ -24,6 +24,8 @@ PROJECT_KINDS = [
     (r"^(core|vulkan)/", "private"),
     (r"^(scene|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
+    (r"^lab/score/(?!src/)", "score"),
+    (r"^lab/score/", "private"),
     (r"^(scene|image|host|truth|lab|app)/", r"\1"),
 ]
 # What any other header is, by its name.
@@ -49,7 +51,7 @@ FOREIGN_KINDS = [
 
 STD = {"std", "std-file", "system"}
 PUBLIC = {"core-geometry", "core-public", "vulkan-public"}
-ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "host", "truth", "lab", "metrics", "json", "fmt", "window"}
+ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt", "window"}
 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
 # Tests may include everything, private headers too.
@@ -67,6 +69,8 @@ RULES = [
     ("host/", STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "shared", "spirv", "window"},
      "the host knows the library by its public headers"),
     ("lab/metrics", {"std", "image"}, "metrics know images only"),
+    ("lab/score/", {"std", "glm", "core-geometry", "core-public", "scene", "image", "truth", "metrics"},
+     "scores are had without our host, by whoever has plain images"),
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
     ("app/", ABOVE | {"cli"}, "the program knows public headers"),
     ("examples/", STD | PUBLIC | {"glm", "vulkan-api", "spirv", "shared", "shader-lib"},

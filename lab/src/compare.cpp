@@ -1,80 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/compare.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 #include <cassert>
-#include <cmath>
 
 namespace gnomon::lab {
 namespace {
 
-/// What frame.h says of near_m and range_m where they are 0.
-double nearOf(const Light& light, const Aabb& scene_bounds_ws)
+Camera cameraOf(const Subject& subject, glm::uvec2 size_px)
 {
-    if (light.near_m > 0.0) {
-        return light.near_m;
-    }
-    double reach_m = light.range_m;
-    if (!(reach_m > 0.0)) {
-        const glm::dvec3 low = glm::abs(glm::dvec3(scene_bounds_ws.min) - light.position_ws);
-        const glm::dvec3 high = glm::abs(glm::dvec3(scene_bounds_ws.max) - light.position_ws);
-        reach_m = glm::length(glm::max(low, high));
-    }
-    return 0.001 * reach_m;
+    return host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
+}
+
+glm::uvec2 sizeOf(const truth::Surfaces& surfaces)
+{
+    return {surfaces.object_ids.width, surfaces.object_ids.height};
+}
+
+const Light& judgedLight(const Subject& subject)
+{
+    assert(subject.light < subject.lights.size());
+    return subject.lights[subject.light].caster;
 }
 
 } // namespace
 
 truth::View truthView(const Subject& subject, glm::uvec2 size_px)
 {
-    const Camera camera = host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
-    return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = size_px};
+    return truthView(cameraOf(subject, size_px), size_px);
 }
 
 truth::Light truthLight(const Subject& subject)
 {
-    const Light& light = subject.lights[subject.light].caster;
-    truth::Light out;
-    switch (light.type) {
-    case LightType::directional:
-        out.type = scene::LightType::directional;
-        break;
-    case LightType::spot:
-        out.type = scene::LightType::spot;
-        break;
-    case LightType::point:
-        out.type = scene::LightType::point;
-        break;
-    }
-    out.position_ws = light.position_ws;
-    out.direction_ws = light.direction_ws;
-    out.angular_diameter_rad = light.angular_diameter_rad;
-    out.radius_m = light.radius_m;
-    if (light.type != LightType::directional) {
-        out.near_m = nearOf(light, subject.state->bounds_ws);
-    }
-    return out;
+    return truthLight(judgedLight(subject), subject.state->bounds_ws);
 }
 
-std::optional<double> truthNoise(const truth::Visibility& visibility, const Counted& counted)
+CountedPixels countPixels(const Subject& subject, const truth::Surfaces& surfaces, const host::Picture& picture)
 {
-    assert(visibility.standard_error.values.size() == counted.values.size());
-    double sum = 0.0;
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < counted.values.size(); ++i) {
-        if (counted.values[i] != 0) {
-            const double error = visibility.standard_error.values[i];
-            sum += error * error;
-            ++count;
-        }
-    }
-    if (count == 0) {
-        return std::nullopt;
-    }
-    return std::sqrt(sum / static_cast<double>(count));
+    const Camera camera = cameraOf(subject, sizeOf(surfaces));
+    return countPixels({*subject.state, camera, judgedLight(subject)}, surfaces, picture.object_ids);
+}
+
+Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::Picture& picture, const ImageF& mask,
+                bool with_perception)
+{
+    const Camera camera = cameraOf(subject, sizeOf(truth.surfaces));
+    return scoreMask({*subject.state, camera, judgedLight(subject)}, truth, picture.object_ids, mask, with_perception);
+}
+
+Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
+                     const host::RenderOptions& options, bool with_perception)
+{
+    assert(subject.scene != nullptr && subject.state != nullptr && subject.light < subject.lights.size());
+    const glm::uvec2 size_px = sizeOf(truth.surfaces);
+    host::RenderOptions wish = options;
+    wish.width = size_px.x;
+    wish.height = size_px.y;
+    wish.anti_aliasing = host::AntiAliasing::none; // the truth looks through the middle of each pixel only
+    wish.shadows = true;
+    host::Renderer renderer(gpu, *subject.scene, *subject.state, wish);
+    renderer.draw(*subject.state, subject.eye, subject.lights);
+    const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
+    Score score = scoreMask(subject, truth, picture, picture.masks[subject.light], with_perception);
+
+    const Plan& plan = renderer.plan();
+    const Camera camera = cameraOf(subject, size_px);
+    const double reach_texels = vulkan::filterReachTexels(wish.filter);
+    score.outcome = plan.lights[subject.light].outcome;
+    score.atlas = plan.atlas;
+    score.density = texelDensity(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
+    score.fit_efficiency = fitEfficiency(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
+    return score;
 }
 
 } // namespace gnomon::lab

@@ -1,113 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/texel_density.h"
 
-#include "pixel_rays.h"
-
-#include <glm/mat2x2.hpp>
-
-#include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <vector>
-
 namespace gnomon::lab {
-namespace {
-
-/// With J = d(texel)/d(pixel), one texel step along axis i moves the pixel by column i of J^-1.
-std::optional<double> densityIn(const PixelRays& rays, const View& view, glm::dvec2 pixel, const Surface& surface)
-{
-    const auto here = texelOf(view, surface.point_ws);
-    if (!here || !insideTile(view, *here)) {
-        return std::nullopt;
-    }
-    constexpr double kStep = 0.25; // pixels; smaller than a pixel, so that a grazing plane's horizon stays away
-    const auto right = texelOf(view, rays.onPlane(pixel + glm::dvec2(kStep, 0.0), surface));
-    const auto down = texelOf(view, rays.onPlane(pixel + glm::dvec2(0.0, kStep), surface));
-    if (!right || !down) {
-        return std::nullopt;
-    }
-    const glm::dmat2 texel_from_pixel((*right - *here) / kStep, (*down - *here) / kStep);
-    if (std::abs(glm::determinant(texel_from_pixel)) < 1e-12) {
-        return std::nullopt;
-    }
-    const glm::dmat2 pixel_from_texel = glm::inverse(texel_from_pixel);
-    return 1.0 / std::max(glm::length(pixel_from_texel[0]), glm::length(pixel_from_texel[1]));
-}
-
-/// In the first of the light's views that has the surface.
-std::optional<double> densityOf(const PixelRays& rays, std::span<const View> views, glm::dvec2 pixel,
-                                const Surface& surface)
-{
-    for (const View& view : views) {
-        if (const auto density = densityIn(rays, view, pixel, surface)) {
-            return density;
-        }
-    }
-    return std::nullopt;
-}
-
-double percentile(std::vector<double>& values, double share)
-{
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), values.begin() + place, values.end());
-    return values[static_cast<std::size_t>(place)];
-}
-
-} // namespace
 
 TexelDensity texelDensity(const host::Picture& picture, const Counted& counted, const Camera& camera, const Plan& plan,
-                          std::uint32_t light)
+                          std::uint32_t light, double reach_texels)
 {
-    const std::uint32_t width = picture.depth.width;
-    const std::uint32_t height = picture.depth.height;
-    assert(counted.width == width && counted.height == height && light < plan.lights.size());
-    const PixelRays rays(camera, {width, height});
-    const std::span<const View> views = viewsOf(plan, light);
-    TexelDensity result;
-    result.map = ImageF(width, height, 1);
-    std::vector<double> densities;
-    for (std::uint32_t y = 0; y < height; ++y) {
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const auto surface = rays.surfaceAt(picture, x, y);
-            if (!surface) {
-                continue;
-            }
-            std::optional<double> density;
-            if (*counted.pixel(x, y) != 0) {
-                density = densityOf(rays, views, {x + 0.5, y + 0.5}, *surface);
-            }
-            if (density) {
-                densities.push_back(*density);
-                *result.map.pixel(x, y) = static_cast<float>(*density);
-            } else {
-                ++result.left_out;
-            }
-        }
-    }
-    result.counted = densities.size();
-    if (!densities.empty()) {
-        result.p01 = percentile(densities, 0.01);
-        result.p50 = percentile(densities, 0.50);
-        result.p99 = percentile(densities, 0.99);
-    }
-    return result;
+    return texelDensity({camera, picture.depth, picture.normals}, counted, plan, light, reach_texels);
+}
+
+double fitEfficiency(const host::Picture& picture, const Counted& counted, const Camera& camera, const Plan& plan,
+                     std::uint32_t light, double reach_texels)
+{
+    return fitEfficiency(texelUse({camera, picture.depth, picture.normals}, counted, plan, light, reach_texels));
 }
 
 Counted facingPixels(const host::Picture& picture, const Camera& camera, const Light& light)
 {
-    const std::uint32_t width = picture.depth.width;
-    const std::uint32_t height = picture.depth.height;
-    const PixelRays rays(camera, {width, height});
-    Counted counted(width, height, 1);
-    for (std::uint32_t y = 0; y < height; ++y) {
-        for (std::uint32_t x = 0; x < width; ++x) {
-            if (const auto surface = rays.surfaceAt(picture, x, y)) {
-                const double facing = glm::dot(surface->normal_ws, towardsLight(light, surface->point_ws));
-                *counted.pixel(x, y) = facing > kFacing ? 1 : 0;
-            }
-        }
-    }
-    return counted;
+    return facingPixels({camera, picture.depth, picture.normals}, light);
 }
 
 } // namespace gnomon::lab

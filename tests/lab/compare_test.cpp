@@ -259,6 +259,25 @@ TEST(ScoreMask, OfTheTruthItselfIsPerfectAndOfItsNegativeIsNot)
     EXPECT_NEAR(errors.edge + errors.acne + errors.detached + errors.bleeding, 1.0, 1e-12);
 }
 
+TEST(ScoreMask, FromPlainImagesIsTheSame)
+{
+    Stage stage(scene::makePlanes(1), "side", kSize_px, kSpot);
+    const host::Picture picture = stage.geometry();
+    ImageF mask(kSize_px.x, kSize_px.y, 1, 0.75F);
+    const Subject& subject = stage.subject();
+    const Score with_host = scoreMask(subject, stage.hardTruth(), picture, mask);
+    const Camera camera = host::cameraOf(subject.eye, kSize_px.x, kSize_px.y, subject.state->bounds_ws);
+    const Light& light = subject.lights[kSpot].caster;
+    const Score plain = scoreMask({*subject.state, camera, light}, stage.hardTruth(), picture.object_ids, mask);
+    EXPECT_GT(plain.error.value().rmse, 0.2);
+    EXPECT_EQ(plain.error->rmse, with_host.error.value().rmse);
+    EXPECT_EQ(plain.ssim, with_host.ssim);
+    EXPECT_EQ(plain.flip, with_host.flip);
+    EXPECT_EQ(plain.pixels.counted.values, with_host.pixels.counted.values);
+    EXPECT_EQ(truthLight(light, subject.state->bounds_ws).near_m, truthLight(subject).near_m);
+    EXPECT_EQ(truthView(camera, kSize_px).world_from_clip, truthView(subject, kSize_px).world_from_clip);
+}
+
 TEST(ScoreMask, OfNothingThatCountsHasNoNumbers)
 {
     Stage stage(scene::makePlanes(1), "top", kSize_px);

@@ -2,6 +2,8 @@
 // What maps deliver, where it can be worked out by hand: a plane seen from straight above.
 #include "lab/texel_density.h"
 
+#include "lab/score/traffic.h"
+
 #include <gnomon/planner.h>
 
 #include <glm/geometric.hpp>
@@ -70,7 +72,7 @@ Plan planOf(double tilt_rad, double turn_rad, glm::dvec2 texel_m, std::uint32_t 
 
 void expectDensity(const Above& above, const Plan& plan, double expected)
 {
-    const TexelDensity density = texelDensity(above.picture, above.all, above.camera, plan, 0);
+    const TexelDensity density = texelDensity(above.picture, above.all, above.camera, plan, 0, 1.0);
     const double tolerance = expected * 1e-4; // of depth in single precision
     EXPECT_NEAR(density.p01, expected, tolerance);
     EXPECT_NEAR(density.p50, expected, tolerance);
@@ -111,8 +113,8 @@ TEST(TexelDensity, LeavesOutWhatDoesNotCountAndWhatNoMapHas)
         *above.all.pixel(x, 1) = 0;
     }
     // A map of half the picture's width: 16 columns of pixels.
-    const TexelDensity half =
-        texelDensity(above.picture, above.all, above.camera, planOf(0.0, 0.0, {0.05, 0.05}, kSide_px, 4 * kSide_px), 0);
+    const TexelDensity half = texelDensity(above.picture, above.all, above.camera,
+                                           planOf(0.0, 0.0, {0.05, 0.05}, kSide_px, 4 * kSide_px), 0, 0.5);
     EXPECT_EQ(half.counted, 16U * 30U);
     EXPECT_EQ(half.left_out, 32U + 16U * 30U);
     EXPECT_EQ(*half.map.pixel(2, 16), 0.0F);
@@ -120,7 +122,7 @@ TEST(TexelDensity, LeavesOutWhatDoesNotCountAndWhatNoMapHas)
 
     Plan none = planOf(0.0, 0.0, {0.05, 0.05}, 64, 64);
     none.lights[0].outcome.kind = OutcomeKind::no_caster;
-    const TexelDensity without = texelDensity(above.picture, above.all, above.camera, none, 0);
+    const TexelDensity without = texelDensity(above.picture, above.all, above.camera, none, 0, 0.5);
     EXPECT_EQ(without.counted, 0U);
     EXPECT_EQ(without.left_out, 31U * 32U);
     EXPECT_EQ(without.p50, 0.0);
@@ -152,10 +154,37 @@ TEST(FitEfficiency, CountsATexelOnceAndStaysInTheTile)
     const Above dense(0.05); // 20 pixels to a texel; all of them within 0.8 texels of the map's middle
     const Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 64, 64);
     EXPECT_DOUBLE_EQ(efficiencyOf(dense, plan, 0.5), 4.0 / 4096.0);
-    EXPECT_DOUBLE_EQ(efficiencyOf(dense, plan, 1000.0), 1.0);
+    EXPECT_DOUBLE_EQ(efficiencyOf(dense, plan, 31.0), 1.0);
+    EXPECT_EQ(efficiencyOf(dense, plan, 1000.0), 0.0); // the tile has no place for such a filter
     Above none(0.05);
     none.all = Counted(kSide_px, kSide_px, 1);
     EXPECT_EQ(efficiencyOf(none, plan, 0.5), 0.0);
+}
+
+TEST(FitEfficiency, WhatTheMaskDoesNotTakeFromAMapIsNotInIt)
+{
+    // A pixel to a texel and a tile as large as the picture: the outer pixels are half a texel from the tile's edge.
+    Above above(1.0);
+    Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, kSide_px, kSide_px);
+    const auto countedWith = [&](double reach_texels) {
+        return texelDensity(above.picture, above.all, above.camera, plan, 0, reach_texels).counted;
+    };
+    EXPECT_EQ(countedWith(0.5), kSide_px * kSide_px);
+    EXPECT_EQ(countedWith(0.9), kSide_px * kSide_px);
+    EXPECT_EQ(countedWith(1.1), (kSide_px - 2) * (kSide_px - 2)); // 3 x 3 texels would have one outside
+    EXPECT_EQ(countedWith(2.1), (kSide_px - 4) * (kSide_px - 4));
+    EXPECT_EQ(countedWith(17.0), 0U);
+    // Those that are left reach every texel.
+    const TexelUse use = texelUse({above.camera, above.picture.depth, above.picture.normals}, above.all, plan, 0, 1.1);
+    EXPECT_EQ(use.held, 1024U);
+    EXPECT_EQ(use.read, 1024U);
+    // A second map takes over where the first one ends.
+    plan.views.push_back(planOf(0.0, 0.0, {2.0, 2.0}, kSide_px, kSide_px).views[0]);
+    plan.lights[0].view_count = 2;
+    const TexelDensity both = texelDensity(above.picture, above.all, above.camera, plan, 0, 1.1);
+    EXPECT_EQ(both.counted, kSide_px * kSide_px);
+    EXPECT_NEAR(*both.map.pixel(1, 1), 1.0, 1e-4);
+    EXPECT_NEAR(*both.map.pixel(0, 1), 0.5, 1e-4);
 }
 
 TEST(FitEfficiency, OfAFilterFollowsItsReach)
@@ -171,6 +200,77 @@ TEST(FitEfficiency, OfAFilterFollowsItsReach)
     filter.pcf_kernel = PcfKernel::vogel;
     filter.disc_radius_texels = 3.25F;
     EXPECT_EQ(vulkan::filterReachTexels(filter), 4.25F);
+}
+
+TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
+{
+    const Above above(4.0); // of 4 m a pixel, on texels of 1 m: no texel is read twice by 2 x 2
+    const Sight seen{above.camera, above.picture.depth, above.picture.normals};
+    Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
+    plan.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    plan.mask_layers = 1;
+    std::vector<Light> lights(1); // straight down
+    const std::uint64_t pixels = kSide_px * kSide_px;
+    const std::uint64_t drawn = 256 * 256;
+    TrafficOptions options{.format = MapFormat::d32f, .reach_texels = 0.5};
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 4 * (drawn + pixels) + pixels * (4 + 4 + 4 + 1));
+    options.reads_object_ids = false;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 4 * (drawn + pixels) + pixels * (4 + 4 + 1));
+    options.reach_texels = 1.0;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 4 * (drawn + 4 * pixels) + pixels * 9);
+    options.format = MapFormat::d16;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + pixels * 9);
+    options.samples = 4;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + 4 * pixels * 9);
+    options.samples = 1;
+    // A map that still holds is read and not written.
+    plan.views[0].redraw = false;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + pixels * 9);
+    options.redraws_all = false;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * 4 * pixels + pixels * 9);
+    // Who turns away from the light reads nothing, and neither does a light without a map; the mask is written.
+    lights[0].direction_ws = {0.0, 1.0, 0.0};
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 9);
+    lights[0].direction_ws = {0.0, -1.0, 0.0};
+    plan.lights[0].outcome.kind = OutcomeKind::no_caster;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 9);
+    // Five lights are two layers of four bytes.
+    lights.resize(5);
+    plan.lights.resize(5, plan.lights[0]);
+    plan.mask_layers = 2;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 16);
+    EXPECT_EQ(leastBytes(seen, {}, Plan(), options), 0U); // without shadows
+}
+
+TEST(LeastBytes, KnowEveryFormat)
+{
+    EXPECT_EQ(texelBytes(MapFormat::d16), 2U);
+    EXPECT_EQ(texelBytes(MapFormat::rg16), 4U);
+    EXPECT_EQ(texelBytes(MapFormat::rg32f), 8U);
+    EXPECT_EQ(texelBytes(MapFormat::rgba32f), 16U);
+}
+
+TEST(FacingPixels, KnowTheBackgroundOfOrdinaryDepth)
+{
+    Above above(0.1);
+    // z from 0 at the near plane to 1 at the far one: what was drawn at z is now at w - z.
+    above.camera.reversed_z = false;
+    for (int column = 0; column < 4; ++column) {
+        above.camera.clip_from_world[column][2] =
+            above.camera.clip_from_world[column][3] - above.camera.clip_from_world[column][2];
+    }
+    for (float& depth : above.picture.depth.values) {
+        depth = 1.0F - depth;
+    }
+    *above.picture.depth.pixel(5, 5) = 1.0F;
+    Light lamp;
+    lamp.type = LightType::spot;
+    lamp.position_ws = {0.0, 0.1, 0.0};
+    const Counted lit = facingPixels(above.picture, above.camera, lamp);
+    EXPECT_EQ(*lit.pixel(16, 20), 1);
+    EXPECT_EQ(*lit.pixel(5, 5), 0); // background
+    EXPECT_EQ(*lit.pixel(0, 0), 0); // 2.19 m away: the points are where they were
+    EXPECT_EQ(*lit.pixel(0, 16), 1);
 }
 
 TEST(FacingPixels, AreThoseWhoseSurfaceFacesTheLight)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/metrics/error_classes.h"
 
-#include "same_shape.h"
+#include "lab/metrics/same_shape.h"
 
 #include <algorithm>
 #include <array>

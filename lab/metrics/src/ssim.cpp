@@ -4,7 +4,7 @@
 // value, and the mean is over the counted pixels.
 #include "lab/metrics/error.h"
 
-#include "same_shape.h"
+#include "lab/metrics/same_shape.h"
 
 #include <algorithm>
 #include <array>

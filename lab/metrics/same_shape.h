@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The precondition that all metrics share.
+// The precondition that metrics and pictures of masks share.
 #pragma once
 
 #include "image/image.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/compare.h"
+#include "lab/score/score.h"
 
+#include "lab/metrics/same_shape.h"
 #include "pixel_rays.h"
+#include "scene/state.h"
 
 #include <cassert>
 #include <cmath>
@@ -32,50 +34,48 @@ bool shinesOn(const Light& light, const glm::dvec3& point_ws)
 
 class PixelJudge {
 public:
-    PixelJudge(const Subject& subject, const truth::Surfaces& surfaces, const host::Picture& picture)
-        : subject_(subject), light_(subject.lights[subject.light].caster), surfaces_(surfaces), picture_(picture)
+    PixelJudge(const Judged& judged, const truth::Surfaces& surfaces, const ImageOf<std::uint32_t>& object_ids)
+        : judged_(judged), surfaces_(surfaces), object_ids_(object_ids)
     {
     }
     /// The tally that a pixel belongs to: of the reasons to leave it out the first that holds, in PixelCounts' order.
     [[nodiscard]] std::uint64_t PixelCounts::*tallyOf(std::uint32_t x, std::uint32_t y) const
     {
         const std::uint32_t id = *surfaces_.object_ids.pixel(x, y);
-        if (id != *picture_.object_ids.pixel(x, y)) {
+        if (id != *object_ids_.pixel(x, y)) {
             return &PixelCounts::other_object;
         }
         if (id == 0) {
             return &PixelCounts::background;
         }
-        const glm::dvec3 point_ws = subject_.eye.position_ws + vectorAt(surfaces_.points, x, y);
+        const glm::dvec3 point_ws = judged_.camera.eye_ws + vectorAt(surfaces_.points, x, y);
         const glm::dvec3 normal_ws = vectorAt(surfaces_.normals, x, y);
-        if (!(glm::dot(normal_ws, towardsLight(light_, point_ws)) > kFacing)) {
+        if (!(glm::dot(normal_ws, towardsLight(judged_.light, point_ws)) > kFacing)) {
             return &PixelCounts::facing_away;
         }
-        if (!shinesOn(light_, point_ws)) {
+        if (!shinesOn(judged_.light, point_ws)) {
             return &PixelCounts::unlit;
         }
-        return subject_.state->objects[id - 1].receives ? &PixelCounts::counted : &PixelCounts::no_receiver;
+        return judged_.state.objects[id - 1].receives ? &PixelCounts::counted : &PixelCounts::no_receiver;
     }
 
 private:
-    const Subject& subject_;
-    const Light& light_;
+    const Judged& judged_;
     const truth::Surfaces& surfaces_;
-    const host::Picture& picture_;
+    const ImageOf<std::uint32_t>& object_ids_;
 };
 
 } // namespace
 
-CountedPixels countPixels(const Subject& subject, const truth::Surfaces& surfaces, const host::Picture& picture)
+CountedPixels countPixels(const Judged& judged, const truth::Surfaces& surfaces,
+                          const ImageOf<std::uint32_t>& object_ids)
 {
-    const std::uint32_t width = surfaces.object_ids.width;
-    const std::uint32_t height = surfaces.object_ids.height;
-    assert(picture.object_ids.width == width && picture.object_ids.height == height);
-    const PixelJudge judge(subject, surfaces, picture);
+    assert(areMasksOfOneSize(surfaces.object_ids, object_ids));
+    const PixelJudge judge(judged, surfaces, object_ids);
     CountedPixels result;
-    result.counted = Counted(width, height, 1);
-    for (std::uint32_t y = 0; y < height; ++y) {
-        for (std::uint32_t x = 0; x < width; ++x) {
+    result.counted = Counted(object_ids.width, object_ids.height, 1);
+    for (std::uint32_t y = 0; y < object_ids.height; ++y) {
+        for (std::uint32_t x = 0; x < object_ids.width; ++x) {
             std::uint64_t PixelCounts::*tally = judge.tallyOf(x, y);
             ++(result.counts.*tally);
             *result.counted.pixel(x, y) = tally == &PixelCounts::counted ? 1 : 0;

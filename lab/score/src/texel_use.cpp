@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/texel_density.h"
+#include "lab/score/texel_density.h"
 
+#include "lab/metrics/same_shape.h"
 #include "pixel_rays.h"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace gnomon::lab {
@@ -70,36 +72,39 @@ private:
 
 } // namespace
 
-double fitEfficiency(const host::Picture& picture, const Counted& counted, const Camera& camera, const Plan& plan,
-                     std::uint32_t light, double reach_texels)
+TexelUse texelUse(const Sight& seen, const Counted& counted, const Plan& plan, std::uint32_t light, double reach_texels)
 {
-    assert(counted.width == picture.depth.width && counted.height == picture.depth.height);
+    assert(areMasksOfOneSize(counted, seen.depth) && seen.normals.channels == 3);
     assert(light < plan.lights.size());
     const std::span<const View> views = viewsOf(plan, light);
-    const PixelRays rays(camera, {picture.depth.width, picture.depth.height});
+    const PixelRays rays(seen);
     std::vector<ReadTexels> read;
-    std::uint64_t rendered = 0;
+    TexelUse use;
     for (const View& view : views) {
         read.emplace_back(view.tile);
-        rendered += std::uint64_t{view.tile.width} * view.tile.height;
+        use.held += std::uint64_t{view.tile.width} * view.tile.height;
     }
     for (std::uint32_t y = 0; y < counted.height; ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
-            const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(picture, x, y) : std::nullopt;
+            const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(x, y) : std::nullopt;
             for (std::size_t v = 0; surface && v < views.size(); ++v) {
                 const auto texel = texelOf(views[v], surface->point_ws);
-                if (texel && insideTile(views[v], *texel)) {
+                if (texel && insideTile(views[v], *texel, reach_texels)) {
                     read[v].add(*texel, reach_texels);
                     break; // the mask pass reads the first view that has the pixel
                 }
             }
         }
     }
-    std::uint64_t used = 0;
     for (const ReadTexels& texels : read) {
-        used += texels.count();
+        use.read += texels.count();
     }
-    return rendered > 0 ? static_cast<double>(used) / static_cast<double>(rendered) : 0.0;
+    return use;
+}
+
+double fitEfficiency(const TexelUse& use)
+{
+    return use.held > 0 ? static_cast<double>(use.read) / static_cast<double>(use.held) : 0.0;
 }
 
 } // namespace gnomon::lab

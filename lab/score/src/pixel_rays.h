@@ -2,10 +2,7 @@
 // From pixels to the surface that they see, and from there to texels.
 #pragma once
 
-#include <gnomon/frame.h>
-#include <gnomon/plan.h>
-
-#include "host/renderer.h"
+#include "lab/score/texel_density.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -26,8 +23,9 @@ struct Surface {
 
 class PixelRays {
 public:
-    PixelRays(const Camera& camera, glm::dvec2 size_px)
-        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(camera.clip_from_world)), size_px_(size_px)
+    explicit PixelRays(const Sight& seen)
+        : seen_(seen), world_from_clip_(glm::inverse(seen.camera.clip_from_world)),
+          size_px_(seen.depth.width, seen.depth.height)
     {
     }
     /// `pixel` in pixels from the top left; a pixel's centre is at half.
@@ -40,24 +38,25 @@ public:
     /// Where the ray through a pixel meets the surface's plane.
     [[nodiscard]] glm::dvec3 onPlane(glm::dvec2 pixel, const Surface& surface) const
     {
-        const glm::dvec3 direction = point(pixel, 0.5) - eye_ws_;
+        const glm::dvec3& eye_ws = seen_.camera.eye_ws;
+        const glm::dvec3 direction = point(pixel, 0.5) - eye_ws;
         const double t =
-            glm::dot(surface.normal_ws, surface.point_ws - eye_ws_) / glm::dot(surface.normal_ws, direction);
-        return eye_ws_ + direction * t;
+            glm::dot(surface.normal_ws, surface.point_ws - eye_ws) / glm::dot(surface.normal_ws, direction);
+        return eye_ws + direction * t;
     }
-    /// What pixel (x, y) of a picture sees; nothing at background.
-    [[nodiscard]] std::optional<Surface> surfaceAt(const host::Picture& picture, std::uint32_t x, std::uint32_t y) const
+    /// What pixel (x, y) sees; nothing at background.
+    [[nodiscard]] std::optional<Surface> surfaceAt(std::uint32_t x, std::uint32_t y) const
     {
-        const double depth = *picture.depth.pixel(x, y);
-        if (depth <= 0.0) {
+        const double depth = *seen_.depth.pixel(x, y);
+        if (seen_.camera.reversed_z ? depth <= 0.0 : depth >= 1.0) {
             return std::nullopt;
         }
-        const float* normal = picture.normals.pixel(x, y);
+        const float* normal = seen_.normals.pixel(x, y);
         return Surface{point({x + 0.5, y + 0.5}, depth), {normal[0], normal[1], normal[2]}};
     }
 
 private:
-    glm::dvec3 eye_ws_;
+    const Sight& seen_;
     glm::dmat4 world_from_clip_;
     glm::dvec2 size_px_;
 };
@@ -82,9 +81,12 @@ inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& poi
     return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
 }
 
-inline bool insideTile(const View& view, const glm::dvec2& texel)
+/// Does the mask take this view for a receiver there?
+inline bool insideTile(const View& view, const glm::dvec2& texel, double reach_texels)
 {
-    return texel.x >= 0.0 && texel.y >= 0.0 && texel.x <= view.tile.width && texel.y <= view.tile.height;
+    const double margin = tileMarginTexels(reach_texels);
+    return texel.x >= margin && texel.y >= margin && texel.x <= view.tile.width - margin &&
+           texel.y <= view.tile.height - margin;
 }
 
 /// Unit, from a point to the light's centre.

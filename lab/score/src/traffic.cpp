@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/score/traffic.h"
+
+#include <cassert>
+
+namespace gnomon::lab {
+namespace {
+
+std::uint64_t texelsDrawn(const Plan& plan, bool redraws_all)
+{
+    std::uint64_t texels = 0;
+    for (const View& view : plan.views) {
+        texels += view.redraw || redraws_all ? std::uint64_t{view.tile.width} * view.tile.height : 0;
+    }
+    return texels;
+}
+
+/// One byte for a single light, else four to a layer (ShadowRenderer::mask()).
+std::uint64_t maskBytes(const Plan& plan)
+{
+    return plan.lights.size() == 1 ? 1 : std::uint64_t{4} * plan.mask_layers;
+}
+
+} // namespace
+
+std::uint32_t texelBytes(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::d16:
+        return 2;
+    case MapFormat::d32f:
+    case MapFormat::r32f:
+    case MapFormat::rg16:
+    case MapFormat::rg16f:
+        return 4;
+    case MapFormat::rg32f:
+    case MapFormat::rgba16:
+    case MapFormat::rgba16f:
+        return 8;
+    case MapFormat::rgba32f:
+        return 16;
+    }
+    return 0;
+}
+
+std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
+                         const TrafficOptions& options)
+{
+    if (plan.lights.empty()) {
+        return 0;
+    }
+    assert(lights.size() == plan.lights.size());
+    std::uint64_t texels = texelsDrawn(plan, options.redraws_all);
+    for (std::uint32_t light = 0; light < lights.size(); ++light) {
+        if (plan.lights[light].outcome.hasMap()) {
+            texels += texelUse(seen, facingPixels(seen, lights[light]), plan, light, options.reach_texels).read;
+        }
+    }
+    const std::uint64_t pixels = std::uint64_t{seen.depth.width} * seen.depth.height * options.samples;
+    const std::uint64_t pixel_bytes =
+        kDepthBytes + kNormalBytes + (options.reads_object_ids ? kObjectIdBytes : 0) + maskBytes(plan);
+    return texels * texelBytes(options.format) + pixels * pixel_bytes;
+}
+
+} // namespace gnomon::lab

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The least that a technique must move to and from memory, by counting.
+#pragma once
+
+#include "lab/score/texel_density.h"
+
+#include <gnomon/choices.h>
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <span>
+
+namespace gnomon::lab {
+
+/// Of one texel of a map, colour or depth as the filter reads it.
+[[nodiscard]] std::uint32_t texelBytes(MapFormat format);
+
+/// What leastBytes() needs to know of a frame besides plan and picture.
+struct TrafficOptions {
+    MapFormat format = MapFormat::d32f;
+    double reach_texels = 0.5;    // how far the filter reads, along x and y each; >= 0.5
+    bool redraws_all = true;      // false: of the views only those that say `redraw` are drawn
+    bool reads_object_ids = true; // the mask pass is given object ids
+    std::uint32_t samples = 1;    // pixels of the mask for each pixel of the picture
+};
+
+inline constexpr std::uint64_t kDepthBytes = 4;    // D32F
+inline constexpr std::uint64_t kNormalBytes = 4;   // two 16-bit numbers, octahedral
+inline constexpr std::uint64_t kObjectIdBytes = 4; // R32_UINT
+
+/// The bytes that no way of drawing these maps and this mask can do without: each texel that is rendered, written once;
+/// each texel that a pixel facing its light (facingPixels()) reads, read once; and for each pixel of the mask depth,
+/// normal and object id read and the mask written once. Caches that miss, depth tests, clearing and compression play no
+/// part; nor does anything of the host's. With several samples to a pixel, the texels are those that the pixels' own
+/// places read. 0 where the plan has no lights. `lights` are those of the plan's frame.
+[[nodiscard]] std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
+                                       const TrafficOptions& options);
+
+} // namespace gnomon::lab
