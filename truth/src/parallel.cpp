@@ -127,7 +127,7 @@ public:
                     tiles.take();
                     tiles.leave();
                 });
-            } catch (const std::system_error&) { // the system gives no more threads: fewer will do
+            } catch (...) { // no more threads to be had, or no memory for one: fewer will do
                 tiles.leave();
                 break;
             }
