@@ -28,7 +28,10 @@ struct Light {
     glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
     double angular_diameter_rad = 0.0092502450; // directional: 0.53 degrees, the sun; [0, pi)
     double radius_m = 0.0;                      // spot, point: of the emitting sphere; 0 makes area the same as hard
-    double near_m = 0.0;                        // spot, point: nothing nearer to the centre casts
+    /// What is nearer does not cast, as in a shadow map's projection. Spot: metres from the centre along
+    /// `direction_ws`, so a plane, at near_m / cos(a) from the centre at the angle a off that axis; 0: no plane, and
+    /// what is behind the light casts too. Point: metres from the centre, so a sphere.
+    double near_m = 0.0;
 };
 
 /// Where the rays start and which pixel each goes through: pixel (x, y) looks through the point
@@ -40,9 +43,16 @@ struct View {
     glm::uvec2 size_px{0}; // >= 1 each
 };
 
+/// The rays of a pixel come in so many sets, each stratified by itself and shifted at random, so that their spread
+/// tells the standard error of the pixel's estimate.
+inline constexpr std::uint32_t kSampleSets = 4;
+inline constexpr std::uint32_t kMaxSamples = 65536;
+
 struct Options {
     Kind kind = Kind::area;
-    std::uint32_t samples = 256; // rays per pixel for area: 4 .. 65536, a multiple of kSampleSets
+    /// Rays per pixel for area: kSampleSets .. kMaxSamples and a multiple of kSampleSets, else trace() throws Error.
+    /// Plays no part for hard.
+    std::uint32_t samples = 256;
     std::uint64_t seed = 1;
     std::uint32_t threads = 0; // 0: all cores; the result does not depend on it
     /// Called now and then from the calling thread with the share done, [0, 1]. May be empty.
@@ -50,10 +60,6 @@ struct Options {
     /// Becomes true from anywhere (a signal handler, say) to give up. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
-
-/// The rays of a pixel come in so many sets, each stratified by itself and shifted at random, so that their spread
-/// tells the standard error of the pixel's estimate.
-inline constexpr std::uint32_t kSampleSets = 4;
 
 /// What the camera sees, by a ray through each pixel's centre. Images of the view's size.
 struct Surfaces {
@@ -77,11 +83,14 @@ struct Visibility {
 /// Holds the acceleration structure of a scene at one moment. Opaque and alpha-masked surfaces are seen and cast
 /// (masked ones where the texture's alpha, times factor and vertex colour, reaches the cutoff); blended ones do
 /// neither. Objects that do not cast are seen only. Single-sided triangles are seen from their front but cast from both
-/// sides.
+/// sides. Objects whose transform is not finite take no part; flattened ones do.
 class Tracer {
 public:
-    /// `scene` and `state` must outlive the tracer and stay as they are. Throws Error when memory runs out.
-    Tracer(const scene::Scene& scene, const scene::State& state);
+    /// `scene` and `state` must outlive the tracer and stay as they are. Builds on the calling thread, which takes
+    /// about a second for a million triangles; of `options` only `progress` and `cancel` count. Of a tracer whose
+    /// building was cancelled, see() and trace() give nothing. Throws Error when memory runs out, and what
+    /// options.progress throws.
+    Tracer(const scene::Scene& scene, const scene::State& state, const Options& options = {});
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;

@@ -48,15 +48,22 @@ void TruthTracer::Impl::keep(const scene::Hash128& key, const truth::Traced& tra
 
 truth::Traced TruthTracer::Impl::traceAnew(const truth::View& view, const truth::Light& light, truth::Options options)
 {
+    options.cancel = &interruptFlag();
+    if (!tracer) {
+        Progress building("building");
+        options.progress = [&](double share) {
+            building.show(share);
+        };
+        tracer.emplace(shot.scene, shot.state, options);
+    }
+    if (interruptFlag()) {
+        tracer.reset(); // it may be empty
+        throw Interrupted();
+    }
     Progress progress("tracing");
     options.progress = [&](double share) {
         progress.show(share);
     };
-    options.cancel = &interruptFlag();
-    requireNotInterrupted(); // building takes a while
-    if (!tracer) {
-        tracer.emplace(shot.scene, shot.state);
-    }
     if (!surfaces) {
         surfaces = tracer->see(view, options);
     }

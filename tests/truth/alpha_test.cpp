@@ -3,11 +3,17 @@
 #include "support.h"
 
 #include "alpha.h"
+#include "scene_geometry.h"
+#include "shadow_rays.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 
 namespace gnomon::truth::test {
 namespace {
@@ -34,7 +40,9 @@ scene::Scene leaf(const scene::Texture& texture, const scene::TextureUse& use)
     material.base_colour_texture = use;
     scene.materials.push_back(material);
     place(scene, addQuad(scene, level(0.0F, 8.0F)));
-    place(scene, addQuad(scene, ceiling(1.0F, -1.0F, 1.0F, 1.0F), 0));
+    scene::Node& node = place(scene, addQuad(scene, ceiling(1.0F, -1.0F, 1.0F, 1.0F), 0));
+    // A second one beside it, so that the mesh can be instanced.
+    node.instances = {glm::mat4(1.0F), glm::translate(glm::mat4(1.0F), glm::vec3(6.0F, 0.0F, 0.0F))};
     return scene;
 }
 
@@ -53,8 +61,8 @@ double alphaAt(const scene::Texture& texture, double u, double v, double& margin
 {
     const double x = u * 4.0;
     const double y = v * 2.0;
+    static const scene::Image image = pattern();
     const auto texel = [&](int i, int j) {
-        const scene::Image image = pattern();
         return image.rgba[(wrapped(j, 2, texture.wrap_v) * 4 + wrapped(i, 4, texture.wrap_u)) * 4 + 3] / 255.0;
     };
     if (!texture.magnify_linear) {
@@ -76,33 +84,66 @@ struct Sampling {
     scene::TextureUse use;
 };
 
-class MaskedLeaf : public ::testing::TestWithParam<Sampling> {};
+/// Alpha of the leaf above (x, z), which is on it.
+double leafAlpha(const Sampling& sampling, double x, double z, double& margin)
+{
+    const auto& [texture, use] = sampling;
+    const double c = std::cos(double{use.rotation_rad});
+    const double s = std::sin(double{use.rotation_rad});
+    const double u = (x + 1.0) / 2.0 * use.scale.x;
+    const double v = (z + 1.0) / 2.0 * use.scale.y;
+    // Counter-clockwise as seen with v down: u towards -v.
+    return alphaAt(texture, c * u + s * v + use.offset.x, -s * u + c * v + use.offset.y, margin);
+}
+
+/// Visibility of the ground below the leaf, whose triangles are instanced or copied.
+class LeafShadow {
+public:
+    LeafShadow(const Sampling& sampling, bool instanced, const Light& light, const Options& options)
+        : scene_(finished(leaf(sampling.texture, sampling.use))), state_(scene::evaluate(scene_, 0.0)),
+          geometry_(scene_, state_, instanced ? 0 : 1000), rays_(geometry_, light, options)
+    {
+        EXPECT_EQ(geometry_.part(1).instanced, instanced);
+    }
+    [[nodiscard]] double at(double x, double z, std::uint64_t pixel) const
+    {
+        Receiver receiver{.pixel = pixel};
+        receiver.rel = glm::dvec3(x, 1e-5, z) - geometry_.originWs();
+        return rays_.trace(receiver).visibility;
+    }
+
+private:
+    static scene::Scene finished(scene::Scene scene)
+    {
+        scene::finishScene(scene);
+        return scene;
+    }
+    scene::Scene scene_;
+    scene::State state_;
+    SceneGeometry geometry_;
+    ShadowRays rays_;
+};
+
+/// A texture; area or hard; instanced or copied.
+class MaskedLeaf : public ::testing::TestWithParam<std::tuple<Sampling, bool, bool>> {};
 
 TEST_P(MaskedLeaf, shadow_is_the_texture)
 {
-    const auto& [texture, use] = GetParam();
-    scene::Scene scene = leaf(texture, use);
-    const View view = lookDown(0.0, 0.5, 1.2, {120, 120});
-    const Traced traced = trace(scene, view, sun({0.0, -1.0, 0.0}), hard());
+    const auto& [sampling, with_area, instanced] = GetParam();
+    // So small a sun blurs by a twentieth of a millimetre.
+    const LeafShadow shadow(sampling, instanced, sun({0.0, -1.0, 0.0}, 1e-4), with_area ? area(64) : hard());
     std::uint32_t solid = 0;
     std::uint32_t open = 0;
-    const double c = std::cos(double{use.rotation_rad});
-    const double s = std::sin(double{use.rotation_rad});
-    for (std::uint32_t y = 0; y < 120; ++y) {
-        for (std::uint32_t x = 0; x < 120; ++x) {
-            const glm::dvec3 p = traced.point(x, y);
-            if (std::abs(p.x) > 0.999 || std::abs(p.z) > 0.999) {
-                continue;
-            }
-            const double u = (p.x + 1.0) / 2.0 * use.scale.x;
-            const double v = (p.z + 1.0) / 2.0 * use.scale.y;
+    for (std::uint32_t y = 0; y < 100; ++y) {
+        for (std::uint32_t x = 0; x < 100; ++x) {
+            const double px = (x + 0.5) / 50.0 - 1.0;
+            const double pz = (y + 0.5) / 50.0 - 1.0;
             double margin = 0.0;
-            // Counter-clockwise as seen with v down: u towards -v.
-            const double alpha = alphaAt(texture, c * u + s * v + use.offset.x, -s * u + c * v + use.offset.y, margin);
-            if (margin < 1e-4) {
+            const double alpha = leafAlpha(sampling, px, pz, margin);
+            if (margin < (with_area ? 2e-3 : 1e-4)) {
                 continue;
             }
-            ASSERT_EQ(traced.at(x, y), alpha >= 0.5 ? 0.0 : 1.0) << x << ' ' << y << " alpha " << alpha;
+            ASSERT_EQ(shadow.at(px, pz, y * 100 + x), alpha >= 0.5 ? 0.0 : 1.0) << px << ' ' << pz << ' ' << alpha;
             ++(alpha >= 0.5 ? solid : open);
         }
     }
@@ -110,20 +151,57 @@ TEST_P(MaskedLeaf, shadow_is_the_texture)
     EXPECT_GT(open, 800U);
 }
 
+TEST_P(MaskedLeaf, soft_shadow_is_the_mean_of_the_texture)
+{
+    const auto& [sampling, with_area, instanced] = GetParam();
+    const double tangent = with_area ? 0.1 : 0.0;
+    const LeafShadow shadow(sampling, instanced, sun({0.0, -1.0, 0.0}, 2.0 * std::atan(tangent)), area(1024));
+    double of_texture = 0.0;
+    double of_rays = 0.0;
+    double worst = 0.0;
+    for (std::uint32_t y = 0; y < 9; ++y) {
+        for (std::uint32_t x = 0; x < 9; ++x) {
+            const double px = (x + 0.5) / 5.0 - 0.87;
+            const double pz = (y + 0.5) / 5.0 - 0.89;
+            double open = 0.0;
+            for (int i = 0; i < 2000; ++i) {
+                const double rho = tangent * std::sqrt((i + 0.5) / 2000.0);
+                const double turn = 2.0 * std::numbers::pi * std::numbers::phi * i;
+                double margin = 0.0;
+                const double ax = px + rho * std::cos(turn);
+                const double az = pz + rho * std::sin(turn);
+                const bool beside = std::max(std::abs(ax), std::abs(az)) > 1.0;
+                open += beside || leafAlpha(sampling, ax, az, margin) < 0.5 ? 1.0 / 2000.0 : 0.0;
+            }
+            const double traced = shadow.at(px, pz, y * 9 + x);
+            worst = std::max(worst, std::abs(traced - open));
+            of_texture += open / 81.0;
+            of_rays += traced / 81.0;
+        }
+    }
+    EXPECT_LT(worst, 0.03);
+    EXPECT_NEAR(of_rays, of_texture, 0.003);
+    EXPECT_GT(of_texture, 0.1);
+    EXPECT_LT(of_texture, 0.9);
+}
+
 using scene::Wrap;
 INSTANTIATE_TEST_SUITE_P(
     samplings, MaskedLeaf,
-    ::testing::Values(
-        Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0}}, Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0}},
-        Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0, 0, {0.3F, -7.1F}, {2.5F, 3.0F}, 0.0F}},
-        Sampling{{0, Wrap::mirrored_repeat, Wrap::repeat, false}, {0, 0, {-1.3F, 0.1F}, {3.0F, 2.0F}, 0.0F}},
-        Sampling{{0, Wrap::mirrored_repeat, Wrap::mirrored_repeat, true}, {0, 0, {-1.3F, 0.1F}, {3.0F, 3.0F}, 0.0F}},
-        Sampling{{0, Wrap::clamp_to_edge, Wrap::repeat, true}, {0, 0, {-0.4F, 0.1F}, {1.7F, 2.0F}, 0.0F}},
-        Sampling{{0, Wrap::repeat, Wrap::clamp_to_edge, false}, {0, 0, {0.0F, -0.6F}, {2.0F, 2.0F}, 0.0F}},
-        Sampling{{0, Wrap::repeat, Wrap::mirrored_repeat, false}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, 0.6F}},
-        Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, -2.2F}}));
+    ::testing::Combine(
+        ::testing::Values(
+            Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0}}, Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0}},
+            Sampling{{0, Wrap::repeat, Wrap::repeat, false}, {0, 0, {0.3F, -7.1F}, {2.5F, 3.0F}, 0.0F}},
+            Sampling{{0, Wrap::mirrored_repeat, Wrap::repeat, false}, {0, 0, {-1.3F, 0.1F}, {3.0F, 2.0F}, 0.0F}},
+            Sampling{{0, Wrap::mirrored_repeat, Wrap::mirrored_repeat, true},
+                     {0, 0, {-1.3F, 0.1F}, {3.0F, 3.0F}, 0.0F}},
+            Sampling{{0, Wrap::clamp_to_edge, Wrap::repeat, true}, {0, 0, {-0.4F, 0.1F}, {1.7F, 2.0F}, 0.0F}},
+            Sampling{{0, Wrap::repeat, Wrap::clamp_to_edge, false}, {0, 0, {0.0F, -0.6F}, {2.0F, 2.0F}, 0.0F}},
+            Sampling{{0, Wrap::repeat, Wrap::mirrored_repeat, false}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, 0.6F}},
+            Sampling{{0, Wrap::repeat, Wrap::repeat, true}, {0, 0, {0.2F, 0.1F}, {2.0F, 1.5F}, -2.2F}}),
+        ::testing::Bool(), ::testing::Bool()));
 
-TEST(MaskedLeaf, factor_texture_and_vertex_colour_multiply_and_the_cutoff_is_solid)
+TEST(MaskedQuad, factor_texture_and_vertex_colour_multiply_and_the_cutoff_is_solid)
 {
     const auto visibility = [](float factor, float of_vertices, float cutoff) {
         scene::Scene scene = leaf({0, Wrap::repeat, Wrap::repeat, false}, {});
@@ -140,7 +218,7 @@ TEST(MaskedLeaf, factor_texture_and_vertex_colour_multiply_and_the_cutoff_is_sol
     EXPECT_EQ(visibility(1.0F, 1.0F, 1.5F), 1.0);
 }
 
-TEST(MaskedLeaf, camera_looks_through_its_holes)
+TEST(MaskedQuad, camera_looks_through_its_holes)
 {
     scene::Scene scene = leaf({0, Wrap::repeat, Wrap::repeat, false}, {0});
     scene.materials[0].double_sided = true;

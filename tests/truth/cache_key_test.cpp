@@ -2,6 +2,9 @@
 // Which truths share an entry, and where entries are kept.
 #include "truth/cache.h"
 
+#include "cache_key.h"
+#include "device.h"
+
 #include "scene/worlds.h"
 
 #include <gtest/gtest.h>
@@ -59,6 +62,18 @@ TEST(CacheKey, EveryIngredientChangesIt)
         changes[i](other);
         EXPECT_TRUE(seen.insert(other.key()).second) << "change " << i;
     }
+}
+
+TEST(CacheKey, AnotherEmbreeOrOtherInstructionsChangeIt)
+{
+    const Asked asked = askedSample();
+    const auto by = [&](std::uint64_t identity) {
+        return keyBy(identity, asked.scene, asked.state, asked.view, asked.light, asked.options);
+    };
+    EXPECT_EQ(by(tracerIdentity()), asked.key());
+    EXPECT_NE(by(tracerIdentity() + (1U << 8U)), asked.key());
+    EXPECT_NE(by(tracerIdentity() ^ 4U), asked.key());
+    EXPECT_EQ(tracerIdentity() >> 8U, RTC_VERSION);
 }
 
 TEST(CacheKey, WhatDoesNotMatterDoesNotChangeIt)

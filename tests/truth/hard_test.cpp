@@ -90,6 +90,42 @@ TEST(Planes, near_distance_of_a_lamp_takes_casters_away)
     EXPECT_EQ(darkest(0.0, 8.0), 1.0); // the ground is inside the emitter
 }
 
+TEST(NearDistance, of_a_spot_is_a_plane_and_of_a_point_light_a_sphere)
+{
+    // 3 m below the light and 4 m beside it: 5 m away.
+    scene::Scene scene;
+    place(scene, addQuad(scene, level(0.0F, 16.0F)));
+    place(scene, addQuad(scene, ceiling(2.0F, 3.5F, 4.5F, 0.5F)));
+    const glm::dvec3 centre(0.0, 5.0, 0.0);
+    const View view = lookDown(4.0 / 3.0 * 5.0, 1.0, 0.1, {4, 4}); // where its shadow falls
+    const auto visibility = [&](scene::LightType type, const glm::dvec3& axis, double near_m, const Options& options) {
+        Light light = lamp(centre, 0.1, near_m);
+        light.type = type;
+        light.direction_ws = axis;
+        const Traced traced = trace(scene, view, light, options);
+        expectSound(traced);
+        EXPECT_EQ(traced.visibility.first_blocker_m.values[5] < 5.0F, traced.at(1, 1) < 1.0);
+        return traced.at(1, 1);
+    };
+    const glm::dvec3 down(0.0, -1.0, 0.0);
+    const glm::dvec3 aslant = glm::normalize(glm::dvec3(4.0, -3.0, 0.0)); // along it the quad's middle is 5 m deep
+    constexpr auto kSpot = scene::LightType::spot;
+    constexpr auto kPoint = scene::LightType::point;
+    for (const Options& options : {hard(), area(64)}) {
+        EXPECT_EQ(visibility(kSpot, down, 2.99, options), 0.0);
+        EXPECT_EQ(visibility(kSpot, down, 3.01, options), 1.0);
+        EXPECT_EQ(visibility(kPoint, down, 3.01, options), 0.0);
+        EXPECT_EQ(visibility(kPoint, down, 4.5, options), 0.0);
+        EXPECT_EQ(visibility(kPoint, down, 5.5, options), 1.0);
+        EXPECT_EQ(visibility(kSpot, aslant, 4.5, options), 0.0);
+        EXPECT_EQ(visibility(kSpot, aslant, 5.5, options), 1.0);
+        EXPECT_EQ(visibility(kSpot, down, 6.0, options), 1.0);   // the ground itself is nearer
+        EXPECT_EQ(visibility(kSpot, -down, 0.01, options), 1.0); // behind the light
+        EXPECT_EQ(visibility(kSpot, -down, 0.0, options), 0.0);  // no plane
+        EXPECT_EQ(visibility(kSpot, glm::dvec3(0.0, 2.0, 0.0) * -3.0, 2.99, options), 0.0); // made unit
+    }
+}
+
 TEST(Planes, camera_sees_what_a_ray_meets_first)
 {
     scene::Scene scene = scene::makePlanes(1);

@@ -34,19 +34,28 @@ scene::Scene cubes()
     instance({3.0F, 0.8F, -1.0F}, 2.2F, {0.4F, -1.1F, 0.8F});
     instance({0.5F, 1.0F, -3.0F}, 0.9F, {-0.5F, -0.5F, -0.2F});
     instance({-2.0F, 0.0F, 3.0F}, 0.1F, {0.01F, 2.0F, 0.5F});
-    instance({2.0F, 2.0F, 2.5F}, 0.0F, {0.5F, 0.0F, 0.5F}); // flat: takes no part
+    instance({2.0F, 2.0F, 2.5F}, 0.0F, {0.5F, 0.0F, 0.5F}); // flat
     return scene;
+}
+
+/// Takes the cube [-1, 1]^3 to where it stands; a flat one is a micrometre thick.
+glm::dmat4 solid(const scene::Object& object)
+{
+    glm::dmat4 m(object.world_from_object);
+    if (m[1] == glm::dvec4(0.0)) {
+        m[1] = glm::dvec4(glm::normalize(glm::cross(glm::dvec3(m[2]), glm::dvec3(m[0]))) * 1e-6, 0.0);
+    }
+    return m;
 }
 
 /// Whether a cube, grown by `margin` of its half size, stands between the two points.
 bool cubeBefore(const scene::State& state, const glm::dvec3& from, const glm::dvec3& to, double margin)
 {
     return std::any_of(state.objects.begin(), state.objects.end(), [&](const scene::Object& object) {
-        const glm::dmat4 m(object.world_from_object);
-        if (object.mesh != 1 || std::abs(glm::determinant(m)) < 1e-9) {
+        if (object.mesh != 1) {
             return false;
         }
-        const glm::dmat4 inverse = glm::inverse(m);
+        const glm::dmat4 inverse = glm::inverse(solid(object));
         const glm::dvec3 start(inverse * glm::dvec4(from, 1.0));
         const glm::dvec3 end(inverse * glm::dvec4(to, 1.0));
         return meetsCube(start, end - start, 1.0, margin);
@@ -63,12 +72,15 @@ TEST_P(Instances, mirrored_and_stretched_cubes_are_seen_and_cast_where_they_stan
     const scene::State state = scene::evaluate(scene, 0.0);
     const SceneGeometry geometry(scene, state, GetParam());
     ASSERT_EQ(geometry.part(1).instanced, GetParam() == 0);
+    ASSERT_FALSE(geometry.part(6).instanced); // a flat one has no inverse
+    ASSERT_TRUE(geometry.part(6).skewed);
     const View view = lookAt({1.0, 9.0, 12.0}, {0.0, 1.0, 0.0}, 0.7, {160, 120});
     const CameraRays camera(geometry, view);
     const Light light = sun({0.5, -1.0, -0.3});
     const ShadowRays rays(geometry, light, hard());
     std::uint32_t counted = 0;
     std::uint32_t dark = 0;
+    std::uint32_t on_flat = 0;
     for (std::uint32_t y = 0; y < 120; ++y) {
         for (std::uint32_t x = 0; x < 160; ++x) {
             const auto seen = camera.trace(x, y);
@@ -78,9 +90,10 @@ TEST_P(Instances, mirrored_and_stretched_cubes_are_seen_and_cast_where_they_stan
             if (state.objects[seen->object].mesh == 0) {
                 ASSERT_FALSE(cubeBefore(state, view.eye_ws, p, -1e-4));
             } else {
-                const glm::dmat4 m(state.objects[seen->object].world_from_object);
-                const glm::dvec3 q(glm::inverse(m) * glm::dvec4(p, 1.0));
-                ASSERT_NEAR(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}), 1.0, 1e-3);
+                const glm::dvec3 q(glm::inverse(solid(state.objects[seen->object])) * glm::dvec4(p, 1.0));
+                const bool flat = geometry.part(seen->object).skewed;
+                ASSERT_NEAR(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), flat ? 1.0 : 0.0}), 1.0, 1e-3);
+                on_flat += flat ? 1 : 0;
             }
             // Off the surface, so that the cube that the point is on does not count by rounding.
             const glm::dvec3 start = p + seen->normal * 1e-4;
@@ -105,9 +118,53 @@ TEST_P(Instances, mirrored_and_stretched_cubes_are_seen_and_cast_where_they_stan
     }
     EXPECT_GT(counted, 10000U);
     EXPECT_GT(dark, 500U);
+    EXPECT_GT(on_flat, 100U);
 }
 
 INSTANTIATE_TEST_SUITE_P(copied_or_instanced, Instances, ::testing::Values(std::uint64_t{1} << 30, std::uint64_t{0}));
+
+/// A cube over the ground, flattened along its y axis by `flatten` (0: for good), turned and moved; or the square that
+/// this is to look like, two-sided.
+Traced flattened(const glm::mat4& placed, float flatten, bool as_square, const Options& options)
+{
+    scene::Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].double_sided = true;
+    place(scene, addQuad(scene, level(0.0F, 8.0F)));
+    place(scene, as_square ? addQuad(scene, level(0.0F, 1.0F), 0) : addCube(scene),
+          as_square ? placed : glm::scale(placed, glm::vec3(1.0F, flatten, 1.0F)));
+    return trace(scene, lookAt({2.0, 6.0, 5.0}, {0.0, 0.8, 0.0}, 0.6, {120, 90}), sun({0.3, -1.0, 0.2}, 0.2), options);
+}
+
+TEST(Flattened, cube_is_seen_lit_and_casts_as_a_square)
+{
+    const glm::mat4 raised = glm::translate(glm::mat4(1.0F), glm::vec3(0.1F, 1.2F, -0.3F));
+    const glm::mat4 turned = glm::rotate(raised, 0.7F, glm::normalize(glm::vec3(0.5F, 0.3F, -0.8F)));
+    for (const glm::mat4& placed : {raised, turned}) {
+        for (const Options& options : {hard(), area(64)}) {
+            const Traced cube = flattened(placed, 0.0F, false, options);
+            const Traced square = flattened(placed, 0.0F, true, options);
+            expectSound(cube);
+            double error = 0.0;
+            std::uint32_t on_cube = 0;
+            std::uint32_t other = 0;
+            for (std::uint32_t y = 0; y < 90; ++y) {
+                for (std::uint32_t x = 0; x < 120; ++x) {
+                    on_cube += cube.id(x, y) == 2 ? 1 : 0;
+                    other += cube.id(x, y) != square.id(x, y) ? 1 : 0;
+                    error += std::abs(cube.at(x, y) - square.at(x, y));
+                }
+            }
+            EXPECT_GT(on_cube, 800U);
+            EXPECT_LE(other, 4U);
+            EXPECT_LE(error, 4.0); // of 10800 pixels, at the rims of both
+        }
+    }
+    // What must fail: a square that is not there, or a cube that is not flat.
+    const Traced square = flattened(raised, 0.0F, true, hard());
+    const Traced cube = flattened(raised, 0.2F, false, hard());
+    EXPECT_NE(square.surfaces.object_ids.values, cube.surfaces.object_ids.values);
+}
 
 /// A ceiling over the ground, seen from above through its back unless it is two-sided; the middle is in its shadow.
 struct Flags {

@@ -7,6 +7,9 @@
 
 #include "scene/worlds.h"
 
+#include <gnomon/error.h>
+
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -53,15 +56,92 @@ TEST(Run, ends_when_cancelled)
     options.cancel = &cancel;
     EXPECT_FALSE(tracer.see(kView, options).has_value());
     EXPECT_FALSE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
-    // From another thread, in the middle of it.
+    // In the middle of it: the image has 35 tiles, and no thread takes another one once the first was told of.
     cancel = false;
-    options.samples = 65536;
-    std::thread later([&cancel] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(30));
-        cancel = true;
-    });
+    options.samples = kMaxSamples;
+    double told = -1.0;
+    options.progress = [&](double share) {
+        if (share > 0.0 && !cancel) {
+            told = share;
+            cancel = true;
+        }
+    };
     EXPECT_FALSE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
-    later.join();
+    EXPECT_GT(told, 0.0);
+    EXPECT_LT(told, 1.0);
+}
+
+/// So many triangles that Embree tells of a building's progress more than once.
+scene::Scene balls(std::uint32_t count)
+{
+    scene::Scene scene;
+    const std::uint32_t ball = addBall(scene, 60);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        place(scene, ball, glm::translate(glm::mat4(1.0F), glm::vec3(3.0F * static_cast<float>(i), 0.0F, 0.0F)));
+    }
+    scene.nodes[0].casts = false; // so that there are two structures
+    scene::finishScene(scene);
+    return scene;
+}
+
+TEST(Building, tells_how_far_it_is_and_ends_when_cancelled)
+{
+    const scene::Scene scene = balls(8);
+    const scene::State state = scene::evaluate(scene, 0.0);
+    std::vector<double> shares;
+    Options options = hard();
+    options.progress = [&, caller = std::this_thread::get_id()](double share) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        shares.push_back(share);
+    };
+    const View view = lookDown(0.0, 5.0, 2.0, {4, 4});
+    EXPECT_TRUE(Tracer(scene, state, options).see(view, hard()).has_value());
+    ASSERT_GE(shares.size(), 4U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GE(shares[0], 0.0);
+    EXPECT_TRUE(std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.0 && share < 0.5; }));
+    EXPECT_GT(shares.back(), 0.99);
+    EXPECT_LE(shares.back(), 1.0);
+    // Cancelled within the first structure, within the second, and before it starts.
+    for (const double when : {0.01, 0.6, -1.0}) {
+        std::atomic<bool> cancel{when < 0.0};
+        double told = when;
+        options.cancel = &cancel;
+        options.progress = [&](double share) {
+            EXPECT_FALSE(cancel);
+            told = share;
+            cancel = share >= when;
+        };
+        const Tracer tracer(scene, state, options);
+        cancel = false; // so that it is the lack of a structure that ends them
+        EXPECT_FALSE(tracer.see(view, hard()).has_value());
+        const Surfaces none;
+        EXPECT_FALSE(tracer.trace(none, {.size_px = {0, 0}}, kSun, hard()).has_value());
+        EXPECT_GE(told, when);
+        EXPECT_LT(told, when + 0.4);
+    }
+    options.cancel = nullptr;
+    options.progress = [](double) {
+        throw std::logic_error("no");
+    };
+    EXPECT_THROW(Tracer(scene, state, options), std::logic_error);
+}
+
+TEST(Options, samples_that_do_not_divide_into_sets_are_refused)
+{
+    scene::Scene scene = scene::makePlanes(1);
+    const Traced traced = trace(scene, kView, kSun, hard());
+    const Tracer tracer(scene, traced.state);
+    for (const std::uint32_t samples : {0U, 1U, 3U, 5U, 255U, kMaxSamples + kSampleSets, 0xFFFFFFFCU}) {
+        EXPECT_THROW((void)tracer.trace(traced.surfaces, kView, kSun, area(samples)), Error) << samples;
+        Options one_ray = hard();
+        one_ray.samples = samples;
+        EXPECT_TRUE(tracer.trace(traced.surfaces, kView, kSun, one_ray).has_value());
+    }
+    const Visibility least = tracer.trace(traced.surfaces, kView, kSun, area(kSampleSets)).value();
+    for (const float v : least.visibility.values) {
+        ASSERT_TRUE(v >= 0.0F && v <= 1.0F) << v;
+    }
 }
 
 TEST(Run, progress_rises_to_one_on_the_calling_thread)
@@ -70,14 +150,15 @@ TEST(Run, progress_rises_to_one_on_the_calling_thread)
     const Traced traced = trace(scene, kView, kSun, hard());
     const Tracer tracer(scene, traced.state);
     std::vector<double> shares;
-    Options options = area(4096);
+    Options options = area(8192);
     options.progress = [&, caller = std::this_thread::get_id()](double share) {
         EXPECT_EQ(std::this_thread::get_id(), caller);
         shares.push_back(share);
     };
     ASSERT_TRUE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
-    ASSERT_FALSE(shares.empty());
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_TRUE(std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.0 && share < 1.0; }));
+    ASSERT_FALSE(shares.empty());
     EXPECT_GE(shares.front(), 0.0);
     EXPECT_EQ(shares.back(), 1.0);
 }

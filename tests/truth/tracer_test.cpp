@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace gnomon::truth::test {
 namespace {
@@ -32,7 +33,8 @@ TEST(Degenerate, triangles_and_transforms_do_no_harm)
     scene.nodes.reserve(16);
     place(scene, cube, glm::translate(glm::mat4(1.0F), glm::vec3(0.0F, 2.0F, 0.0F)));
     place(scene, cube, glm::mat4(0.0F));
-    place(scene, cube, glm::scale(glm::mat4(1.0F), glm::vec3(1.0F, 0.0F, 1.0F)));
+    place(scene, cube,
+          glm::scale(glm::translate(glm::mat4(1.0F), glm::vec3(-2.5F, 1.0F, 0.0F)), glm::vec3(1.0F, 0.0F, 1.0F)));
     place(scene, cube, glm::mat4(nan));
     place(scene, cube, glm::scale(glm::mat4(1.0F), glm::vec3(1e-30F)));
     scene.meshes.push_back({.name = "empty", .primitives = {scene::Primitive{}}});
@@ -41,8 +43,8 @@ TEST(Degenerate, triangles_and_transforms_do_no_harm)
         const Traced traced =
             trace(scene, lookAt({3.0, 5.0, 6.0}, {0.0, 1.0, 0.0}, 0.9, {40, 30}), sun({0.1, -1.0, 0.2}, 0.3), options);
         expectSound(traced);
-        EXPECT_EQ(*std::max_element(traced.surfaces.object_ids.values.begin(), traced.surfaces.object_ids.values.end()),
-                  2U);
+        const auto& ids = traced.surfaces.object_ids.values;
+        EXPECT_EQ(std::set(ids.begin(), ids.end()), (std::set<std::uint32_t>{0, 1, 2, 4})); // 4 is merely flat
     }
 }
 
@@ -126,6 +128,33 @@ TEST(FarAway, ten_kilometres_change_nothing)
         EXPECT_LE(different, 5U);
         EXPECT_GT(*std::max_element(here.surfaces.object_ids.values.begin(), here.surfaces.object_ids.values.end()),
                   1U);
+    }
+}
+
+TEST(Morphed, quad_takes_its_shadow_with_it)
+{
+    scene::Scene scene;
+    place(scene, addQuad(scene, level(0.0F, 8.0F)));
+    const std::uint32_t moving = addQuad(scene, ceiling(1.0F, -1.5F, -0.5F, 0.5F));
+    // From x in [-1.5, -0.5] to x in [0.5, 1.5], and from height 1 to height 2, in two seconds.
+    scene.meshes[moving].primitives[0].morph_targets.push_back({.positions = {4, glm::vec3(2.0F, 1.0F, 0.0F)}});
+    scene.meshes[moving].morph_weights = {0.0F};
+    place(scene, moving).use_matrix = false; // a node with a matrix is not animated
+    scene.animations.push_back(
+        {.channels =
+             {{.node = 1, .path = scene::AnimationPath::weights, .times_s = {0.0F, 2.0F}, .values = {0.0F, 1.0F}}},
+         .duration_s = 2.0F});
+    for (const double time_s : {0.0, 0.5, 2.0}) {
+        const Traced traced = trace(scene, lookDown(0.0, 0.9, 2.0, {80, 8}), sun({0.0, -1.0, 0.0}), hard(), time_s);
+        ASSERT_EQ(traced.state.deformed.size(), 1U);
+        for (std::uint32_t x = 0; x < 80; ++x) {
+            const double from_middle = std::abs(traced.point(x, 4).x - (time_s - 1.0));
+            ASSERT_EQ(traced.id(x, 4), 1U);
+            ASSERT_EQ(traced.at(x, 4), from_middle < 0.5 ? 0.0 : 1.0) << time_s << ' ' << x;
+            if (from_middle < 0.5) {
+                ASSERT_NEAR(*traced.visibility.first_blocker_m.pixel(x, 4), 1.0 + time_s / 2.0, 1e-4);
+            }
+        }
     }
 }
 

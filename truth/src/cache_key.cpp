@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a truth depends on. Structs are taken apart by structured bindings, so that a new member does not compile until
 // somebody has decided here whether it counts.
-#include "truth/cache.h"
+#include "cache_key.h"
+
+#include "device.h"
 
 namespace gnomon::truth {
 namespace {
@@ -44,11 +46,12 @@ void add(scene::Hasher& hasher, const Light& light)
 
 } // namespace
 
-scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const View& view, const Light& light,
-                     const Options& options)
+scene::Hash128 keyBy(std::uint64_t identity, const scene::Scene& scene, const scene::State& state, const View& view,
+                     const Light& light, const Options& options)
 {
     scene::Hasher hasher;
     hasher.add(kTracerVersion);
+    hasher.add(identity);
     add(hasher, scene::sceneHash(scene));
     add(hasher, scene::stateHash(state));
     add(hasher, view);
@@ -60,6 +63,12 @@ scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const
         hasher.add(seed);
     }
     return hasher.value();
+}
+
+scene::Hash128 keyOf(const scene::Scene& scene, const scene::State& state, const View& view, const Light& light,
+                     const Options& options)
+{
+    return keyBy(tracerIdentity(), scene, state, view, light, options);
 }
 
 } // namespace gnomon::truth

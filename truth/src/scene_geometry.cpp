@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gnomon::truth {
 namespace {
@@ -30,11 +31,10 @@ bool isFinite(const glm::dmat4& m)
     return true;
 }
 
-/// Flat to within rounding of the floats that it came in.
-bool isSingular(const glm::dmat3& m)
+bool isSkewed(const glm::dmat3& m)
 {
     const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
-    return !(std::abs(glm::determinant(m)) > 1e-9 * lengths);
+    return !(std::abs(glm::determinant(m)) > 1e-2 * lengths);
 }
 
 std::uint64_t triangleCount(const scene::Primitive& primitive)
@@ -54,22 +54,17 @@ double largest(const glm::dvec3& v)
 
 } // namespace
 
-SceneGeometry::SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles)
-    // One thread builds, so that the structure, and with it the choice between equally near triangles, is always the
-    // same.
-    : device_(rtcNewDevice("threads=1,set_affinity=0"))
+SceneGeometry::SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles,
+                             const Options& options)
+    : device_(newDevice())
 {
-    if (!device_) {
-        throw Error("starting the ray tracer", "Embree gave no device (error " +
-                                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
-    }
     const glm::dvec3 centre(state.bounds_ws.centre());
     if (!state.bounds_ws.empty() && std::isfinite(centre.x) && std::isfinite(centre.y) && std::isfinite(centre.z)) {
         origin_ws_ = centre;
     }
     describe(scene, state);
     chooseInstances(state, flat_triangles);
-    build(state);
+    build(state, options);
 }
 
 void SceneGeometry::describe(const scene::Scene& scene, const scene::State& state)
@@ -88,10 +83,12 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         part.rel_from_object = glm::dmat4(object.world_from_object);
         part.rel_from_object[3] -= glm::dvec4(origin_ws_, 0.0);
         if (triangleCount(primitive) == 0 || primitive.positions.empty() || !isFinite(part.rel_from_object) ||
-            isSingular(glm::dmat3(part.rel_from_object)) || material.alpha_mode == scene::AlphaMode::blend) {
+            material.alpha_mode == scene::AlphaMode::blend) {
             continue;
         }
-        part.mirrored = glm::determinant(glm::dmat3(part.rel_from_object)) < 0.0;
+        // In single precision, as rasterisers have it: of a flattened object rounding chooses, and must choose alike.
+        part.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0F;
+        part.skewed = isSkewed(glm::dmat3(part.rel_from_object));
         part.primitive = &primitive;
         part.positions =
             object.deformed == scene::kNone ? &primitive.positions : &state.deformed[object.deformed].positions;
@@ -116,12 +113,31 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const scene::Object& object = state.objects[i];
-        parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone &&
+        parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone && !parts_[i].skewed &&
                               uses[{object.mesh, object.primitive}] > 1;
     }
 }
 
-void SceneGeometry::build(const scene::State& state)
+/// Of the scenes that build() commits, together.
+std::uint64_t SceneGeometry::trianglesToBuild(const scene::State& state, bool all_cast) const
+{
+    std::uint64_t triangles = 1; // a scene may have none
+    std::set<std::pair<std::uint32_t, std::uint32_t>> instanced;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const Part& part = parts_[i];
+        if (part.primitive == nullptr) {
+            continue;
+        }
+        if (!part.instanced) {
+            triangles += triangleCount(*part.primitive) * (all_cast || !part.casts ? 1 : 2);
+        } else if (instanced.insert({state.objects[i].mesh, state.objects[i].primitive}).second) {
+            triangles += triangleCount(*part.primitive);
+        }
+    }
+    return triangles;
+}
+
+void SceneGeometry::build(const scene::State& state, const Options& options)
 {
     seen_ = newScene();
     const bool all_cast = std::all_of(parts_.begin(), parts_.end(),
@@ -129,21 +145,29 @@ void SceneGeometry::build(const scene::State& state)
     if (!all_cast) {
         casters_ = newScene();
     }
+    Building building(options, trianglesToBuild(state, all_cast));
+    std::uint64_t seen_triangles = 0;
+    std::uint64_t caster_triangles = 0;
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         if (part.primitive == nullptr) {
             continue;
         }
+        building.start(0);
         const GeometryPointer geometry =
-            part.instanced ? instanceOf(state.objects[i], part) : trianglesOf(part, part.rel_from_object);
+            part.instanced ? instanceOf(state.objects[i], part, building) : trianglesOf(part, part.rel_from_object);
+        if (!part.instanced) {
+            seen_triangles += triangleCount(*part.primitive);
+            caster_triangles += part.casts ? triangleCount(*part.primitive) : 0;
+        }
         rtcAttachGeometryByID(seen_.get(), geometry.get(), i);
         if (casters_ && part.casts) {
             rtcAttachGeometryByID(casters_.get(), geometry.get(), i);
         }
     }
-    commit(seen_.get());
+    commit(seen_.get(), building, seen_triangles);
     if (casters_) {
-        commit(casters_.get());
+        commit(casters_.get(), building, caster_triangles);
     }
 }
 
@@ -172,13 +196,13 @@ GeometryPointer SceneGeometry::trianglesOf(const Part& part, const glm::dmat4& t
     return geometry;
 }
 
-GeometryPointer SceneGeometry::instanceOf(const scene::Object& object, const Part& part)
+GeometryPointer SceneGeometry::instanceOf(const scene::Object& object, const Part& part, Building& building)
 {
     ScenePointer& scene = instanced_[{object.mesh, object.primitive}];
     if (!scene) {
         scene = newScene();
         rtcAttachGeometry(scene.get(), trianglesOf(part, glm::dmat4(1.0)).get());
-        commit(scene.get());
+        commit(scene.get(), building, triangleCount(*part.primitive));
     }
     GeometryPointer geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
     check();
@@ -198,10 +222,15 @@ ScenePointer SceneGeometry::newScene()
     return scene;
 }
 
-void SceneGeometry::commit(RTCScene scene) const
+void SceneGeometry::commit(RTCScene scene, Building& building, std::uint64_t triangles) const
 {
+    building.start(triangles);
+    rtcSetSceneProgressMonitorFunction(
+        scene, [](void* to, double share) { return static_cast<Building*>(to)->reached(share); }, &building);
     rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
     check();
+    building.finish();
 }
 
 void SceneGeometry::check() const
@@ -210,7 +239,8 @@ void SceneGeometry::check() const
     if (error == RTC_ERROR_OUT_OF_MEMORY) {
         throw Error(kTried, "memory ran out", "use a smaller scene");
     }
-    if (error != RTC_ERROR_NONE) {
+    // Who cancelled says so.
+    if (error != RTC_ERROR_NONE && error != RTC_ERROR_CANCELLED) {
         throw Error(kTried, "Embree's error " + std::to_string(static_cast<int>(error)));
     }
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "alpha.h"
+#include "building.h"
+#include "device.h"
 
 #include "scene/state.h"
 
@@ -20,10 +22,6 @@
 
 namespace gnomon::truth {
 
-struct DeviceDeleter {
-    using pointer = RTCDevice;
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
 struct SceneDeleter {
     using pointer = RTCScene;
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
@@ -32,7 +30,6 @@ struct GeometryDeleter {
     using pointer = RTCGeometry;
     void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
-using DevicePointer = std::unique_ptr<RTCDevice, DeviceDeleter>;
 using ScenePointer = std::unique_ptr<RTCScene, SceneDeleter>;
 using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
 
@@ -58,6 +55,8 @@ struct Part {
     bool casts = true;
     bool receives = true;
     bool instanced = false;
+    /// Flat, or so nearly that the inverse in single precision that Embree keeps of an instance would misplace it.
+    bool skewed = false;
 };
 
 struct Triangle {
@@ -69,8 +68,9 @@ struct Triangle {
 class SceneGeometry {
 public:
     /// `scene` and `state` must outlive it. Objects that take more than `flat_triangles` together are instanced where a
-    /// mesh is used more than once. Throws Error when memory runs out.
-    SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles);
+    /// mesh is used more than once. Throws Error when memory runs out, BuildingCancelled when `options` says so.
+    SceneGeometry(const scene::Scene& scene, const scene::State& state, std::uint64_t flat_triangles,
+                  const Options& options = {});
 
     /// All that a camera sees, and all that casts.
     [[nodiscard]] RTCScene seen() const { return seen_.get(); }
@@ -85,11 +85,13 @@ public:
 private:
     void describe(const scene::Scene& scene, const scene::State& state);
     void chooseInstances(const scene::State& state, std::uint64_t flat_triangles);
-    void build(const scene::State& state);
+    void build(const scene::State& state, const Options& options);
+    [[nodiscard]] std::uint64_t trianglesToBuild(const scene::State& state, bool all_cast) const;
     [[nodiscard]] GeometryPointer trianglesOf(const Part& part, const glm::dmat4& to_from_object);
-    [[nodiscard]] GeometryPointer instanceOf(const scene::Object& object, const Part& part);
+    [[nodiscard]] GeometryPointer instanceOf(const scene::Object& object, const Part& part, Building& building);
     [[nodiscard]] ScenePointer newScene();
-    void commit(RTCScene scene) const;
+    /// `triangles`: how many of those that `building` counts.
+    void commit(RTCScene scene, Building& building, std::uint64_t triangles) const;
     void check() const;
 
     DevicePointer device_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kLanes = 16;
+constexpr float kLeastSink = std::numeric_limits<float>::min(); // a positive number instead of 0 or less
 
 /// A ray's own end is off by rounding, and a shell drawn around the emitter must not stand in its light.
 constexpr double kEndShare = 1.0 - 0x1p-18;
@@ -52,6 +53,10 @@ private:
     float s2_;
     float slope_; // (1 - s^2) tangent^2
     float reach_; // d (1 - s^2)
+    // It meets the near plane after t = above / (-w . n), above being how far its start is from there; hardly ever
+    // where it does not sink.
+    glm::vec3 plane_normal_;
+    float above_plane_;
 };
 
 ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
@@ -74,6 +79,8 @@ ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
     s2_ = static_cast<float>(s * s);
     slope_ = static_cast<float>((1.0 - s * s) * light.tangent * light.tangent);
     reach_ = static_cast<float>(light.distance_m * (1.0 - s * s) * kEndShare);
+    plane_normal_ = light.plane_normal;
+    above_plane_ = static_cast<float>(light.above_plane_m * kEndShare);
 }
 
 /// Rays `first` and on of `set`, as many as there are; those below the horizon are not valid.
@@ -88,7 +95,10 @@ void ShadowRays::Packet::aim(std::span<const DiscPoint> set, std::uint32_t first
         rays.dir_x[k] = centre_.x + right_.x * a + up_.x * b;
         rays.dir_y[k] = centre_.y + right_.y * a + up_.y * b;
         rays.dir_z[k] = centre_.z + right_.z * a + up_.z * b;
-        ends[k] = reach_ / (1.0F + std::sqrt(std::max(s2_ - slope_ * point.area, 0.0F)));
+        const float sphere_end = reach_ / (1.0F + std::sqrt(std::max(s2_ - slope_ * point.area, 0.0F)));
+        const float sinks =
+            -(rays.dir_x[k] * plane_normal_.x + rays.dir_y[k] * plane_normal_.y + rays.dir_z[k] * plane_normal_.z);
+        ends[k] = std::min(sphere_end, above_plane_ / std::max(sinks, kLeastSink));
         rays.tfar[k] = ends[k];
         const float height = rays.dir_x[k] * normal_.x + rays.dir_y[k] * normal_.y + rays.dir_z[k] * normal_.z;
         valid[k] = height > 0.0F && first + k < count ? -1 : 0;
@@ -119,13 +129,24 @@ ShadowRays::Seen ShadowRays::see(const glm::dvec3& rel) const
     seen.distance_m = glm::length(to_centre);
     const double radius_m = area_ ? light_.radius_m : 0.0;
     seen.inside = seen.distance_m <= radius_m || seen.distance_m <= 0.0;
+    const bool has_plane = light_.type == scene::LightType::spot && light_.near_m > 0.0;
+    if (has_plane) {
+        seen.plane_normal = light_.direction_ws;
+        seen.above_plane_m = -glm::dot(to_centre, light_.direction_ws) - light_.near_m;
+    }
     if (!seen.inside) {
         seen.direction = to_centre / seen.distance_m;
         // The cone that touches the sphere: sine r / d, so tangent r / sqrt(d^2 - r^2).
         seen.tangent = radius_m / std::sqrt((seen.distance_m - radius_m) * (seen.distance_m + radius_m));
-        seen.end_radius_m = std::max(radius_m, light_.near_m);
+        seen.end_radius_m = has_plane ? radius_m : std::max(radius_m, light_.near_m);
     }
     return seen;
+}
+
+double ShadowRays::Seen::centreEnd_m() const
+{
+    const double sinks = -glm::dot(direction, plane_normal);
+    return std::min(distance_m - end_radius_m, above_plane_m / std::max(sinks, double{kLeastSink})) * kEndShare;
 }
 
 ShadowRays::Result ShadowRays::trace(const Receiver& receiver) const
@@ -140,7 +161,7 @@ ShadowRays::Result ShadowRays::trace(const Receiver& receiver) const
         result.visibility = 0.0;
         return result;
     }
-    if (light.distance_m <= light.end_radius_m) {
+    if (light.distance_m <= light.end_radius_m || light.above_plane_m <= 0.0) {
         return result; // all between the point and the light is too near to the light to cast
     }
     return area_ ? traceDisc(receiver, light) : traceCentre(receiver, light);
@@ -170,8 +191,7 @@ ShadowRays::Result ShadowRays::traceCentre(const Receiver& receiver, const Seen&
 {
     Result result;
     result.rays = 1;
-    const double end_m = (light.distance_m - light.end_radius_m) * kEndShare;
-    result.first_blocker_m = blockerAlong(receiver, light.direction, end_m);
+    result.first_blocker_m = blockerAlong(receiver, light.direction, light.centreEnd_m());
     result.visibility = result.first_blocker_m == kInfinity ? 1.0 : 0.0;
     return result;
 }
@@ -217,8 +237,7 @@ void ShadowRays::findBlocker(const Receiver& receiver, const Seen& light, const 
         return;
     }
     ++result.rays;
-    result.first_blocker_m =
-        blockerAlong(receiver, light.direction, (light.distance_m - light.end_radius_m) * kEndShare);
+    result.first_blocker_m = blockerAlong(receiver, light.direction, light.centreEnd_m());
     if (result.first_blocker_m < kInfinity) {
         return;
     }

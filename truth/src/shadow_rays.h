@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace gnomon::truth {
@@ -49,8 +50,14 @@ private:
         glm::dvec3 direction{0.0}; // unit, to the centre
         double distance_m = 0.0;   // to the centre; +infinity for a directional light
         double tangent = 0.0;      // of half the angle that it fills
-        double end_radius_m = 0.0; // rays end on this sphere around the centre
-        bool inside = false;       // nothing can stand between
+        double end_radius_m = 0.0; // rays end on this sphere around the centre, or before
+        /// Of a spot's near plane, where rays end too: unit, away from the light; 0 where there is none.
+        glm::dvec3 plane_normal{0.0};
+        double above_plane_m = std::numeric_limits<double>::infinity(); // how far the point is beyond it
+        bool inside = false;                                            // nothing can stand between
+
+        /// Along the ray to the centre.
+        [[nodiscard]] double centreEnd_m() const;
     };
     struct Packet;
     static constexpr std::uint32_t kBlockedKept = 4;

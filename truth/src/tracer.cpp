@@ -14,6 +14,7 @@
 #include <chrono>
 #include <limits>
 #include <new>
+#include <string>
 
 namespace gnomon::truth {
 namespace {
@@ -22,12 +23,25 @@ namespace {
 /// that instances take; a triangle takes some 200 bytes.
 constexpr std::uint64_t kFlatTriangles = 3'000'000;
 
-std::unique_ptr<SceneGeometry> buildGeometry(const scene::Scene& scene, const scene::State& state)
+/// Null when cancelled.
+std::unique_ptr<SceneGeometry> buildGeometry(const scene::Scene& scene, const scene::State& state,
+                                             const Options& options)
 {
     try {
-        return std::make_unique<SceneGeometry>(scene, state, kFlatTriangles);
+        return std::make_unique<SceneGeometry>(scene, state, kFlatTriangles, options);
+    } catch (const BuildingCancelled&) {
+        return nullptr;
     } catch (const std::bad_alloc&) {
         throw Error("building the ray tracer's structure", "memory ran out", "use a smaller scene");
+    }
+}
+
+void requireSamples(const Options& options)
+{
+    const std::uint32_t samples = options.samples;
+    if (options.kind == Kind::area && (samples < kSampleSets || samples > kMaxSamples || samples % kSampleSets != 0)) {
+        throw Error("tracing area light", std::to_string(samples) + " rays per pixel were asked for",
+                    "ask for a multiple of " + std::to_string(kSampleSets) + " up to " + std::to_string(kMaxSamples));
     }
 }
 
@@ -56,7 +70,7 @@ void forEachPixel(const Tile& tile, const F& f)
 } // namespace
 
 struct Tracer::Impl {
-    std::unique_ptr<SceneGeometry> geometry;
+    std::unique_ptr<SceneGeometry> geometry; // null: building was cancelled
 
     /// Nothing where no shadow ray is to be traced.
     [[nodiscard]] std::optional<Receiver> receiverAt(const Surfaces& surfaces, const View& view, std::uint32_t x,
@@ -85,9 +99,10 @@ std::optional<Receiver> Tracer::Impl::receiverAt(const Surfaces& surfaces, const
     return receiver;
 }
 
-Tracer::Tracer(const scene::Scene& scene, const scene::State& state) : impl_(std::make_unique<Impl>())
+Tracer::Tracer(const scene::Scene& scene, const scene::State& state, const Options& options)
+    : impl_(std::make_unique<Impl>())
 {
-    impl_->geometry = buildGeometry(scene, state);
+    impl_->geometry = buildGeometry(scene, state, options);
 }
 
 Tracer::~Tracer() = default;
@@ -95,6 +110,9 @@ Tracer::~Tracer() = default;
 std::optional<Surfaces> Tracer::see(const View& view, const Options& options) const
 {
     assert(view.size_px.x >= 1 && view.size_px.y >= 1);
+    if (!impl_->geometry) {
+        return {};
+    }
     const glm::uvec2 size = view.size_px;
     Surfaces surfaces{ImageOf<std::uint32_t>(size.x, size.y, 1, 0),
                       ImageOf<std::uint32_t>(size.x, size.y, 1, scene::kNone), ImageF(size.x, size.y, 3, 0.0F),
@@ -117,7 +135,10 @@ std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& vi
                                         const Options& options) const
 {
     assert(surfaces.object_ids.width == view.size_px.x && surfaces.object_ids.height == view.size_px.y);
-    assert(options.samples >= kSampleSets && options.samples <= 65536 && options.samples % kSampleSets == 0);
+    requireSamples(options);
+    if (!impl_->geometry) {
+        return {};
+    }
     const auto start = std::chrono::steady_clock::now();
     const glm::uvec2 size = view.size_px;
     Visibility result{options.kind, ImageF(size.x, size.y, 1, 1.0F), ImageF(size.x, size.y, 1, 0.0F),

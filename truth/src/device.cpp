@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device.h"
+
+#include <gnomon/error.h>
+
+#include <string>
+
+namespace gnomon::truth {
+namespace {
+
+/// What Embree's properties leave open: whether eight lanes multiply and add in one rounding.
+bool fusesMultiplyAdd()
+{
+#if defined(__x86_64__) || defined(__i386__)
+    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+#else
+    return true;
+#endif
+}
+
+std::uint64_t findIdentity()
+{
+    const DevicePointer device = newDevice();
+    const auto has = [&](RTCDeviceProperty property) -> std::uint64_t {
+        return rtcGetDeviceProperty(device.get(), property) != 0 ? 1 : 0;
+    };
+    const auto version =
+        static_cast<std::uint64_t>(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_VERSION)); // 31305 is 3.13.5
+    return version << 8U | has(RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) |
+           has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) << 1U |
+           has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) << 2U | (fusesMultiplyAdd() ? 8U : 0U);
+}
+
+} // namespace
+
+DevicePointer newDevice()
+{
+    DevicePointer device(rtcNewDevice("threads=1,set_affinity=0"));
+    if (!device) {
+        throw Error("starting the ray tracer", "Embree gave no device (error " +
+                                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+    }
+    return device;
+}
+
+std::uint64_t tracerIdentity()
+{
+    static const std::uint64_t kIdentity = findIdentity();
+    return kIdentity;
+}
+
+} // namespace gnomon::truth
