@@ -26,12 +26,22 @@ struct OpponentPlanes {
     Plane cz;
 };
 
-OpponentPlanes opponentPlanes(const ImageF& image)
+/// Rows of a picture.
+struct Rows {
+    std::size_t first = 0;
+    std::size_t end = 0;
+    [[nodiscard]] std::size_t count() const { return end - first; }
+};
+
+/// Of a picture in colour, or in grey light.
+OpponentPlanes opponentPlanes(const ImageF& image, Rows rows)
 {
-    OpponentPlanes planes{{image.width, image.height}, {image.width, image.height}, {image.width, image.height}};
+    const std::size_t width = image.width;
+    OpponentPlanes planes{{width, rows.count()}, {width, rows.count()}, {width, rows.count()}};
+    const bool coloured = image.channels == 3;
     for (std::size_t i = 0; i < planes.y.values.size(); ++i) {
-        const float* rgb = image.values.data() + 3 * i;
-        const Opponent colour = opponentFromLinear(clampToCube({rgb[0], rgb[1], rgb[2]}));
+        const float* rgb = image.values.data() + image.channels * (rows.first * width + i);
+        const Opponent colour = opponentFromLinear(clampToCube({rgb[0], rgb[coloured ? 1 : 0], rgb[coloured ? 2 : 0]}));
         planes.y.values[i] = colour.y;
         planes.cx.values[i] = colour.cx;
         planes.cz.values[i] = colour.cz;
@@ -53,9 +63,8 @@ HuntLab perceivedColour(const OpponentPlanes& resolved, std::size_t i)
     return huntLabFromLinear(clampToCube(linearFromOpponent(colour)));
 }
 
-Plane colourDifference(const OpponentPlanes& test, const OpponentPlanes& reference, double pixels_per_degree)
+Plane colourDifference(const OpponentPlanes& test, const OpponentPlanes& reference, const ContrastFilters& filters)
 {
-    const ContrastFilters filters = contrastFilters(pixels_per_degree);
     const OpponentPlanes resolved_test = resolvedPlanes(test, filters);
     const OpponentPlanes resolved_reference = resolvedPlanes(reference, filters);
     const Redistribution redistribute;
@@ -76,11 +85,10 @@ Plane luminancePlane(Plane y)
 }
 
 // (F10) (max(| |edge| - |edge'| |, | |point| - |point'| |) / sqrt(2))^q_f, of the unfiltered luminance.
-Plane featureDifference(OpponentPlanes test, OpponentPlanes reference, double pixels_per_degree)
+Plane featureDifference(Plane test_y, Plane reference_y, const FeatureKernels& kernels)
 {
-    const FeatureKernels kernels = featureKernels(pixels_per_degree);
-    const Features of_test = findFeatures(luminancePlane(std::move(test.y)), kernels);
-    const Features of_reference = findFeatures(luminancePlane(std::move(reference.y)), kernels);
+    const Features of_test = findFeatures(luminancePlane(std::move(test_y)), kernels);
+    const Features of_reference = findFeatures(luminancePlane(std::move(reference_y)), kernels);
     Plane difference(of_test.edge.width, of_test.edge.height);
     for (std::size_t i = 0; i < difference.values.size(); ++i) {
         const double edge = std::abs(of_test.edge.values[i] - of_reference.edge.values[i]);
@@ -92,35 +100,68 @@ Plane featureDifference(OpponentPlanes test, OpponentPlanes reference, double pi
     return difference;
 }
 
-ImageF greyPicture(const ImageF& mask)
-{
-    ImageF picture(mask.width, mask.height, 3);
-    for (std::size_t i = 0; i < mask.values.size(); ++i) {
-        std::fill_n(picture.values.data() + 3 * i, 3, mask.values[i]);
-    }
-    return picture;
-}
+/// The filters of one distance, and how far they reach.
+struct Eye {
+    ContrastFilters contrast;
+    FeatureKernels features;
+    std::size_t reach = 0; // rows
 
-} // namespace
+    explicit Eye(double pixels_per_degree)
+        : contrast(contrastFilters(pixels_per_degree)), features(featureKernels(pixels_per_degree)),
+          reach(features.smooth.size() / 2)
+    {
+        for (const ContrastFilter* filter : {&contrast.achromatic, &contrast.red_green, &contrast.blue_yellow}) {
+            for (const Lobe& lobe : filter->lobes) {
+                reach = std::max(reach, lobe.kernel.size() / 2);
+            }
+        }
+    }
+};
 
 // (F11) dE = dE_c^(1 - dE_f): a difference of features makes a difference of colours stand out.
-ImageF flipMap(const ImageF& test, const ImageF& reference, double pixels_per_degree)
+void differRows(const ImageF& test, const ImageF& reference, const Eye& eye, Rows rows, ImageF& result)
 {
-    assert(test.channels == 3 && reference.channels == 3);
+    // With as many rows around them as the filters reach, these rows come out as they would of the whole picture.
+    const Rows wide{rows.first - std::min(rows.first, eye.reach),
+                    std::min<std::size_t>(rows.end + eye.reach, test.height)};
+    OpponentPlanes of_test = opponentPlanes(test, wide);
+    OpponentPlanes of_reference = opponentPlanes(reference, wide);
+    const Plane colour = colourDifference(of_test, of_reference, eye.contrast);
+    const Plane feature = featureDifference(std::move(of_test.y), std::move(of_reference.y), eye.features);
+    for (std::size_t y = rows.first; y < rows.end; ++y) {
+        const double* colours = colour.row(y - wide.first);
+        const double* features = feature.row(y - wide.first);
+        for (std::size_t x = 0; x < result.width; ++x) {
+            result.values[y * result.width + x] = static_cast<float>(std::pow(colours[x], 1.0 - features[x]));
+        }
+    }
+}
+
+/// Strip by strip, because the planes of a whole picture would take a hundred and more bytes a pixel. Strips of 128
+/// rows cost a sixth more time at the usual distance, those of four times the filters' reach at most half as much
+/// again.
+ImageF differences(const ImageF& test, const ImageF& reference, double pixels_per_degree)
+{
     assert(test.width == reference.width && test.height == reference.height);
     assert(pixels_per_degree >= kFlipLeastPixelsPerDegree && pixels_per_degree <= kFlipMostPixelsPerDegree);
     ImageF result(test.width, test.height, 1);
     if (result.values.empty()) {
         return result;
     }
-    OpponentPlanes of_test = opponentPlanes(test);
-    OpponentPlanes of_reference = opponentPlanes(reference);
-    const Plane colour = colourDifference(of_test, of_reference, pixels_per_degree);
-    const Plane feature = featureDifference(std::move(of_test), std::move(of_reference), pixels_per_degree);
-    for (std::size_t i = 0; i < result.values.size(); ++i) {
-        result.values[i] = static_cast<float>(std::pow(colour.values[i], 1.0 - feature.values[i]));
+    const Eye eye(pixels_per_degree);
+    const std::size_t strip = std::max<std::size_t>(128, 4 * eye.reach);
+    for (std::size_t first = 0; first < result.height; first += strip) {
+        differRows(test, reference, eye, {first, std::min<std::size_t>(first + strip, result.height)}, result);
     }
     return result;
+}
+
+} // namespace
+
+ImageF flipMap(const ImageF& test, const ImageF& reference, double pixels_per_degree)
+{
+    assert(test.channels == 3 && reference.channels == 3);
+    return differences(test, reference, pixels_per_degree);
 }
 
 std::optional<double> flip(const ImageF& test, const ImageF& truth, const Counted& counted, double pixels_per_degree)
@@ -139,7 +180,7 @@ std::optional<double> flip(const ImageF& test, const ImageF& truth, const Counte
     if (count == 0) {
         return std::nullopt;
     }
-    const ImageF map = flipMap(greyPicture(seen), greyPicture(truth), pixels_per_degree);
+    const ImageF map = differences(seen, truth, pixels_per_degree);
     double sum = 0.0;
     for (std::size_t i = 0; i < map.values.size(); ++i) {
         if (counted.values[i] != 0) {

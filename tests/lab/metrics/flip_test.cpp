@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flip_images.h"
+#include "heap_peak.h"
 #include "lab/metrics/flip.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -194,6 +197,53 @@ TEST(Flip, IsOneWhereAPictureHasPointsOfOnePixelThatFillTheFilter)
         }
     }
     EXPECT_NEAR(*flipMap(uniform(12, 12, 0.5F, 0.5F, 0.5F), board, 4.0).pixel(6, 6), 1.0, 1e-6);
+}
+
+ImageF rowsOf(const ImageF& image, std::uint32_t first, std::uint32_t count)
+{
+    ImageF rows(image.width, count, image.channels);
+    const std::size_t row = std::size_t{image.width} * image.channels;
+    std::copy_n(image.values.begin() + static_cast<std::ptrdiff_t>(first * row), count * row, rows.values.begin());
+    return rows;
+}
+
+// Each part is worked out alone, wherever the whole is cut into strips.
+TEST(Flip, OfAPartIsThatOfTheWholeBeyondTheFiltersReach)
+{
+    constexpr std::uint32_t kHeight = 420;
+    constexpr std::uint32_t kPart = 100;
+    constexpr std::uint32_t kReach = 10; // at the usual distance
+    ImageF test(24, kHeight, 3);
+    ImageF reference(24, kHeight, 3);
+    Noise noise(99u);
+    for (std::size_t i = 0; i < test.values.size(); ++i) {
+        test.values[i] = noise.next();
+        reference.values[i] = noise.next();
+    }
+    const ImageF whole = flipMap(test, reference);
+    for (std::uint32_t first = 0; first + kPart <= kHeight; first += kPart - 2 * kReach) {
+        const ImageF part = flipMap(rowsOf(test, first, kPart), rowsOf(reference, first, kPart));
+        const std::uint32_t top = first == 0 ? 0 : kReach; // the picture's own border is the part's too
+        const std::uint32_t bottom = first + kPart == kHeight ? kPart : kPart - kReach;
+        for (std::uint32_t y = top; y < bottom; ++y) {
+            for (std::uint32_t x = 0; x < whole.width; ++x) {
+                ASSERT_EQ(*part.pixel(x, y), *whole.pixel(x, first + y)) << x << ", " << first + y;
+            }
+        }
+    }
+    EXPECT_NE(flipMap(rowsOf(test, 100, kPart), rowsOf(reference, 100, kPart)).values[0], *whole.pixel(0, 100));
+}
+
+TEST(Flip, TakesFewBytesForAPixel)
+{
+    const ImageF test = noiseMask(96, 1600, 1);
+    const ImageF truth = noiseMask(96, 1600, 2);
+    const Counted counted = countAll(96, 1600);
+    std::optional<double> mean;
+    const std::size_t bytes = test::heapPeakDuring([&] { mean = flip(test, truth, counted); });
+    EXPECT_GT(mean.value(), 0.1);
+    EXPECT_GT(bytes, test.values.size() * 8U); // of what is seen and of the differences
+    EXPECT_LT(bytes, test.values.size() * 32U);
 }
 
 TEST(Flip, ShowsMasksAsGreyLight)

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// In a file of its own, so that no caller sees malloc behind new and complains of the mismatch.
+#include "heap_peak.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <malloc.h>
+#include <new>
+
+namespace {
+
+thread_local std::ptrdiff_t t_held = 0;
+thread_local std::ptrdiff_t t_peak = 0;
+
+void* allocate(std::size_t size) noexcept
+{
+    void* memory = std::malloc(size == 0 ? 1 : size);
+    t_held += static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+    t_peak = std::max(t_peak, t_held);
+    return memory;
+}
+
+void* allocateOrThrow(std::size_t size)
+{
+    if (void* memory = allocate(size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+
+void release(void* memory) noexcept
+{
+    t_held -= static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+    std::free(memory);
+}
+
+} // namespace
+
+std::size_t gnomon::lab::test::heapPeakDuring(const std::function<void()>& work)
+{
+    const std::ptrdiff_t before = t_held;
+    t_peak = t_held;
+    work();
+    return static_cast<std::size_t>(t_peak - before);
+}
+
+void* operator new(std::size_t size)
+{
+    return allocateOrThrow(size);
+}
+void* operator new[](std::size_t size)
+{
+    return allocateOrThrow(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    return allocate(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
+{
+    return allocate(size);
+}
+void operator delete(void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept
+{
+    release(memory);
+}
