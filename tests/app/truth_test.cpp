@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon render --truth`: without a GPU, from the cache, and when it is told to stop.
+// `gnomon render --truth`: without a GPU, from the cache, and what it says.
 #include "folder.h"
 #include "lights_and_cameras.h"
 #include "process.h"
+#include "truth_run.h"
 
 #include "image/image_io.h"
 
@@ -10,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <csignal>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -137,7 +140,8 @@ TEST(Truth, TakesPointLightsAndSaysThatTheyHaveNoSize)
     sized.insert(sized.end(), {"--light-size", "0.5"});
     const test::Ran other = test::gnomon(sized, withCache(folder, cache));
     EXPECT_EQ(other.status, 0);
-    EXPECT_EQ(other.err, "");
+    EXPECT_FALSE(says(other.err, "has no size")) << other.err;
+    EXPECT_TRUE(says(other.err, "reaches into the scene")) << "it hangs at the ground's edge: " << other.err;
 }
 
 TEST(Truth, ShadesThePictureWithItsMasks)
@@ -202,54 +206,114 @@ TEST(Truth, OfAStillSceneIsTracedOnceForAllFrames)
     EXPECT_EQ(test::slurp(folder / "out/frame_0000.png"), test::slurp(folder / "out/frame_0002.png"));
 }
 
-/// A file without lights, of which the program says so before it traces: the moment to interrupt it.
-std::string lightless()
+/// The one entry of the cache.
+std::filesystem::path entryOf(const test::Folder& cache)
 {
-    auto gltf = nlohmann::json::parse(test::kLightsAndCameras);
-    gltf.erase("extensions");
-    gltf.erase("extensionsUsed");
-    gltf["nodes"][1].erase("extensions");
-    return gltf.dump();
+    std::filesystem::path found;
+    for (const auto& entry : std::filesystem::directory_iterator(cache / "gnomon/truth")) {
+        found = entry.path();
+    }
+    return found;
 }
 
-TEST(Interrupt, EndsATraceInOrder)
+/// A truth of everything lit, of any size.
+truth::Traced lit(std::uint32_t width, std::uint32_t height)
+{
+    truth::Traced traced;
+    traced.surfaces.object_ids = {width, height, 1};
+    traced.surfaces.triangle_ids = {width, height, 1, scene::kNone};
+    traced.surfaces.points = {width, height, 3};
+    traced.surfaces.normals = {width, height, 3};
+    traced.visibility.kind = truth::Kind::hard;
+    traced.visibility.visibility = {width, height, 1, 1.0F};
+    traced.visibility.standard_error = {width, height, 1};
+    traced.visibility.first_blocker_m = {width, height, 1, std::numeric_limits<float>::infinity()};
+    return traced;
+}
+
+TEST(Truth, AnEntryOfAnotherSizeIsNotUsed)
 {
     const test::Folder folder;
     const test::Folder cache;
-    test::spill(folder / "a.gltf", lightless());
-    for (const auto& [number, status] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
-        for (const bool frames : {false, true}) {
-            std::vector<std::string> arguments{"render", "a.gltf",  "--truth",  "area",      "--mask",
-                                               "--size", "900x900", "--ground", "--samples", "65536"};
-            if (frames) {
-                arguments.insert(arguments.end(), {"--frames", "0-9"});
-            }
-            test::How how = withCache(folder, cache);
-            how.signal_at = "a sun is put in";
-            how.signal = number;
-            const test::Ran ran = test::gnomon(arguments, how);
-            EXPECT_EQ(ran.status, status);
-            EXPECT_EQ(ran.out, "");
-            EXPECT_TRUE(ran.err.ends_with("gnomon: interrupted\n")) << ran.err;
-            EXPECT_EQ(folder.names(), std::vector<std::string>{"a.gltf"});
-            EXPECT_TRUE(cache.names().empty());
-        }
+    const test::Ran first = test::gnomon(maskOf("hard", "a.png"), withCache(folder, cache));
+    ASSERT_EQ(first.status, 0) << first.err;
+    const std::string digits = entryOf(cache).stem().string();
+    ASSERT_EQ(digits.size(), 32U);
+    const scene::Hash128 key{std::stoull(digits.substr(0, 16), nullptr, 16),
+                             std::stoull(digits.substr(16), nullptr, 16)};
+    const truth::Cache entries(cache / "gnomon/truth");
+    // The right size shows that what is stored here is what the program finds.
+    for (const auto& [width, height, used] : {std::tuple(96U, 64U, true), std::tuple(48U, 32U, false),
+                                              std::tuple(64U, 96U, false), std::tuple(97U, 64U, false)}) {
+        ASSERT_TRUE(entries.store(key, lit(width, height)));
+        const test::Ran ran = test::gnomon(maskOf("hard", "b.png"), withCache(folder, cache));
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        EXPECT_EQ(ran.err, "");
+        EXPECT_EQ(says(ran.out, "from the cache"), used) << width << " x " << height << ": " << ran.out;
+        EXPECT_EQ(test::slurp(folder / "a.png") != test::slurp(folder / "b.png"), used) << width << " x " << height;
     }
+    const test::Ran last = test::gnomon(maskOf("hard", "b.png"), withCache(folder, cache));
+    EXPECT_TRUE(says(last.out, "from the cache")) << "a right one has taken its place: " << last.out;
 }
 
-TEST(Interrupt, EndsFramesAndKeepsTheWholeOnes)
+TEST(Truth, ACacheThatTakesNoMoreIsStillRead)
 {
     const test::Folder folder;
-    test::spill(folder / "a.gltf", lightless());
-    const test::Ran ran =
-        test::gnomon({"render", "a.gltf", "--size", "64x64", "--map-size", "64", "--frames", "0-99999", "-o", "out"},
-                     {.folder = folder.path(), .signal_at = "a sun is put in", .signal = SIGINT});
-    EXPECT_EQ(ran.status, 130);
-    EXPECT_TRUE(ran.err.ends_with("gnomon: interrupted\n")) << ran.err;
-    if (std::filesystem::exists(folder / "out")) {
-        for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
-            EXPECT_EQ(readImage(entry.path()).width, 64U) << entry.path();
-        }
+    const test::Folder cache;
+    const test::Folder other_cache;
+    const auto frames = [&](const char* range, const test::Folder& kept_in) {
+        return test::gnomon({"render", "rts", "--size", "64x36", "--truth", "hard", "--mask", "--frames", range,
+                             "--fps", "1", "-o", "out"},
+                            withCache(folder, kept_in));
+    };
+    ASSERT_EQ(frames("1-1", cache).status, 0);
+    ASSERT_EQ(frames("0-0", other_cache).status, 0);
+    // Where the first frame's entry would go, nothing can.
+    std::filesystem::create_directory(cache / "gnomon/truth" / entryOf(other_cache).filename().string());
+    const test::Ran ran = frames("0-1", cache);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.errorLines().size(), 1U) << ran.err;
+    EXPECT_TRUE(says(ran.err, "the truth is not kept: ")) << ran.err;
+    EXPECT_TRUE(says(ran.out, "1 of 2 from the cache")) << ran.out;
+}
+
+TEST(Truth, OfASecondLightIsTheSameFromTheFirstOnesSurfaces)
+{
+    app::Settings settings = app::defaultSettings();
+    for (const auto& [key, value] : {std::pair("size", "64x36"), std::pair("sun", "1,-1,0"),
+                                     std::pair("spot", "0,6,3,0,0,0,60"), std::pair("truth", "hard")}) {
+        app::applySetting(settings, key, value);
+    }
+    settings.scene = "planes";
+    settings.no_cache = true;
+    const app::Shot shot = app::makeShot(settings);
+    ASSERT_EQ(shot.lights.size(), 2U);
+    const app::TruthRun alone = app::TruthTracer(shot, settings).trace(1);
+    app::TruthTracer tracer(shot, settings);
+    app::TruthRun first = tracer.trace(0);
+    EXPECT_NE(first.traced.visibility.visibility.values, alone.traced.visibility.visibility.values);
+    tracer.takeBack(std::move(first.traced.surfaces));
+    const app::TruthRun second = tracer.trace(1);
+    EXPECT_EQ(second.traced.surfaces.object_ids.values, alone.traced.surfaces.object_ids.values);
+    EXPECT_EQ(second.traced.surfaces.points.values, alone.traced.surfaces.points.values);
+    EXPECT_EQ(second.traced.visibility.visibility.values, alone.traced.visibility.visibility.values);
+    // Those of nothing give nothing: they are used, not looked for again.
+    tracer.takeBack(lit(64, 36).surfaces);
+    EXPECT_EQ(tracer.trace(1).rays, 0U);
+}
+
+TEST(Truth, SaysThatALightReachesIntoTheScene)
+{
+    const test::Folder folder;
+    const test::Folder cache;
+    for (const auto& [metres, reaches] : {std::pair("11", true), std::pair("0.5", false)}) {
+        const test::Ran ran =
+            test::gnomon({"render", "planes", "--spot", "0,6,0,0.1,0,0,60", "--size", "48x32", "--truth", "area",
+                          "--samples", "4", "--mask", "-o", "a.png", "--light-size", metres},
+                         withCache(folder, cache));
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        EXPECT_EQ(says(ran.err, "a sphere of 11 m across, reaches into the scene"), reaches) << ran.err;
+        EXPECT_EQ(ran.errorLines().size(), reaches ? 1U : 0U) << ran.err;
     }
 }
 
