@@ -18,16 +18,21 @@ thread_local int allocations_left = kUnlimited;
 
 } // namespace
 
-// Of the whole test program, so that the standard library's own requests can fail.
-void* operator new(std::size_t bytes)
+// Of the whole test program, so that the standard library's own requests can fail. All forms that one `delete` serves:
+// a sanitizer has its own of each, and minds a mixture.
+void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept
 {
     if (allocations_left == 0) {
-        throw std::bad_alloc();
+        return nullptr;
     }
     if (allocations_left > 0) {
         --allocations_left;
     }
-    if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1))) {
+    return std::malloc(std::max<std::size_t>(bytes, 1));
+}
+void* operator new(std::size_t bytes)
+{
+    if (void* memory = operator new(bytes, std::nothrow)) {
         return memory;
     }
     throw std::bad_alloc();
