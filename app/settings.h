@@ -44,7 +44,7 @@ struct FrameRange {
     std::uint32_t last = 0;
 };
 
-/// --sweep key=from:to:steps: a numeric technique setting takes `steps` values from `from` to `to`, both included.
+/// --sweep key=from:to:steps: a numeric setting takes `steps` values from `from` to `to`, both included.
 struct Sweep {
     std::string key;
     double from = 0.0;
@@ -58,6 +58,7 @@ struct Sweep {
 struct Settings {
     std::uint32_t subcommand = 0; // kRender ...; 0: none, as where no command line was read
     std::string scene = "rts";
+    std::string scene_hash; // of the scene that a preset's result was measured on; empty: no preset was a result
     // picture
     glm::uvec2 size_px{0};
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
@@ -147,6 +148,7 @@ struct Setting {
     double min = 0.0;              // of each number; inclusive
     double max = 0.0;
     std::uint32_t count = 1;                              // numbers: how many
+    std::uint32_t multiple_of = 1;                        // integer: only multiples of it
     std::vector<std::string_view> (*choices)() = nullptr; // choice: what is allowed
     std::string_view doc;                                 // one line
     std::uint32_t subcommands = kFrames;                  // which have it

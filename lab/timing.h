@@ -75,9 +75,10 @@ struct Timed {
     Plan plan;         // of the last frame; without shadows: empty
     AtlasSize atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
+    double baseline_ms = 0.0; // median frame without shadows among the turns that these samples took
 };
 struct TimingResult {
-    Timed baseline; // the same frame with no shadows
+    Timed baseline; // the same frame with no shadows: the samples of all groups
     std::vector<Timed> techniques;
     std::uint64_t baseline_bytes = 0;
 };
@@ -86,15 +87,27 @@ struct TimingResult {
 /// round backwards.
 [[nodiscard]] std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count);
 
-/// Draws every contestant and the frame without shadows (the first one's options otherwise) once in turn, again and
-/// again, in the order of turnsOf(), so that none always follows the same one; the frame without shadows has place 0.
-/// `step` is called after every frame drawn and may throw to stop; it may be empty. Every contestant's images are in
-/// memory at once. Precondition: one contestant at least.
+/// The most contestants that take turns together, and the most texels of maps that they may have among them (unless one
+/// alone has more): their images are all in memory at once. A map of 16384 and one of 8192 on a side fit together.
+inline constexpr std::size_t kMaxTogether = 8;
+inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
+
+/// How many contestants take turns together, group after group, in their order.
+[[nodiscard]] std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants, std::size_t lights);
+
+/// Draws every contestant of a group and the frame without shadows (the first contestant's options otherwise) once in
+/// turn, again and again, in the order of turnsOf(), so that none always follows the same one; the frame without
+/// shadows has place 0. Then the next of timingGroups(), with a frame without shadows of its own. `step` is called
+/// after every frame drawn and may throw to stop; it may be empty. Precondition: one contestant at least.
 [[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);
+/// How often timeInTurn() calls `step`.
+[[nodiscard]] std::uint64_t timingSteps(const Subject& subject, const std::vector<Contestant>& contestants,
+                                        const TimingOptions& options);
 
-/// Median frame of `technique` divided by the baseline's; 0 when the baseline has none.
-[[nodiscard]] double frameRatio(const Timed& technique, const Timed& baseline);
+/// Median frame of `technique` divided by that of the frame without shadows that took turns with it; 0 when that has
+/// none.
+[[nodiscard]] double frameRatio(const Timed& technique);
 
 } // namespace gnomon::lab

@@ -47,9 +47,9 @@ void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, Benc
     const lab::Counted counted = lab::facingPixels(picture, camera, shot.lights.front().caster);
     for (BenchedTechnique& technique : result.techniques) {
         const Plan& plan = technique.redrawn.plan;
-        technique.density = lab::texelDensity(picture, counted, camera, plan, 0);
-        technique.fit_efficiency =
-            lab::fitEfficiency(picture, counted, camera, plan, 0, vulkan::filterReachTexels(technique.settings.filter));
+        const double reach_texels = vulkan::filterReachTexels(technique.settings.filter);
+        technique.density = lab::texelDensity(picture, counted, camera, plan, 0, reach_texels);
+        technique.fit_efficiency = lab::fitEfficiency(picture, counted, camera, plan, 0, reach_texels);
     }
 }
 
@@ -57,8 +57,10 @@ BenchResult measure(host::Gpu& gpu, const Shot& shot, const Settings& settings, 
 {
     const lab::TimingOptions options{
         .repetitions = settings.repetitions, .warmup = settings.warmup, .reuse_maps = true};
-    Progress progress("timing", (2 * techniques.size() + 1) * (settings.warmup + settings.repetitions));
-    lab::TimingResult timing = lab::timeInTurn(gpu, subjectOf(shot), contestantsOf(techniques), options, [&] {
+    const lab::Subject subject = subjectOf(shot);
+    const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
+    Progress progress("timing", lab::timingSteps(subject, contestants, options));
+    lab::TimingResult timing = lab::timeInTurn(gpu, subject, contestants, options, [&] {
         requireSilence(gpu);
         progress.step();
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_report.h"
 
+#include "compare_table.h"
 #include "technique_json.h"
 
 #include "scene/hash.h"
@@ -8,31 +9,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon::app {
 namespace {
 
-double ratio(const lab::Timed& technique, const lab::Timed& baseline)
+std::string ratioCell(const lab::Timed& technique)
 {
-    return std::round(lab::frameRatio(technique, baseline) * 1e4) / 1e4;
+    const double ratio = lab::frameRatio(technique);
+    return cell(ratio > 0.0 ? std::optional(ratio) : std::nullopt, 2);
 }
 
-Json techniqueJson(const BenchedTechnique& technique, const BenchResult& result)
+std::string iqrCell(const std::vector<host::FrameTimes>& samples)
+{
+    return cell(samples.size() > 1 ? std::optional(spreadOfStage(samples, stages().back()).iqr) : std::nullopt, 3);
+}
+
+Json techniqueJson(const BenchedTechnique& technique)
 {
     Json json{{"technique", describeTechnique(technique.settings)},
               {"choices", choicesJson(technique.settings.plan.technique)},
               {"map", mapJson(technique.redrawn.atlas, technique.settings.filter.format)}};
     addTimes(json, "", technique.redrawn.samples);
-    json["frame_ratio"] = ratio(technique.redrawn, result.baseline);
+    json["frame_ratio"] = frameRatioJson(technique.redrawn);
     addTimes(json, "static_", technique.reused.samples);
-    json["static_frame_ratio"] = ratio(technique.reused, result.baseline);
+    json["static_frame_ratio"] = frameRatioJson(technique.reused);
     addMemory(json, technique.redrawn.added_memory);
     json["texel_density"] = densityJson(technique.density);
-    json["fit_efficiency"] = std::round(technique.fit_efficiency * 1e6) / 1e6;
+    json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
     json["counters"] = countersJson(technique.redrawn.counters);
     json["passes_ms"] = passesJson(technique.redrawn.samples);
     json["settings"] = settingsJson(technique.settings, kBench);
+    json["settings"].erase("techniques"); // it is one of them
     return json;
 }
 
@@ -40,19 +47,16 @@ Json techniqueJson(const BenchedTechnique& technique, const BenchResult& result)
 
 Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings)
 {
-    Json json{{"version", GNOMON_VERSION},
-              {"scene", settings.scene},
-              {"scene_hash", scene::toString(scene::sceneHash(shot.scene))},
-              {"camera", shot.camera},
-              {"device", result.device},
-              {"driver", result.driver},
+    const std::string scene_hash = scene::toString(scene::sceneHash(shot.scene));
+    Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"scene_hash", scene_hash},
+              {"camera", shot.camera},     {"device", result.device}, {"driver", result.driver},
               {"eye", eyeJson(shot.eye)}};
     json["light"] = shot.lights.front().name;
     json["lights"] = Json::array();
     for (const host::ShadedLight& light : shot.lights) {
         json["lights"].push_back(lightJson(light));
     }
-    json["settings"] = repeatJson(settings, kBench);
+    json["settings"] = runJson(settings, scene_hash, kBench);
     Json baseline;
     addTimes(baseline, "", result.baseline.samples);
     baseline["memory_bytes"] = result.baseline_bytes;
@@ -60,8 +64,10 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     json["baseline"] = baseline;
     json["results"] = Json::array();
     for (const BenchedTechnique& technique : result.techniques) {
-        json["results"].push_back(techniqueJson(technique, result));
+        json["results"].push_back(techniqueJson(technique));
     }
+    json["units"] = sharedUnitsJson();
+    json["units"]["static_frame_ratio"] = "median frame with maps that still hold kept / median frame without shadows";
     return json;
 }
 
@@ -80,18 +86,16 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
         text += fmt::format("{:>9}", stage.name);
     }
     text += fmt::format("{:>8}{:>7}{:>9}{:>7}{:>9}\n", "iqr", "ratio", "static", "ratio", "MiB");
-    const lab::Spread without = spreadOfStage(result.baseline.samples, stages().back());
-    text += fmt::format("{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9.3f}{:>8.3f}{:>7}\n", "no shadows", width, "", "", "", "",
-                        without.median, without.iqr, "1.00");
+    text += fmt::format("{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9.3f}{:>8}{:>7}\n", "no shadows", width, "", "", "", "",
+                        frameMedian(result.baseline.samples), iqrCell(result.baseline.samples), "1.00");
     for (const BenchedTechnique& technique : result.techniques) {
         text += fmt::format("{:<{}}", describeTechnique(technique.settings), width);
         for (const Stage& stage : stages()) {
             text += fmt::format("{:>9.3f}", spreadOfStage(technique.redrawn.samples, stage).median);
         }
-        text += fmt::format("{:>8.3f}{:>7.2f}{:>9.3f}{:>7.2f}{:>9.2f}\n",
-                            spreadOfStage(technique.redrawn.samples, stages().back()).iqr,
-                            ratio(technique.redrawn, result.baseline), frameMedian(technique.reused.samples),
-                            ratio(technique.reused, result.baseline),
+        text += fmt::format("{:>8}{:>7}{:>9.3f}{:>7}{:>9.2f}\n", iqrCell(technique.redrawn.samples),
+                            ratioCell(technique.redrawn), frameMedian(technique.reused.samples),
+                            ratioCell(technique.reused),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
     return text;

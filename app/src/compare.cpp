@@ -9,7 +9,6 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "subcommands.h"
-#include "truth_run.h"
 
 #include "image/image_io.h"
 #include "scene/hash.h"
@@ -62,24 +61,35 @@ void requireMapFits(const host::Gpu& gpu, const Settings& technique)
     }
 }
 
+void requireMapsFit(const host::Gpu& gpu, const std::vector<Settings>& techniques,
+                    const std::optional<SweepPlan>& sweep)
+{
+    if (!sweep) {
+        std::for_each(techniques.begin(), techniques.end(), [&](const Settings& one) { requireMapFits(gpu, one); });
+        return;
+    }
+    for (const SweepPlan::Line& line : sweep->lines) {
+        std::for_each(line.points.begin(), line.points.end(), [&](const Settings& one) { requireMapFits(gpu, one); });
+    }
+}
+
 /// One run: what it is about, and what is done between two frames.
 class Comparison {
 public:
-    Comparison(const Settings& settings, const Shot& shot, host::Gpu& gpu)
-        : settings_(settings), shot_(shot), gpu_(gpu), light_(lightIndex(shot, settings))
+    Comparison(const Settings& settings, const Shot& shot, host::Gpu& gpu, std::vector<std::string> report_files)
+        : settings_(settings), shot_(shot), gpu_(gpu)
     {
-        result_.light = shot.lights[light_];
-        subject_ = {&shot.scene, &shot.state, shot.eye, {result_.light}, 0};
+        result_.report_files = std::move(report_files);
         result_.device = gpu.properties().deviceName;
         result_.driver = gpu.driver();
         result_.scene_hash = scene::toString(scene::sceneHash(shot.scene));
     }
 
-    void trace();
+    void trace() { result_.judged = judge(shot_, settings_); }
     void scoreAll(const std::vector<Settings>& techniques);
     void timeAll();
     void matchAll();
-    void sweep(SweepPlan plan);
+    void sweep(const SweepPlan& plan);
     void note();
     [[nodiscard]] const CompareResult& result() const { return result_; }
 
@@ -91,23 +101,14 @@ private:
         progress.step();
     }
     void noteOutcomes();
+    void notePixels();
+    void noteSize();
 
     const Settings& settings_;
     const Shot& shot_;
     host::Gpu& gpu_;
-    std::size_t light_; // which of the shot's
-    lab::Subject subject_;
     CompareResult result_;
 };
-
-void Comparison::trace()
-{
-    TruthTracer tracer(shot_, settings_);
-    TruthRun run = tracer.trace(light_);
-    result_.truth = std::move(run.traced);
-    result_.from_cache = run.from_cache;
-    result_.samples = result_.truth.visibility.kind == truth::Kind::area ? settings_.samples : 1;
-}
 
 /// Pictures of every pixel are kept for a report only: of many techniques they would fill the memory.
 void Comparison::scoreAll(const std::vector<Settings>& techniques)
@@ -117,10 +118,11 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
         ComparedTechnique compared;
         compared.settings = technique;
         compared.name = describeTechnique(technique);
-        compared.score = lab::scoreTechnique(gpu_, subject_, result_.truth, renderOptions(technique));
+        compared.score =
+            lab::scoreTechnique(gpu_, result_.judged.subject, result_.judged.truth, renderOptions(technique));
         if (result_.techniques.empty()) {
             result_.pixels = compared.score.pixels.counts;
-            result_.standard_error = lab::truthNoise(result_.truth.visibility, compared.score.pixels.counted);
+            result_.standard_error = lab::truthNoise(result_.judged.truth.visibility, compared.score.pixels.counted);
         }
         if (settings_.report.empty()) {
             compared.score.mask = {};
@@ -147,12 +149,11 @@ void Comparison::timeAll()
     for (const ComparedTechnique& technique : result_.techniques) {
         contestants.push_back({technique.name, renderOptions(technique.settings)});
     }
-    const std::uint64_t frames = std::uint64_t{settings_.repetitions} + settings_.warmup;
-    Progress progress("timing", frames * (contestants.size() + 1));
-    lab::TimingResult timed =
-        lab::timeInTurn(gpu_, subject_, contestants,
-                        {.repetitions = settings_.repetitions, .warmup = settings_.warmup, .reuse_maps = false},
-                        [&] { step(progress); });
+    const lab::TimingOptions options{
+        .repetitions = settings_.repetitions, .warmup = settings_.warmup, .reuse_maps = false};
+    const lab::Subject& subject = result_.judged.subject;
+    Progress progress("timing", lab::timingSteps(subject, contestants, options));
+    lab::TimingResult timed = lab::timeInTurn(gpu_, subject, contestants, options, [&] { step(progress); });
     result_.baseline = std::move(timed.baseline);
     result_.baseline_bytes = timed.baseline_bytes;
     for (std::size_t i = 0; i < result_.techniques.size(); ++i) {
@@ -169,19 +170,28 @@ void Comparison::matchAll()
     const std::function<void()> after = [&] {
         step(progress);
     };
-    EqualErrorSearch search(gpu_, subject_, result_.truth, settings_, after);
+    EqualErrorSearch search(gpu_, result_.judged.subject, result_.judged.truth, settings_, after);
     for (ComparedTechnique& technique : result_.techniques) {
         const auto& error = technique.score.error;
         technique.equal_error = search.match(technique.settings, error ? std::optional(error->rmse) : std::nullopt);
     }
 }
 
-void Comparison::sweep(SweepPlan plan)
+void Comparison::sweep(const SweepPlan& plan)
 {
     Progress progress("sweeping", plan.lines.size() * plan.values.size());
-    result_.sweep = runSweep(gpu_, subject_, result_.truth, std::move(plan), [&] { step(progress); });
-    result_.pixels = result_.sweep->pixels.counts;
-    result_.standard_error = lab::truthNoise(result_.truth.visibility, result_.sweep->pixels.counted);
+    std::unique_ptr<const JudgedShot> other; // of the value that is swept over now, after the first
+    const auto judged_at = [&](std::size_t value) -> const Judged& {
+        if (value == 0 || !plan.remakes_shot) {
+            return result_.judged;
+        }
+        other.reset(); // two may not fit in memory
+        other = judgeShot(settingsAt(plan, value, settings_));
+        return other->judged;
+    };
+    result_.sweep = runSweep(gpu_, plan, judged_at, [&] { step(progress); });
+    result_.pixels = result_.sweep->places.front().pixels;
+    result_.standard_error = result_.sweep->places.front().standard_error;
 }
 
 void Comparison::noteOutcomes()
@@ -218,26 +228,60 @@ void Comparison::noteOutcomes()
         const std::string what = one.outcome.hasMap() ? fmt::format("{}", nameOf(one.outcome.kind))
                                                       : "no shadow map, so the mask is all lit";
         result_.notes.push_back(
-            fmt::format("light {} with {}: {}: {}", result_.light.name, one.who, what, one.outcome.reason));
+            fmt::format("light {} with {}: {}: {}", result_.light().name, one.who, what, one.outcome.reason));
+    }
+}
+
+void Comparison::notePixels()
+{
+    const auto add = [&](const lab::PixelCounts& pixels, std::uint64_t rays, const std::string& where) {
+        if (const std::string note = pixelsNote(pixels, rays); !note.empty()) {
+            result_.notes.push_back(where + note);
+        }
+    };
+    if (!result_.sweep || !result_.sweep->plan.remakes_shot) {
+        add(result_.pixels, result_.judged.facts.rays, "");
+        return;
+    }
+    for (std::size_t i = 0; i < result_.sweep->places.size(); ++i) {
+        const SweepResult::Place& place = result_.sweep->places[i];
+        add(place.pixels, place.truth.rays, placeText(result_.sweep->plan, i) + ": ");
+    }
+}
+
+/// That the size of a light is none is told unless the sweep goes on to others.
+void Comparison::noteSize()
+{
+    const auto hard = [](const TruthFacts& truth) {
+        return truth.kind == truth::Kind::area && truth.point_like;
+    };
+    const bool always = result_.sweep ? std::all_of(result_.sweep->places.begin(), result_.sweep->places.end(),
+                                                    [&](const SweepResult::Place& place) { return hard(place.truth); })
+                                      : hard(result_.judged.facts);
+    if (always) {
+        const host::ShadedLight& light = result_.light();
+        result_.notes.push_back(
+            fmt::format("light {} has no extent, so its area truth is the hard one; {} gives it one", light.name,
+                        light.caster.type == LightType::directional ? "--sun-angle" : "--light-size"));
     }
 }
 
 /// Says what kept a number from being there, or from meaning what one would think.
 void Comparison::note()
 {
-    if (result_.pixels.counted == 0) {
-        result_.notes.push_back(
-            fmt::format("no pixel counts, so there are no error numbers: {}", pixelsText(result_.pixels)));
-    }
+    notePixels();
     noteOutcomes();
-    if (result_.truth.visibility.kind == truth::Kind::area && isPointLike(result_.light.caster)) {
-        result_.notes.push_back(fmt::format(
-            "light {} has no extent, so its area truth is the hard one; {} gives it one", result_.light.name,
-            result_.light.caster.type == LightType::directional ? "--sun-angle" : "--light-size"));
-    }
+    noteSize();
     if (result_.sweep) {
-        result_.notes.insert(result_.notes.end(), result_.sweep->plan.left_out.begin(),
-                             result_.sweep->plan.left_out.end());
+        const SweepPlan& plan = result_.sweep->plan;
+        result_.notes.insert(result_.notes.end(), plan.left_out.begin(), plan.left_out.end());
+        if (plan.ends_automatic_bias) {
+            result_.notes.push_back(
+                fmt::format("{} ends the automatic bias: where the sweep sets one part, the others are 0", plan.key));
+        }
+    }
+    if (!result_.report_files.empty()) {
+        forgetSharedFiles(result_);
     }
 }
 
@@ -272,27 +316,23 @@ int runCompare(const Settings& settings)
         sweep = planSweep(*settings.sweep, techniques);
     }
     std::unique_ptr<ReportFolder> folder;
+    std::vector<std::string> files;
     if (!settings.report.empty()) {
-        folder = std::make_unique<ReportFolder>(settings.report);
+        files = reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value());
+        folder = std::make_unique<ReportFolder>(settings.report, files);
     }
-    const Shot shot = makeShot(settings);
-    const host::ShadedLight& light = shot.lights[lightIndex(shot, settings)];
-    requireSizedLights(settings, {&light, 1});
+    const Settings first = sweep && sweep->remakes_shot ? settingsAt(*sweep, 0, settings) : settings;
+    const Shot shot = makeShot(first);
+    const host::ShadedLight& light = shot.lights[lightIndex(shot, first)];
+    requireSizedLights(first, {&light, 1});
     requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
-    for (const Settings& technique : techniques) {
-        requireMapFits(*gpu, technique);
-    }
-    for (std::size_t i = 0; sweep && i < sweep->lines.size(); ++i) {
-        for (const Settings& point : sweep->lines[i].points) {
-            requireMapFits(*gpu, point);
-        }
-    }
+    requireMapsFit(*gpu, techniques, sweep);
     std::for_each(shot.notices.begin(), shot.notices.end(), notice);
-    Comparison comparison(settings, shot, *gpu);
+    Comparison comparison(first, shot, *gpu, std::move(files));
     comparison.trace();
     if (sweep) {
-        comparison.sweep(std::move(*sweep));
+        comparison.sweep(*sweep);
     } else {
         comparison.scoreAll(techniques);
         comparison.timeAll();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare_folder.h"
 
+#include "app/visual.h"
 #include "compare_text.h"
+#include "result_json.h"
 
 #include "image/image_io.h"
 #include "lab/report.h"
@@ -12,8 +14,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
+#include <cstdint>
+#include <fstream>
 #include <system_error>
+#include <unistd.h>
 
 namespace gnomon::app {
 namespace {
@@ -22,6 +28,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPage = "index.html";
 constexpr const char* kResult = "result.json";
+constexpr const char* kTruth = "truth.png";
+constexpr const char* kPlot = "sweep.svg";
+constexpr std::array<std::string_view, 4> kFixed{kPage, kResult, kTruth, kPlot};
 constexpr std::array<std::string_view, 5> kNumbered{"mask.png", "error.png", "classes.png", "density.png", "sweep.svg"};
 
 std::string numbered(std::size_t index, std::string_view what)
@@ -29,9 +38,12 @@ std::string numbered(std::size_t index, std::string_view what)
     return fmt::format("{:02}_{}", index + 1, what);
 }
 
-/// Whether it is a name that numbered() makes.
-bool isNumbered(const std::string& name)
+/// Whether a report could have it: a list from a file is not taken at its word.
+bool isReportFile(const std::string& name)
 {
+    if (std::find(kFixed.begin(), kFixed.end(), name) != kFixed.end()) {
+        return true;
+    }
     const std::size_t digits = std::min(name.find('_'), name.size());
     return digits >= 2 && digits < name.size() &&
            std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(digits),
@@ -39,39 +51,82 @@ bool isNumbered(const std::string& name)
            std::find(kNumbered.begin(), kNumbered.end(), name.substr(digits + 1)) != kNumbered.end();
 }
 
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The files of the report whose result this is; none when it is none.
+std::vector<std::string> filesOfReport(const fs::path& result)
+{
+    constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 28U; // far more than a result has
+    std::error_code error;
+    if (!fs::is_regular_file(result, error) || fs::file_size(result, error) > kMaxBytes || error) {
+        return {};
+    }
+    std::ifstream in(result, std::ios::binary);
+    const Json json = Json::parse(in, nullptr, false);
+    if (!json.is_object() || !json.contains("report_files") || !json["report_files"].is_array()) {
+        return {};
+    }
+    std::vector<std::string> files;
+    for (const Json& name : json["report_files"]) {
+        if (name.is_string() && isReportFile(name.get<std::string>())) {
+            files.push_back(name.get<std::string>());
+        }
+    }
+    return files;
+}
+
+/// Absolute and without a slash at the end, so that it has a name and a parent.
+fs::path folderPath(const fs::path& folder)
+{
+    const fs::path full = fs::absolute(folder).lexically_normal();
+    return full.has_filename() || full == full.root_path() ? full : full.parent_path();
+}
+
 /// What was compared and how, for whoever opens the page a year later.
 std::vector<std::pair<std::string, std::string>> facts(const CompareResult& result, const Shot& shot,
                                                        const Settings& settings)
 {
-    return {{"scene", fmt::format("{} ({})", settings.scene, result.scene_hash)},
-            {"camera", shot.camera},
-            {"light", fmt::format("{}: {}", result.light.name, lightText(result.light))},
-            {"size", fmt::format("{} x {} pixels", settings.size_px.x, settings.size_px.y)},
-            {"truth", truthText(result)},
-            {"pixels", pixelsText(result.pixels)},
-            {"device", fmt::format("{} ({})", result.device, result.driver)},
-            {"version", GNOMON_VERSION},
-            {"result", fmt::format("{}: every number, and the settings to repeat it", kResult)}};
+    std::vector<std::pair<std::string, std::string>> made{
+        {"scene", fmt::format("{} ({})", settings.scene, result.scene_hash)},
+        {"camera", shot.camera},
+        {"light", fmt::format("{}: {}", result.light().name, lightText(result.light()))}};
+    if (result.sweep && result.sweep->plan.remakes_shot) {
+        made.emplace_back("shown", fmt::format("scene, camera, light and the truth's picture at {}",
+                                               placeText(result.sweep->plan, 0)));
+    }
+    made.insert(made.end(), {{"size", fmt::format("{} x {} pixels", settings.size_px.x, settings.size_px.y)},
+                             {"truth", truthText(result)},
+                             {"pixels", countedText(result)},
+                             {"device", fmt::format("{} ({})", result.device, result.driver)},
+                             {"version", GNOMON_VERSION},
+                             {"result", fmt::format("{}: every number, and the settings to repeat it", kResult)}});
+    return made;
 }
 
 void writeTechnique(ReportFolder& folder, const CompareResult& result, std::size_t index, lab::Report& page)
 {
     const ComparedTechnique& technique = result.techniques[index];
     const lab::Score& score = technique.score;
-    const ImageF& truth = result.truth.visibility.visibility;
+    const ImageF& truth = result.judged.truth.visibility.visibility;
     const ImageOf<lab::ErrorClass> nothing_counts(truth.width, truth.height, 1, lab::ErrorClass::left_out);
     lab::ReportTechnique shown;
     shown.name = technique.name;
     shown.mask_file = numbered(index, "mask.png");
     shown.error_file = numbered(index, "error.png");
     shown.class_file = numbered(index, "classes.png");
-    shown.density_file = numbered(index, "density.png");
-    folder.write(shown.mask_file, lab::greyPicture(score.mask));
+    const std::size_t density = densityShownBy(result, index);
+    shown.density_file = numbered(density, "density.png");
+    folder.write(shown.mask_file, maskAs16Bit(score.mask));
     folder.write(shown.error_file, lab::errorPicture(score.mask, truth, score.pixels.counted));
     folder.write(
         shown.class_file,
         lab::classPicture(score.classification ? score.classification->classes : nothing_counts, score.mask, truth));
-    folder.write(shown.density_file, lab::densityPicture(score.density.map));
+    if (density == index) {
+        folder.write(shown.density_file, lab::densityPicture(score.density.map));
+    }
     page.techniques.push_back(shown);
 }
 
@@ -81,13 +136,13 @@ void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& 
     const std::string& key = sweep.plan.key;
     page.table_caption = fmt::format("Every technique over {}.", key);
     if (sweep.plan.lines.size() == 1) {
-        folder.write("sweep.svg", lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
-        page.plots.push_back({"sweep.svg", fmt::format("Error over {}, and where it comes from.", key)});
+        folder.write(kPlot, lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
+        page.plots.push_back({kPlot, fmt::format("Error over {}, and where it comes from.", key)});
         step();
         return;
     }
-    folder.write("sweep.svg", lab::plotSvg(sweepPlot(sweep, settings.scene)));
-    page.plots.push_back({"sweep.svg", fmt::format("Error of every technique over {}.", key)});
+    folder.write(kPlot, lab::plotSvg(sweepPlot(sweep, settings.scene)));
+    page.plots.push_back({kPlot, fmt::format("Error of every technique over {}.", key)});
     for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {
         const std::string file = numbered(i, "sweep.svg");
         folder.write(file, lab::plotSvg(sweepClassPlot(sweep, i, settings.scene)));
@@ -99,54 +154,112 @@ void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& 
 
 } // namespace
 
-ReportFolder::ReportFolder(fs::path folder) : path_(std::move(folder))
+std::vector<std::string> reportFiles(std::size_t shown, bool sweep)
 {
-    const std::string what = "writing a report to " + path_.string();
+    std::vector<std::string> files{kTruth};
+    if (sweep) {
+        files.emplace_back(kPlot);
+    }
+    for (std::size_t i = 0; i < shown; ++i) {
+        for (const std::string_view what : kNumbered) {
+            // The plot of a sweep's only line is the sweep's.
+            if ((what == kPlot) == sweep && !(sweep && shown == 1)) {
+                files.push_back(numbered(i, what));
+            }
+        }
+    }
+    files.emplace_back(kPage);
+    files.emplace_back(kResult);
+    return files;
+}
+
+std::size_t densityShownBy(const CompareResult& result, std::size_t technique)
+{
+    const std::vector<float>& map = result.techniques[technique].score.density.map.values;
+    const auto same =
+        std::find_if(result.techniques.begin(), result.techniques.end(),
+                     [&](const ComparedTechnique& other) { return other.score.density.map.values == map; });
+    // Where a value is not a number, a map does not equal itself.
+    return std::min(technique, static_cast<std::size_t>(same - result.techniques.begin()));
+}
+
+void forgetSharedFiles(CompareResult& result)
+{
+    for (std::size_t i = 0; i < result.techniques.size(); ++i) {
+        if (densityShownBy(result, i) != i) {
+            std::erase(result.report_files, numbered(i, "density.png"));
+        }
+    }
+}
+
+ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
+    : path_(folderPath(folder)), files_(std::move(files))
+{
+    const std::string what = "writing a report to " + folder.string();
     if (fs::exists(path_)) {
         if (!fs::is_directory(path_)) {
             throw Error(what, "it is not a folder", "name another, or remove it");
         }
-        requireWritable(path_ / kResult);
-        had_report_ = fs::exists(path_ / kPage) && fs::exists(path_ / kResult);
-        return;
+        earlier_ = filesOfReport(path_ / kResult);
+        requireNoForeignFile(what);
+    } else if (!fs::is_directory(path_.parent_path())) {
+        throw Error(what, "there is no folder " + path_.parent_path().string());
     }
-    // A name that ends in a slash is the folder before it.
-    const fs::path full = fs::absolute(path_).lexically_normal();
-    const fs::path parent = full.has_filename() ? full.parent_path() : full.parent_path().parent_path();
-    if (!fs::is_directory(parent)) {
-        throw Error(what, "there is no folder " + parent.string());
+    requireWritable((fs::exists(path_) ? path_ : path_.parent_path()) / fmt::format(".{}.tmp", ::getpid()));
+}
+
+void ReportFolder::requireNoForeignFile(const std::string& what) const
+{
+    for (const std::string& name : files_) {
+        const fs::file_status status = fs::symlink_status(path_ / name);
+        if (fs::exists(status) && !(contains(earlier_, name) && fs::is_regular_file(status))) {
+            throw Error(what, fmt::format("{} is there already and of no earlier report", name),
+                        "name another folder, or move it away");
+        }
     }
-    requireWritable(parent / kResult);
 }
 
 ReportFolder::~ReportFolder()
 {
-    if (!created_) {
-        return;
+    if (!work_.empty()) {
+        std::error_code ignored;
+        fs::remove_all(work_, ignored);
     }
-    std::error_code ignored;
-    for (const std::string& name : written_) {
-        fs::remove(path_ / name, ignored);
+}
+
+/// Beside the files that are to be replaced, or beside the folder that is to be: always on the same file system.
+void ReportFolder::makeWorkFolder()
+{
+    const fs::path parent = fs::exists(path_) ? path_ : path_.parent_path();
+    constexpr int kAttempts = 100;
+    std::error_code error;
+    for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
+        const fs::path work = parent / fmt::format(".gnomon-report.{}-{}.tmp", ::getpid(), attempt);
+        if (fs::create_directory(work, error)) {
+            work_ = work;
+            return;
+        }
     }
-    fs::remove(path_, ignored); // only while it is empty
+    throw Error("making a folder in " + parent.string(), error ? error.message() : "every name is taken");
 }
 
 fs::path ReportFolder::fileFor(const std::string& name)
 {
-    if (!fs::exists(path_)) {
-        std::error_code error;
-        if (!fs::create_directory(path_, error) && error) {
-            throw Error("making folder " + path_.string(), error.message());
-        }
-        created_ = true;
+    assert(contains(files_, name));
+    if (work_.empty()) {
+        makeWorkFolder();
     }
-    written_.push_back(name);
-    return path_ / name;
+    return work_ / name;
 }
 
 void ReportFolder::write(const std::string& name, const Image8& picture)
 {
     writePng(fileFor(name), picture);
+}
+
+void ReportFolder::write(const std::string& name, const Image16& mask)
+{
+    writePng(fileFor(name), mask);
 }
 
 void ReportFolder::write(const std::string& name, std::string_view bytes)
@@ -156,21 +269,30 @@ void ReportFolder::write(const std::string& name, std::string_view bytes)
 
 void ReportFolder::keep()
 {
-    created_ = false;
-    if (!had_report_) {
+    const auto move = [](const fs::path& from, const fs::path& to) {
+        std::error_code error;
+        fs::rename(from, to, error);
+        if (error) {
+            throw Error("writing " + to.string(), error.message());
+        }
+    };
+    if (work_.parent_path() != path_) {
+        move(work_, path_);
+        work_.clear();
         return;
     }
-    std::error_code ignored;
-    std::vector<fs::path> stale;
-    for (const auto& entry : fs::directory_iterator(path_, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool ours = isNumbered(name) || name == "sweep.svg";
-        if (ours && std::find(written_.begin(), written_.end(), name) == written_.end()) {
-            stale.push_back(entry.path());
+    std::vector<std::string> written;
+    for (const std::string& name : files_) {
+        if (fs::exists(work_ / name)) {
+            move(work_ / name, path_ / name);
+            written.push_back(name);
         }
     }
-    for (const fs::path& file : stale) {
-        fs::remove(file, ignored);
+    std::error_code ignored;
+    for (const std::string& name : earlier_) {
+        if (!contains(written, name) && fs::is_regular_file(fs::symlink_status(path_ / name, ignored))) {
+            fs::remove(path_ / name, ignored);
+        }
     }
 }
 
@@ -179,10 +301,10 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
 {
     lab::Report page;
     page.title = fmt::format("Shadows of {} against ray-traced truth", settings.scene);
-    page.truth_file = "truth.png";
+    page.truth_file = kTruth;
     page.facts = facts(result, shot, settings);
     page.notes = result.notes;
-    folder.write(page.truth_file, lab::greyPicture(result.truth.visibility.visibility));
+    folder.write(page.truth_file, maskAs16Bit(result.judged.truth.visibility.visibility));
     TextTable table;
     if (result.sweep) {
         table = sweepTable(*result.sweep);
@@ -195,6 +317,7 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
         }
     }
     page.columns = table.columns;
+    page.column_meanings = meaningsOf(table);
     page.rows = table.rows;
     folder.write(kResult, json);
     folder.write(kPage, lab::reportPage(page));

@@ -13,28 +13,42 @@
 
 namespace gnomon::app {
 
-/// Made when the first file is written. Until keep() is called, a folder that this run made goes away with all that
-/// this run wrote into it; one that was there before keeps its files, some of them perhaps new.
+/// Names of a report's files, the page and result.json last. `shown`: techniques, or lines of a sweep.
+[[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown, bool sweep);
+
+/// Techniques that render the same map have the same picture of texel density, which is written once: the place of the
+/// first of them.
+[[nodiscard]] std::size_t densityShownBy(const CompareResult& result, std::size_t technique);
+/// Takes from `report_files` the pictures that are not written for it.
+void forgetSharedFiles(CompareResult& result);
+
+/// Files are written into a folder of their own; keep() puts them all in their place. Until then neither a folder that
+/// is there nor its report changes, and what was written goes away if keep() is not called.
 class ReportFolder {
 public:
-    /// Throws Error, before an hour's work, when the folder can be neither used nor made.
-    explicit ReportFolder(std::filesystem::path folder);
+    /// `files`: what will be written. Throws Error, before an hour's work, when the folder can be neither used nor
+    /// made, or holds one of these files and it is not of an earlier report, which lists its files in result.json.
+    ReportFolder(std::filesystem::path folder, std::vector<std::string> files);
     ~ReportFolder();
     ReportFolder(const ReportFolder&) = delete;
     ReportFolder& operator=(const ReportFolder&) = delete;
 
+    /// `name` is one of the files; not all need be written.
     void write(const std::string& name, const Image8& picture);
+    void write(const std::string& name, const Image16& mask);
     void write(const std::string& name, std::string_view bytes);
-    /// Removes what an earlier, longer report left here: numbered pictures that this one did not write.
+    /// Puts what was written in its place, and removes what the earlier report had and this one has not.
     void keep();
 
 private:
+    void requireNoForeignFile(const std::string& what) const;
+    void makeWorkFolder();
     [[nodiscard]] std::filesystem::path fileFor(const std::string& name);
 
     std::filesystem::path path_;
-    bool created_ = false;
-    bool had_report_ = false;
-    std::vector<std::string> written_;
+    std::vector<std::string> files_;
+    std::vector<std::string> earlier_; // files of the report that is there
+    std::filesystem::path work_;       // where files are written; empty until the first one is
 };
 
 /// Pictures of every technique, the page, result.json (`json`). `step` is called after every technique and may throw.

@@ -42,7 +42,11 @@ Json equalErrorJson(const EqualError& equal)
     };
     return {{"technique", text(equal.pcf)},
             {"rmse", numberJson(equal.pcf_rmse)},
-            {"frame_ms", {{"technique", numberJson(equal.technique_ms)}, {"pcf", numberJson(equal.pcf_ms)}}},
+            {"frame_ms",
+             {{"technique", numberJson(equal.technique_ms)},
+              {"pcf", numberJson(equal.pcf_ms)},
+              {"without_shadows", numberJson(equal.without_ms)}}},
+            {"cheaper", {{"technique", text(equal.cheaper)}, {"rmse", numberJson(equal.cheaper_rmse)}}},
             {"tried", equal.tried},
             {"reason", text(equal.reason)}};
 }
@@ -59,22 +63,29 @@ Json pixelsJson(const lab::PixelCounts& pixels)
               {"no_receiver", pixels.no_receiver}}}};
 }
 
-Json truthJson(const CompareResult& result, const Settings& settings)
+std::string_view nameOf(truth::Kind kind)
 {
-    const truth::Visibility& visibility = result.truth.visibility;
-    return {{"kind", visibility.kind == truth::Kind::area ? "area" : "hard"},
-            {"samples", result.samples},
-            {"standard_error", numberJson(result.standard_error)},
-            {"seed", settings.seed},
-            {"rays", visibility.rays},
-            {"seconds", numberJson(visibility.seconds)},
-            {"rays_per_second", visibility.seconds > 0.0
-                                    ? numberJson(std::round(static_cast<double>(visibility.rays) / visibility.seconds))
-                                    : Json(nullptr)},
-            {"from_cache", result.from_cache}};
+    return kind == truth::Kind::area ? "area" : "hard";
 }
 
-Json techniqueJson(const ComparedTechnique& technique, const CompareResult& result)
+Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_error)
+{
+    // A truth from the cache was traced by another run, whose time says nothing of this one.
+    const bool timed = !truth.from_cache && truth.seconds > 0.0;
+    return {{"kind", nameOf(tracedKind(truth))},
+            {"requested", nameOf(truth.kind)},
+            {"samples", tracedKind(truth) == truth::Kind::area ? truth.samples : 1},
+            {"standard_error", numberJson(standard_error)},
+            {"seed", truth.seed},
+            {"rays", truth.rays},
+            {"seconds", timed ? numberJson(truth.seconds) : Json(nullptr)},
+            {"rays_per_second", timed && truth.rays != 0
+                                    ? numberJson(std::round(static_cast<double>(truth.rays) / truth.seconds))
+                                    : Json(nullptr)},
+            {"from_cache", truth.from_cache}};
+}
+
+Json techniqueJson(const ComparedTechnique& technique)
 {
     const lab::Score& score = technique.score;
     Json json{{"technique", technique.name},
@@ -82,37 +93,45 @@ Json techniqueJson(const ComparedTechnique& technique, const CompareResult& resu
               {"map", mapJson(score.atlas, technique.settings.filter.format)},
               {"error", errorJson(score)}};
     addTimes(json, "", technique.timed.samples);
-    const double ratio = lab::frameRatio(technique.timed, result.baseline);
-    json["frame_ratio"] = ratio > 0.0 ? Json(std::round(ratio * 1e4) / 1e4) : Json(nullptr);
+    json["frame_ratio"] = frameRatioJson(technique.timed);
     if (technique.equal_error) {
         json["equal_error_ratio"] = numberJson(technique.equal_error->ratio);
+        json["equal_error_shadow_ratio"] = numberJson(technique.equal_error->shadow_ratio);
         json["equal_error"] = equalErrorJson(*technique.equal_error);
     }
     addMemory(json, technique.timed.added_memory);
     json["texel_density"] = densityJson(score.density);
-    json["fit_efficiency"] = score.density.counted == 0 ? Json(nullptr) : numberJson(score.fit_efficiency);
+    json["fit_efficiency"] = fitEfficiencyJson(score.density, score.fit_efficiency);
     json["outcome"] = outcomeJson(score.outcome);
     json["pixels"] = pixelsJson(score.pixels.counts);
     json["counters"] = countersJson(technique.timed.counters);
     json["passes_ms"] = passesJson(technique.timed.samples);
     json["settings"] = settingsJson(technique.settings, kCompare);
+    json["settings"].erase("techniques"); // it is one of them
     return json;
 }
 
-/// Of keys that do not name theirs.
+/// What differs between the values of a sweep for all techniques alike, lists as long as the values.
+void addPlaces(Json& json, const SweepResult& sweep)
+{
+    json["truth"] = Json::array();
+    json["pixels"] = Json::array();
+    for (const SweepResult::Place& place : sweep.places) {
+        json["truth"].push_back(truthJson(place.truth, place.standard_error));
+        json["pixels"].push_back(pixelsJson(place.pixels));
+    }
+}
+
 Json unitsJson()
 {
-    return {{"error", "visibility, 0 to 1; edge, acne, detached and bleeding are mean squares that add up to rmse^2"},
-            {"frame_ratio", "median frame / median frame without shadows"},
-            {"equal_error_ratio", "median frame / median frame of the PCF that errs no more"},
-            {"texel_density", "shadow texels per screen pixel along the worse axis"},
-            {"fit_efficiency", "texels read / texels rendered"},
-            {"standard_error", "visibility, root mean square over the counted pixels"},
-            {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
-            {"eye.far_m", "metres; 0: behind everything"},
-            {"map.texels", "texels of all layers"},
-            {"pixels", "pixels"},
-            {"truth.samples", "rays per pixel"}};
+    Json units = sharedUnitsJson();
+    units["error"] = "visibility, 0 to 1; edge, acne, detached and bleeding are mean squares that add up to rmse^2";
+    units["equal_error_ratio"] = "median frame / median frame of the PCF that errs no more";
+    units["equal_error_shadow_ratio"] = "the same of what the two frames take beyond the frame without shadows";
+    units["standard_error"] = "visibility, root mean square over the counted pixels";
+    units["truth.samples"] = "rays per pixel";
+    units["texel_density.pixels"] = "pixels, of the counted: in one of the light's maps, and not";
+    return units;
 }
 
 } // namespace
@@ -123,20 +142,23 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
               {"scene", settings.scene},
               {"scene_hash", result.scene_hash},
               {"camera", shot.camera},
-              {"light", result.light.name},
+              {"light", result.light().name},
               {"device", result.device},
               {"driver", result.driver},
               {"size_px", {settings.size_px.x, settings.size_px.y}},
               {"eye", eyeJson(shot.eye)},
-              {"light_source", lightJson(result.light)},
-              {"truth", truthJson(result, settings)}};
+              {"light_source", lightJson(result.light())},
+              {"truth", truthJson(result.judged.facts, result.standard_error)}};
     json["results"] = Json::array();
     for (const ComparedTechnique& technique : result.techniques) {
-        json["results"].push_back(techniqueJson(technique, result));
+        json["results"].push_back(techniqueJson(technique));
     }
     json["pixels"] = pixelsJson(result.pixels);
     if (result.sweep) {
         json["sweep"] = sweepJson(*result.sweep);
+        if (result.sweep->plan.remakes_shot) {
+            addPlaces(json["sweep"], *result.sweep);
+        }
     } else {
         Json baseline;
         addTimes(baseline, "", result.baseline.samples);
@@ -145,7 +167,10 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
         json["baseline"] = baseline;
     }
     json["notes"] = result.notes;
-    json["settings"] = repeatJson(settings, kCompare);
+    if (!result.report_files.empty()) {
+        json["report_files"] = result.report_files;
+    }
+    json["settings"] = runJson(settings, result.scene_hash, kCompare);
     json["units"] = unitsJson();
     return json;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/shot.h"
+#include "compare_judged.h"
 #include "equal_error.h"
 #include "lab/compare.h"
 #include "sweep.h"
@@ -12,6 +13,12 @@
 #include <vector>
 
 namespace gnomon::app {
+
+/// What the rays of a truth were: of a light without extent area truth is the hard one.
+[[nodiscard]] inline truth::Kind tracedKind(const TruthFacts& truth)
+{
+    return truth.point_like ? truth::Kind::hard : truth.kind;
+}
 
 struct ComparedTechnique {
     Settings settings;
@@ -25,17 +32,17 @@ struct CompareResult {
     std::string device;
     std::string driver;
     std::string scene_hash;
-    host::ShadedLight light; // the one that is judged, alone in the frame
-    truth::Traced truth;
-    std::uint32_t samples = 1;            // rays per pixel
+    Judged judged;                        // of a sweep: at its first value, and so the next two
     std::optional<double> standard_error; // of the truth; absent when no pixel counts
-    bool from_cache = false;
     lab::PixelCounts pixels;
     lab::Timed baseline; // without shadows
     std::uint64_t baseline_bytes = 0;
     std::vector<ComparedTechnique> techniques; // best first
     std::optional<SweepResult> sweep;          // then there are no techniques
     std::vector<std::string> notes;            // sentences: what kept a number from being there
+    std::vector<std::string> report_files;     // in the report's folder; empty: no report
+
+    [[nodiscard]] const host::ShadedLight& light() const { return judged.subject.lights.front(); }
 };
 
 } // namespace gnomon::app

@@ -19,6 +19,17 @@ struct TextTable {
 };
 [[nodiscard]] std::string tableText(const TextTable& table);
 
+/// Columns of a terminal that a table fits in.
+inline constexpr std::size_t kTableWidth = 120;
+/// The same, but where a line would be longer than kTableWidth the names of the first column are numbered and stand
+/// below the table.
+[[nodiscard]] std::string fittedTableText(const TextTable& table);
+
+/// What the numbers of a column are, in a sentence without its end; empty for columns that say it themselves.
+[[nodiscard]] std::string_view meaningOfColumn(std::string_view column);
+/// Of every column.
+[[nodiscard]] std::vector<std::string> meaningsOf(const TextTable& table);
+
 /// What a cell shows that has no number.
 inline constexpr std::string_view kNoNumber = "-";
 [[nodiscard]] std::string cell(const std::optional<double>& value, int decimals);

@@ -35,12 +35,37 @@ std::string equalErrorText(const CompareResult& result)
             continue;
         }
         const EqualError& equal = *technique.equal_error;
-        text += equal.ratio ? fmt::format("  {}: {:.2f} times the frame of {} (rmse {}; {:.2f} against {:.2f} ms)\n",
-                                          technique.name, *equal.ratio, equal.pcf, cell(equal.pcf_rmse, 4),
-                                          *equal.technique_ms, *equal.pcf_ms)
-                            : fmt::format("  {}: none: {}\n", technique.name, equal.reason);
+        text += fmt::format(
+            "  {}: {}\n", technique.name,
+            equal.ratio ? fmt::format("{:.2f} times the frame of {} (rmse {}; {:.2f} against {:.2f} ms)", *equal.ratio,
+                                      equal.pcf, cell(equal.pcf_rmse, 4), *equal.technique_ms, *equal.pcf_ms)
+                        : "no ratio, because " + equal.reason);
+        if (equal.shadow_ratio) {
+            text += fmt::format("    {:.2f} times without the {:.2f} ms of the frame without shadows\n",
+                                *equal.shadow_ratio, *equal.without_ms);
+        }
     }
     return text;
+}
+
+std::string raysText(std::uint64_t rays)
+{
+    return rays == 0 ? "no rays" : fmt::format("{} ray{}", rays, rays == 1 ? "" : "s");
+}
+
+/// How fast, too, where the clock saw enough to tell.
+std::string tracedText(std::uint64_t rays, double seconds)
+{
+    constexpr double kShortest_s = 0.005;
+    constexpr double kMillion = 1e6;
+    if (rays == 0) {
+        return raysText(rays);
+    }
+    if (!(seconds >= kShortest_s)) {
+        return raysText(rays) + " in less than 0.01 s";
+    }
+    const double speed = static_cast<double>(rays) / seconds;
+    return fmt::format("{} in {:.2f} s, {:.3g} million/s", raysText(rays), seconds, speed / kMillion);
 }
 
 } // namespace
@@ -63,7 +88,7 @@ TextTable compareTable(const CompareResult& result, bool short_names)
         addErrorCells(row, score.error, score.classification ? score.classification->errors : lab::ClassErrors{});
         row.push_back(cell(score.ssim, 3));
         row.push_back(cell(score.flip, 3));
-        const double ratio = lab::frameRatio(technique.timed, result.baseline);
+        const double ratio = lab::frameRatio(technique.timed);
         row.push_back(cell(ratio > 0.0 ? std::optional(ratio) : std::nullopt, 2));
         row.push_back(cell(frameMedian(technique.timed.samples), 2));
         row.push_back(cell(static_cast<double>(totalBytes(technique.timed.added_memory)) / (1024.0 * 1024.0), 1));
@@ -77,18 +102,38 @@ TextTable compareTable(const CompareResult& result, bool short_names)
 
 std::string truthText(const CompareResult& result)
 {
-    const truth::Visibility& visibility = result.truth.visibility;
-    const bool area = visibility.kind == truth::Kind::area;
-    std::string text =
-        area ? fmt::format("area, {} rays per pixel, standard error {}", result.samples, cell(result.standard_error, 4))
-             : std::string("hard, one ray per pixel");
-    constexpr double kMillion = 1e6;
-    const double rays = static_cast<double>(visibility.rays);
-    text += fmt::format("; {} rays in {:.2f} s", visibility.rays, visibility.seconds);
-    if (rays > 0.0 && visibility.seconds > 0.0) {
-        text += fmt::format(", {:.2f} million/s", rays / visibility.seconds / kMillion);
+    const TruthFacts& truth = result.judged.facts;
+    if (result.sweep && result.sweep->plan.remakes_shot) {
+        std::uint64_t rays = 0;
+        double seconds = 0.0;
+        std::ptrdiff_t kept = 0;
+        for (const SweepResult::Place& place : result.sweep->places) {
+            rays += place.truth.rays;
+            seconds += place.truth.seconds;
+            kept += place.truth.from_cache ? 1 : 0;
+        }
+        return fmt::format(
+            "{}, one for each value of {}; {}", truth.kind == truth::Kind::area ? "area" : "hard",
+            result.sweep->plan.key,
+            kept == 0 ? tracedText(rays, seconds)
+                      : fmt::format("{} ({} of {} from the cache)", raysText(rays), kept, result.sweep->places.size()));
     }
-    return text + (result.from_cache ? " (from the cache)" : "");
+    std::string text = "hard, one ray per pixel";
+    if (tracedKind(truth) == truth::Kind::area) {
+        text = fmt::format("area, {} rays per pixel, standard error {}", truth.samples, cell(result.standard_error, 4));
+    } else if (truth.kind == truth::Kind::area) {
+        text += ", for the light has no area";
+    }
+    return fmt::format("{}; {}", text,
+                       truth.from_cache ? raysText(truth.rays) + " (from the cache)"
+                                        : tracedText(truth.rays, truth.seconds));
+}
+
+std::string countedText(const CompareResult& result)
+{
+    return result.sweep && result.sweep->plan.remakes_shot
+               ? fmt::format("in the table, for each value of {}", result.sweep->plan.key)
+               : pixelsText(result.pixels);
 }
 
 std::string pixelsText(const lab::PixelCounts& pixels)
@@ -109,6 +154,21 @@ std::string pixelsText(const lab::PixelCounts& pixels)
     return text + (left.empty() ? ", none left out" : "; left out: " + left);
 }
 
+std::string pixelsNote(const lab::PixelCounts& pixels, std::uint64_t rays)
+{
+    constexpr std::uint64_t kFew = 20; // one in so many
+    if (pixels.counted == 0) {
+        return fmt::format("no pixel counts, so there are no error numbers: {}{}", pixelsText(pixels),
+                           rays == 0 ? "; no ray was traced" : "");
+    }
+    const std::uint64_t surface = pixels.counted + pixels.leftOut() - pixels.background;
+    if (pixels.counted * kFew >= surface) {
+        return "";
+    }
+    return fmt::format("only {} of {} pixels with a surface count, so the error numbers say little of the picture: {}",
+                       pixels.counted, surface, pixelsText(pixels));
+}
+
 std::string lightText(const host::ShadedLight& light)
 {
     const Light& caster = light.caster;
@@ -126,18 +186,19 @@ std::string compareText(const CompareResult& result, const Shot& shot, const Set
 {
     std::string text =
         fmt::format("{}, camera {}, {}x{}, light {}, on {} ({})\n", settings.scene, shot.camera, settings.size_px.x,
-                    settings.size_px.y, result.light.name, result.device, result.driver);
+                    settings.size_px.y, result.light().name, result.device, result.driver);
     text += fmt::format("truth:  {}\n", truthText(result));
-    text += fmt::format("pixels: {}\n", pixelsText(result.pixels));
+    text += fmt::format("pixels: {}\n", countedText(result));
     if (result.sweep) {
-        return text + "\n" + tableText(sweepTable(*result.sweep));
+        return text + "\n" + fittedTableText(sweepTable(*result.sweep));
     }
     if (const std::string common = commonParts(namesOf(result)); !common.empty()) {
         text += fmt::format("all with {}\n", common);
     }
-    text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({:.2f} ms)\n\n",
-                        settings.repetitions, frameMedian(result.baseline.samples));
-    text += tableText(compareTable(result, true));
+    text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({:.2f} ms){}\n\n",
+                        settings.repetitions, frameMedian(result.baseline.samples),
+                        hasEqualError(result) ? ",\nequal: to the cheapest PCF that errs no more" : "");
+    text += fittedTableText(compareTable(result, true));
     return text + (hasEqualError(result) ? equalErrorText(result) : "");
 }
 

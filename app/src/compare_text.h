@@ -13,8 +13,13 @@ namespace gnomon::app {
 [[nodiscard]] TextTable compareTable(const CompareResult& result, bool short_names);
 /// "area, 64 rays per pixel, standard error 0.0041; 2.1 million rays in 3.2 s (0.7 million/s)".
 [[nodiscard]] std::string truthText(const CompareResult& result);
+/// pixelsText() of the result, or where a sweep's numbers are.
+[[nodiscard]] std::string countedText(const CompareResult& result);
 /// "12000 counted; left out: 300 background, 20 facing away".
 [[nodiscard]] std::string pixelsText(const lab::PixelCounts& pixels);
+/// What to know of the numbers of these pixels, of which `rays` were traced: that there are none, or of few of the
+/// pixels that see a surface; empty when one in twenty counts.
+[[nodiscard]] std::string pixelsNote(const lab::PixelCounts& pixels, std::uint64_t rays);
 /// "directional, direction 0.6,-0.8,0, 0.53 degrees wide".
 [[nodiscard]] std::string lightText(const host::ShadedLight& light);
 /// All of it for a terminal.

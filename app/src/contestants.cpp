@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contestants.h"
 
+#include <gnomon/choices.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,15 +27,27 @@ bool namesOneTechnique(const Settings& settings)
                        [](const std::string& key) { return key == "filter" || key.starts_with("pcf."); });
 }
 
+std::vector<std::string> techniqueList(const Settings& settings)
+{
+    if (settings.techniques.empty() && namesOneTechnique(settings)) {
+        std::string text(nameOf(settings.plan.technique.filter)); // the options say the rest
+        if (settings.plan.technique.filter == Filter::pcf) {
+            text += fmt::format("+pcf.kernel={}", nameOf(settings.filter.pcf_kernel));
+        }
+        return {text};
+    }
+    if (settings.techniques.empty() || settings.techniques.front() == "all") {
+        return {std::begin(kAll), std::end(kAll)};
+    }
+    return settings.techniques;
+}
+
 std::vector<Settings> contestants(const Settings& settings)
 {
     if (settings.techniques.empty() && namesOneTechnique(settings)) {
         return {settings};
     }
-    std::vector<std::string> texts = settings.techniques;
-    if (texts.empty() || texts.front() == "all") {
-        texts.assign(std::begin(kAll), std::end(kAll));
-    }
+    const std::vector<std::string> texts = techniqueList(settings);
     std::vector<Settings> made;
     for (const std::string& text : texts) {
         made.push_back(parseTechnique(settings, text));

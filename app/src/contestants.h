@@ -4,12 +4,16 @@
 
 #include "app/settings.h"
 
+#include <string>
 #include <vector>
 
 namespace gnomon::app {
 
 /// Whether the options and presets say themselves which technique it is: by what the default list would override.
 [[nodiscard]] bool namesOneTechnique(const Settings& settings);
+
+/// The techniques asked for, each as one may write it in a list of --techniques beside the same options.
+[[nodiscard]] std::vector<std::string> techniqueList(const Settings& settings);
 
 /// The settings of every technique asked for: those of --techniques; without it the one that the options name, else
 /// hard and every kernel of pcf. Throws UsageError when two of them are the same.

@@ -14,7 +14,8 @@
 namespace gnomon::app {
 namespace {
 
-constexpr std::array<std::uint32_t, 9> kMapSizes{512, 724, 1024, 1448, 2048, 2896, 4096, 5792, 8192};
+constexpr std::array<std::uint32_t, 19> kMapSizes{16,  23,  32,   45,   64,   91,   128,  181,  256, 362,
+                                                  512, 724, 1024, 1448, 2048, 2896, 4096, 5792, 8192};
 static_assert(kMapSizes.front() == kEqualErrorMinMap && kMapSizes.back() == kEqualErrorMaxMap);
 
 /// Texels that one pixel reads.
@@ -140,18 +141,38 @@ EqualError EqualErrorSearch::match(const Settings& technique, const std::optiona
     const Settings& pcf = ladder_[*rung].settings;
     result.pcf = describeTechnique(pcf);
     result.pcf_rmse = rmseOf(*rung);
+    if (*rung == 0 && *result.pcf_rmse < *rmse) {
+        result.reason = fmt::format("{}, the cheapest there is, errs less (rmse {:.4f})", result.pcf, *result.pcf_rmse);
+        return result;
+    }
+    if (*rung > 0) {
+        result.cheaper = describeTechnique(ladder_[*rung - 1].settings);
+        result.cheaper_rmse = rmseOf(*rung - 1);
+    }
+    time(technique, pcf, result);
+    return result;
+}
+
+void EqualErrorSearch::time(const Settings& technique, const Settings& pcf, EqualError& result)
+{
     const std::vector<lab::Contestant> pair{{describeTechnique(technique), renderOptions(technique)},
                                             {result.pcf, renderOptions(pcf)}};
     const lab::TimingResult timed = lab::timeInTurn(
         gpu_, subject_, pair, {.repetitions = base_.repetitions, .warmup = base_.warmup, .reuse_maps = false}, step_);
-    result.technique_ms = frameMedian(timed.techniques[0].samples);
-    result.pcf_ms = frameMedian(timed.techniques[1].samples);
-    if (*result.pcf_ms > 0.0) {
-        result.ratio = *result.technique_ms / *result.pcf_ms;
-    } else {
+    const double technique_ms = frameMedian(timed.techniques[0].samples);
+    const double pcf_ms = frameMedian(timed.techniques[1].samples);
+    const double without_ms = frameMedian(timed.baseline.samples);
+    result.technique_ms = technique_ms;
+    result.pcf_ms = pcf_ms;
+    result.without_ms = without_ms;
+    if (!(pcf_ms > 0.0)) {
         result.reason = "the clock measured no time";
+        return;
     }
-    return result;
+    result.ratio = technique_ms / pcf_ms;
+    if (technique_ms > without_ms && pcf_ms > without_ms) {
+        result.shadow_ratio = (technique_ms - without_ms) / (pcf_ms - without_ms);
+    }
 }
 
 } // namespace gnomon::app

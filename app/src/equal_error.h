@@ -19,10 +19,10 @@ struct PcfSetting {
     double work = 0.0;
 };
 
-inline constexpr std::uint32_t kEqualErrorMinMap = 512;
+inline constexpr std::uint32_t kEqualErrorMinMap = 16;
 inline constexpr std::uint32_t kEqualErrorMaxMap = 8192;
 
-/// Every kernel of PCF on maps of 512 to 8192 texels on a side, by factors of about sqrt(2) and no larger than
+/// Every kernel of PCF on maps of 16 to 8192 texels on a side, by factors of about sqrt(2) and no larger than
 /// `max_side`; the least work first, and at equal work the smaller map. All else is as in `base`.
 [[nodiscard]] std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side);
 
@@ -33,10 +33,14 @@ struct EqualError {
     std::optional<double> ratio; // median frame of the technique / that of the PCF; nothing: see `reason`
     std::string pcf;             // the PCF that matched
     std::optional<double> pcf_rmse;
+    std::string cheaper; // the last before it, which errs more; empty when there is none
+    std::optional<double> cheaper_rmse;
     std::optional<double> technique_ms; // median frames, timed in turn with each other
     std::optional<double> pcf_ms;
-    std::uint32_t tried = 0; // settings of PCF that were held against the technique's error
-    std::string reason;      // a sentence; empty when there is a ratio
+    std::optional<double> without_ms;   // without shadows
+    std::optional<double> shadow_ratio; // `ratio` of the frames less the one without shadows; nothing: none is left
+    std::uint32_t tried = 0;            // settings of PCF that were held against the technique's error
+    std::string reason;                 // a sentence; empty when there is a ratio
 };
 
 /// The first of `count` whose error is at most `rmse`, asking in order; nothing when none is, or when an error is
@@ -56,6 +60,7 @@ public:
 
 private:
     [[nodiscard]] std::optional<double> rmseOf(std::size_t rung);
+    void time(const Settings& technique, const Settings& pcf, EqualError& result);
 
     host::Gpu& gpu_;
     const lab::Subject& subject_;

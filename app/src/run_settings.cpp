@@ -118,56 +118,78 @@ void applySamples(Settings& s, const Value& v)
     s.samples = static_cast<std::uint32_t>(v.integer);
 }
 
+[[noreturn]] void refuseSweep(std::string_view text, const std::string& why)
+{
+    throw UsageError(fmt::format("--sweep: \"{}\": {}", text, why));
+}
+
+/// Any number that what is compared depends on.
+bool canBeSwept(const Setting& setting)
+{
+    return (setting.type == integer || setting.type == real) && setting.group != Group::result &&
+           (setting.subcommands & kCompare) != 0;
+}
+
+const Setting& sweptSetting(std::string_view text, std::string_view key)
+{
+    std::vector<std::string_view> keys;
+    for (const Setting& setting : settingTable()) {
+        if (!canBeSwept(setting)) {
+            continue;
+        }
+        if (setting.key == key) {
+            return setting;
+        }
+        keys.push_back(setting.key);
+    }
+    refuseSweep(text, fmt::format("{} is no number that errors depend on{}; those are {}", key, suggestion(key, keys),
+                                  listed(keys)));
+}
+
+double sweepEnd(std::string_view text, const Setting& setting, std::string_view end, bool logarithmic)
+{
+    const auto number = toNumber(end);
+    if (!number || !(*number >= setting.min && *number <= setting.max)) {
+        refuseSweep(
+            text, fmt::format("\"{}\" is not in the range {} to {} of {}", end, setting.min, setting.max, setting.key));
+    }
+    if (setting.type == integer && std::fmod(*number, setting.multiple_of) != 0.0) {
+        const std::string kind =
+            setting.multiple_of == 1 ? "whole numbers" : fmt::format("multiples of {}", setting.multiple_of);
+        refuseSweep(text, fmt::format("{} takes {}, of which \"{}\" is none", setting.key, kind, end));
+    }
+    if (logarithmic && !(*number > 0.0)) {
+        refuseSweep(text, fmt::format("values by equal factors are above 0, which \"{}\" is not", end));
+    }
+    return *number;
+}
+
 /// KEY=FROM:TO:STEPS[:log]
 void applySweep(Settings& s, const Value& v)
 {
-    const auto refuse = [&](const std::string& why) {
-        throw UsageError(fmt::format("--sweep: \"{}\": {}", v.text, why));
-    };
     const std::size_t equals = v.text.find('=');
     const auto parts = split(equals == std::string::npos ? "" : std::string_view(v.text).substr(equals + 1), ':');
     if (parts.size() < 3 || parts.size() > 4 || (parts.size() == 4 && parts[3] != "log")) {
-        refuse("it is not KEY=FROM:TO:STEPS or KEY=FROM:TO:STEPS:log");
+        refuseSweep(v.text, "it is not KEY=FROM:TO:STEPS or KEY=FROM:TO:STEPS:log");
     }
-    const std::string key = v.text.substr(0, equals);
-    std::vector<std::string_view> keys;
-    for (const Setting& setting : settingTable()) {
-        if (setting.group == Group::technique && (setting.type == integer || setting.type == real)) {
-            keys.push_back(setting.key);
-        }
-    }
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        refuse(fmt::format("{} is no setting of a technique that is a number{}; those are {}", key,
-                           suggestion(key, keys), listed(keys)));
-    }
-    const Setting& setting = *findSetting(key);
+    const Setting& setting = sweptSetting(v.text, v.text.substr(0, equals));
     const bool logarithmic = parts.size() == 4;
-    for (const std::string_view end : {parts[0], parts[1]}) {
-        const auto number = toNumber(end);
-        if (!number || !(*number >= setting.min && *number <= setting.max)) {
-            refuse(fmt::format("\"{}\" is not in the range {} to {} of {}", end, setting.min, setting.max, key));
-        }
-        if (setting.type == integer && std::floor(*number) != *number) {
-            refuse(fmt::format("{} takes whole numbers, which \"{}\" is not", key, end));
-        }
-        if (logarithmic && !(*number > 0.0)) {
-            refuse(fmt::format("values by equal factors are above 0, which \"{}\" is not", end));
-        }
-    }
+    const double from = sweepEnd(v.text, setting, parts[0], logarithmic);
+    const double to = sweepEnd(v.text, setting, parts[1], logarithmic);
     constexpr std::int64_t kMaxSteps = 1000;
     const auto steps = toInteger(parts[2]);
     if (!steps || *steps < 2 || *steps > kMaxSteps) {
-        refuse(fmt::format("\"{}\" steps are not a whole number in the range 2 to {}", parts[2], kMaxSteps));
+        refuseSweep(v.text,
+                    fmt::format("\"{}\" steps are not a whole number in the range 2 to {}", parts[2], kMaxSteps));
     }
-    const double from = *toNumber(parts[0]);
-    const double to = *toNumber(parts[1]);
     if (from == to) {
-        refuse("it begins and ends at the same value");
+        refuseSweep(v.text, "it begins and ends at the same value");
     }
-    if (setting.type == integer && static_cast<double>(*steps) > std::abs(to - from) + 1.0) {
-        refuse(fmt::format("there are only {} whole numbers from {} to {}", std::abs(to - from) + 1.0, from, to));
+    const double most = std::abs(to - from) / setting.multiple_of + 1.0;
+    if (setting.type == integer && static_cast<double>(*steps) > most) {
+        refuseSweep(v.text, fmt::format("{} has only {} values from {} to {}", setting.key, most, from, to));
     }
-    s.sweep = Sweep{key, from, to, static_cast<std::uint32_t>(*steps), logarithmic};
+    s.sweep = Sweep{std::string(setting.key), from, to, static_cast<std::uint32_t>(*steps), logarithmic};
 }
 
 const std::vector<Setting>& rows()
@@ -177,7 +199,7 @@ const std::vector<Setting>& rows()
         {.key = "truth", .group = Group::truth, .type = choice, .form = "KIND", .choices = [] { return std::vector<std::string_view>{"hard", "area"}; },
          .doc = "rays to the light's centre (hard) or over all of it (area)", .subcommands = kRender | kCompare,
          .apply = [](Settings& s, const Value& v) { s.truth = v.text == "hard" ? truth::Kind::hard : truth::Kind::area; }},
-        {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536,
+        {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536, .multiple_of = truth::kSampleSets,
          .doc = "per pixel and light, a multiple of 4", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area", .apply = applySamples},
         {.key = "no-cache", .group = Group::truth, .type = flag, .default_text = "0", .doc = "trace anew; neither read nor write the cache of truths",
          .subcommands = kRender | kCompare, .used = hasTruth, .used_when = "--truth", .apply = [](Settings& s, const Value& v) { s.no_cache = v.flag; }},
@@ -220,7 +242,7 @@ const std::vector<Setting>& rows()
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
         {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
-        {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "each technique over values of one of its numbers",
+        {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
          .subcommands = kCompare, .apply = applySweep},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
          .subcommands = kPlan | kBench | kList | kCompare | kMetrics, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},

@@ -16,20 +16,22 @@
 namespace gnomon::app {
 namespace {
 
-/// As one would type it: twelve digits hide what binary fractions make of 0.1.
+/// As one would type it: twelve digits hide what binary fractions make of 0.1. Whole numbers have all of theirs.
 std::string valueText(double value)
 {
-    return fmt::format("{:.12g}", value);
+    return std::floor(value) == value ? fmt::format("{:.0f}", value + 0.0) : fmt::format("{:.12g}", value);
 }
 
-std::vector<double> sweepValues(const Sweep& sweep, bool whole)
+std::vector<double> sweepValues(const Sweep& sweep, const Setting& setting)
 {
+    const bool whole = setting.type == SettingType::integer;
+    const double unit = static_cast<double>(setting.multiple_of);
     std::vector<double> values;
     for (std::uint32_t i = 0; i < sweep.steps; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(sweep.steps - 1);
         double value = sweep.logarithmic ? sweep.from * std::pow(sweep.to / sweep.from, share)
                                          : sweep.from + (sweep.to - sweep.from) * share;
-        value = whole ? std::round(value) : toNumber(valueText(value)).value_or(value);
+        value = whole ? std::round(value / unit) * unit : toNumber(valueText(value)).value_or(value);
         if (values.empty() || values.back() != value) {
             values.push_back(value);
         }
@@ -48,6 +50,7 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
 struct Column {
     std::string_view name; // as JSON and plots have it
     std::optional<double> (*value)(const SweepResult::Point& point);
+    std::optional<lab::ErrorClass> error_class = {};
 };
 
 template <double lab::ClassErrors::*member>
@@ -63,9 +66,10 @@ std::optional<double> numberOf(const SweepResult::Point& point)
 constexpr std::array kNumbers{
     Column{"rmse", numberOf<&lab::ErrorNumbers::rmse>}, Column{"mae", numberOf<&lab::ErrorNumbers::mae>},
     Column{"bias", numberOf<&lab::ErrorNumbers::bias>}, Column{"p99", numberOf<&lab::ErrorNumbers::p99>}};
-constexpr std::array kClasses{
-    Column{"edge", classOf<&lab::ClassErrors::edge>}, Column{"acne", classOf<&lab::ClassErrors::acne>},
-    Column{"detached", classOf<&lab::ClassErrors::detached>}, Column{"bleeding", classOf<&lab::ClassErrors::bleeding>}};
+constexpr std::array kClasses{Column{"edge", classOf<&lab::ClassErrors::edge>, lab::ErrorClass::edge},
+                              Column{"acne", classOf<&lab::ClassErrors::acne>, lab::ErrorClass::acne},
+                              Column{"detached", classOf<&lab::ClassErrors::detached>, lab::ErrorClass::detached},
+                              Column{"bleeding", classOf<&lab::ClassErrors::bleeding>, lab::ErrorClass::bleeding}};
 
 std::string labelOf(const SweepPlan& plan)
 {
@@ -111,12 +115,13 @@ lab::PlotLine lineOf(const SweepResult& result, std::size_t line, const Column& 
 SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
 {
     const Setting* setting = findSetting(sweep.key);
-    assert(setting != nullptr && setting->group == SettingGroup::technique && sweep.steps >= 2);
+    assert(setting != nullptr && sweep.steps >= 2);
     SweepPlan plan;
     plan.key = setting->key;
     plan.unit = setting->unit;
     plan.logarithmic = sweep.logarithmic;
-    plan.values = sweepValues(sweep, setting->type == SettingType::integer);
+    plan.remakes_shot = setting->group != SettingGroup::technique;
+    plan.values = sweepValues(sweep, *setting);
     for (const Settings& technique : techniques) {
         SweepPlan::Line line;
         line.technique = describeTechnique(technique);
@@ -129,6 +134,9 @@ SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
             plan.left_out.push_back(fmt::format("{} is left out: {} has an effect only with {}", line.technique,
                                                 plan.key, setting->used_when));
             continue;
+        }
+        if (technique.filter.bias.automatic && !line.points.front().filter.bias.automatic) {
+            plan.ends_automatic_bias = true;
         }
         line.technique = withoutParts(describeTechnique(line.points.front()),
                                       fmt::format("{}={}", plan.key, valueText(plan.values.front())));
@@ -146,19 +154,35 @@ SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
     return plan;
 }
 
-SweepResult runSweep(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth, SweepPlan plan,
-                     const std::function<void()>& step)
+Settings settingsAt(const SweepPlan& plan, std::size_t value, const Settings& settings)
+{
+    Settings changed = settings;
+    applySetting(changed, plan.key, valueText(plan.values[value]));
+    changed.given[plan.key] = true; // so that it is refused where the shot has nothing that it could change
+    return changed;
+}
+
+std::string placeText(const SweepPlan& plan, std::size_t value)
+{
+    return fmt::format("{}={}", plan.key, valueText(plan.values[value]));
+}
+
+SweepResult runSweep(host::Gpu& gpu, SweepPlan plan, const JudgedAt& judged_at, const std::function<void()>& step)
 {
     SweepResult result;
     result.plan = std::move(plan);
-    for (const SweepPlan::Line& line : result.plan.lines) {
-        std::vector<SweepResult::Point>& points = result.points.emplace_back();
-        for (const Settings& settings : line.points) {
-            const lab::Score score = lab::scoreTechnique(gpu, subject, truth, renderOptions(settings), false);
-            points.push_back(
+    result.points.resize(result.plan.lines.size());
+    for (std::size_t value = 0; value < result.plan.values.size(); ++value) {
+        const Judged& judged = judged_at(value);
+        for (std::size_t line = 0; line < result.plan.lines.size(); ++line) {
+            const Settings& settings = result.plan.lines[line].points[value];
+            const lab::Score score =
+                lab::scoreTechnique(gpu, judged.subject, judged.truth, renderOptions(settings), false);
+            result.points[line].push_back(
                 {score.error, score.classification ? score.classification->errors : lab::ClassErrors{}, score.outcome});
-            if (result.pixels.counted.values.empty()) {
-                result.pixels = score.pixels;
+            if (line == 0 && (value == 0 || result.plan.remakes_shot)) {
+                result.places.push_back({judged.facts, lab::truthNoise(judged.truth.visibility, score.pixels.counted),
+                                         score.pixels.counts});
             }
             step();
         }
@@ -196,11 +220,18 @@ TextTable sweepTable(const SweepResult& result)
     table.columns = {"technique", result.plan.key};
     const std::vector<std::string> columns = errorColumns();
     table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+    if (result.plan.remakes_shot) {
+        table.columns.insert(table.columns.end(), {"truth+-", "pixels"});
+    }
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         for (std::size_t j = 0; j < result.plan.values.size(); ++j) {
             const SweepResult::Point& point = result.points[i][j];
             std::vector<std::string> row{result.plan.lines[i].technique, valueText(result.plan.values[j])};
             addErrorCells(row, point.error, point.classes);
+            if (result.plan.remakes_shot) {
+                row.push_back(cell(result.places[j].standard_error, 4));
+                row.push_back(fmt::format("{}", result.places[j].pixels.counted));
+            }
             table.rows.push_back(std::move(row));
         }
     }
@@ -224,6 +255,7 @@ lab::Plot sweepClassPlot(const SweepResult& result, std::size_t line, const std:
     plot.lines.back().emphasised = true;
     for (const Column& column : kClasses) {
         plot.lines.push_back(lineOf(result, line, column, true, std::string(column.name)));
+        plot.lines.back().error_class = column.error_class;
     }
     return plot;
 }

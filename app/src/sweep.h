@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One setting takes many values, and every technique is held against the same truth at each: error over value.
+// One setting takes many values, and every technique is held against the same truth at each: error over value. Where
+// the setting is not the technique's, the shot and its truth are made anew for each value.
 #pragma once
 
 #include "app/settings.h"
+#include "compare_judged.h"
 #include "compare_table.h"
 #include "lab/compare.h"
 #include "lab/plot.h"
@@ -24,13 +26,20 @@ struct SweepPlan {
     std::string key;
     std::string unit; // empty: none
     bool logarithmic = false;
+    bool remakes_shot = false;  // no setting of a technique: camera, light, truth and time follow
     std::vector<double> values; // ascending or descending, as asked for
     std::vector<Line> lines;
+    bool ends_automatic_bias = false;  // of a technique that had it
     std::vector<std::string> left_out; // techniques on which the setting has no effect, a sentence each
 };
-/// `sweep` is as --sweep makes it: a number of a technique, two steps or more. Whole numbers are rounded and taken once
-/// each. Throws UsageError when the setting has no effect on any technique, or is all that tells two of them apart.
+/// `sweep` is as --sweep makes it: a number of compare's, two steps or more. Whole numbers are rounded (to multiples,
+/// where the setting takes only those) and taken once each. Throws UsageError when the setting has no effect on any
+/// technique, or is all that tells two of them apart.
 [[nodiscard]] SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques);
+/// `settings` with one of the plan's values.
+[[nodiscard]] Settings settingsAt(const SweepPlan& plan, std::size_t value, const Settings& settings);
+/// "sun-angle=0.5"
+[[nodiscard]] std::string placeText(const SweepPlan& plan, std::size_t value);
 
 struct SweepResult {
     struct Point {
@@ -38,17 +47,26 @@ struct SweepResult {
         lab::ClassErrors classes;               // zeros without an error
         Outcome outcome;
     };
+    /// The same for all techniques.
+    struct Place {
+        TruthFacts truth;
+        std::optional<double> standard_error; // of the truth; absent when no pixel counts
+        lab::PixelCounts pixels;
+    };
     SweepPlan plan;
     std::vector<std::vector<Point>> points; // by line and value
-    lab::CountedPixels pixels;              // the same at every point
+    std::vector<Place> places;              // by value; the first one alone where the shot is not made anew
 };
+/// What holds at a value, by its index. Asked for in order, each once; must hold until the next is asked for.
+using JudgedAt = std::function<const Judged&(std::size_t value)>;
 /// `step` is called after every technique drawn and may throw to stop.
-[[nodiscard]] SweepResult runSweep(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth,
-                                   SweepPlan plan, const std::function<void()>& step);
+[[nodiscard]] SweepResult runSweep(host::Gpu& gpu, SweepPlan plan, const JudgedAt& judged_at,
+                                   const std::function<void()>& step);
 
 /// {"key", "unit", "values", "results": [{"technique", "rmse", ...}]}, each list as long as the values.
 [[nodiscard]] Json sweepJson(const SweepResult& result);
-/// A row for each technique and value: the error and where it comes from.
+/// A row for each technique and value: the error and where it comes from; where the shot is made anew, the truth's
+/// standard error and the pixels that count, too.
 [[nodiscard]] TextTable sweepTable(const SweepResult& result);
 /// The rmse of every technique over the value.
 [[nodiscard]] lab::Plot sweepPlot(const SweepResult& result, const std::string& scene);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "technique_json.h"
 
+#include "contestants.h"
+#include "lab/score/traffic.h"
+
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace gnomon::app {
 namespace {
@@ -11,30 +15,11 @@ constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps"
                              Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
                              Stage{"frame", &lab::StageTimes::frame}};
 
-/// Microseconds are all that a clock gives; more digits would only look exact.
-double rounded(double milliseconds)
+/// Milliseconds, and their ratios: a tenth of a microsecond is all that a clock gives; more digits would only look
+/// exact.
+double rounded(double value)
 {
-    return std::round(milliseconds * 1e4) / 1e4;
-}
-
-std::uint32_t texelBytes(MapFormat format)
-{
-    switch (format) {
-    case MapFormat::d16:
-        return 2;
-    case MapFormat::d32f:
-    case MapFormat::r32f:
-    case MapFormat::rg16:
-    case MapFormat::rg16f:
-        return 4;
-    case MapFormat::rg32f:
-    case MapFormat::rgba16:
-    case MapFormat::rgba16f:
-        return 8;
-    case MapFormat::rgba32f:
-        return 16;
-    }
-    return 0;
+    return std::round(value * 1e4) / 1e4;
 }
 
 } // namespace
@@ -88,7 +73,8 @@ void addTimes(Json& json, const std::string& prefix, const std::vector<host::Fra
     for (const Stage& stage : kStages) {
         const lab::Spread spread = spreadOfStage(samples, stage);
         json[prefix + "time_ms"][std::string(stage.name)] = rounded(spread.median);
-        json[prefix + "iqr_ms"][std::string(stage.name)] = rounded(spread.iqr);
+        json[prefix + "iqr_ms"][std::string(stage.name)] =
+            samples.size() > 1 ? Json(rounded(spread.iqr)) : Json(nullptr);
     }
 }
 
@@ -104,25 +90,49 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
 Json mapJson(const AtlasSize& atlas, MapFormat format)
 {
     const std::uint64_t texels = std::uint64_t{atlas.width} * atlas.height * atlas.layers;
-    return {{"texels", texels}, {"bytes", texels * texelBytes(format)}, {"format", nameOf(format)}};
+    return {{"texels", texels}, {"bytes", texels * lab::texelBytes(format)}, {"format", nameOf(format)}};
 }
 
 Json passesJson(const std::vector<host::FrameTimes>& samples)
 {
-    Json passes = Json::object();
-    if (samples.empty()) {
-        return passes;
-    }
-    for (std::size_t i = 0; i < samples.front().passes.size(); ++i) {
-        std::vector<double> values;
-        for (const host::FrameTimes& sample : samples) {
-            if (i < sample.passes.size()) {
-                values.push_back(sample.passes[i].milliseconds);
+    std::vector<std::string> names; // in the order of their first turn
+    std::map<std::string, std::vector<double>, std::less<>> sums;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        for (const vulkan::PassRecord& pass : samples[i].passes) {
+            const auto [sum, is_new] = sums.try_emplace(pass.name, samples.size(), 0.0);
+            if (is_new) {
+                names.emplace_back(pass.name);
             }
+            sum->second[i] += pass.milliseconds;
         }
-        passes[samples.front().passes[i].name] = rounded(lab::spreadOf(std::move(values)).median);
+    }
+    Json passes = Json::object();
+    for (const std::string& name : names) {
+        passes[name] = rounded(lab::spreadOf(std::move(sums[name])).median);
     }
     return passes;
+}
+
+Json frameRatioJson(const lab::Timed& technique)
+{
+    const double ratio = lab::frameRatio(technique);
+    return ratio > 0.0 ? numberJson(rounded(ratio)) : Json(nullptr);
+}
+
+Json fitEfficiencyJson(const lab::TexelDensity& density, double fit_efficiency)
+{
+    return density.counted == 0 ? Json(nullptr) : numberJson(fit_efficiency);
+}
+
+Json sharedUnitsJson()
+{
+    return {{"frame_ratio", "median frame / median frame without shadows"},
+            {"texel_density", "shadow texels per screen pixel along the worse axis"},
+            {"fit_efficiency", "texels read / texels rendered"},
+            {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
+            {"eye.far_m", "metres; 0: behind everything"},
+            {"map.texels", "texels of all layers"},
+            {"pixels", "pixels"}};
 }
 
 Json countersJson(const lab::Counters& counters)
@@ -134,7 +144,8 @@ Json countersJson(const lab::Counters& counters)
             {"fragment_invocations", counters.fragment_invocations},
             {"compute_invocations", counters.compute_invocations},
             {"draws", counters.draws},
-            {"passes", counters.passes}};
+            {"passes", counters.passes},
+            {"bytes_minimum", counters.bytes_minimum}};
 }
 
 Json densityJson(const lab::TexelDensity& density)
@@ -159,6 +170,19 @@ Json repeatJson(const Settings& settings, std::uint32_t subcommand)
     }
     json.erase("json");
     json.erase("report");
+    json.erase("techniques");
+    return json;
+}
+
+Json runJson(const Settings& settings, std::string_view scene_hash, std::uint32_t subcommand)
+{
+    Json json{{"scene", settings.scene}, {"scene_hash", scene_hash}};
+    json.update(repeatJson(settings, subcommand));
+    std::string techniques;
+    for (const std::string& technique : techniqueList(settings)) {
+        techniques += (techniques.empty() ? "" : ",") + technique;
+    }
+    json["techniques"] = techniques;
     return json;
 }
 

@@ -37,20 +37,29 @@ struct Stage {
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
 
-/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}.
+/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; of one sample there is no range: null.
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples);
 /// "memory_bytes" and "memory_by_purpose_bytes".
 void addMemory(Json& json, const MemoryByPurpose& memory);
 /// {"texels", "bytes", "format"} of all layers of the map's image.
 [[nodiscard]] Json mapJson(const AtlasSize& atlas, MapFormat format);
-/// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went.
+/// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went. Passes of one
+/// name are added up within each frame, as the stages are.
 [[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);
-/// The settings that make the same run again, as a preset has them: without what follows from others (the filter's own
-/// format, the border that a kernel needs, which differ between techniques) and without where the result went.
+/// Median frame by that without shadows; null where the clock measured none.
+[[nodiscard]] Json frameRatioJson(const lab::Timed& technique);
+/// Null when no pixel counts.
+[[nodiscard]] Json fitEfficiencyJson(const lab::TexelDensity& density, double fit_efficiency);
+/// Units of the keys that do not name theirs and that every result has.
+[[nodiscard]] Json sharedUnitsJson();
+/// The settings of one technique, as a preset has them: without what follows from others (the filter's own format, the
+/// border that a kernel needs, which differ between techniques) and without where the result went.
 [[nodiscard]] Json repeatJson(const Settings& settings, std::uint32_t subcommand);
+/// Those that make the whole run again: with the scene, its hash and the list of techniques too.
+[[nodiscard]] Json runJson(const Settings& settings, std::string_view scene_hash, std::uint32_t subcommand);
 /// Where the picture is taken from, resolved; near_m and far_m are 0 where the scene's size decides.
 [[nodiscard]] Json eyeJson(const host::Eye& eye);
 /// The light, resolved: what has no meaning for its type is left out.

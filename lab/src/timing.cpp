@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/timing.h"
 
+#include "lab/metrics/quantile.h"
+#include "lab/traffic.h"
+
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <iterator>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string_view>
 
 namespace gnomon::lab {
 namespace {
-
-double quantile(const std::vector<double>& sorted, double share)
-{
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<std::size_t>(std::floor(place));
-    const std::size_t high = std::min(low + 1, sorted.size() - 1);
-    return sorted[low] + (sorted[high] - sorted[low]) * (place - static_cast<double>(low));
-}
 
 std::uint64_t totalBytes(const host::Renderer& renderer)
 {
@@ -46,21 +42,21 @@ std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Rende
 }
 
 struct Turn {
+    host::RenderOptions options;
     std::unique_ptr<host::Renderer> renderer;
-    bool redraws_all = true;
     Timed timed;
 };
 
 /// The first draws without shadows, the others one technique each.
-std::vector<Turn> makeTurns(host::Gpu& gpu, const Subject& subject, const std::vector<Contestant>& contestants,
+std::vector<Turn> makeTurns(host::Gpu& gpu, const Subject& subject, std::span<const Contestant> contestants,
                             const TimingOptions& options)
 {
     std::vector<Turn> turns(contestants.size() + 1);
     for (std::size_t i = 0; i < turns.size(); ++i) {
-        host::RenderOptions wish = contestants[i == 0 ? 0 : i - 1].options;
+        host::RenderOptions& wish = turns[i].options;
+        wish = contestants[i == 0 ? 0 : i - 1].options;
         wish.shadows = i != 0;
         wish.reuse_maps = wish.reuse_maps && options.reuse_maps;
-        turns[i].redraws_all = !wish.reuse_maps;
         turns[i].renderer = std::make_unique<host::Renderer>(gpu, *subject.scene, *subject.state, wish);
     }
     return turns;
@@ -73,6 +69,51 @@ double medianFrame(const Timed& timed)
         frames.push_back(sample.frame_ms);
     }
     return spreadOf(std::move(frames)).median;
+}
+
+void drawInTurn(std::vector<Turn>& turns, const Subject& subject, const TimingOptions& options,
+                const std::function<void()>& step)
+{
+    for (std::uint32_t round = 0; round < options.warmup + options.repetitions; ++round) {
+        for (const std::size_t place : turnsOf(round, turns.size())) {
+            Turn& turn = turns[place];
+            const host::FrameTimes times = turn.renderer->draw(*subject.state, subject.eye, subject.lights);
+            if (step) {
+                step();
+            }
+            if (round >= options.warmup) {
+                turn.timed.samples.push_back(times);
+            }
+        }
+    }
+}
+
+/// Adds what was timed to `result`; the images are gone afterwards.
+void timeGroup(host::Gpu& gpu, const Subject& subject, std::span<const Contestant> contestants,
+               const TimingOptions& options, const std::function<void()>& step, TimingResult& result)
+{
+    std::vector<Turn> turns = makeTurns(gpu, subject, contestants, options);
+    drawInTurn(turns, subject, options, step);
+    const double baseline_ms = medianFrame(turns.front().timed);
+    for (Turn& turn : turns) {
+        Timed& timed = turn.timed;
+        timed.plan = turn.renderer->plan();
+        timed.atlas = timed.plan.atlas;
+        timed.counters = countersOf(timed.samples.back(), timed.plan, !turn.options.reuse_maps);
+        timed.added_memory = addedMemory(*turn.renderer, *turns.front().renderer);
+        timed.baseline_ms = baseline_ms;
+    }
+    result.baseline_bytes = totalBytes(*turns.front().renderer);
+    for (Turn& turn : turns) { // after all memory was counted, because reading back takes some
+        turn.timed.counters.bytes_minimum = leastBytes(*turn.renderer, subject, turn.options);
+    }
+    Timed& baseline = turns.front().timed;
+    baseline.samples.insert(baseline.samples.begin(), std::make_move_iterator(result.baseline.samples.begin()),
+                            std::make_move_iterator(result.baseline.samples.end()));
+    result.baseline = std::move(baseline);
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+        result.techniques.push_back(std::move(turns[i].timed));
+    }
 }
 
 } // namespace
@@ -133,43 +174,46 @@ std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count)
     return places;
 }
 
+std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants, std::size_t lights)
+{
+    std::vector<std::size_t> groups;
+    std::uint64_t texels = 0;
+    for (const Contestant& contestant : contestants) {
+        const std::uint64_t side = contestant.options.plan.map_size;
+        const std::uint64_t needs = side * side * lights;
+        if (groups.empty() || groups.back() == kMaxTogether || texels + needs > kMaxTexelsTogether) {
+            groups.push_back(0);
+            texels = 0;
+        }
+        ++groups.back();
+        texels += needs;
+    }
+    return groups;
+}
+
 TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject, const std::vector<Contestant>& contestants,
                         const TimingOptions& options, const std::function<void()>& step)
 {
     assert(subject.scene != nullptr && subject.state != nullptr && !contestants.empty() && options.repetitions > 0);
-    std::vector<Turn> turns = makeTurns(gpu, subject, contestants, options);
-    for (std::uint32_t round = 0; round < options.warmup + options.repetitions; ++round) {
-        for (const std::size_t place : turnsOf(round, turns.size())) {
-            Turn& turn = turns[place];
-            const host::FrameTimes times = turn.renderer->draw(*subject.state, subject.eye, subject.lights);
-            if (step) {
-                step();
-            }
-            if (round >= options.warmup) {
-                turn.timed.samples.push_back(times);
-            }
-        }
-    }
     TimingResult result;
-    for (Turn& turn : turns) {
-        Timed& timed = turn.timed;
-        timed.plan = turn.renderer->plan();
-        timed.atlas = timed.plan.atlas;
-        timed.counters = countersOf(timed.samples.back(), timed.plan, turn.redraws_all);
-        timed.added_memory = addedMemory(*turn.renderer, *turns.front().renderer);
-    }
-    result.baseline_bytes = totalBytes(*turns.front().renderer);
-    result.baseline = std::move(turns.front().timed);
-    for (std::size_t i = 1; i < turns.size(); ++i) {
-        result.techniques.push_back(std::move(turns[i].timed));
+    std::span<const Contestant> rest = contestants;
+    for (const std::size_t count : timingGroups(contestants, subject.lights.size())) {
+        timeGroup(gpu, subject, rest.first(count), options, step, result);
+        rest = rest.subspan(count);
     }
     return result;
 }
 
-double frameRatio(const Timed& technique, const Timed& baseline)
+std::uint64_t timingSteps(const Subject& subject, const std::vector<Contestant>& contestants,
+                          const TimingOptions& options)
 {
-    const double without = medianFrame(baseline);
-    return without > 0.0 ? medianFrame(technique) / without : 0.0;
+    const std::uint64_t turns = contestants.size() + timingGroups(contestants, subject.lights.size()).size();
+    return turns * (std::uint64_t{options.warmup} + options.repetitions);
+}
+
+double frameRatio(const Timed& technique)
+{
+    return technique.baseline_ms > 0.0 ? medianFrame(technique) / technique.baseline_ms : 0.0;
 }
 
 } // namespace gnomon::lab

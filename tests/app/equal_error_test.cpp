@@ -24,7 +24,7 @@ app::Settings base(const std::string& technique = "pcf")
 TEST(PcfLadder, HoldsEveryKernelAndSizeCheapestFirst)
 {
     const auto ladder = app::pcfLadder(base(), 8192);
-    EXPECT_EQ(ladder.size(), 9U * 6U);
+    EXPECT_EQ(ladder.size(), 19U * 6U);
     std::set<std::string> names;
     for (const app::PcfSetting& rung : ladder) {
         EXPECT_TRUE(app::isPlainPcf(rung.settings));
@@ -33,9 +33,9 @@ TEST(PcfLadder, HoldsEveryKernelAndSizeCheapestFirst)
     EXPECT_EQ(names.size(), ladder.size());
     EXPECT_TRUE(std::is_sorted(ladder.begin(), ladder.end(),
                                [](const app::PcfSetting& a, const app::PcfSetting& b) { return a.work < b.work; }));
-    EXPECT_EQ(app::describeTechnique(ladder.front().settings), "pcf+map-size=512+pcf.kernel=2x2");
+    EXPECT_EQ(app::describeTechnique(ladder.front().settings), "pcf+map-size=16+pcf.kernel=2x2");
     EXPECT_EQ(app::describeTechnique(ladder.back().settings), "pcf+map-size=8192+pcf.kernel=7x7");
-    EXPECT_EQ(ladder.front().work, 512.0 * 512.0 + 64.0 * 36.0 * 4.0);
+    EXPECT_EQ(ladder.front().work, 16.0 * 16.0 + 64.0 * 36.0 * 4.0);
 }
 
 TEST(PcfLadder, StopsAtTheDevicesLargestMap)
@@ -43,8 +43,8 @@ TEST(PcfLadder, StopsAtTheDevicesLargestMap)
     for (const app::PcfSetting& rung : app::pcfLadder(base(), 2047)) {
         EXPECT_LE(rung.settings.plan.map_size, 1448U);
     }
-    EXPECT_EQ(app::pcfLadder(base(), 2047).size(), 4U * 6U);
-    EXPECT_TRUE(app::pcfLadder(base(), 256).empty());
+    EXPECT_EQ(app::pcfLadder(base(), 2047).size(), 14U * 6U);
+    EXPECT_TRUE(app::pcfLadder(base(), 15).empty());
 }
 
 TEST(PcfLadder, IsPlainWhateverTheBaseAsksFor)
@@ -101,11 +101,71 @@ TEST(EqualError, FindsAPcfThatErrsNoMore)
         }
         EXPECT_LE(equal["rmse"], one["error"]["rmse"]) << equal;
         EXPECT_TRUE(equal["technique"].get<std::string>().starts_with("pcf+")) << equal;
-        EXPECT_GE(equal["tried"], 1);
+        EXPECT_GT(equal["tried"], 1);
+        EXPECT_GT(equal["cheaper"]["rmse"], one["error"]["rmse"]) << equal;
         EXPECT_TRUE(equal["reason"].is_null());
         EXPECT_NEAR(one["equal_error_ratio"].get<double>(),
                     equal["frame_ms"]["technique"].get<double>() / equal["frame_ms"]["pcf"].get<double>(), 1e-9);
     }
+}
+
+/// What a smaller map would give is not left untried: the rung before the match errs more, drawn by itself.
+TEST(EqualError, TheNextCheaperPcfErrsMore)
+{
+    const auto result = compared({"--techniques", "hard+map-size=64"});
+    const double rmse = result["results"][0]["error"]["rmse"];
+    const auto& equal = result["results"][0]["equal_error"];
+    app::Settings settings = base();
+    app::applySetting(settings, "size", "48x27"); // as compared() has it
+    const auto ladder = app::pcfLadder(settings, app::kEqualErrorMaxMap);
+    const auto match = std::find_if(ladder.begin(), ladder.end(), [&](const app::PcfSetting& rung) {
+        return app::describeTechnique(rung.settings) == equal["technique"];
+    });
+    ASSERT_NE(match, ladder.end());
+    ASSERT_NE(match, ladder.begin());
+    EXPECT_EQ(equal["tried"], match - ladder.begin() + 1);
+    const std::string before = app::describeTechnique((match - 1)->settings);
+    EXPECT_EQ(equal["cheaper"]["technique"], before);
+    const auto both = compared({"--techniques", before + "," + equal["technique"].get<std::string>()});
+    for (const auto& one : both["results"]) {
+        if (one["technique"] == before) {
+            EXPECT_GT(one["error"]["rmse"].get<double>(), rmse) << equal;
+            EXPECT_EQ(one["error"]["rmse"], equal["cheaper"]["rmse"]);
+        } else {
+            EXPECT_LE(one["error"]["rmse"].get<double>(), rmse) << equal;
+            EXPECT_EQ(one["error"]["rmse"], equal["rmse"]);
+        }
+    }
+}
+
+TEST(EqualError, RatioOfTheShadowsLeavesOutTheRestOfTheFrame)
+{
+    const auto result = compared({"--techniques", "hard+map-size=64", "--repetitions", "5"});
+    const auto& one = result["results"][0];
+    const auto& frame = one["equal_error"]["frame_ms"];
+    const double without = frame["without_shadows"];
+    const double technique = frame["technique"].get<double>() - without;
+    const double pcf = frame["pcf"].get<double>() - without;
+    if (technique > 0.0 && pcf > 0.0) {
+        EXPECT_NEAR(one["equal_error_shadow_ratio"].get<double>(), technique / pcf, 1e-9) << one;
+    } else {
+        EXPECT_TRUE(one["equal_error_shadow_ratio"].is_null()) << one;
+    }
+}
+
+/// Worse than the worst PCF there is: any ratio would be of unequal errors.
+TEST(EqualError, GivesNoRatioBelowTheCheapestPcf)
+{
+    const auto result =
+        compared({"--techniques", "hard+map-size=16+bias.normal=0+bias.slope=0+bias.constant=-1", "--sun", "1,-1,0.3"});
+    const auto& one = result["results"][0];
+    EXPECT_TRUE(one["equal_error_ratio"].is_null()) << one;
+    EXPECT_TRUE(one["equal_error_shadow_ratio"].is_null()) << one;
+    EXPECT_EQ(one["equal_error"]["tried"], 1);
+    EXPECT_LT(one["equal_error"]["rmse"], one["error"]["rmse"]);
+    EXPECT_TRUE(one["equal_error"]["reason"].get<std::string>().find("the cheapest there is, errs less") !=
+                std::string::npos)
+        << one;
 }
 
 TEST(EqualError, SaysWhyThereIsNone)

@@ -52,6 +52,9 @@ TEST(Settings, SweepsAreTakenApart)
     ASSERT_TRUE(down.has_value());
     EXPECT_EQ(down->from, 8.0);
     EXPECT_FALSE(down->logarithmic);
+    for (const char* key : {"sun-angle", "light-size", "samples", "time", "fov", "seed", "map-size", "max-distance"}) {
+        EXPECT_EQ(settingsOf({"compare", "--sweep", std::string(key) + "=16:64:3"}).sweep->key, key);
+    }
 }
 
 TEST(Settings, SizesOfLightsAreWhatWasSaid)

@@ -68,6 +68,23 @@ TEST(SweepPlan, KeepsABorderThatIsSwept)
     EXPECT_EQ(plan.lines[0].points[2].plan.border_texels, 8.0);
 }
 
+TEST(SweepPlan, RoundsToMultiplesAndKnowsWhatMakesTheShotAnew)
+{
+    const std::vector<app::Settings> techniques{technique("hard")};
+    app::Settings area = techniques[0];
+    area.truth = truth::Kind::area;
+    const app::SweepPlan samples = app::planSweep({"samples", 4.0, 64.0, 7, false}, {area});
+    EXPECT_EQ(samples.values, (std::vector<double>{4.0, 16.0, 24.0, 36.0, 44.0, 56.0, 64.0}));
+    EXPECT_TRUE(samples.remakes_shot);
+    EXPECT_FALSE(app::planSweep({"map-size", 64.0, 128.0, 2, false}, techniques).remakes_shot);
+    EXPECT_EQ(app::settingsAt(samples, 2, area).samples, 24U);
+    EXPECT_EQ(app::placeText(samples, 2), "samples=24");
+    EXPECT_THROW((void)app::planSweep({"samples", 4.0, 64.0, 7, false}, techniques), app::UsageError); // no truth
+    // All digits of a large whole number.
+    const app::SweepPlan seeds = app::planSweep({"seed", 1.0, 9e15, 2, false}, techniques);
+    EXPECT_EQ(app::settingsAt(seeds, 1, techniques[0]).seed, 9000000000000000U);
+}
+
 TEST(SweepPlot, RunsUpwardAndLeavesGaps)
 {
     app::SweepResult result;
@@ -128,6 +145,80 @@ TEST(Sweep, ErrorFallsAsTheMapGrows)
                                                "truth.png"}));
     EXPECT_TRUE(test::slurp(folder / "out/sweep.svg").find("<svg") != std::string::npos);
     EXPECT_TRUE(test::slurp(folder / "out/index.html").find("sweep.svg") != std::string::npos);
+}
+
+/// One truth cache for all its runs.
+class SweepOfTheShot : public testing::Test {
+protected:
+    nlohmann::json run(const std::vector<std::string>& more)
+    {
+        std::vector<std::string> arguments{"compare",    "planes", "--size",       "80x45", "--camera", "side",
+                                           "--map-size", "512",    "--techniques", "hard",  "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::Ran ran = test::gnomon(
+            arguments, {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", cache.path().string()}}});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        last_error = ran.err;
+        return nlohmann::json::parse(ran.out);
+    }
+    test::Folder folder;
+    test::Folder cache;
+    std::string last_error;
+};
+
+/// Each point is what a run with that value alone finds.
+TEST_F(SweepOfTheShot, HoldsEachSunAgainstItsOwnTruth)
+{
+    const std::vector<std::string> common{"--samples", "16", "--sun", "1,-2,0.7"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), common.begin(), common.end());
+        return run(more);
+    };
+    const nlohmann::json result = with({"--sweep", "sun-angle=0:8:3", "--report", "out"});
+    EXPECT_EQ(last_error.find("no extent"), std::string::npos) << last_error; // only one of them has none
+    const nlohmann::json& sweep = result["sweep"];
+    EXPECT_EQ(sweep["unit"], "degrees");
+    EXPECT_EQ(sweep["values"], (std::vector<double>{0.0, 4.0, 8.0}));
+    ASSERT_EQ(sweep["truth"].size(), 3U);
+    ASSERT_EQ(sweep["pixels"].size(), 3U);
+    EXPECT_EQ(sweep["truth"][0]["standard_error"], 0.0);
+    EXPECT_GT(sweep["truth"][2]["standard_error"].get<double>(), 0.0);
+    EXPECT_EQ(result["truth"], sweep["truth"][0]);
+    EXPECT_EQ(result["light_source"]["angular_diameter_rad"], 0.0);
+    EXPECT_FALSE(result["settings"].contains("sun-angle"));
+    const std::vector<double> rmse = sweep["results"][0]["rmse"];
+    ASSERT_EQ(rmse.size(), 3U);
+    EXPECT_LT(rmse[0], rmse[1]); // a hard shadow is ever farther from that of a wider sun
+    EXPECT_LT(rmse[1], rmse[2]);
+    const nlohmann::json alone = with({"--sun-angle", "8", "--repetitions", "1", "--warmup", "0"});
+    EXPECT_EQ(alone["truth"]["from_cache"], true); // the sweep kept it
+    EXPECT_EQ(alone["results"][0]["error"]["rmse"], rmse[2]);
+    EXPECT_EQ(alone["pixels"], sweep["pixels"][2]);
+    EXPECT_TRUE(test::slurp(folder / "out/index.html").find("at sun-angle=0") != std::string::npos);
+}
+
+TEST_F(SweepOfTheShot, TakesAnyNumber)
+{
+    const nlohmann::json samples = run({"--sun-angle", "8", "--sweep", "samples=4:64:3:log"});
+    EXPECT_EQ(samples["sweep"]["values"], (std::vector<double>{4, 16, 64}));
+    EXPECT_GT(samples["sweep"]["truth"][0]["standard_error"], samples["sweep"]["truth"][2]["standard_error"]);
+    EXPECT_EQ(samples["sweep"]["truth"][2]["samples"], 64);
+
+    const nlohmann::json sizes = run({"--samples", "16", "--light", "spot", "--sweep", "light-size=0.05:1:2"});
+    EXPECT_LT(sizes["sweep"]["results"][0]["rmse"][0], sizes["sweep"]["results"][0]["rmse"][1]);
+
+    const nlohmann::json fields = run({"--truth", "hard", "--sweep", "fov=20:60:2"});
+    EXPECT_NE(fields["sweep"]["pixels"][0], fields["sweep"]["pixels"][1]);
+    EXPECT_NEAR(fields["eye"]["fov_y_rad"].get<double>(), 20.0 * 3.14159265358979 / 180.0, 1e-9);
+
+    const nlohmann::json seeds = run({"--sun-angle", "8", "--samples", "16", "--sweep", "seed=1:2:2"});
+    EXPECT_EQ(seeds["sweep"]["truth"][1]["seed"], 2);
+    EXPECT_NE(seeds["sweep"]["results"][0]["rmse"][0], seeds["sweep"]["results"][0]["rmse"][1]);
+
+    // Nothing moves here: the second moment's truth is the first one's.
+    const nlohmann::json times = run({"--truth", "hard", "--sweep", "time=0:1:2"});
+    EXPECT_EQ(times["sweep"]["truth"][1]["from_cache"], true);
+    EXPECT_EQ(times["sweep"]["results"][0]["rmse"][0], times["sweep"]["results"][0]["rmse"][1]);
 }
 
 } // namespace

@@ -82,8 +82,10 @@ Timed timedOf(std::initializer_list<double> frames)
 
 TEST(FrameRatio, IsOfMedians)
 {
-    EXPECT_DOUBLE_EQ(frameRatio(timedOf({30.0, 3.0, 2.0}), timedOf({2.0, 1.0, 90.0})), 1.5);
-    EXPECT_EQ(frameRatio(timedOf({1.0}), timedOf({})), 0.0);
+    Timed timed = timedOf({30.0, 3.0, 2.0});
+    EXPECT_EQ(frameRatio(timed), 0.0); // of nothing
+    timed.baseline_ms = 2.0;
+    EXPECT_DOUBLE_EQ(frameRatio(timed), 1.5);
 }
 
 class TimeInTurn : public testing::Test {
@@ -115,7 +117,7 @@ TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
     EXPECT_GT(result.baseline_bytes, 64U * 36U * 4U);
     for (const Timed& timed : result.techniques) {
         EXPECT_EQ(timed.samples.size(), 3U);
-        EXPECT_GT(frameRatio(timed, result.baseline), 0.0);
+        EXPECT_GT(frameRatio(timed), 0.0);
         std::uint64_t added = 0;
         for (const auto& [purpose, bytes] : timed.added_memory) {
             added += bytes;
@@ -126,6 +128,14 @@ TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
     EXPECT_EQ(result.techniques[0].counters.texels_rendered, 0U);
     EXPECT_EQ(result.techniques[1].counters.texels_rendered, 2U * 128U * 128U);
     EXPECT_GT(stagesOf(result.techniques[1].samples[2]).maps, 0.0);
+    // Kept and drawn anew they read the same, one texel for a pixel and light at the most.
+    const auto least = [&](std::size_t i) {
+        return result.techniques[i].counters.bytes_minimum;
+    };
+    EXPECT_EQ(result.baseline.counters.bytes_minimum, 0U);
+    EXPECT_EQ(least(1) - least(0), 4U * 2U * 128U * 128U);
+    EXPECT_GT(least(0), 64U * 36U * (4 + 4 + 4 + 4)); // two lights: four bytes of mask
+    EXPECT_LT(least(0), 64U * 36U * (4 + 4 + 4 + 4 + 2 * 4));
     EXPECT_EQ(result.techniques[2].plan.views.size(), 2U);
     EXPECT_EQ(result.techniques[2].plan.views[0].tile.width, 256U);
 }
@@ -136,6 +146,47 @@ TEST_F(TimeInTurn, DrawsEveryMapAnewUnlessAskedToKeepThem)
         timeInTurn(stage.gpu(), stage.subject(), contestants, {.repetitions = 2, .warmup = 1}, {});
     EXPECT_EQ(result.techniques[0].counters.texels_rendered, 2U * 128U * 128U);
     EXPECT_EQ(result.techniques[2].counters.texels_rendered, 2U * 256U * 256U);
+}
+
+TEST(TimingGroups, AreSmallAndTheirMapsFitTogether)
+{
+    const auto groups = [](const std::vector<std::uint32_t>& sides, std::size_t lights) {
+        std::vector<Contestant> made;
+        for (const std::uint32_t side : sides) {
+            made.push_back({"", hardOptions(side)});
+        }
+        return timingGroups(made, lights);
+    };
+    using Sizes = std::vector<std::size_t>;
+    EXPECT_EQ(groups(std::vector<std::uint32_t>(8, 2048), 1), (Sizes{8}));
+    EXPECT_EQ(groups(std::vector<std::uint32_t>(17, 2048), 1), (Sizes{8, 8, 1}));
+    EXPECT_EQ(groups({16384, 8192, 8192, 8192, 16384, 16384}, 1), (Sizes{4, 2}));
+    EXPECT_EQ(groups({8192, 8192, 8192}, 4), (Sizes{2, 1}));
+    EXPECT_EQ(groups({64, 16384, 64}, 4), (Sizes{1, 1, 1})); // one alone may have more
+}
+
+TEST_F(TimeInTurn, ManyHaveABaselineForEachGroup)
+{
+    contestants.resize(kMaxTogether + 1, contestants[0]);
+    contestants.back().options.plan.map_size = 256;
+    const TimingOptions options{.repetitions = 2, .warmup = 1};
+    std::uint64_t steps = 0;
+    const TimingResult result = timeInTurn(stage.gpu(), stage.subject(), contestants, options, [&] { ++steps; });
+    EXPECT_EQ(steps, (kMaxTogether + 1 + 2) * 3U);
+    EXPECT_EQ(timingSteps(stage.subject(), contestants, options), steps);
+    ASSERT_EQ(result.techniques.size(), kMaxTogether + 1);
+    EXPECT_EQ(result.baseline.samples.size(), 4U);
+    EXPECT_EQ(result.techniques.back().plan.views[0].tile.width, 256U);
+    EXPECT_EQ(result.techniques.back().added_memory.empty(), false);
+    for (const Timed& timed : result.techniques) {
+        EXPECT_EQ(timed.samples.size(), 2U);
+        EXPECT_GT(frameRatio(timed), 0.0);
+    }
+    const auto frame = [&](std::size_t i) {
+        return result.baseline.samples[i].frame_ms;
+    };
+    EXPECT_DOUBLE_EQ(result.techniques.front().baseline_ms, (frame(0) + frame(1)) / 2.0);
+    EXPECT_DOUBLE_EQ(result.techniques.back().baseline_ms, (frame(2) + frame(3)) / 2.0);
 }
 
 TEST_F(TimeInTurn, StopsWhenTheCallerThrows)

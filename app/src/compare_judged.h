@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every technique is held against: one light of a shot and its truth.
+#pragma once
+
+#include "app/shot.h"
+#include "lab/compare.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace gnomon::app {
+
+/// How a truth was come by.
+struct TruthFacts {
+    truth::Kind kind = truth::Kind::hard;
+    std::uint32_t samples = 1; // rays per pixel
+    std::uint64_t seed = 0;
+    std::uint64_t rays = 0; // all of them, and the seconds that they took when they were traced
+    double seconds = 0.0;
+    bool from_cache = false;
+    bool point_like = false; // the light has no extent, so that area truth is the hard one
+};
+
+struct Judged {
+    lab::Subject subject; // the light is alone in the frame
+    truth::Traced truth;
+    TruthFacts facts;
+};
+/// Traces the light that --light names, or takes its truth from the cache. `shot` outlives the result. Throws
+/// Interrupted; UsageError for a light that is not there; Error when memory runs out.
+[[nodiscard]] Judged judge(const Shot& shot, const Settings& settings);
+
+/// A shot of its own with its judged light.
+struct JudgedShot {
+    Shot shot;
+    Judged judged;
+};
+/// Throws as makeShot(), requireSizedLights() and judge() do. In place, for `judged` looks at `shot`.
+[[nodiscard]] std::unique_ptr<const JudgedShot> judgeShot(const Settings& settings);
+
+} // namespace gnomon::app
