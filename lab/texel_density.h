@@ -8,7 +8,7 @@
 namespace gnomon::lab {
 
 [[nodiscard]] TexelDensity texelDensity(const host::Picture& picture, const Counted& counted, const Camera& camera,
-                                        const Plan& plan, std::uint32_t light, double reach_texels = 0.5);
+                                        const Plan& plan, std::uint32_t light, double reach_texels);
 
 /// Texels that some counted pixel reads, divided by the texels held for the light; [0, 1], 0 when it has no map.
 /// `reach_texels`: vulkan::filterReachTexels().
