@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report's folder and the tables of a comparison, without a run.
+#include "folder.h"
+
+#include "compare_folder.h"
+#include "compare_table.h"
+#include "compare_text.h"
+#include "contestants.h"
+#include "image/image_io.h"
+
+#include <gnomon/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In alphabetical order.
+std::vector<std::string> namesIn(const fs::path& folder)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+TEST(ReportFolder, GoesAwayUnlessItIsKept)
+{
+    const test::Folder folder;
+    const std::vector<std::string> files = app::reportFiles(1, false);
+    {
+        app::ReportFolder report(folder / "out", files);
+        report.write("result.json", "{}");
+        report.write("01_mask.png", Image8(4, 4, 1));
+        EXPECT_FALSE(fs::exists(folder / "out")); // not before all is there
+    }
+    EXPECT_TRUE(folder.names().empty());
+    {
+        app::ReportFolder report(folder / "new/", files);
+        report.write("result.json", "{}");
+        report.keep();
+    }
+    EXPECT_EQ(namesIn(folder / "new"), std::vector<std::string>{"result.json"});
+    EXPECT_THROW(app::ReportFolder(folder / "new/result.json", files), Error);
+    EXPECT_THROW(app::ReportFolder(folder / "none/out", files), Error);
+}
+
+TEST(ReportFolder, ChangesAnotherOnlyWhenKept)
+{
+    const test::Folder folder;
+    test::spill(folder / "mine.txt", "keep me");
+    test::spill(folder / "03_mask.png", "old");
+    test::spill(folder / "2024_mask.png", "no report's: not in its list");
+    test::spill(folder / "result.json", R"({"report_files": ["03_mask.png", "result.json", "mine.txt", "../x", 3]})");
+    const std::vector<std::string> before = namesIn(folder.path());
+    {
+        app::ReportFolder report(folder.path(), app::reportFiles(1, true));
+        report.write("result.json", "new");
+    }
+    EXPECT_EQ(namesIn(folder.path()), before);
+    EXPECT_NE(test::slurp(folder / "result.json"), "new");
+    app::ReportFolder report(folder.path(), app::reportFiles(1, true));
+    report.write("result.json", "new");
+    report.write("sweep.svg", "new");
+    report.keep();
+    EXPECT_EQ(test::slurp(folder / "result.json"), "new");
+    EXPECT_TRUE(fs::exists(folder / "sweep.svg"));
+    EXPECT_FALSE(fs::exists(folder / "03_mask.png")); // the earlier report's alone
+    EXPECT_TRUE(fs::exists(folder / "2024_mask.png"));
+    EXPECT_TRUE(fs::exists(folder / "mine.txt"));
+}
+
+TEST(ReportFiles, AreNumberedByTechniqueOrLine)
+{
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(app::reportFiles(1, false), (Names{"truth.png", "01_mask.png", "01_error.png", "01_classes.png",
+                                                 "01_density.png", "index.html", "result.json"}));
+    EXPECT_EQ(app::reportFiles(1, true), (Names{"truth.png", "sweep.svg", "index.html", "result.json"}));
+    EXPECT_EQ(app::reportFiles(2, true),
+              (Names{"truth.png", "sweep.svg", "01_sweep.svg", "02_sweep.svg", "index.html", "result.json"}));
+}
+
+/// With times of a slow machine: of a fast one it is narrower.
+TEST(CompareTable, Fits120Columns)
+{
+    app::CompareResult result;
+    for (const app::Settings& settings : app::contestants(app::defaultSettings())) {
+        app::ComparedTechnique& technique = result.techniques.emplace_back();
+        technique.settings = settings;
+        technique.name = app::describeTechnique(settings);
+        technique.score.error = lab::ErrorNumbers{0.1, 0.1, -0.1, 0.9};
+        technique.score.classification.emplace().errors = {0.01, 0.0, 0.0, 0.0};
+        technique.score.ssim = technique.score.flip = 0.5;
+        technique.timed.samples.emplace_back().frame_ms = 99999.99;
+        technique.timed.baseline_ms = 1000.0;
+        technique.timed.added_memory = {{"maps", std::uint64_t{1} << 30U}};
+        technique.equal_error.emplace().ratio = 10.0;
+    }
+    ASSERT_EQ(result.techniques.size(), 7U);
+    std::istringstream in(app::tableText(app::compareTable(result, true)));
+    for (std::string line; std::getline(in, line);) {
+        EXPECT_LE(line.size(), 130U) << line;
+    }
+}
+
+TEST(CompareTable, LeavesOutWhatAllTechniquesShare)
+{
+    const std::vector<std::string> names{"hard+map-size=64+bias=none", "pcf+map-size=64+bias=none+pcf.kernel=3x3"};
+    EXPECT_EQ(app::commonParts(names), "map-size=64+bias=none");
+    EXPECT_EQ(app::withoutParts(names[1], app::commonParts(names)), "pcf+pcf.kernel=3x3");
+    EXPECT_EQ(app::commonParts({"pcf+map-size=64"}), "");
+    EXPECT_EQ(app::commonParts({"pcf", "hard"}), "");
+    EXPECT_EQ(app::withoutParts("pcf+map-size=64", ""), "pcf+map-size=64");
+}
+
+TEST(CompareTable, CellsShowNumbersOrNone)
+{
+    EXPECT_EQ(app::cell(0.12345, 3), "0.123");
+    EXPECT_EQ(app::cell(std::nullopt, 3), "-");
+    EXPECT_EQ(app::cell(std::nan(""), 3), "-");
+    std::vector<std::string> row;
+    app::addErrorCells(row, lab::ErrorNumbers{0.2, 0.1, -0.00001, 0.9}, {0.03, 0.01, 0.0, 0.0});
+    EXPECT_EQ(row, (std::vector<std::string>{"0.2000", "0.1000", "0.0000", "75.0", "25.0", "0.0", "0.0"}));
+    row.clear();
+    app::addErrorCells(row, std::nullopt, {});
+    EXPECT_EQ(row, (std::vector<std::string>(7, "-")));
+    EXPECT_EQ(app::tableText({{"name", "x"}, {{"a", "10"}, {"long name", "2"}}}),
+              "name        x\na          10\nlong name   2\n");
+}
+
+} // namespace
+} // namespace gnomon
