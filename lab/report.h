@@ -14,9 +14,6 @@
 
 namespace gnomon::lab {
 
-/// Grey, as the eye is used to see it: sRGB-encoded. Pixels outside [0, 1] are clamped; NaN is magenta.
-[[nodiscard]] Image8 greyPicture(const ImageF& mask);
-
 /// test - truth from -1 (too dark, blue) over 0 (white) to 1 (too bright, orange-brown), in a diverging map that people
 /// with any of the usual colour deficiencies can read; left-out pixels dark grey, NaN magenta. The scale is the square
 /// root of |test - truth|, so that an error of 0.01 is seen too.

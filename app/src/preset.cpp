@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -40,6 +41,10 @@ std::string typed(const nlohmann::json& value)
     if (value.is_boolean()) {
         return value.get<bool>() ? "1" : "0";
     }
+    if (value.is_number_float()) { // 4.0 is 4, so that a technique has one name
+        std::array<char, 32> room{};
+        return {room.data(), std::to_chars(room.data(), room.data() + room.size(), value.get<double>()).ptr};
+    }
     if (value.is_array()) {
         std::string text;
         for (const auto& element : value) {
@@ -54,6 +59,10 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
 {
     if (key == "scene") {
         settings.scene = typed(value);
+        return;
+    }
+    if (key == "scene_hash") {
+        settings.scene_hash = typed(value);
         return;
     }
     if (value.is_object() || value.is_null()) {
@@ -79,9 +88,14 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
 void applyJson(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
 {
     // Ordered, because bias ends what bias.constant said before it.
-    const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+    const auto file = nlohmann::ordered_json::parse(text, nullptr, false);
+    const bool is_result = file.is_object() && file.contains("settings");
+    const auto& json = is_result ? file["settings"] : file;
     if (!json.is_object()) {
         throw UsageError(fmt::format("--preset: {} is not a JSON object of settings", name));
+    }
+    if (json.contains("scene")) {
+        settings.scene_hash.clear(); // of an earlier preset's scene
     }
     // An earlier preset's camera gives way; a preset that has both is wrong by itself.
     if (json.contains("camera") != (json.contains("eye") || json.contains("target"))) {
@@ -98,7 +112,7 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
 
 std::string readPreset(const std::filesystem::path& file)
 {
-    constexpr std::uintmax_t kMaxBytes = 1U << 20U;
+    constexpr std::uintmax_t kMaxBytes = 1U << 24U; // a result holds every number of every technique
     if (std::filesystem::is_directory(file)) {
         throw Error("reading preset " + file.string(), "it is a directory");
     }

@@ -4,6 +4,8 @@
 #include "light_extent.h"
 #include "shot_camera.h"
 
+#include "scene/hash.h"
+
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
@@ -207,6 +209,20 @@ void overrideMaterials(scene::Scene& scene)
     }
 }
 
+/// A result's preset makes its run again only on what it was made on.
+void noteScene(Shot& shot, const Settings& settings)
+{
+    if (settings.scene_hash.empty()) {
+        return;
+    }
+    const std::string hash = scene::toString(scene::sceneHash(shot.scene));
+    if (hash != settings.scene_hash) {
+        shot.notices.push_back(
+            fmt::format("{} is not what the preset's result was measured on: its hash is {}, there {}", settings.scene,
+                        hash, settings.scene_hash));
+    }
+}
+
 } // namespace
 
 double timeOf(const Settings& settings, std::uint32_t frame)
@@ -235,6 +251,7 @@ Shot makeShot(const Settings& settings)
     placeLights(shot, settings);
     noteLights(shot, settings);
     noteExtents(shot, settings);
+    noteScene(shot, settings);
     return shot;
 }
 

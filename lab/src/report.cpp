@@ -128,17 +128,6 @@ void drawLineAtOne(Image8& picture, const ImageF& density)
 
 } // namespace
 
-Image8 greyPicture(const ImageF& mask)
-{
-    assert(mask.channels == 1);
-    return paint(mask.width, mask.height, [&](std::size_t i) {
-        if (std::isnan(mask.values[i]))
-            return kNotANumber;
-        const std::uint8_t grey = encodeSrgb(mask.values[i]);
-        return Colour{grey, grey, grey};
-    });
-}
-
 Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
 {
     assert(areMasksOfOneSize(test, truth) && areMasksOfOneSize(test, counted));

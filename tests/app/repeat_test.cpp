@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// A result makes its own run again: as a preset, whole or by its settings alone.
+#include "folder.h"
+#include "process.h"
+
+#include "app/preset.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+
+/// A folder and a cache of the test's own.
+struct Place {
+    test::Folder folder;
+    test::Folder cache;
+
+    [[nodiscard]] test::Ran run(const std::vector<std::string>& arguments) const
+    {
+        return test::gnomon(arguments,
+                            {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", cache.path().string()}}});
+    }
+    [[nodiscard]] json result(const std::vector<std::string>& arguments) const
+    {
+        const test::Ran ran = run(arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return json::parse(ran.out, nullptr, false);
+    }
+};
+
+/// Small and quick; `more` adds to it.
+std::vector<std::string> compareOf(const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments{"compare",       "planes",    "--size", "64x36",    "--map-size",
+                                       "128",           "--samples", "16",     "--warmup", "0",
+                                       "--repetitions", "1",         "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+/// Technique and error of every result, in order.
+json errorsOf(const json& result)
+{
+    json errors = json::array();
+    for (const json& one : result["results"]) {
+        errors.push_back({one["technique"], one["error"]});
+    }
+    return errors;
+}
+
+TEST(Repeat, EveryWayToChooseTechniques)
+{
+    const Place place;
+    struct Case {
+        const char* name;
+        std::vector<std::string> more;
+        const char* techniques; // as the settings have them
+        std::size_t count;
+    };
+    const std::vector<Case> cases{
+        {"the default list",
+         {},
+         "hard,pcf+pcf.kernel=2x2,pcf+pcf.kernel=3x3,pcf+pcf.kernel=5x5,pcf+pcf.kernel=7x7,pcf+pcf.kernel=poisson,"
+         "pcf+pcf.kernel=vogel",
+         7},
+        {"one by its options", {"--set", "pcf.kernel=vogel", "--set", "pcf.radius=4"}, "pcf+pcf.kernel=vogel", 1},
+        {"one without options of its own", {"--filter", "hard", "--bias", "slope=1.5,constant=0.01"}, "hard", 1},
+        {"a list", {"--techniques", "pcf+map-size=64,hard"}, "pcf+map-size=64,hard", 2}};
+    for (const Case& one : cases) {
+        SCOPED_TRACE(one.name);
+        const json first = place.result(compareOf(one.more));
+        ASSERT_EQ(first["results"].size(), one.count);
+        EXPECT_EQ(first["settings"]["techniques"], one.techniques);
+        EXPECT_EQ(first["settings"]["scene"], "planes");
+        EXPECT_EQ(first["settings"]["scene_hash"], first["scene_hash"]);
+        test::spill(place.folder / "settings.json", first["settings"].dump());
+        test::spill(place.folder / "result.json", first.dump());
+        for (const char* preset : {"settings.json", "result.json"}) {
+            const json again = place.result({"compare", "--preset", preset, "--json"}); // the scene is in it
+            EXPECT_EQ(errorsOf(again), errorsOf(first)) << preset;
+            EXPECT_EQ(again["settings"], first["settings"]) << preset;
+            EXPECT_EQ(again["scene"], "planes");
+        }
+    }
+}
+
+TEST(Repeat, OneTechniqueOfManyByItsOwnSettings)
+{
+    const Place place;
+    const json first = place.result(compareOf({"--techniques", "hard,pcf+pcf.kernel=7x7+map-size=64"}));
+    for (const json& one : first["results"]) {
+        test::spill(place.folder / "one.json", one["settings"].dump());
+        const json again = place.result({"compare", "planes", "--preset", "one.json", "--json"});
+        ASSERT_EQ(again["results"].size(), 1U);
+        EXPECT_EQ(again["results"][0]["error"], one["error"]);
+    }
+}
+
+TEST(Repeat, ASweepToo)
+{
+    const Place place;
+    const json first = place.result({"compare", "planes", "--size", "64x36", "--samples", "16", "--sweep",
+                                     "map-size=32:64:2", "--json", "--techniques", "hard,pcf"});
+    test::spill(place.folder / "result.json", first.dump());
+    const json again = place.result({"compare", "--preset", "result.json", "--json"});
+    EXPECT_EQ(again["sweep"], first["sweep"]);
+    EXPECT_EQ(first["sweep"]["values"].size(), 2U);
+}
+
+TEST(Repeat, BenchToo)
+{
+    const Place place;
+    const json first = place.result(
+        {"bench", "planes", "--size", "32x18", "--map-size", "64", "--repetitions", "1", "--warmup", "0", "--json"});
+    EXPECT_EQ(first["settings"]["scene"], "planes");
+    test::spill(place.folder / "result.json", first.dump());
+    const json again = place.result({"bench", "--preset", "result.json", "--json"});
+    ASSERT_EQ(again["results"].size(), first["results"].size());
+    EXPECT_EQ(again["results"].size(), 7U);
+    EXPECT_EQ(again["settings"], first["settings"]);
+}
+
+TEST(Repeat, SaysWhenTheSceneIsAnother)
+{
+    const Place place;
+    json result = place.result(compareOf({"--filter", "hard"}));
+    test::spill(place.folder / "result.json", result.dump());
+    const auto noticed = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"compare"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), {"--preset", "result.json", "--json"});
+        const test::Ran ran = place.run(arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.err.find("is not what the preset's result was measured on") != std::string::npos;
+    };
+    EXPECT_FALSE(noticed({}));
+    EXPECT_TRUE(noticed({"spotlit"}));
+    test::spill(place.folder / "other.json", R"({"scene": "spotlit"})");
+    const test::Ran other = place.run({"compare", "--preset", "result.json", "--preset", "other.json", "--json"});
+    EXPECT_EQ(other.err.find("is not what"), std::string::npos); // a scene of which nothing was said
+    result["settings"]["scene_hash"] = std::string(32, '0');
+    test::spill(place.folder / "result.json", result.dump());
+    EXPECT_TRUE(noticed({}));
+}
+
+TEST(Repeat, ResultsWithoutSettingsAreRefused)
+{
+    const test::Folder folder;
+    for (const char* text : {R"({"settings": 3})", R"({"settings": [1]})", R"({"settings": {"filtre": "pcf"}})",
+                             R"({"version": "1", "results": []})"}) {
+        test::spill(folder / "bad.json", text);
+        app::Settings settings = app::defaultSettings();
+        EXPECT_THROW(app::applyPreset(settings, (folder / "bad.json").string(), app::kCompare), app::UsageError)
+            << text;
+    }
+}
+
+} // namespace
+} // namespace gnomon
