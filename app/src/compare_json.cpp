@@ -130,7 +130,7 @@ Json unitsJson()
     units["equal_error_shadow_ratio"] = "the same of what the two frames take beyond the frame without shadows";
     units["standard_error"] = "visibility, root mean square over the counted pixels";
     units["truth.samples"] = "rays per pixel";
-    units["texel_density.pixels"] = "pixels, of the counted: in one of the light's maps, and not";
+    units["texel_density.pixels"] = "pixels that see a surface: counted and in one of the light's maps, and all others";
     return units;
 }
 

@@ -17,7 +17,7 @@ std::string line(const std::string& left, const std::string& right)
 std::string programHelp()
 {
     std::string text = "Usage: gnomon SUBCOMMAND [SCENE] [options]\n"
-                       "Real-time soft shadows: draw them, plan them, time them.\n\nSubcommands:\n";
+                       "Real-time soft shadows: draw them, measure them, plan them, time them.\n\nSubcommands:\n";
     for (const Subcommand& subcommand : subcommands()) {
         text += line(std::string(subcommand.name), std::string(subcommand.summary));
     }

@@ -228,7 +228,7 @@ const std::vector<Setting>& rows()
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
-        {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "which light's mask; else the first one's", .subcommands = kRender | kCompare,
+        {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kCompare,
          .used = judgesALight, .used_when = "--mask, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},

@@ -226,7 +226,9 @@ TextTable sweepTable(const SweepResult& result)
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         for (std::size_t j = 0; j < result.plan.values.size(); ++j) {
             const SweepResult::Point& point = result.points[i][j];
-            std::vector<std::string> row{result.plan.lines[i].technique, valueText(result.plan.values[j])};
+            const double value = result.plan.values[j];
+            std::vector<std::string> row{result.plan.lines[i].technique,
+                                         std::floor(value) == value ? valueText(value) : fmt::format("{:.4g}", value)};
             addErrorCells(row, point.error, point.classes);
             if (result.plan.remakes_shot) {
                 row.push_back(cell(result.places[j].standard_error, 4));
