@@ -20,7 +20,8 @@ thread_local int allocations_left = kUnlimited;
 
 // Of the whole test program, so that the standard library's own requests can fail. All forms that one `delete` serves:
 // a sanitizer has its own of each, and minds a mixture.
-void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept
+// Never inlined: where GCC 12 sees through one of them only, it believes new and free to be mixed.
+[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept
 {
     if (allocations_left == 0) {
         return nullptr;
@@ -30,18 +31,18 @@ void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept
     }
     return std::malloc(std::max<std::size_t>(bytes, 1));
 }
-void* operator new(std::size_t bytes)
+[[gnu::noinline]] void* operator new(std::size_t bytes)
 {
     if (void* memory = operator new(bytes, std::nothrow)) {
         return memory;
     }
     throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept
+[[gnu::noinline]] void operator delete(void* memory) noexcept
 {
     std::free(memory);
 }
-void operator delete(void* memory, std::size_t /*bytes*/) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*bytes*/) noexcept
 {
     std::free(memory);
 }
