@@ -64,12 +64,12 @@ constexpr std::array kValues{
                 "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
     ChoiceValue{kFilter, "pcss", number(Filter::pcss), false, "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
-    ChoiceValue{kFilter, "vsm", number(Filter::vsm), false, "two moments and Chebyshev's bound", kKiteLightning},
-    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), false, "variance maps in layers of depth", kMarinescu},
-    ChoiceValue{kFilter, "esm", number(Filter::esm), false, "an exponential of depth", kKiteLightning},
-    ChoiceValue{kFilter, "evsm", number(Filter::evsm), false, "moments of two exponential warps",
+    ChoiceValue{kFilter, "vsm", number(Filter::vsm), true, "two moments and Chebyshev's bound", kKiteLightning},
+    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), true, "variance maps in layers of depth", kMarinescu},
+    ChoiceValue{kFilter, "esm", number(Filter::esm), true, "an exponential of depth", kKiteLightning},
+    ChoiceValue{kFilter, "evsm", number(Filter::evsm), true, "moments of two exponential warps",
                 "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008"},
-    ChoiceValue{kFilter, "msm", number(Filter::msm), false, "four moments",
+    ChoiceValue{kFilter, "msm", number(Filter::msm), true, "four moments",
                 "C. Peters, R. Klein, Moment Shadow Mapping, 2015"},
     ChoiceValue{kFilter, "id", number(Filter::id), false, "object ids instead of depth", kForsyth},
     ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), false, "object id, then depth inside the object",
@@ -106,15 +106,48 @@ constexpr std::array kFormats{
     Named<MapFormat>{MapFormat::r32f, "r32f"},       Named<MapFormat>{MapFormat::rg16, "rg16"},
     Named<MapFormat>{MapFormat::rg16f, "rg16f"},     Named<MapFormat>{MapFormat::rg32f, "rg32f"},
     Named<MapFormat>{MapFormat::rgba16, "rgba16"},   Named<MapFormat>{MapFormat::rgba16f, "rgba16f"},
-    Named<MapFormat>{MapFormat::rgba32f, "rgba32f"},
+    Named<MapFormat>{MapFormat::rgba32f, "rgba32f"}, Named<MapFormat>{MapFormat::r16f, "r16f"},
 };
 
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
 constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
+constexpr std::array kVsmFormats{MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f};
+constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f};
+constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
+// Two channels: the positive warp alone.
+constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
+constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
-    FilterTraits{Filter::hard, kDepthFormats, true, true},
-    FilterTraits{Filter::pcf, kDepthFormats, true, true},
+    FilterTraits{Filter::hard, kDepthFormats, true, true, false},
+    FilterTraits{Filter::pcf, kDepthFormats, true, true, false},
+    FilterTraits{Filter::vsm, kVsmFormats, false, true, true},
+    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true},
+    FilterTraits{Filter::esm, kEsmFormats, false, true, true},
+    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true},
+    FilterTraits{Filter::msm, kMsmFormats, false, true, true},
 };
+
+/// What a user reads who asks a filter for a format that it cannot use.
+constexpr std::string_view formatReason(Filter filter)
+{
+    switch (filter) {
+    case Filter::vsm:
+        return "vsm stores two moments: rg32f, rg16 or rg16f; of four channels it would waste two, where lvsm has a "
+               "second layer";
+    case Filter::lvsm:
+        return "lvsm stores two moments each of two layers: rgba16, rgba16f or rgba32f";
+    case Filter::esm:
+        return "esm stores one exponential, which only a float holds: r32f or r16f";
+    case Filter::evsm:
+        return "evsm stores moments of exponentials, which only a float holds: rgba32f, rgba16f, or with the positive "
+               "warp alone rg32f, rg16f";
+    case Filter::msm:
+        return "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or rgba32f; half floats "
+               "round them too coarsely";
+    default:
+        return "this filter compares one depth per texel; it stores d32f, r32f or d16";
+    }
+}
 
 /// A combination of available values that makes no sense.
 struct Rule {
@@ -292,7 +325,7 @@ std::optional<std::string_view> refusal(Filter filter, MapFormat format)
         for (const MapFormat usable : traits->formats)
             if (usable == format)
                 return std::nullopt;
-    return "this filter compares one depth per texel; it stores d32f, r32f or d16";
+    return formatReason(filter);
 }
 
 } // namespace gnomon

@@ -8,9 +8,14 @@
 //   real4 mapGather(real2 corner, real layer); // corner: integer coordinates
 // And to the points of a disc filter's pattern, which are a table on the GPU (shared/discs.h):
 //   real2 discPoint(int i); // in the unit disc
+// And to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level, and
+// the layers of depth of a view (GpuDepthLayers::layer):
+//   real4 mapMoments(real2 texel, real level, real layer); // bilinear, between levels too
+//   real4 mapDepthLayer(int slot, int i);
 #ifndef GNOMON_FILTER_TYPES_GLSL
 #define GNOMON_FILTER_TYPES_GLSL
 #include "../shared/bias.h"
+#include "../shared/moment_rule.h"
 GN_BEGIN
 
 struct FilterInput {
@@ -20,6 +25,14 @@ struct FilterInput {
     real disc_radius;   // texels
     real4 kernel;       // gaussianWeights(kernel_width, sigma)
     real2 pixel;        // of the screen, for noise
+    // Of filterable maps:
+    MomentRule moments;
+    int slot;           // lvsm: of the view's depth layers
+    real4 tile;         // the view's whole tile: x0, y0, x1, y1
+    real coarsest;      // last mip level that it may read
+    real near_over_far; // of the view's depth metric
+    real2 footprint_x;  // texels that the receiver's surface moves on the map to the next pixel on the right
+    real2 footprint_y;  // and below
 };
 
 // 1 where the receiver is lit by what one texel holds, else 0. `centre`: of the texel, relative to the receiver.

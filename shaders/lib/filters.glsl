@@ -3,14 +3,24 @@
 // gnomon::Filter (core/include/gnomon/choices.h).
 #ifndef GNOMON_FILTERS_GLSL
 #define GNOMON_FILTERS_GLSL
+#include "esm.glsl"
+#include "evsm.glsl"
 #include "hard.glsl"
+#include "lvsm.glsl"
+#include "msm.glsl"
 #include "pcf.glsl"
+#include "vsm.glsl"
 GN_BEGIN
 
 // clang-format off
 #define GN_FILTERS(LINE) \
     LINE(0, filterHard)  \
-    LINE(1, filterPcf)
+    LINE(1, filterPcf)   \
+    LINE(3, filterVsm)   \
+    LINE(4, filterLvsm)  \
+    LINE(5, filterEsm)   \
+    LINE(6, filterEvsm)  \
+    LINE(7, filterMsm)
 // clang-format on
 
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)

@@ -48,6 +48,7 @@ struct MapPoint {
     real2 w_slope;
     real cap;
     real w; // > 0 in front of a perspective light; 1 for an orthographic one
+    real texel_depth; // a texel's width here, as a metric difference
 };
 
 // A plane is followed up to this tangent of the angle between its normal and the light. Beyond it (87 degrees) the
@@ -144,6 +145,7 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
         follow = rule.receiver_plane;
         bias = rule.constant_m / map.range_m + rule.slope * length(slope);
     }
+    r.texel_depth = texel_depth;
     r.w_slope = w_slope * follow;
     r.depth_slope = r.w_slope * m + slope * follow;
     r.depth = m - bias;

@@ -13,12 +13,14 @@ namespace gnomon::shared {
 inline constexpr int kLightsPerLayer = 4;
 inline constexpr int kViewsPerLayer = 64;
 inline constexpr int kDiscPoints = 64;
+inline constexpr int kDepthLayers = 8;
 #else
 #define GN_VEC4 vec4
 #define GN_UVEC4 uvec4
 const int kLightsPerLayer = 4;
 const int kViewsPerLayer = 64;
 const int kDiscPoints = 64;
+const int kDepthLayers = 8;
 #endif
 
 struct GpuView {
@@ -31,6 +33,13 @@ struct GpuView {
     GN_VEC4 plane_x; // of an orthographic view, see MapRows
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
+    GN_VEC4 whole; // all of its tile, as `tile`
+    GN_VEC4 more;  // x: slot of its depth layers (lvsm), y: coarsest mip level that it may read, z: near / far
+};
+
+// The layers of depth of one view's lvsm map, ascending; beyond the last, begins is 2. In the view's depth metric.
+struct GpuDepthLayers {
+    GN_VEC4 layer[kDepthLayers]; // x: near and y: far that it spans, z: where its receivers begin, w: Lloyd's mean
 };
 
 struct GpuLight {
@@ -49,14 +58,18 @@ struct GpuMaskLayer {
     GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum
     GN_VEC4 kernel;                       // gaussianWeights
     GN_VEC4 disc;                         // x: radius, texels
+    GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy
+    GN_VEC4 moment_variance;              // least: absolute, in texel depths
+    GN_VEC4 moment_shape;                 // linstep, power, lighten
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];
     GpuView views[kViewsPerLayer]; // light i's first view is views[i]; further ones follow from kLightsPerLayer on
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 144 && sizeof(GpuLight) == 32 &&
-              sizeof(GpuMaskLayer) == 160 + 32 * 16 + 4 * 32 + 64 * 144);
+static_assert(sizeof(GpuView) == 176 && sizeof(GpuLight) == 32 &&
+              sizeof(GpuDepthLayers) == 128 &&
+              sizeof(GpuMaskLayer) == 208 + 32 * 16 + 4 * 32 + 64 * 176);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -26,7 +26,7 @@
         using real3 = glm::vec<3, real>;                                                                               \
         using real4 = glm::vec<4, real>;                                                                               \
         using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::fract, glm::length,    \
-            glm::max, glm::min, glm::mix, glm::normalize, glm::sign, glm::sqrt, glm::step, glm::inversesqrt, glm::sin, \
+            glm::log, glm::pow, glm::max, glm::min, glm::mix, glm::normalize, glm::sign, glm::sqrt, glm::step, glm::inversesqrt, glm::sin, \
             glm::cos;
 #define GN_END                                                                                                         \
     }                                                                                                                  \

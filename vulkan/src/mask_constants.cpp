@@ -7,6 +7,8 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "moment_rule_of.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -95,6 +97,9 @@ float filterReachTexels(const FilterOptions& filter)
 {
     if (filter.filter == Filter::hard) {
         return 0.5F;
+    }
+    if (isFilterable(filter.filter)) {
+        return static_cast<float>(blurRadius(filter.moments)) + 1.0F; // and a bilinear read of what was blurred
     }
     const int width = kernelWidth(filter);
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;

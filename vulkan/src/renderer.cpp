@@ -16,8 +16,8 @@ constexpr const char* kCreating = "create the shadow renderer";
 
 const MapStorage& storageFor(const Device& device, const FilterOptions& filter)
 {
-    if (const auto reason = refusal(filter.filter, filter.format)) {
-        throw Error(kCreating, std::string(*reason));
+    if (const auto reason = refusal(filter.filter, filter.format, filter.moments)) {
+        throw Error(kCreating, *reason);
     }
     const MapStorage* storage = findMapStorage(filter.format);
     if (storage == nullptr) {
@@ -132,6 +132,16 @@ ImageRef ShadowRenderer::mask() const
 ImageRef ShadowRenderer::maps() const
 {
     return describe(impl_->maps.maps());
+}
+
+FilterCost ShadowRenderer::filterCost([[maybe_unused]] std::uint32_t slot) const
+{
+    return {};
+}
+
+std::vector<DepthLayer> ShadowRenderer::depthLayers([[maybe_unused]] std::uint32_t view) const
+{
+    return {};
 }
 
 std::span<const MemoryUse> ShadowRenderer::memory() const

@@ -21,7 +21,7 @@ enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend,
 enum class PcfKernel : std::uint8_t { bilinear_2x2, gaussian_3x3, gaussian_5x5, gaussian_7x7, poisson, vogel };
 
 /// What a map texel is stored as. Which filter can use which is filterTraits().formats.
-enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f };
+enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f, r16f };
 
 /// One value each of the choices that a user makes (the light brings its own).
 struct Technique {
@@ -62,7 +62,8 @@ struct FilterTraits {
     Filter filter;
     std::span<const MapFormat> formats; // usable, the default first
     bool depth_only;                    // a bare depth attachment can hold it
-    bool clamps_near;                   // a caster before the near plane may be clamped onto it: only order matters
+    bool clamps_near;                   // a caster before the near plane may be clamped onto it
+    bool filterable;                    // texels may be averaged: MomentOptions apply
 };
 /// Null for a filter that is not available.
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

@@ -26,6 +26,7 @@ std::uint64_t maskBytes(const Plan& plan)
 std::uint32_t texelBytes(MapFormat format)
 {
     switch (format) {
+    case MapFormat::r16f:
     case MapFormat::d16:
         return 2;
     case MapFormat::d32f:

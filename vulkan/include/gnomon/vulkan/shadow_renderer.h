@@ -5,6 +5,7 @@
 
 #include <gnomon/bias.h>
 #include <gnomon/frame.h>
+#include <gnomon/moment_options.h>
 #include <gnomon/plan.h>
 #include <gnomon/vulkan/device_view.h>
 #include <gnomon/vulkan/profiler.h>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace gnomon::vulkan {
 
@@ -27,6 +29,7 @@ struct FilterOptions {
     float disc_radius_texels = 2.5F;    // poisson, vogel: 0.5 .. 16
     float gaussian_sigma_texels = 0.0F; // gaussian kernels: 0 picks width / 4; 0.3 .. 4
     BiasOptions bias;
+    MomentOptions moments; // vsm, lvsm, esm, evsm, msm
 };
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. What PlanOptions::border_texels should have room for.
@@ -85,6 +88,22 @@ struct MemoryUse {
     VkDeviceSize bytes = 0;
 };
 
+/// What making maps filterable took: counted by the GPU while it worked. Zeros for filters that have no such passes.
+struct FilterCost {
+    std::uint64_t texels = 0;        // blurred, over both passes
+    std::uint64_t taps = 0;          // texels read for that
+    std::uint64_t bytes_moved = 0;   // read from and written to images by the blur
+    std::uint64_t bytes_minimum = 0; // each texel that needs it read once and written once in each pass
+    BlurPath path = BlurPath::compute;
+};
+
+/// One layer of depth of an lvsm map, in the view's depth metric.
+struct DepthLayer {
+    float near = 0.0F;   // what it spans, overlaps included: d'' = (d' - near) / (far - near)
+    float far = 1.0F;
+    float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
+};
+
 class ShadowRenderer {
 public:
     /// Throws Error when a function is missing, the format is refused for the filter or memory runs out.
@@ -112,6 +131,10 @@ public:
     [[nodiscard]] ImageRef mask() const; // R8 for one light, else RGBA8, one layer per four lights
     [[nodiscard]] ImageRef maps() const;
     [[nodiscard]] std::span<const MemoryUse> memory() const;
+    /// Of the last recordMaps() that was given this slot, once the GPU has finished it.
+    [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
+    /// lvsm: the layers of a view of the last plan, nearest first, once the GPU has finished recordMaps(); else empty.
+    [[nodiscard]] std::vector<DepthLayer> depthLayers(std::uint32_t view) const;
 
 private:
     struct Impl;

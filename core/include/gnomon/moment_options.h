@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of the filterable shadow maps (vsm, lvsm, esm, evsm, msm): what is stored, how it is blurred and read, and how
+// visibility is made of it.
+#pragma once
+
+#include <gnomon/choices.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+/// What depth is stored. `z_over_w` is what a perspective projection's depth buffer holds, z' = m / (r + m (1 - r)) with
+/// r = near / far; it is there to show why it is worse. Under a parallel light both are one.
+enum class DepthMetricKind : std::uint8_t { linear, z_over_w };
+/// Separable; `box` weighs all texels alike.
+enum class BlurKind : std::uint8_t { none, gaussian, box };
+/// Which shaders blur: `automatic` lets the device decide, by measurement (BlurTrial) or else compute.
+enum class BlurPath : std::uint8_t { automatic, compute, fragment };
+/// How the map is read: `trilinear` at the level that the receiver's footprint asks for, `anisotropic` with several such
+/// reads along its longer side.
+enum class MapSampling : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
+/// lvsm: where one layer of depth ends and the next begins.
+enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd };
+/// msm: which of the paper's two bounds.
+enum class MomentSolver : std::uint8_t { hamburger, hausdorff };
+
+inline constexpr std::uint32_t kMaxBlurRadius = 31; // texels
+inline constexpr std::uint32_t kMaxDepthLayers = 8;
+
+struct MomentOptions {
+    DepthMetricKind metric = DepthMetricKind::linear;
+    bool remap = false;        // store 2 d' - 1: a float's sign bit is precision too. Refused for unorm formats
+    std::uint32_t samples = 4; // of the depth pass, 1 or 4; averaged as moments, never as depths
+    BlurKind blur = BlurKind::gaussian;
+    float blur_sigma_texels = 1.25F;    // gaussian; 0.3 .. 10
+    std::uint32_t blur_radius_texels = 0; // 1 .. 31; 0: three sigma rounded up (box: 2)
+    BlurPath blur_path = BlurPath::automatic;
+    MapSampling sampling = MapSampling::trilinear;
+    std::uint32_t anisotropy = 8; // anisotropic: most reads a pixel, 2 .. 16
+
+    // vsm, lvsm, evsm
+    /// Least variance, in squares of the depth metric, 0 .. 1. Nothing: what the format's rounding and half a texel of
+    /// depth on a slope ask for.
+    std::optional<float> min_variance;
+    bool derivative_variance = false; // adds 1/4 (ddx^2 + ddy^2) of depth to the second moment
+    // all
+    float bleeding_linstep = 0.0F; // visibility up to this is 0, above it is stretched to [0, 1]; 0 .. 0.99
+    float bleeding_power = 1.0F;   // then raised to this; 0.1 .. 16
+    float lighten = 0.0F;          // then mapped to [this, 1]; 0 .. 1
+
+    // lvsm
+    std::uint32_t layers = 2; // 2 .. 8, two to a texel
+    LayerPlacement placement = LayerPlacement::lloyd;
+    /// by_hand: where layers meet, ascending, in the depth metric, (0, 1); the first layers - 1 count.
+    std::array<float, kMaxDepthLayers - 1> splits{};
+    float layer_overlap = 0.05F; // of its own range, how far a layer reaches into its neighbours; 0 .. 0.5
+
+    // esm, evsm
+    /// Store logarithms, averaged as what they are logarithms of: any exponent fits any format.
+    bool log_space = false;
+    std::optional<float> esm_exponent;  // c; nothing: defaultExponent()
+    std::optional<float> evsm_positive; // c+
+    std::optional<float> evsm_negative; // c-
+    // msm
+    MomentSolver solver = MomentSolver::hamburger;
+    std::optional<float> moment_bias; // 0 .. 0.1; nothing: by format, 3e-5 at 16 bits
+};
+
+[[nodiscard]] std::string_view nameOf(DepthMetricKind value);
+[[nodiscard]] std::string_view nameOf(BlurKind value);
+[[nodiscard]] std::string_view nameOf(BlurPath value);
+[[nodiscard]] std::string_view nameOf(MapSampling value);
+[[nodiscard]] std::string_view nameOf(LayerPlacement value);
+[[nodiscard]] std::string_view nameOf(MomentSolver value);
+
+/// Texels of the kernel on each side of its middle; 0 without blur.
+[[nodiscard]] std::uint32_t blurRadius(const MomentOptions& options);
+/// Of a filter's map: lvsm has two layers of depth to an image layer, all others one image layer a map.
+[[nodiscard]] std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options);
+/// The largest exponent whose stored values a format holds: ESM stores e^c, EVSM e^2c; without bound in log space.
+[[nodiscard]] double largestExponent(Filter filter, MapFormat format, const MomentOptions& options);
+/// esm 80; evsm 40 and 5; or the format's largest where that is less.
+[[nodiscard]] double defaultExponent(Filter filter, MapFormat format, const MomentOptions& options, bool negative);
+/// Why these options cannot be had together, as a sentence; nothing when they can. Ranges above are checked here too.
+[[nodiscard]] std::optional<std::string> refusal(Filter filter, MapFormat format, const MomentOptions& options);
+
+} // namespace gnomon

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_EVSM_GLSL
+#define GNOMON_EVSM_GLSL
+#include "filter_types.glsl"
+GN_BEGIN
+
+GN_FN real filterEvsm(MapPoint point, FilterInput f)
+{
+    return real(1.0);
+}
+
+GN_END
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all filterable maps have in common: how a depth becomes the coordinate whose moments are stored.
+#ifndef GNOMON_MOMENT_RULE_H
+#define GNOMON_MOMENT_RULE_H
+#include "portability.h"
+GN_BEGIN
+
+// MomentRule::flags
+GN_CONST int kMomentRemap = 1;        // the coordinate is 2 d - 1 instead of d
+GN_CONST int kMomentZOverW = 2;       // d is z / w instead of the linear metric
+GN_CONST int kMomentLogSpace = 4;     // esm, evsm: logarithms are stored
+GN_CONST int kMomentFourChannels = 8; // evsm: both warps
+GN_CONST int kMomentHausdorff = 16;   // msm
+GN_CONST int kMomentQuantised = 32;   // msm: in the basis that is made for unorm
+GN_CONST int kMomentDerivatives = 64; // derivative-based variance
+
+struct MomentRule {
+    int flags;
+    int sampling;            // gnomon::MapSampling
+    int layers;              // lvsm: 2 .. 8
+    real exponent;           // esm: c; evsm: c+
+    real exponent_negative;  // evsm: c-
+    real moment_bias;        // msm
+    real min_variance;       // of d', absolute
+    real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds
+    real linstep;
+    real power;
+    real lighten;
+    real anisotropy;
+};
+
+// What encoders are given.
+struct EncodeInput {
+    real depth;    // [0, 1]: linear or z / w, not yet remapped
+    real variance; // that this texel adds to its own second moment, in squares of `depth`
+    real4 first;   // lvsm: GpuDepthLayers::layer of the two layers of this image layer
+    real4 second;
+};
+
+GN_FN bool hasFlag(int flags, int flag)
+{
+    return (flags & flag) != 0;
+}
+
+// z / w of a perspective projection from the linear metric m, r = near / far: with d = near + m (far - near),
+// z / w = far (d - near) / (d (far - near)) = m / (r + m (1 - r)). 0 and 1 stay where they are.
+GN_FN real zOverW(real m, real near_over_far)
+{
+    return m / max(near_over_far + m * (real(1.0) - near_over_far), real(1e-30));
+}
+
+// How much faster z / w changes than the linear metric.
+GN_FN real zOverWSlope(real m, real near_over_far)
+{
+    real q = max(near_over_far + m * (real(1.0) - near_over_far), real(1e-15));
+    return near_over_far / (q * q);
+}
+
+// The depth that is stored, from the linear metric: clamped, in [0, 1]. What is not a number is the far plane: lit.
+GN_FN real momentDepth(real m, int flags, real near_over_far)
+{
+    real d = m <= real(1.0) ? max(m, real(0.0)) : real(1.0);
+    return hasFlag(flags, kMomentZOverW) ? zOverW(d, near_over_far) : d;
+}
+
+// The coordinate whose moments are taken, and by how much it is stretched against `depth`.
+GN_FN real momentCoordinate(real depth, int flags)
+{
+    return hasFlag(flags, kMomentRemap) ? real(2.0) * depth - real(1.0) : depth;
+}
+GN_FN real momentScale(int flags)
+{
+    return hasFlag(flags, kMomentRemap) ? real(2.0) : real(1.0);
+}
+
+GN_END
+#endif

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_MOMENTS_FOUR_H
+#define GNOMON_MOMENTS_FOUR_H
+#include "moment_rule.h"
+GN_BEGIN
+
+GN_FN real4 encodeMsm(EncodeInput e, MomentRule rule)
+{
+    return real4(e.depth);
+}
+GN_END
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where lvsm's layers of depth lie, for every view, in one buffer that the passes read.
+#pragma once
+
+#include "device.h"
+
+#include <gpu_structs.h>
+
+namespace gnomon::vulkan {
+
+class LayerPlacer {
+public:
+    /// For other filters than lvsm the buffer has one entry that nothing reads, so that descriptors have something.
+    LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache);
+
+    /// Gives every view of the plan a slot; a tile keeps its slot from plan to plan, because what was drawn with its
+    /// layers may be kept. True when the buffer was made anew (then all maps are drawn again).
+    bool prepare(const Plan& plan);
+    /// Of a view of the plan that was prepared last.
+    [[nodiscard]] std::uint32_t slotOf(std::uint32_t view) const;
+    /// Places the layers of a view whose depths have just been drawn into `depth` (its own tile's rectangle, layer 0,
+    /// `samples` each, SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER reads). Afterwards the buffer is visible to
+    /// COMPUTE_SHADER, FRAGMENT_SHADER and host reads.
+    void record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, VkImageView depth);
+    [[nodiscard]] VkBuffer buffer() const; // std430: GpuDepthLayers by slot
+    [[nodiscard]] VkDeviceSize bytes() const;
+    /// Once the GPU has finished.
+    [[nodiscard]] std::vector<DepthLayer> read(std::uint32_t view) const;
+
+private:
+    // for its implementer
+    Device& device_;
+    FilterOptions filter_;
+};
+
+} // namespace gnomon::vulkan

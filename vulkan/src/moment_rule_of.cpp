@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "moment_rule_of.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace gnomon::vulkan {
+namespace {
+
+constexpr std::uint32_t kMostLevels = 8; // a footprint of 128 texels: what is larger is a texel of the coarsest level
+
+/// Least variance that hides what rounding does to M2 - M1^2. Both moments are near 1 in the worst case, so its error is
+/// some steps of the format there.
+float varianceOfRounding(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::rg16:
+    case MapFormat::rgba16:
+        return 3.0F / 65535.0F;
+    case MapFormat::rg16f:
+    case MapFormat::rgba16f:
+        return 3.0F / 2048.0F;
+    default:
+        return 1e-6F;
+    }
+}
+
+int flagsOf(const FilterOptions& filter)
+{
+    const MomentOptions& o = filter.moments;
+    int flags = 0;
+    const auto set = [&](bool on, int flag) { flags |= on ? flag : 0; };
+    // The basis of quantised moments is made for [-1, 1], and four moments keep more digits there.
+    set(o.remap || filter.filter == Filter::msm, shared::kMomentRemap);
+    set(o.metric == DepthMetricKind::z_over_w, shared::kMomentZOverW);
+    set(o.log_space && (filter.filter == Filter::esm || filter.filter == Filter::evsm), shared::kMomentLogSpace);
+    set(filter.format == MapFormat::rgba16f || filter.format == MapFormat::rgba32f, shared::kMomentFourChannels);
+    set(o.solver == MomentSolver::hausdorff, shared::kMomentHausdorff);
+    set(filter.format == MapFormat::rgba16, shared::kMomentQuantised);
+    set(o.derivative_variance, shared::kMomentDerivatives);
+    return flags;
+}
+
+} // namespace
+
+bool isFilterable(Filter filter)
+{
+    const FilterTraits* traits = filterTraits(filter);
+    return traits != nullptr && traits->filterable;
+}
+
+shared::MomentRule momentRuleOf(const FilterOptions& filter)
+{
+    const MomentOptions& o = filter.moments;
+    const auto exponent = [&](const std::optional<float>& wish, bool negative) {
+        return wish.value_or(static_cast<float>(defaultExponent(filter.filter, filter.format, o, negative)));
+    };
+    shared::MomentRule rule{};
+    rule.flags = flagsOf(filter);
+    rule.sampling = static_cast<int>(o.sampling);
+    rule.layers = static_cast<int>(o.layers);
+    rule.exponent = exponent(filter.filter == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
+    rule.exponent_negative = exponent(o.evsm_negative, true);
+    rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? 3e-5F : 3e-7F);
+    rule.min_variance = o.min_variance.value_or(varianceOfRounding(filter.format));
+    rule.min_variance_texels = o.min_variance ? 0.0F : 0.5F;
+    rule.linstep = o.bleeding_linstep;
+    rule.power = o.bleeding_power;
+    rule.lighten = o.lighten;
+    rule.anisotropy = static_cast<float>(o.anisotropy);
+    return rule;
+}
+
+std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height)
+{
+    const MapSampling sampling = filter.moments.sampling;
+    if (!isFilterable(filter.filter) || sampling == MapSampling::nearest || sampling == MapSampling::bilinear) {
+        return 1;
+    }
+    const auto all = static_cast<std::uint32_t>(std::bit_width(std::max(std::min(width, height), 1U)));
+    return std::min(all, kMostLevels);
+}
+
+} // namespace gnomon::vulkan
