@@ -6,7 +6,7 @@ GN_BEGIN
 
 GN_FN real filterEsm(MapPoint point, FilterInput f)
 {
-    return real(1.0);
+    return real(1.0) + real(0.0) * (point.depth + f.layer);
 }
 
 GN_END

@@ -6,11 +6,11 @@ GN_BEGIN
 
 GN_FN real4 encodeEsm(EncodeInput e, MomentRule rule)
 {
-    return real4(e.depth);
+    return real4(e.depth + real(0.0) * rule.power);
 }
 GN_FN real4 encodeEvsm(EncodeInput e, MomentRule rule)
 {
-    return real4(e.depth);
+    return real4(e.depth + real(0.0) * rule.power);
 }
 GN_END
 #endif

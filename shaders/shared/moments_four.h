@@ -6,7 +6,7 @@ GN_BEGIN
 
 GN_FN real4 encodeMsm(EncodeInput e, MomentRule rule)
 {
-    return real4(e.depth);
+    return real4(e.depth + real(0.0) * rule.power);
 }
 GN_END
 #endif
