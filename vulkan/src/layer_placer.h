@@ -16,6 +16,9 @@ public:
     /// Gives every view of the plan a slot; a tile keeps its slot from plan to plan, because what was drawn with its
     /// layers may be kept. True when the buffer was made anew (then all maps are drawn again).
     bool prepare(const Plan& plan);
+    /// The image that depths are drawn into was made anew: descriptors that name it are out of date, and nothing that
+    /// uses them is pending.
+    void forgetDepth();
     /// Of a view of the plan that was prepared last.
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t view) const;
     /// Places the layers of a view whose depths have just been drawn into `depth` (its own tile's rectangle, layer 0,
@@ -28,9 +31,21 @@ public:
     [[nodiscard]] std::vector<DepthLayer> read(std::uint32_t view) const;
 
 private:
-    // for its implementer
+    struct Slot {
+        bool taken = false;
+        Tile tile;
+    };
+
+    /// The slot of this tile, or else a free one, or kNoIndex.
+    [[nodiscard]] std::uint32_t findSlot(const Tile& tile) const;
+    void makeBuffer(std::uint32_t slots);
+    [[nodiscard]] shared::GpuDepthLayers* entries() const;
+
     Device& device_;
     FilterOptions filter_;
+    HostBuffer buffer_;
+    std::vector<Slot> slots_;
+    std::vector<std::uint32_t> slot_of_view_;
 };
 
 } // namespace gnomon::vulkan
