@@ -127,7 +127,12 @@ public:
     [[nodiscard]] const Plan& plan() const;
     /// Bytes of every image and buffer, by purpose: the scene's, the host's own and the library's.
     [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
-    /// The map's texels of one layer, as stored, for tests and debug views.
+    /// What making the last frame's maps filterable took; zeros without such passes. After draw().
+    [[nodiscard]] vulkan::FilterCost filterCost() const;
+    /// lvsm: the layers of depth of a view of plan(), nearest first, as the last frame used them; else empty.
+    [[nodiscard]] std::vector<vulkan::DepthLayer> depthLayers(std::uint32_t view) const;
+    /// The map's texels of one layer of the image at its finest level, as stored: one to four channels, unorm ones in
+    /// [0, 1]. For tests and debug views. Throws Error when there is no such layer.
     [[nodiscard]] ImageF readMap(std::uint32_t layer);
 
 private:

@@ -10,27 +10,80 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
-#include <cstring>
 
 namespace gnomon::host {
 namespace {
 
-std::uint32_t texelBytes(VkFormat format)
+// How the texels of an image lie in memory.
+enum class Number : std::uint8_t { unorm8, unorm16, half, single, other };
+struct TexelForm {
+    std::uint32_t channels = 1;
+    std::uint32_t bytes = 4; // of all channels
+    Number number = Number::other;
+};
+
+TexelForm formOf(VkFormat format)
 {
     switch (format) {
     case VK_FORMAT_R8_UNORM:
-        return 1;
+        return {1, 1, Number::unorm8};
+    case VK_FORMAT_R8G8B8A8_UNORM:
+        return {4, 4, Number::unorm8};
     case VK_FORMAT_D16_UNORM:
     case VK_FORMAT_R16_UNORM:
+        return {1, 2, Number::unorm16};
+    case VK_FORMAT_R16G16_UNORM:
+        return {2, 4, Number::unorm16};
+    case VK_FORMAT_R16G16B16A16_UNORM:
+        return {4, 8, Number::unorm16};
     case VK_FORMAT_R16_SFLOAT:
-        return 2;
+        return {1, 2, Number::half};
+    case VK_FORMAT_R16G16_SFLOAT:
+        return {2, 4, Number::half};
     case VK_FORMAT_R16G16B16A16_SFLOAT:
+        return {4, 8, Number::half};
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_R32_SFLOAT:
+        return {1, 4, Number::single};
+    case VK_FORMAT_R32G32_SFLOAT:
+        return {2, 8, Number::single};
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return {4, 16, Number::single};
     case VK_FORMAT_R16G16B16A16_SNORM:
+        return {4, 8, Number::other};
     case VK_FORMAT_R32G32_UINT:
-        return 8;
+        return {2, 8, Number::other};
     default:
-        return 4; // D32, R32F, RGBA8
+        return {};
     }
+}
+
+std::uint32_t texelBytes(VkFormat format)
+{
+    return formOf(format).bytes;
+}
+
+// Texels as plain numbers; false for forms that are not read this way.
+bool convert(const void* texels, Number number, std::vector<float>& out)
+{
+    const auto from = [&out]<typename Word>(const Word* words, auto&& value) {
+        std::transform(words, words + out.size(), out.begin(), value);
+        return true;
+    };
+    const auto* const words = static_cast<const std::uint16_t*>(texels);
+    switch (number) {
+    case Number::unorm8:
+        return from(static_cast<const std::uint8_t*>(texels), [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; });
+    case Number::unorm16:
+        return from(words, [](std::uint16_t v) { return static_cast<float>(v) / 65535.0F; });
+    case Number::half:
+        return from(words, [](std::uint16_t v) { return glm::unpackHalf1x16(v); });
+    case Number::single:
+        return from(static_cast<const float*>(texels), [](float v) { return v; });
+    case Number::other:
+        break;
+    }
+    return false;
 }
 
 bool isDepth(VkFormat format)
@@ -212,18 +265,10 @@ ImageF Renderer::readMap(std::uint32_t layer)
     if (layer >= maps.layers) {
         throw Error(kTried, "layer " + std::to_string(layer) + " of " + std::to_string(maps.layers));
     }
-    const bool floats = maps.format == VK_FORMAT_D32_SFLOAT || maps.format == VK_FORMAT_R32_SFLOAT;
-    if (!floats && maps.format != VK_FORMAT_D16_UNORM) {
-        throw Error(kTried, "its format has more than one channel");
-    }
-    ImageF image(maps.extent.width, maps.extent.height, 1);
-    const void* texels = fetch(self, sourceOf(maps, layer));
-    if (floats) {
-        std::memcpy(image.values.data(), texels, image.values.size() * sizeof(float));
-    } else {
-        const auto* const words = static_cast<const std::uint16_t*>(texels);
-        std::transform(words, words + image.values.size(), image.values.begin(),
-                       [](std::uint16_t v) { return static_cast<float>(v) / 65535.0F; });
+    const TexelForm form = formOf(maps.format);
+    ImageF image(maps.extent.width, maps.extent.height, form.channels);
+    if (!convert(fetch(self, sourceOf(maps, layer)), form.number, image.values)) {
+        throw Error(kTried, "its format cannot be read");
     }
     return image;
 }

@@ -161,4 +161,15 @@ std::vector<vulkan::MemoryUse> Renderer::memory() const
     return uses;
 }
 
+vulkan::FilterCost Renderer::filterCost() const
+{
+    return impl_->plan != nullptr ? impl_->shadows->filterCost(0) : vulkan::FilterCost{};
+}
+
+std::vector<vulkan::DepthLayer> Renderer::depthLayers(std::uint32_t view) const
+{
+    const bool known = impl_->plan != nullptr && view < impl_->plan->views.size();
+    return known ? impl_->shadows->depthLayers(view) : std::vector<vulkan::DepthLayer>{};
+}
+
 } // namespace gnomon::host
