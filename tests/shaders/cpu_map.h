@@ -1,16 +1,113 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets shaders/lib compile as C++ in double precision, with a map in memory.
+// Lets shaders/lib compile as C++ in double precision, with maps in memory.
 #pragma once
 #define GNOMON_REAL double
 
 #include <shared/discs.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace gnomon::test {
 /// Stored depth of a texel, by its integer coordinates.
 inline std::function<double(int x, int y)> map_texels;
+/// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
+inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
+/// GpuDepthLayers::layer of a view.
+inline std::function<glm::dvec4(int slot, int i)> depth_layers;
+
+/// An array image with mip levels, read as a GPU's sampler reads it: bilinear between the centres of texels, clamped to
+/// the edge, linear between two levels.
+class MomentImage {
+public:
+    MomentImage(int width, int height, int layers = 1, glm::dvec4 value = glm::dvec4(0.0)) : layers_(layers)
+    {
+        addLevel(width, height, value);
+    }
+
+    [[nodiscard]] glm::dvec4& at(int x, int y, int layer = 0, int level = 0)
+    {
+        Level& l = levels_.at(static_cast<std::size_t>(level));
+        return l.texels.at(index(l, x, y, layer));
+    }
+    /// `levels` in all; each texel is the mean of four.
+    void makeMips(int levels)
+    {
+        for (int k = 1; k < levels; ++k) {
+            const Level& finer = levels_.back();
+            addLevel(std::max(finer.width / 2, 1), std::max(finer.height / 2, 1), glm::dvec4(0.0));
+            const Level& from = levels_[levels_.size() - 2];
+            Level& to = levels_.back();
+            for (int layer = 0; layer < layers_; ++layer) {
+                for (int y = 0; y < to.height; ++y) {
+                    for (int x = 0; x < to.width; ++x) {
+                        to.texels[index(to, x, y, layer)] = meanOfFour(from, 2 * x, 2 * y, layer);
+                    }
+                }
+            }
+        }
+    }
+    [[nodiscard]] glm::dvec4 read(glm::dvec2 texel, double level, double layer) const
+    {
+        const double last = static_cast<double>(levels_.size() - 1);
+        const double l = std::clamp(std::isfinite(level) ? level : last, 0.0, last);
+        const auto finer = static_cast<std::size_t>(l);
+        const std::size_t coarser = std::min(finer + 1, levels_.size() - 1);
+        const double part = l - static_cast<double>(finer);
+        const int k = std::clamp(static_cast<int>(layer), 0, layers_ - 1);
+        return bilinear(levels_[finer], texel, k) * (1.0 - part) + bilinear(levels_[coarser], texel, k) * part;
+    }
+
+private:
+    struct Level {
+        int width;
+        int height;
+        std::vector<glm::dvec4> texels;
+    };
+
+    void addLevel(int width, int height, glm::dvec4 value)
+    {
+        levels_.push_back(
+            {width, height, std::vector<glm::dvec4>(static_cast<std::size_t>(width * height * layers_), value)});
+    }
+    static std::size_t index(const Level& l, int x, int y, int layer)
+    {
+        return static_cast<std::size_t>((layer * l.height + y) * l.width + x);
+    }
+    static glm::dvec4 clamped(const Level& l, int x, int y, int layer)
+    {
+        return l.texels[index(l, std::clamp(x, 0, l.width - 1), std::clamp(y, 0, l.height - 1), layer)];
+    }
+    static glm::dvec4 meanOfFour(const Level& l, int x, int y, int layer)
+    {
+        return (clamped(l, x, y, layer) + clamped(l, x + 1, y, layer) + clamped(l, x, y + 1, layer) +
+                clamped(l, x + 1, y + 1, layer)) *
+               0.25;
+    }
+    [[nodiscard]] glm::dvec4 bilinear(const Level& l, glm::dvec2 texel, int layer) const
+    {
+        const double x = place(texel.x, levels_[0].width, l.width);
+        const double y = place(texel.y, levels_[0].height, l.height);
+        const int i = static_cast<int>(std::floor(x));
+        const int j = static_cast<int>(std::floor(y));
+        const double u = x - i;
+        const double v = y - j;
+        return (clamped(l, i, j, layer) * (1.0 - u) + clamped(l, i + 1, j, layer) * u) * (1.0 - v) +
+               (clamped(l, i, j + 1, layer) * (1.0 - u) + clamped(l, i + 1, j + 1, layer) * u) * v;
+    }
+    static double place(double texel, int finest, int size)
+    {
+        const double at = texel * size / finest - 0.5;
+        return std::isfinite(at) ? std::clamp(at, -1.0, static_cast<double>(size)) : 0.0;
+    }
+
+    int layers_;
+    std::vector<Level> levels_;
+};
 } // namespace gnomon::test
 
 GN_BEGIN
@@ -24,6 +121,14 @@ inline real4 mapGather(real2 corner, real)
     const int y = static_cast<int>(corner.y);
     return {test::map_texels(x - 1, y), test::map_texels(x, y), test::map_texels(x, y - 1),
             test::map_texels(x - 1, y - 1)};
+}
+inline real4 mapMoments(real2 texel, real level, real layer)
+{
+    return test::map_moments(texel, level, layer);
+}
+inline real4 mapDepthLayer(int slot, int i)
+{
+    return test::depth_layers(slot, i);
 }
 inline real2 discPoint(int i)
 {
