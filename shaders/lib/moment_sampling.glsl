@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A filterable map at a receiver: nearest, bilinear, trilinear or anisotropic, by f.moments.sampling. Never reads a
+// texel of another tile.
+#ifndef GNOMON_MOMENT_SAMPLING_GLSL
+#define GNOMON_MOMENT_SAMPLING_GLSL
+#include "../shared/footprint.h"
+#include "filter_types.glsl"
+GN_BEGIN
+
+// The values of gnomon::MapSampling.
+GN_CONST int kSamplingNearest = 0;
+GN_CONST int kSamplingBilinear = 1;
+GN_CONST int kSamplingTrilinear = 2;
+
+// Half a texel of the coarser level that the read blends in, inside of the tile; its middle where it is narrower.
+GN_FN real2 keepInside(real2 texel, real level, real4 tile)
+{
+    real inset = real(0.5) * exp2(ceil(level));
+    real2 first = real2(tile.x, tile.y);
+    real2 last = real2(tile.z, tile.w);
+    real2 middle = real(0.5) * (first + last);
+    return clamp(texel, min(first + real2(inset), middle), max(last - real2(inset), middle));
+}
+
+GN_FN real4 readMoments(real2 texel, real level, FilterInput f, real layer)
+{
+    return mapMoments(keepInside(texel, level, f.tile), level, layer);
+}
+
+GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer)
+{
+    if (f.moments.sampling == kSamplingNearest)
+        return readMoments(floor(point.texel) + real2(real(0.5)), real(0.0), f, layer);
+    if (f.moments.sampling == kSamplingBilinear)
+        return readMoments(point.texel, real(0.0), f, layer);
+    if (f.moments.sampling == kSamplingTrilinear)
+        return readMoments(point.texel, footprintLevel(f.footprint_x, f.footprint_y, f.coarsest), f, layer);
+    FootprintReads r = footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy);
+    real4 sum = real4(real(0.0));
+    for (int i = 0; i < r.reads; ++i) {
+        real2 offset = r.step * (real(i) + real(0.5) - real(0.5) * real(r.reads));
+        sum += readMoments(point.texel + offset, r.level, f, layer);
+    }
+    return sum / real(r.reads);
+}
+
+GN_END
+#endif
