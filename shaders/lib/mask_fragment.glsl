@@ -11,6 +11,9 @@ layout(constant_id = 3) const bool kHasNormals = true;
 layout(constant_id = 4) const int kLights = 4;
 layout(constant_id = 5) const bool kManyViews = true; // some light has more views than one
 layout(constant_id = 6) const bool kAutomaticBias = true;
+layout(constant_id = 7) const int kMomentFlags = 0;    // see MomentRule
+layout(constant_id = 8) const int kMomentSampling = 0; // gnomon::MapSampling
+layout(constant_id = 9) const int kMomentLayers = 2;   // of lvsm
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
@@ -18,6 +21,7 @@ layout(set = 0, binding = 0, std140) uniform Constants
 };
 #define GNOMON_MAP_SET 0
 #define GNOMON_MAP_BINDING 1
+#define GNOMON_LAYERS_BINDING 5
 #define GNOMON_MAP_TEXEL_SIZE mask.atlas.xy
 #include "map_texture.glsl"
 vec2 discPoint(int i)
@@ -33,11 +37,16 @@ layout(set = 0, binding = 4) uniform usampler2D object_ids;
 #endif
 layout(location = 0) out vec4 visibility;
 
-// Eye-relative position of a pixel.
-vec3 positionAt(ivec2 pixel, float depth)
+// Eye-relative position of a pixel, homogeneous.
+vec4 pointAt(ivec2 pixel, float depth)
 {
     vec4 ndc = vec4((vec2(pixel) + 0.5) * mask.screen.zw * 2.0 - 1.0, depth, 1.0);
-    vec4 p = vec4(dot(mask.eye_x, ndc), dot(mask.eye_y, ndc), dot(mask.eye_z, ndc), dot(mask.eye_w, ndc));
+    return vec4(dot(mask.eye_x, ndc), dot(mask.eye_y, ndc), dot(mask.eye_z, ndc), dot(mask.eye_w, ndc));
+}
+
+vec3 positionAt(ivec2 pixel, float depth)
+{
+    vec4 p = pointAt(pixel, depth);
     return p.xyz / p.w;
 }
 
@@ -53,9 +62,9 @@ vec3 side(ivec2 pixel, ivec2 step_px, float depth)
     return vec3(a, b, abs(2.0 * a - b - depth));
 }
 
-// Along one axis of the screen, towards positive coordinates. A plane's depth is affine on the screen, so the side where
-// the pixel continues its neighbours' line is on the pixel's own surface.
-// Based on: Y. Wu (atyuwen), "Accurate Normal Reconstruction from Depth Buffer", 2021.
+// Along one axis of the screen, towards positive coordinates. A plane's depth is affine on the screen, so the side
+// where the pixel continues its neighbours' line is on the pixel's own surface. Based on: Y. Wu (atyuwen), "Accurate
+// Normal Reconstruction from Depth Buffer", 2021.
 vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
 {
     vec3 before = side(pixel, -step_px, depth);
@@ -80,11 +89,13 @@ FilterInput filterInput()
     f.disc_radius = mask.disc.x;
     f.kernel = mask.kernel;
     f.pixel = gl_FragCoord.xy;
+    f.moments = momentsOf(kMomentFlags, kMomentSampling, kMomentLayers, mask.moment_warp, mask.moment_variance,
+                          mask.moment_shape);
     return f;
 }
 
 // `index` is a constant at every call. A light's first view is views[index], so that it too is at a constant place.
-float lightVisibility(int index, vec3 p, vec3 n)
+float lightVisibility(int index, PixelSteps steps, vec3 p, vec3 n)
 {
     GpuLight light = mask.lights[index];
     BiasRule bias = biasOf(mask.bias, mask.bias_more);
@@ -92,13 +103,13 @@ float lightVisibility(int index, vec3 p, vec3 n)
     float v = 1.0;
     bool found = viewContains(mask.views[index], p);
     if (found) {
-        v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), p, n);
+        v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), steps, p, n);
     }
     if (kManyViews) {
         for (uint i = light.views.x; i < light.views.x + light.views.y && !found; ++i) {
             found = viewContains(mask.views[i], p);
             if (found) {
-                v = viewVisibility(kFilter, mask.views[i], bias, filterInput(), p, n);
+                v = viewVisibility(kFilter, mask.views[i], bias, filterInput(), steps, p, n);
             }
         }
     }
@@ -118,16 +129,18 @@ void main()
         return;
     }
 #endif
-    vec3 p = positionAt(pixel, depth);
+    vec4 h = pointAt(pixel, depth);
+    vec3 p = h.xyz / h.w;
+    PixelSteps steps = pixelSteps(mask.eye_x, mask.eye_y, mask.eye_z, mask.eye_w, h.w, 2.0 * mask.screen.zw);
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
-    visibility.r = lightVisibility(0, p, n);
+    visibility.r = lightVisibility(0, steps, p, n);
     if (kLights > 1) {
-        visibility.g = lightVisibility(1, p, n);
+        visibility.g = lightVisibility(1, steps, p, n);
     }
     if (kLights > 2) {
-        visibility.b = lightVisibility(2, p, n);
+        visibility.b = lightVisibility(2, steps, p, n);
     }
     if (kLights > 3) {
-        visibility.a = lightVisibility(3, p, n);
+        visibility.a = lightVisibility(3, steps, p, n);
     }
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A light's visibility at a point: what the mask pass calls, and what a host that shades from the maps itself includes
-// (with gpu_structs.h as its uniform buffer and the two functions of filter_types.glsl defined before).
+// (with gpu_structs.h as its uniform buffer and the functions of filter_types.glsl defined before: map_texture.glsl has
+// them for one array texture).
 #ifndef GNOMON_VISIBILITY_GLSL
 #define GNOMON_VISIBILITY_GLSL
 #include "../shared/gpu_structs.h"
 #include "filters.glsl"
+#include "receiver_footprint.glsl"
 GN_BEGIN
 
 GN_FN MapRows rowsOf(GpuView view)
@@ -37,8 +39,8 @@ GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
     return rule;
 }
 
-// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err by
-// about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
+// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err
+// by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
 GN_CONST real kGrazing = real(0.002);
 
 // Does a surface with normal `n` face a light in direction `to_light` (any length)?
@@ -53,6 +55,29 @@ GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
     real4 place = real4(light.place);
     return facesDirection(n, real3(place.x, place.y, place.z) - p * place.w);
 }
+
+// GpuMaskLayer's moment_warp, moment_variance and moment_shape, with what pipelines have as constants: the flags of
+// moment_rule.h, a gnomon::MapSampling and lvsm's number of layers.
+GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN_VEC4 variance, GN_VEC4 shape)
+{
+    MomentRule rule;
+    rule.flags = flags;
+    rule.sampling = sampling;
+    rule.layers = layers;
+    rule.exponent = real(warp.x);
+    rule.exponent_negative = real(warp.y);
+    rule.moment_bias = real(warp.z);
+    rule.anisotropy = real(warp.w);
+    rule.min_variance = real(variance.x);
+    rule.min_variance_texels = real(variance.y);
+    rule.linstep = real(shape.x);
+    rule.power = real(shape.y);
+    rule.lighten = real(shape.z);
+    return rule;
+}
+
+// gnomon::MapSampling::trilinear; it and what comes after it choose a mip level by the receiver's footprint.
+GN_CONST int kFirstSamplingOfLevels = 2;
 
 // Is a point in this view, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p)
@@ -74,13 +99,36 @@ GN_FN real boundedVisibility(real v)
     return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));
 }
 
-// `p` eye-relative and inside the view, `n` its unit geometric normal. f.layer is filled in here.
-GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, FilterInput f, real3 p, real3 n)
+// `p` eye-relative and inside the view, `n` its unit geometric normal. f.layer, what describes the view and the
+// footprint are filled in here; the latter is made of `steps` (pixelSteps()) where f.moments.sampling asks for it.
+GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, FilterInput f, PixelSteps steps, real3 p,
+                          real3 n)
 {
     FilterInput input_here = f;
     input_here.layer = real(view.scale.z);
-    MapPoint point = projectReceiver(rowsOf(view), rule, p, n);
+    input_here.slot = int(view.more.x);
+    input_here.tile = real4(view.whole);
+    input_here.coarsest = real(view.more.y);
+    input_here.near_over_far = real(view.more.z);
+    input_here.footprint_x = real2(real(0.0));
+    input_here.footprint_y = real2(real(0.0));
+    MapRows rows = rowsOf(view);
+    MapPoint point = projectReceiver(rows, rule, p, n);
+    if (f.moments.sampling >= kFirstSamplingOfLevels) {
+        input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
+        input_here.footprint_y = footprintOf(rows, point.texel, point.w, p, n, steps.below, steps.along);
+    }
     return boundedVisibility(applyFilter(filter_number, point, input_here));
+}
+
+// The same without a screen: filterable maps are read at their finest level.
+GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, FilterInput f, real3 p, real3 n)
+{
+    PixelSteps steps;
+    steps.right = real4(real(0.0));
+    steps.below = real4(real(0.0));
+    steps.along = real4(real(0.0));
+    return viewVisibility(filter_number, view, rule, f, steps, p, n);
 }
 
 GN_END

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_constants.h"
 
+#include "moment_rule_of.h"
+
 #include <discs.h>
 #include <pcf_weights.h>
 
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-
-#include "moment_rule_of.h"
 
 #include <algorithm>
 #include <cassert>
@@ -45,6 +45,7 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     gpu.plane_x = glm::dvec4(glm::cross(metric, y), 0.0);
     gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
     gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
+    gpu.whole = glm::dvec4(x0, y0, x0 + tile.width, y0 + tile.height);
     return gpu;
 }
 
@@ -54,6 +55,14 @@ shared::GpuLight gpuLight(const Light& light, const glm::dvec3& eye_ws)
     gpu.place = light.type == LightType::directional ? glm::vec4(glm::vec3(glm::normalize(-light.direction_ws)), 0.0F)
                                                      : glm::vec4(glm::vec3(light.position_ws - eye_ws), 1.0F);
     return gpu;
+}
+
+void fillMoments(const FilterOptions& filter, shared::GpuMaskLayer& out)
+{
+    const shared::MomentRule rule = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
+    out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
+    out.moment_variance = {rule.min_variance, rule.min_variance_texels, 0.0F, 0.0F};
+    out.moment_shape = {rule.linstep, rule.power, rule.lighten, 0.0F};
 }
 
 void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer& out)
@@ -71,6 +80,7 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer
         (i % 2 == 0 ? two.x : two.z) = point.x;
         (i % 2 == 0 ? two.y : two.w) = point.y;
     }
+    fillMoments(filter, out);
 }
 
 } // namespace
@@ -122,8 +132,8 @@ MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer)
     return shape;
 }
 
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const FilterOptions& filter,
-                   float quantum, VkExtent2D screen, VkExtent2D atlas, shared::GpuMaskLayer& out)
+void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskSurroundings& around,
+                   shared::GpuMaskLayer& out)
 {
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
@@ -132,11 +142,18 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     out.eye_y = glm::row(eye_from_ndc, 1);
     out.eye_z = glm::row(eye_from_ndc, 2);
     out.eye_w = glm::row(eye_from_ndc, 3);
-    const glm::vec2 size(screen.width, screen.height);
+    const glm::vec2 size(around.screen.width, around.screen.height);
     out.screen = {size, 1.0F / size};
-    fillFilter(filter, quantum, out);
+    fillFilter(around.filter, around.quantum, out);
 
-    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(filter)));
+    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(around.filter)));
+    const auto viewOf = [&](std::uint32_t index) {
+        const View& view = plan.views[index];
+        shared::GpuView gpu = gpuView(view, world_from_eye, margin);
+        const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+        gpu.more = glm::dvec4(around.placer.slotOf(index), around.map_levels - 1, near_over_far, 0.0);
+        return gpu;
+    };
     std::uint32_t further = shared::kLightsPerLayer;
     for (shared::GpuLight& light : out.lights) {
         light = {}; // no map
@@ -154,13 +171,13 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
         shared::GpuLight& gpu = out.lights[light.mask_channel];
         gpu = gpuLight(frame.lights[i], camera.eye_ws);
         gpu.views = {further, count - 1, 1U, 0U};
-        out.views[light.mask_channel] = gpuView(plan.views[light.first_view], world_from_eye, margin);
+        out.views[light.mask_channel] = viewOf(light.first_view);
         for (std::uint32_t v = 1; v < count; ++v) {
             assert(further < shared::kViewsPerLayer);
-            out.views[further++] = gpuView(plan.views[light.first_view + v], world_from_eye, margin);
+            out.views[further++] = viewOf(light.first_view + v);
         }
     }
-    out.atlas = {1.0F / static_cast<float>(atlas.width), 1.0F / static_cast<float>(atlas.height),
+    out.atlas = {1.0F / static_cast<float>(around.atlas.width), 1.0F / static_cast<float>(around.atlas.height),
                  camera.reversed_z ? 0.0F : 1.0F, 0.0F};
 }
 

@@ -3,6 +3,8 @@
 // precision until the last moment.
 #pragma once
 
+#include "layer_placer.h"
+
 #include <gnomon/vulkan/shadow_renderer.h>
 
 #include <gpu_structs.h>
@@ -12,9 +14,18 @@ namespace gnomon::vulkan {
 /// Width of a separable kernel; 0 for the discs.
 [[nodiscard]] int kernelWidth(const FilterOptions& filter);
 
+/// What the mask is made from and into.
+struct MaskSurroundings {
+    const FilterOptions& filter;
+    float quantum; // error of a stored depth, as a metric difference
+    VkExtent2D screen;
+    VkExtent2D atlas;
+    std::uint32_t map_levels;  // mip levels of the maps
+    const LayerPlacer& placer; // that the plan was prepared with
+};
 /// Fills one layer of the mask. Precondition: room for the further views (kViewsPerLayer - kLightsPerLayer).
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const FilterOptions& filter,
-                   float quantum, VkExtent2D screen, VkExtent2D atlas, shared::GpuMaskLayer& out);
+void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskSurroundings& around,
+                   shared::GpuMaskLayer& out);
 /// What the lights of one layer have in common: decides which pipeline draws it.
 struct MaskLayerShape {
     std::uint32_t lights = 0;        // channels in use

@@ -88,6 +88,7 @@ void MaskPassRecorder::forgetMaps()
 {
     for (Slot& slot : slots_) {
         slot.maps = VK_NULL_HANDLE;
+        slot.layers = VK_NULL_HANDLE;
     }
 }
 
@@ -149,19 +150,20 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Slot& slot, s
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
-                              const MaskInputs& inputs, const Image& maps)
+                              const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer)
 {
     assert(slot_index < slots_.size());
     assert(frame.lights.size() == plan.lights.size());
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     Slot& slot = slots_[slot_index];
-    updateSet(slot, inputs, maps.view());
+    updateSet(slot, inputs, maps.view(), placer.buffer());
+    const MaskSurroundings around{options_.filter,    quantum_,           inputs.extent,
+                                  maps.info().extent, maps.info().levels, placer};
     toAttachment(commands);
     for (std::uint32_t layer = 0; layer < mask_.info().layers; ++layer) {
         auto* constants = static_cast<std::byte*>(slot.constants.data()) + constants_stride_ * layer;
-        fillMaskLayer(frame, plan, layer, options_.filter, quantum_, inputs.extent, maps.info().extent,
-                      *reinterpret_cast<shared::GpuMaskLayer*>(constants));
+        fillMaskLayer(frame, plan, layer, around, *reinterpret_cast<shared::GpuMaskLayer*>(constants));
         const MaskLayerShape shape = describeMaskLayer(plan, layer);
         Variant variant;
         variant.lights = std::max(shape.lights, 1U);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device.h"
+#include "layer_placer.h"
 
 #include <array>
 
@@ -14,10 +15,10 @@ public:
 
     /// Makes the mask image if size, format or layers changed; true when it did.
     bool prepare(const Plan& plan, VkExtent2D screen);
-    /// The maps were made anew: descriptors that name them are out of date.
+    /// The maps or the buffer of the layers of depth were made anew: descriptors that name them are out of date.
     void forgetMaps();
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs, const Image& maps);
+                const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer);
     [[nodiscard]] const Image& mask() const { return mask_; }
 
 private:
@@ -26,6 +27,7 @@ private:
         VkDescriptorSet set = VK_NULL_HANDLE;
         // What the set holds now.
         VkImageView maps = VK_NULL_HANDLE;
+        VkBuffer layers = VK_NULL_HANDLE;
         VkImageView depth = VK_NULL_HANDLE;
         VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
         VkImageView normal = VK_NULL_HANDLE;
@@ -46,7 +48,7 @@ private:
 
     void makeLayouts();
     void makeSlots();
-    void updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps);
+    void updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers);
     [[nodiscard]] VkPipeline pipeline(Variant variant);
     [[nodiscard]] Pipeline makePipeline(Variant variant);
     void recordLayer(VkCommandBuffer commands, const Slot& slot, std::uint32_t layer, VkPipeline pipeline);
@@ -59,7 +61,8 @@ private:
     Image mask_;
     SetLayout set_layout_;
     PipelineLayout layout_;
-    Sampler sampler_;
+    Sampler sampler_;     // of what is read texel by texel
+    Sampler map_sampler_; // of the maps
     DescriptorPool pool_;
     std::vector<Slot> slots_;
     VkDeviceSize constants_stride_ = 0;

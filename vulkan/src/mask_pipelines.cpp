@@ -3,13 +3,14 @@
 #include "graphics_pipeline.h"
 #include "mask_constants.h"
 #include "mask_pass.h"
+#include "moment_rule_of.h"
 
 #include <array>
 
 namespace gnomon::vulkan {
 namespace {
 
-enum Binding : std::uint32_t { kConstants, kMaps, kDepth, kNormal, kObjectId, kBindingCount };
+enum Binding : std::uint32_t { kConstants, kMaps, kDepth, kNormal, kObjectId, kLayers, kBindingCount };
 
 // The constant_ids of mask_fragment.glsl, four bytes each, in their order.
 struct Specialisation {
@@ -20,7 +21,37 @@ struct Specialisation {
     std::int32_t lights;
     VkBool32 many_views;
     VkBool32 automatic_bias;
+    std::int32_t moment_flags;
+    std::int32_t moment_sampling;
+    std::int32_t moment_layers;
 };
+
+VkDescriptorType typeOf(std::uint32_t binding)
+{
+    switch (binding) {
+    case kConstants:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+    case kLayers:
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    default:
+        return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+}
+
+Sampler makeSampler(Device& device, VkFilter filter)
+{
+    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    info.magFilter = filter;
+    info.minFilter = filter;
+    info.mipmapMode = filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(device.vk.CreateSampler(device.handle(), &info, nullptr, &sampler), "create a sampler");
+    return {device, sampler};
+}
 
 VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
 {
@@ -40,8 +71,7 @@ void MaskPassRecorder::makeLayouts()
     std::array<VkDescriptorSetLayoutBinding, kBindingCount> bindings{};
     for (std::uint32_t i = 0; i < kBindingCount; ++i) {
         bindings[i].binding = i;
-        bindings[i].descriptorType =
-            i == kConstants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        bindings[i].descriptorType = typeOf(i);
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
     }
@@ -60,21 +90,18 @@ void MaskPassRecorder::makeLayouts()
           "create a pipeline layout");
     layout_ = {device_, layout};
 
-    VkSamplerCreateInfo sampler_info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    sampler_info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    sampler_info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    sampler_info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(device_.vk.CreateSampler(device_.handle(), &sampler_info, nullptr, &sampler), "create a sampler");
-    sampler_ = {device_, sampler};
+    sampler_ = makeSampler(device_, VK_FILTER_NEAREST);
+    // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
+    map_sampler_ = makeSampler(device_, isFilterable(options_.filter.filter) ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
 }
 
 void MaskPassRecorder::makeSlots()
 {
     const std::uint32_t count = options_.frames_in_flight;
-    const std::array<VkDescriptorPoolSize, 2> sizes{
+    const std::array<VkDescriptorPoolSize, 3> sizes{
         {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, count},
-         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kBindingCount - 1)}}};
+         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * (kBindingCount - 2)}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
@@ -93,15 +120,16 @@ void MaskPassRecorder::makeSlots()
     }
 }
 
-void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps)
+void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers)
 {
-    if (slot.maps == maps && slot.depth == inputs.depth && slot.depth_layout == inputs.depth_layout &&
-        slot.normal == inputs.normal && slot.object_id == inputs.object_id) {
+    if (slot.maps == maps && slot.layers == layers && slot.depth == inputs.depth &&
+        slot.depth_layout == inputs.depth_layout && slot.normal == inputs.normal &&
+        slot.object_id == inputs.object_id) {
         return;
     }
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
-    const VkDescriptorImageInfo map_image{sampler, maps, kRead};
+    const VkDescriptorImageInfo map_image{map_sampler_.get(), maps, kRead};
     const VkDescriptorImageInfo depth_image{sampler, inputs.depth, inputs.depth_layout};
     // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
     // never written even if no shader names it; so what is absent is filled with the depth.
@@ -110,12 +138,20 @@ void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageVi
     };
     const VkDescriptorImageInfo normal_image = orDepth(inputs.normal);
     const VkDescriptorImageInfo id_image = orDepth(inputs.object_id);
-    const std::array<VkWriteDescriptorSet, 4> writes{
+    const VkDescriptorBufferInfo layer_buffer{layers, 0, VK_WHOLE_SIZE};
+    VkWriteDescriptorSet layer_write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    layer_write.dstSet = slot.set;
+    layer_write.dstBinding = kLayers;
+    layer_write.descriptorCount = 1;
+    layer_write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    layer_write.pBufferInfo = &layer_buffer;
+    const std::array<VkWriteDescriptorSet, 5> writes{
         imageWrite(slot.set, kMaps, map_image), imageWrite(slot.set, kDepth, depth_image),
-        imageWrite(slot.set, kNormal, normal_image), imageWrite(slot.set, kObjectId, id_image)};
+        imageWrite(slot.set, kNormal, normal_image), imageWrite(slot.set, kObjectId, id_image), layer_write};
     device_.vk.UpdateDescriptorSets(device_.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                                     nullptr);
     slot.maps = maps;
+    slot.layers = layers;
     slot.depth = inputs.depth;
     slot.depth_layout = inputs.depth_layout;
     slot.normal = inputs.normal;
@@ -134,10 +170,17 @@ VkPipeline MaskPassRecorder::pipeline(Variant variant)
 Pipeline MaskPassRecorder::makePipeline(Variant variant)
 {
     const FilterOptions& filter = options_.filter;
-    const Specialisation values{static_cast<std::int32_t>(filter.filter),    kernelWidth(filter),
-                                static_cast<std::int32_t>(filter.disc_taps), variant.normals ? VK_TRUE : VK_FALSE,
-                                static_cast<std::int32_t>(variant.lights),   variant.many_views ? VK_TRUE : VK_FALSE,
-                                filter.bias.automatic ? VK_TRUE : VK_FALSE};
+    const shared::MomentRule moments = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
+    const Specialisation values{static_cast<std::int32_t>(filter.filter),
+                                kernelWidth(filter),
+                                static_cast<std::int32_t>(filter.disc_taps),
+                                variant.normals ? VK_TRUE : VK_FALSE,
+                                static_cast<std::int32_t>(variant.lights),
+                                variant.many_views ? VK_TRUE : VK_FALSE,
+                                filter.bias.automatic ? VK_TRUE : VK_FALSE,
+                                moments.flags,
+                                moments.sampling,
+                                moments.layers};
     std::array<VkSpecializationMapEntry, sizeof values / 4> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
         entries[i] = {i, 4 * i, 4};

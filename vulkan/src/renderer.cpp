@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device.h"
+#include "layer_placer.h"
 #include "map_pass.h"
 #include "mask_constants.h"
 #include "mask_pass.h"
@@ -67,13 +68,14 @@ ImageRef describe(const Image& image)
 struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options)
         : device(view), storage(storageFor(device, options.filter)), maps(device, storage),
-          mask(device, options, storage.quantum)
+          placer(device, options.filter, options.pipeline_cache), mask(device, options, storage.quantum)
     {
     }
 
     Device device;
     const MapStorage& storage;
     MapPassRecorder maps;
+    LayerPlacer placer;
     MaskPassRecorder mask;
 };
 
@@ -91,7 +93,8 @@ ShadowRenderer::~ShadowRenderer() = default;
 
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
-    const bool maps_changed = impl_->maps.prepare(plan.atlas);
+    bool maps_changed = impl_->maps.prepare(plan.atlas);
+    maps_changed = impl_->placer.prepare(plan) || maps_changed;
     if (maps_changed) {
         impl_->mask.forgetMaps();
     }
@@ -115,7 +118,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
 {
     const Timed timed(profiler, commands, "mask");
     impl_->maps.makeReadable(commands);
-    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps.maps());
+    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps.maps(), impl_->placer);
 }
 
 MapPassFormats ShadowRenderer::mapFormats(bool orthographic) const
