@@ -62,6 +62,7 @@ struct Settings {
     // picture
     glm::uvec2 size_px{0};
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
+    host::BloomOptions bloom;
     std::string material_override; // empty or "diffuse"
     bool ground = false;
     // camera
@@ -81,6 +82,7 @@ struct Settings {
     vulkan::FilterOptions filter;
     bool format_given = false; // else the filter's own default
     bool border_given = false; // else what the kernel needs
+    std::uint32_t splits = 0;  // how many of filter.moments.splits were given
     // truth
     std::optional<truth::Kind> truth; // render: nothing unless given; compare: area
     std::uint32_t samples = 0;
@@ -147,7 +149,9 @@ struct Setting {
     std::string_view default_text; // empty: no value unless given
     double min = 0.0;              // of each number; inclusive
     double max = 0.0;
-    std::uint32_t count = 1;                              // numbers: how many
+    std::uint32_t count = 1;                              // numbers: how many, at most
+    std::uint32_t min_count = 0;                          // numbers: at least; 0: exactly `count`
+    char between = ',';                                   // numbers: what stands between them
     std::uint32_t multiple_of = 1;                        // integer: only multiples of it
     std::vector<std::string_view> (*choices)() = nullptr; // choice: what is allowed
     std::string_view doc;                                 // one line
@@ -176,6 +180,11 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 /// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
 /// --target; other keys change nothing.
 void replaceCamera(Settings& settings, std::string_view latest);
+/// Of lvsm.placement and lvsm.splits the other one; of other keys nothing.
+[[nodiscard]] std::string_view placementPartner(std::string_view key);
+/// For a key whose partner was given in the same place, before it is applied: throws UsageError when it would take back
+/// what was said, for depths where layers meet belong to layers placed by hand.
+void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text);
 /// So that a list given later does not add to a preset's.
 void forgetTechniques(Settings& settings);
 /// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.

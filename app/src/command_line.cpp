@@ -2,6 +2,7 @@
 #include "app/command_line.h"
 
 #include "app/preset.h"
+#include "contestants.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -195,6 +196,9 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
     if (setting.key == "techniques" && !settings.given.contains(setting.key)) {
         forgetTechniques(settings);
     }
+    if (settings.given.contains(placementPartner(setting.key))) {
+        requireOnePlacement(settings, setting.key, text);
+    }
     applySetting(settings, setting, text);
     settings.given[std::string(setting.key)] = true;
     settings.named.emplace(setting.key);
@@ -264,7 +268,7 @@ Command parseCommandLine(std::span<const std::string> arguments)
     if (json) {
         applyGiven(command.settings, *findSetting("json"), *json, *command.subcommand);
     }
-    if ((command.subcommand->bit & kFrames) != 0) {
+    if ((command.subcommand->bit & kFrames) != 0 && !hasManyTechniques(command.settings)) {
         completeTechnique(command.settings);
     }
     validateSettings(command.settings);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace gnomon::app {
 namespace {
@@ -17,7 +16,30 @@ constexpr std::string_view kAll[] = {"hard",
                                      "pcf+pcf.kernel=5x5",
                                      "pcf+pcf.kernel=7x7",
                                      "pcf+pcf.kernel=poisson",
-                                     "pcf+pcf.kernel=vogel"};
+                                     "pcf+pcf.kernel=vogel",
+                                     "vsm",
+                                     "lvsm",
+                                     "esm",
+                                     "evsm",
+                                     "msm"};
+
+bool isAll(const Settings& settings)
+{
+    return settings.techniques.empty() || settings.techniques.front() == "all";
+}
+
+/// Of all, those that can have the format that was asked for.
+std::vector<std::string> allOf(const Settings& settings)
+{
+    std::vector<std::string> texts;
+    for (const std::string_view text : kAll) {
+        const auto filter = static_cast<Filter>(findChoice("filter", text.substr(0, text.find('+')))->value);
+        if (!settings.format_given || !refusal(filter, settings.filter.format)) {
+            texts.emplace_back(text);
+        }
+    }
+    return texts;
+}
 
 } // namespace
 
@@ -25,6 +47,12 @@ bool namesOneTechnique(const Settings& settings)
 {
     return std::any_of(settings.named.begin(), settings.named.end(),
                        [](const std::string& key) { return key == "filter" || key.starts_with("pcf."); });
+}
+
+bool hasManyTechniques(const Settings& settings)
+{
+    return (settings.subcommand & (kBench | kCompare)) != 0 &&
+           (!settings.techniques.empty() || !namesOneTechnique(settings));
 }
 
 std::vector<std::string> techniqueList(const Settings& settings)
@@ -36,10 +64,7 @@ std::vector<std::string> techniqueList(const Settings& settings)
         }
         return {text};
     }
-    if (settings.techniques.empty() || settings.techniques.front() == "all") {
-        return {std::begin(kAll), std::end(kAll)};
-    }
-    return settings.techniques;
+    return isAll(settings) ? allOf(settings) : settings.techniques;
 }
 
 std::vector<Settings> contestants(const Settings& settings)

@@ -74,7 +74,7 @@ std::vector<RefusedCombination> refusedCombinations()
         }
     });
     for (const auto filter : availableValues("filter")) {
-        for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::rgba32f); ++i) {
+        for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::r16f); ++i) {
             const auto format = static_cast<MapFormat>(i);
             if (const auto reason = refusal(valueOf<Filter>("filter", filter), format)) {
                 refused.push_back(

@@ -32,8 +32,8 @@ constexpr std::array kPresets{
 })"},
 };
 
-/// A JSON value as it would be typed.
-std::string typed(const nlohmann::json& value)
+/// A JSON value as it would be typed; `between` the elements of a list.
+std::string typed(const nlohmann::json& value, char between = ',')
 {
     if (value.is_string()) {
         return value.get<std::string>();
@@ -48,7 +48,7 @@ std::string typed(const nlohmann::json& value)
     if (value.is_array()) {
         std::string text;
         for (const auto& element : value) {
-            text += (text.empty() ? "" : ",") + typed(element);
+            text += (text.empty() ? "" : std::string(1, between)) + typed(element);
         }
         return text;
     }
@@ -82,7 +82,7 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
         }
         return;
     }
-    applySetting(settings, key, typed(value));
+    applySetting(settings, key, typed(value, setting == nullptr ? ',' : setting->between));
 }
 
 void applyJson(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
@@ -103,6 +103,9 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
     }
     for (const auto& [key, value] : json.items()) {
         try {
+            if (key == "lvsm.splits" && json.contains("lvsm.placement")) {
+                requireOnePlacement(settings, "lvsm.placement", typed(json["lvsm.placement"]));
+            }
             applyEntry(settings, key, value, subcommand);
         } catch (const UsageError& error) {
             throw UsageError(fmt::format("preset {}: {}", name, error.what()));

@@ -20,7 +20,7 @@ Json typed(const Setting& setting, const std::string& text)
         return toNumber(text).value_or(0.0);
     case SettingType::numbers: {
         Json numbers = Json::array();
-        for (const std::string_view piece : split(text, ',')) {
+        for (const std::string_view piece : split(text, setting.between)) {
             numbers.push_back(toNumber(piece).value_or(0.0));
         }
         return numbers;

@@ -30,7 +30,7 @@ void applyTechniques(Settings& s, const Value& v)
         s.techniques.emplace_back(piece);
     }
     if (s.techniques.size() > 1 && std::find(s.techniques.begin(), s.techniques.end(), "all") != s.techniques.end()) {
-        throw UsageError("--techniques: all stands alone; it is hard and every kernel of pcf");
+        throw UsageError("--techniques: all stands alone; it is every filter and every kernel of pcf");
     }
 }
 

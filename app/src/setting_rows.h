@@ -8,10 +8,22 @@
 
 namespace gnomon::app {
 
+/// The names of an enum's first `count` values, in their order.
+template <typename Enum>
+std::vector<std::string_view> enumNames(std::uint8_t count)
+{
+    std::vector<std::string_view> names;
+    for (std::uint8_t i = 0; i < count; ++i) {
+        names.push_back(nameOf(static_cast<Enum>(i)));
+    }
+    return names;
+}
+
 inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has no use for a coordinate
 
 void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
 void addTechniqueRows(std::vector<Setting>& table); // the six choices and what belongs to them
+void addMomentRows(std::vector<Setting>& table);    // the filterable maps
 void addRunRows(std::vector<Setting>& table);       // truth, time, run, result
 
 } // namespace gnomon::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The declaration of every option, joined from three files: scene_settings.cpp, technique_settings.cpp and
-// run_settings.cpp.
+// The declaration of every option, joined from four files: scene_settings.cpp, technique_settings.cpp,
+// moment_settings.cpp and run_settings.cpp.
 #include "setting_rows.h"
 
 namespace gnomon::app {
@@ -11,6 +11,7 @@ std::span<const Setting> settingTable()
         std::vector<Setting> made;
         addSceneRows(made);
         addTechniqueRows(made);
+        addMomentRows(made);
         addRunRows(made);
         return made;
     }();

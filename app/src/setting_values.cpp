@@ -38,14 +38,20 @@ std::int64_t integerOf(const Setting& setting, std::string_view text)
     return *value;
 }
 
+std::string numbersText(const Setting& setting, std::string_view kind)
+{
+    const std::string count = setting.min_count == 0 ? fmt::format("{}", setting.count)
+                                                     : fmt::format("{} to {}", setting.min_count, setting.count);
+    const std::string between = setting.between == ',' ? "commas" : fmt::format("{}", setting.between);
+    return fmt::format("{} {}numbers with {} between ({})", count, kind, between, setting.form);
+}
+
 double realOf(const Setting& setting, std::string_view whole, std::string_view text)
 {
     const auto value = toNumber(text);
     if (!value) {
         refuse(setting, whole,
-               setting.count > 1
-                   ? fmt::format("{} finite numbers with commas between ({})", setting.count, setting.form)
-                   : "a finite number");
+               setting.type == SettingType::numbers ? numbersText(setting, "finite ") : "a finite number");
     }
     requireInRange(setting, whole, *value);
     return *value;
@@ -53,9 +59,9 @@ double realOf(const Setting& setting, std::string_view whole, std::string_view t
 
 std::vector<double> numbersOf(const Setting& setting, std::string_view text)
 {
-    const auto pieces = split(text, ',');
-    if (pieces.size() != setting.count) {
-        refuse(setting, text, fmt::format("{} numbers with commas between ({})", setting.count, setting.form));
+    const auto pieces = split(text, setting.between);
+    if (pieces.size() > setting.count || pieces.size() < (setting.min_count == 0 ? setting.count : setting.min_count)) {
+        refuse(setting, text, numbersText(setting, ""));
     }
     std::vector<double> numbers;
     for (const std::string_view piece : pieces) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/settings.h"
 
+#include "contestants.h"
 #include "setting_values.h"
 
 #include <gnomon/choices.h>
@@ -51,6 +52,57 @@ bool isChoice(std::string_view key)
 {
     const auto values = choiceValues();
     return std::any_of(values.begin(), values.end(), [&](const ChoiceValue& row) { return row.choice == key; });
+}
+
+/// What the options of a filterable map may not be together.
+void requireMoments(const Settings& settings)
+{
+    const vulkan::FilterOptions& filter = settings.filter;
+    const MomentOptions& moments = filter.moments;
+    if (filter.filter == Filter::lvsm && moments.placement == LayerPlacement::by_hand &&
+        settings.splits + 1 != moments.layers) {
+        throw UsageError(fmt::format("--set lvsm.splits: {} layers placed by hand need {} of them; {} given",
+                                     moments.layers, moments.layers - 1,
+                                     settings.splits == 1 ? "1 is" : fmt::format("{} are", settings.splits)));
+    }
+    if (const auto reason = refusal(filter.filter, filter.format, moments)) {
+        throw UsageError(
+            fmt::format("filter {} with map-format {}: {}", nameOf(filter.filter), nameOf(filter.format), *reason));
+    }
+}
+
+/// Room around the fitted map for what the filter reads.
+double usualBorder(const vulkan::FilterOptions& filter)
+{
+    return std::max(PlanOptions{}.border_texels, std::ceil(static_cast<double>(vulkan::filterReachTexels(filter))));
+}
+
+/// Whether a setting says what would hold without it, or what another one says already.
+bool goesWithoutSaying(const Settings& settings, const Setting& setting, const std::string& value)
+{
+    static const Settings defaults = [] {
+        Settings made = defaultSettings();
+        completeTechnique(made);
+        return made;
+    }();
+    if (setting.key == "pcf.kernel") { // "pcf" alone says too little in a table of results
+        return false;
+    }
+    if (setting.key == "map-format") {
+        return settings.filter.format == filterTraits(settings.filter.filter)->formats.front();
+    }
+    if (setting.key == "border") {
+        return settings.plan.border_texels == usualBorder(settings.filter);
+    }
+    if (setting.key == "bias" && value == "none") { // then its parts say it
+        const auto part = settings.values.lower_bound("bias.");
+        return part != settings.values.end() && part->first.starts_with("bias.");
+    }
+    if (setting.key == "lvsm.placement" && settings.values.contains("lvsm.splits")) {
+        return true;
+    }
+    const auto usual = defaults.values.find(setting.key);
+    return usual != defaults.values.end() && usual->second == value;
 }
 
 } // namespace
@@ -115,6 +167,10 @@ void applySetting(Settings& settings, const Setting& setting, std::string_view t
         }
     } else if (setting.key.starts_with("bias.") && settings.values["bias"] == "auto") {
         settings.values["bias"] = "none";
+    } else if (setting.key == "lvsm.splits") {
+        settings.values["lvsm.placement"] = nameOf(LayerPlacement::by_hand);
+    } else if (setting.key == "lvsm.placement" && settings.splits == 0) {
+        settings.values.erase("lvsm.splits"); // the placement said last needs none
     }
 }
 
@@ -148,6 +204,19 @@ void replaceCamera(Settings& settings, std::string_view latest)
     }
 }
 
+std::string_view placementPartner(std::string_view key)
+{
+    return key == "lvsm.placement" ? "lvsm.splits" : key == "lvsm.splits" ? "lvsm.placement" : "";
+}
+
+void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text)
+{
+    const std::string_view placement = key == "lvsm.placement" ? text : settings.values.at("lvsm.placement");
+    if (placement != nameOf(LayerPlacement::by_hand)) {
+        throw UsageError(fmt::format("lvsm.splits are of layers placed by hand, not of lvsm.placement {}", placement));
+    }
+}
+
 void forgetTechniques(Settings& settings)
 {
     settings.techniques.clear();
@@ -167,6 +236,8 @@ void validateSettings(const Settings& settings)
         throw UsageError(fmt::format("{} and --sweep both say what {} is; give one",
                                      spelled(*findSetting(settings.sweep->key)), settings.sweep->key));
     }
+    const std::vector<Settings> techniques =
+        hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
     for (const auto& [key, given] : settings.given) {
         const Setting* setting = findSetting(key);
         if (settings.subcommand == kRender && settings.truth && setting != nullptr &&
@@ -174,7 +245,8 @@ void validateSettings(const Settings& settings)
             throw UsageError(
                 fmt::format("{} has no effect with --truth, which draws no shadow map", spelled(*setting)));
         }
-        if (given && setting != nullptr && setting->used != nullptr && !setting->used(settings)) {
+        if (given && setting != nullptr && setting->used != nullptr &&
+            std::none_of(techniques.begin(), techniques.end(), setting->used)) {
             throw UsageError(fmt::format("{} has an effect only with {}", spelled(*setting), setting->used_when));
         }
     }
@@ -194,9 +266,9 @@ void completeTechnique(Settings& settings)
         throw UsageError(fmt::format("--map-format: {} cannot be had with filter {}: {}",
                                      nameOf(settings.filter.format), nameOf(settings.filter.filter), *reason));
     }
+    requireMoments(settings);
     if (!settings.border_given) {
-        const auto reach = static_cast<double>(vulkan::filterReachTexels(settings.filter));
-        settings.plan.border_texels = std::max(PlanOptions{}.border_texels, std::ceil(reach));
+        settings.plan.border_texels = usualBorder(settings.filter);
         settings.values["border"] = fmt::format("{}", settings.plan.border_texels);
     }
 }
@@ -236,6 +308,9 @@ Settings parseTechnique(const Settings& base, std::string_view text)
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
             throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, key));
         }
+        if (const auto other = placementPartner(key); std::find(seen.begin(), seen.end(), other) != seen.end()) {
+            requireOnePlacement(settings, key, value);
+        }
         seen.push_back(key);
         applySetting(settings, key, value);
     }
@@ -252,29 +327,16 @@ Settings parseTechnique(const Settings& base, std::string_view text)
 
 std::string describeTechnique(const Settings& settings)
 {
-    static const Settings defaults = [] {
-        Settings made = defaultSettings();
-        completeTechnique(made);
-        return made;
-    }();
     std::string text(nameOf(settings.plan.technique.filter));
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
         if (setting.group != SettingGroup::technique || setting.key == "filter" || value == settings.values.end() ||
-            (setting.used != nullptr && !setting.used(settings))) {
+            (setting.used != nullptr && !setting.used(settings)) ||
+            goesWithoutSaying(settings, setting, value->second)) {
             continue;
         }
-        const auto usual = defaults.values.find(setting.key);
-        // A kernel is always named: "pcf" alone says too little in a table of results.
-        if (setting.key == "pcf.kernel" || usual == defaults.values.end() || usual->second != value->second) {
-            if (setting.key == "bias" && value->second == "none" &&
-                settings.values.lower_bound("bias.") != settings.values.end() &&
-                settings.values.lower_bound("bias.")->first.starts_with("bias.")) {
-                continue; // its parts say it
-            }
-            text += isChoice(setting.key) ? fmt::format("+{}", value->second)
-                                          : fmt::format("+{}={}", setting.key, value->second);
-        }
+        text += isChoice(setting.key) ? fmt::format("+{}", value->second)
+                                      : fmt::format("+{}={}", setting.key, value->second);
     }
     return text;
 }

@@ -28,16 +28,6 @@ std::vector<std::string_view> choiceNames(std::string_view choice)
 }
 
 template <typename Enum>
-std::vector<std::string_view> enumNames(std::uint8_t count)
-{
-    std::vector<std::string_view> names;
-    for (std::uint8_t i = 0; i < count; ++i) {
-        names.push_back(nameOf(static_cast<Enum>(i)));
-    }
-    return names;
-}
-
-template <typename Enum>
 void setChoice(std::string_view choice, Enum& target, const Value& value)
 {
     target = static_cast<Enum>(findChoice(choice, value.text)->value);
