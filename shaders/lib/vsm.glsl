@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+// vsm: the share of the filtered depths that may lie beyond the receiver, from their mean and variance.
+// Based on: W. Donnelly, A. Lauritzen, "Variance Shadow Maps", I3D 2006.
 #ifndef GNOMON_VSM_GLSL
 #define GNOMON_VSM_GLSL
-#include "filter_types.glsl"
+#include "../shared/moments.h"
+#include "moment_sampling.glsl"
 GN_BEGIN
 
 GN_FN real filterVsm(MapPoint point, FilterInput f)
 {
-    return real(1.0) + real(0.0) * (point.depth + f.layer);
+    real4 m = sampleMoments(point, f, f.layer);
+    real d = receiverDepth(point.depth, f.moments.flags, f.near_over_far);
+    real stretch = metricStretch(point.depth, f.moments.flags, f.near_over_far);
+    real least = leastVariance(f.moments, point.texel_depth, stretch);
+    return shapeVisibility(chebyshevBound(m.x, m.y, momentCoordinate(d, f.moments.flags), least), f.moments);
 }
 
 GN_END
