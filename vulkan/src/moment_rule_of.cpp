@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_rule_of.h"
 
+#include <moments.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -9,27 +11,38 @@ namespace {
 
 constexpr std::uint32_t kMostLevels = 8; // a footprint of 128 texels: what is larger is a texel of the coarsest level
 
-/// Least variance that hides what rounding does to M2 - M1^2. Both moments are near 1 in the worst case, so its error is
-/// some steps of the format there.
-float varianceOfRounding(MapFormat format)
+/// Spacing of the format's numbers just below 1.
+float stepBelowOne(MapFormat format)
 {
     switch (format) {
     case MapFormat::rg16:
     case MapFormat::rgba16:
-        return 3.0F / 65535.0F;
+        return 1.0F / 65535.0F;
+    case MapFormat::r16f:
     case MapFormat::rg16f:
     case MapFormat::rgba16f:
-        return 3.0F / 2048.0F;
+        return 1.0F / 2048.0F;
     default:
-        return 1e-6F;
+        return 1.0F / 16777216.0F;
     }
+}
+
+/// Least variance of d' (lvsm: of a layer's own metric) that hides what the format's rounding does to M2 - M1^2, see
+/// shaders/shared/moments.h. Whatever a filter stores in place of d' changes so many times faster.
+float automaticVariance(const FilterOptions& filter, const shared::MomentRule& rule)
+{
+    const float warp = filter.filter == Filter::evsm ? std::min(rule.exponent, rule.exponent_negative)
+                                                     : shared::momentScale(rule.flags);
+    return shared::varianceOfRounding(stepBelowOne(filter.format)) / (warp * warp);
 }
 
 int flagsOf(const FilterOptions& filter)
 {
     const MomentOptions& o = filter.moments;
     int flags = 0;
-    const auto set = [&](bool on, int flag) { flags |= on ? flag : 0; };
+    const auto set = [&](bool on, int flag) {
+        flags |= on ? flag : 0;
+    };
     // The basis of quantised moments is made for [-1, 1], and four moments keep more digits there.
     set(o.remap || filter.filter == Filter::msm, shared::kMomentRemap);
     set(o.metric == DepthMetricKind::z_over_w, shared::kMomentZOverW);
@@ -62,7 +75,7 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     rule.exponent = exponent(filter.filter == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
     rule.exponent_negative = exponent(o.evsm_negative, true);
     rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? 3e-5F : 3e-7F);
-    rule.min_variance = o.min_variance.value_or(varianceOfRounding(filter.format));
+    rule.min_variance = o.min_variance.value_or(automaticVariance(filter, rule));
     rule.min_variance_texels = o.min_variance ? 0.0F : 0.5F;
     rule.linstep = o.bleeding_linstep;
     rule.power = o.bleeding_power;
