@@ -13,13 +13,11 @@
 // need is never run.
 #ifndef GNOMON_AVERAGE_GLSL
 #define GNOMON_AVERAGE_GLSL
-#include "../shared/moment_rule.h"
+#include "../shared/exponential.h"
 GN_BEGIN
 
 GN_CONST int kFilterEsm = 5; // gnomon::Filter
 GN_CONST int kFilterEvsm = 6;
-// e^(2 c t) must not make 2 c infinite; so large an exponent takes the largest tap already.
-GN_CONST real kMostExponent = real(1e30);
 
 GN_FN bool averagesLogarithms(int filter_number, int flags)
 {
@@ -32,12 +30,7 @@ GN_FN real4 averageExponents(int filter_number, MomentRule rule)
     if (!averagesLogarithms(filter_number, rule.flags)) {
         return real4(real(0.0));
     }
-    real up = min(rule.exponent, kMostExponent);
-    if (filter_number == kFilterEsm) {
-        return real4(up);
-    }
-    real down = min(rule.exponent_negative, kMostExponent);
-    return real4(up, real(2.0) * up, -down, real(-2.0) * down);
+    return filter_number == kFilterEsm ? esmExponents(rule) : evsmExponents(rule);
 }
 
 struct MomentSum {
