@@ -2,11 +2,27 @@
 #include <gnomon/moment_options.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace gnomon {
 namespace {
+
+constexpr std::array<std::string_view, 2> kMetrics{"linear", "z-over-w"};
+constexpr std::array<std::string_view, 3> kBlurs{"none", "gaussian", "box"};
+constexpr std::array<std::string_view, 3> kPaths{"auto", "compute", "fragment"};
+constexpr std::array<std::string_view, 4> kSamplings{"nearest", "bilinear", "trilinear", "anisotropic"};
+constexpr std::array<std::string_view, 3> kPlacements{"uniform", "hand", "lloyd"};
+constexpr std::array<std::string_view, 2> kSolvers{"hamburger", "hausdorff"};
+
+template <class Enum, std::size_t n>
+std::string_view nameIn(const std::array<std::string_view, n>& names, Enum value)
+{
+    const auto i = static_cast<std::size_t>(value);
+    return i < n ? names[i] : "?";
+}
 
 bool isHalf(MapFormat format)
 {
@@ -16,36 +32,76 @@ bool isUnorm(MapFormat format)
 {
     return format == MapFormat::rg16 || format == MapFormat::rgba16;
 }
-
-std::string outside(std::string_view name, double value, std::string_view range)
+bool hasFourChannels(MapFormat format)
 {
-    std::string text(name);
-    return text + " " + std::to_string(value) + " is outside " + std::string(range);
+    return format == MapFormat::rgba16 || format == MapFormat::rgba16f || format == MapFormat::rgba32f;
 }
 
-std::optional<std::string> exponentRefusal(std::string_view name, const std::optional<float>& wish, double largest)
+/// As one would write it: the fewest digits that single precision tells apart, in every locale.
+std::string textOf(float value)
 {
-    if (!wish) {
-        return std::nullopt;
-    }
-    if (!(*wish > 0.0F)) {
-        return std::string(name) + " must be more than 0";
-    }
-    if (static_cast<double>(*wish) > largest) {
-        return std::string(name) + " " + std::to_string(*wish) + " would overflow: this format holds up to " +
-               std::to_string(largest) + " (in log space there is no such limit)";
+    std::array<char, 32> room{};
+    return {room.data(), std::to_chars(room.data(), room.data() + room.size(), value).ptr};
+}
+
+struct Range {
+    std::string_view name;
+    float value = 0.0F;
+    float least = 0.0F;
+    float most = 0.0F;
+    std::string_view unit;
+};
+
+std::optional<std::string> firstOutside(std::span<const Range> ranges)
+{
+    for (const Range& range : ranges) {
+        if (!(range.value >= range.least && range.value <= range.most)) { // what is not a number is outside, too
+            return std::string(range.name) + " is " + textOf(range.value) + "; it can be " + textOf(range.least) +
+                   " to " + textOf(range.most) + std::string(range.unit);
+        }
     }
     return std::nullopt;
 }
 
-std::optional<std::string> layerRefusal(const MomentOptions& o)
+std::optional<std::string> rangeRefusal(const MomentOptions& o)
 {
-    if (o.layers < 2 || o.layers > kMaxDepthLayers) {
-        return outside("layers", o.layers, "2 .. 8");
+    if (o.samples != 1 && o.samples != 4) {
+        return "samples are " + std::to_string(o.samples) + "; they can be 1 or 4";
     }
-    if (!(o.layer_overlap >= 0.0F && o.layer_overlap <= 0.5F)) {
-        return outside("layer overlap", static_cast<double>(o.layer_overlap), "0 .. 0.5");
+    const std::array ranges{
+        Range{"blur sigma", o.blur_sigma_texels, 0.3F, 10.0F, " texels"},
+        Range{"blur radius", static_cast<float>(o.blur_radius_texels), 0.0F, static_cast<float>(kMaxBlurRadius),
+              " texels"},
+        Range{"anisotropy", static_cast<float>(o.anisotropy), 2.0F, 16.0F, ""},
+        Range{"minimum variance", o.min_variance.value_or(0.0F), 0.0F, 1.0F, ""},
+        Range{"bleeding linstep", o.bleeding_linstep, 0.0F, 0.99F, ""},
+        Range{"bleeding power", o.bleeding_power, 0.1F, 16.0F, ""},
+        Range{"lighten", o.lighten, 0.0F, 1.0F, ""},
+        Range{"moment bias", o.moment_bias.value_or(0.0F), 0.0F, 0.1F, ""},
+        Range{"number of layers", static_cast<float>(o.layers), 2.0F, static_cast<float>(kMaxDepthLayers), ""},
+        Range{"layer overlap", o.layer_overlap, 0.0F, 0.5F, " of a layer"},
+    };
+    return firstOutside(ranges);
+}
+
+std::optional<std::string> exponentRefusal(std::string_view name, const std::optional<float>& wish, MapFormat format,
+                                           double largest)
+{
+    if (!wish) {
+        return std::nullopt;
     }
+    if (!(*wish > 0.0F) || !std::isfinite(*wish)) {
+        return std::string(name) + " is " + textOf(*wish) + "; it must be above 0 and finite";
+    }
+    if (static_cast<double>(*wish) > largest) {
+        return std::string(name) + " " + textOf(*wish) + " would overflow " + std::string(nameOf(format)) +
+               ", which holds up to " + textOf(static_cast<float>(largest)) + "; in log space there is no such limit";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> splitRefusal(const MomentOptions& o)
+{
     float last = 0.0F;
     for (std::uint32_t i = 0; o.placement == LayerPlacement::by_hand && i + 1 < o.layers; ++i) {
         if (!(o.splits[i] > last && o.splits[i] < 1.0F)) {
@@ -56,67 +112,31 @@ std::optional<std::string> layerRefusal(const MomentOptions& o)
     return std::nullopt;
 }
 
-std::optional<std::string> chainRefusal(const MomentOptions& o)
-{
-    if (o.samples != 1 && o.samples != 4) {
-        return outside("samples", o.samples, "1, 4");
-    }
-    if (!(o.blur_sigma_texels >= 0.3F && o.blur_sigma_texels <= 10.0F)) {
-        return outside("blur sigma", static_cast<double>(o.blur_sigma_texels), "0.3 .. 10");
-    }
-    if (o.blur_radius_texels > kMaxBlurRadius) {
-        return outside("blur radius", o.blur_radius_texels, "1 .. 31");
-    }
-    if (o.anisotropy < 2 || o.anisotropy > 16) {
-        return outside("anisotropy", o.anisotropy, "2 .. 16");
-    }
-    if (o.min_variance && !(*o.min_variance >= 0.0F && *o.min_variance <= 1.0F)) {
-        return outside("minimum variance", static_cast<double>(*o.min_variance), "0 .. 1");
-    }
-    if (!(o.bleeding_linstep >= 0.0F && o.bleeding_linstep <= 0.99F)) {
-        return outside("linear step", static_cast<double>(o.bleeding_linstep), "0 .. 0.99");
-    }
-    if (!(o.bleeding_power >= 0.1F && o.bleeding_power <= 16.0F)) {
-        return outside("power", static_cast<double>(o.bleeding_power), "0.1 .. 16");
-    }
-    if (!(o.lighten >= 0.0F && o.lighten <= 1.0F)) {
-        return outside("lighten", static_cast<double>(o.lighten), "0 .. 1");
-    }
-    if (o.moment_bias && !(*o.moment_bias >= 0.0F && *o.moment_bias <= 0.1F)) {
-        return outside("moment bias", static_cast<double>(*o.moment_bias), "0 .. 0.1");
-    }
-    return std::nullopt;
-}
-
 } // namespace
 
 std::string_view nameOf(DepthMetricKind value)
 {
-    return value == DepthMetricKind::linear ? "linear" : "z-over-w";
+    return nameIn(kMetrics, value);
 }
 std::string_view nameOf(BlurKind value)
 {
-    constexpr std::array<std::string_view, 3> kNames{"none", "gaussian", "box"};
-    return kNames[static_cast<std::size_t>(value)];
+    return nameIn(kBlurs, value);
 }
 std::string_view nameOf(BlurPath value)
 {
-    constexpr std::array<std::string_view, 3> kNames{"auto", "compute", "fragment"};
-    return kNames[static_cast<std::size_t>(value)];
+    return nameIn(kPaths, value);
 }
 std::string_view nameOf(MapSampling value)
 {
-    constexpr std::array<std::string_view, 4> kNames{"nearest", "bilinear", "trilinear", "anisotropic"};
-    return kNames[static_cast<std::size_t>(value)];
+    return nameIn(kSamplings, value);
 }
 std::string_view nameOf(LayerPlacement value)
 {
-    constexpr std::array<std::string_view, 3> kNames{"uniform", "hand", "lloyd"};
-    return kNames[static_cast<std::size_t>(value)];
+    return nameIn(kPlacements, value);
 }
 std::string_view nameOf(MomentSolver value)
 {
-    return value == MomentSolver::hamburger ? "hamburger" : "hausdorff";
+    return nameIn(kSolvers, value);
 }
 
 std::uint32_t blurRadius(const MomentOptions& options)
@@ -127,8 +147,11 @@ std::uint32_t blurRadius(const MomentOptions& options)
     if (options.blur_radius_texels > 0) {
         return options.blur_radius_texels;
     }
+    if (options.blur == BlurKind::box) {
+        return 2;
+    }
     const auto three_sigma = static_cast<std::uint32_t>(std::ceil(3.0F * options.blur_sigma_texels));
-    return options.blur == BlurKind::box ? 2 : std::clamp(three_sigma, 1U, kMaxBlurRadius);
+    return std::clamp(three_sigma, 1U, kMaxBlurRadius);
 }
 
 std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options)
@@ -165,22 +188,23 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
         return std::nullopt;
     }
     if (options.remap && isUnorm(format)) {
-        return "a unorm format holds 0 to 1 only, so depth cannot be remapped to [-1, 1]; a float format can";
+        return std::string(nameOf(format)) + " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can";
     }
-    if (const auto reason = chainRefusal(options)) {
+    if (const auto reason = rangeRefusal(options)) {
         return reason;
     }
     const double largest = largestExponent(filter, format, options);
     switch (filter) {
     case Filter::lvsm:
-        return layerRefusal(options);
+        return splitRefusal(options);
     case Filter::esm:
-        return exponentRefusal("the exponent of esm", options.esm_exponent, largest);
+        return exponentRefusal("exponent", options.esm_exponent, format, largest);
     case Filter::evsm:
-        if (const auto reason = exponentRefusal("the positive exponent of evsm", options.evsm_positive, largest)) {
+        if (const auto reason = exponentRefusal("positive exponent", options.evsm_positive, format, largest)) {
             return reason;
         }
-        return exponentRefusal("the negative exponent of evsm", options.evsm_negative, largest);
+        return hasFourChannels(format) ? exponentRefusal("negative exponent", options.evsm_negative, format, largest)
+                                       : std::nullopt;
     default:
         return std::nullopt;
     }

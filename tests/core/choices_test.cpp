@@ -52,7 +52,7 @@ TEST(Choices, KernelsAndFormatsRoundTrip)
 {
     for (int i = 0; i <= static_cast<int>(PcfKernel::vogel); ++i)
         EXPECT_EQ(findPcfKernel(nameOf(static_cast<PcfKernel>(i))), static_cast<PcfKernel>(i));
-    for (int i = 0; i <= static_cast<int>(MapFormat::rgba32f); ++i)
+    for (int i = 0; i <= static_cast<int>(MapFormat::r16f); ++i)
         EXPECT_EQ(findMapFormat(nameOf(static_cast<MapFormat>(i))), static_cast<MapFormat>(i));
     EXPECT_EQ(findPcfKernel("4x4"), std::nullopt);
     EXPECT_EQ(findMapFormat(""), std::nullopt);
@@ -87,8 +87,9 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
 TEST(Choices, RefusalsAreSentences)
 {
     Technique technique;
-    technique.filter = Filter::vsm;
-    EXPECT_EQ(refusal(LightType::spot, technique), "filter vsm is not in this version; it has hard and pcf");
+    technique.filter = Filter::pcss;
+    EXPECT_EQ(refusal(LightType::spot, technique),
+              "filter pcss is not in this version; it has hard, pcf, vsm, lvsm, esm, evsm and msm");
     EXPECT_EQ(refusal(LightType::point, Technique{}),
               "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or "
               "multi");
@@ -108,7 +109,29 @@ TEST(Choices, EveryAvailableFilterHasTraits)
             ASSERT_FALSE(traits->formats.empty());
             for (const MapFormat format : traits->formats)
                 EXPECT_EQ(refusal(filter, format), std::nullopt);
-            EXPECT_TRUE(refusal(filter, MapFormat::rgba16).has_value());
+        }
+}
+
+TEST(Choices, AFormatIsRefusedUnlessItsFilterListsIt)
+{
+    const std::map<Filter, std::set<MapFormat>> usable{
+        {Filter::hard, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16}},
+        {Filter::pcf, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16}},
+        {Filter::vsm, {MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f}},
+        {Filter::lvsm, {MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f}},
+        {Filter::esm, {MapFormat::r32f, MapFormat::r16f}},
+        {Filter::evsm, {MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f}},
+        {Filter::msm, {MapFormat::rgba16, MapFormat::rgba32f}},
+    };
+    for (const auto& [filter, formats] : usable)
+        for (int i = 0; i <= static_cast<int>(MapFormat::r16f); ++i) {
+            const auto format = static_cast<MapFormat>(i);
+            const auto reason = refusal(filter, format);
+            EXPECT_EQ(reason.has_value(), !formats.contains(format)) << nameOf(filter) << " " << nameOf(format);
+            for (const MapFormat other : formats) // the sentence says what can be had
+                if (reason) {
+                    EXPECT_NE(reason->find(nameOf(other)), std::string_view::npos) << *reason;
+                }
         }
 }
 

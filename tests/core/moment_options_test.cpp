@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/moment_options.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+using Change = std::function<void(MomentOptions&)>;
+
+std::string reasonFor(Filter filter, MapFormat format, const Change& change)
+{
+    MomentOptions options;
+    change(options);
+    return refusal(filter, format, options).value_or("");
+}
+std::string vsmReason(const Change& change)
+{
+    return reasonFor(Filter::vsm, MapFormat::rg32f, change);
+}
+
+TEST(MomentOptions, DefaultsAreHadByEveryFilterAndFormat)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.choice != "filter" || !row.available) {
+            continue;
+        }
+        const auto filter = static_cast<Filter>(row.value);
+        for (const MapFormat format : filterTraits(filter)->formats) {
+            EXPECT_EQ(refusal(filter, format, MomentOptions{}), std::nullopt) << row.name << " " << nameOf(format);
+        }
+    }
+}
+
+TEST(MomentOptions, WhatAFilterCannotStoreIsRefusedFirst)
+{
+    EXPECT_EQ(reasonFor(Filter::esm, MapFormat::rgba16, [](MomentOptions& o) { o.samples = 3; }),
+              "esm stores one exponential, which only a float holds: r32f or r16f");
+    EXPECT_EQ(reasonFor(Filter::pcss, MapFormat::d32f, [](MomentOptions&) {}),
+              "filter pcss is not in this version; it has hard, pcf, vsm, lvsm, esm, evsm and msm");
+}
+
+TEST(MomentOptions, FiltersThatCompareDepthsPassOverThem)
+{
+    EXPECT_EQ(reasonFor(Filter::pcf, MapFormat::d32f, [](MomentOptions& o) { o.samples = 3; }), "");
+}
+
+struct Limit {
+    const char* name;
+    void (*set)(MomentOptions&, float);
+    float least;
+    float most;
+    float under; // just outside
+    float over;
+    const char* below;
+    const char* above;
+};
+
+TEST(MomentOptions, LimitsHoldAndWhatIsJustBeyondIsRefused)
+{
+    const std::vector<Limit> limits{
+        {"sigma", [](MomentOptions& o, float v) { o.blur_sigma_texels = v; }, 0.3F, 10.0F, 0.29F, 10.01F,
+         "blur sigma is 0.29; it can be 0.3 to 10 texels", "blur sigma is 10.01; it can be 0.3 to 10 texels"},
+        {"variance", [](MomentOptions& o, float v) { o.min_variance = v; }, 0.0F, 1.0F, -0.001F, 1.001F,
+         "minimum variance is -0.001; it can be 0 to 1", "minimum variance is 1.001; it can be 0 to 1"},
+        {"linstep", [](MomentOptions& o, float v) { o.bleeding_linstep = v; }, 0.0F, 0.99F, -0.01F, 0.995F,
+         "bleeding linstep is -0.01; it can be 0 to 0.99", "bleeding linstep is 0.995; it can be 0 to 0.99"},
+        {"power", [](MomentOptions& o, float v) { o.bleeding_power = v; }, 0.1F, 16.0F, 0.09F, 16.5F,
+         "bleeding power is 0.09; it can be 0.1 to 16", "bleeding power is 16.5; it can be 0.1 to 16"},
+        {"lighten", [](MomentOptions& o, float v) { o.lighten = v; }, 0.0F, 1.0F, -0.5F, 1.5F,
+         "lighten is -0.5; it can be 0 to 1", "lighten is 1.5; it can be 0 to 1"},
+        {"bias", [](MomentOptions& o, float v) { o.moment_bias = v; }, 0.0F, 0.1F, -1e-6F, 0.101F,
+         "moment bias is -1e-06; it can be 0 to 0.1", "moment bias is 0.101; it can be 0 to 0.1"},
+        {"overlap", [](MomentOptions& o, float v) { o.layer_overlap = v; }, 0.0F, 0.5F, -0.01F, 0.501F,
+         "layer overlap is -0.01; it can be 0 to 0.5 of a layer",
+         "layer overlap is 0.501; it can be 0 to 0.5 of a layer"},
+        {"anisotropy", [](MomentOptions& o, float v) { o.anisotropy = static_cast<std::uint32_t>(v); }, 2.0F, 16.0F,
+         1.0F, 17.0F, "anisotropy is 1; it can be 2 to 16", "anisotropy is 17; it can be 2 to 16"},
+        {"layers", [](MomentOptions& o, float v) { o.layers = static_cast<std::uint32_t>(v); }, 2.0F, 8.0F, 1.0F, 9.0F,
+         "number of layers is 1; it can be 2 to 8", "number of layers is 9; it can be 2 to 8"},
+    };
+    for (const Limit& limit : limits) {
+        const auto at = [&](float value) {
+            return vsmReason([&](MomentOptions& o) { limit.set(o, value); });
+        };
+        EXPECT_EQ(at(limit.least), "") << limit.name;
+        EXPECT_EQ(at(limit.most), "") << limit.name;
+        EXPECT_EQ(at(limit.under), limit.below);
+        EXPECT_EQ(at(limit.over), limit.above);
+    }
+}
+
+TEST(MomentOptions, CountsThatHaveNoRange)
+{
+    EXPECT_EQ(vsmReason([](MomentOptions& o) { o.blur_radius_texels = 31; }), "");
+    EXPECT_EQ(vsmReason([](MomentOptions& o) { o.blur_radius_texels = 32; }),
+              "blur radius is 32; it can be 0 to 31 texels");
+    for (const std::uint32_t samples : {1U, 4U}) {
+        EXPECT_EQ(vsmReason([&](MomentOptions& o) { o.samples = samples; }), "");
+    }
+    for (const std::uint32_t samples : {0U, 2U, 8U}) {
+        EXPECT_EQ(vsmReason([&](MomentOptions& o) { o.samples = samples; }),
+                  "samples are " + std::to_string(samples) + "; they can be 1 or 4");
+    }
+}
+
+TEST(MomentOptions, WhatIsNoNumberIsRefused)
+{
+    const std::vector<std::function<void(MomentOptions&, float)>> members{
+        [](MomentOptions& o, float v) { o.blur_sigma_texels = v; },
+        [](MomentOptions& o, float v) { o.min_variance = v; },
+        [](MomentOptions& o, float v) { o.bleeding_linstep = v; },
+        [](MomentOptions& o, float v) { o.bleeding_power = v; },
+        [](MomentOptions& o, float v) { o.lighten = v; },
+        [](MomentOptions& o, float v) { o.moment_bias = v; },
+        [](MomentOptions& o, float v) { o.layer_overlap = v; },
+    };
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        for (const float value : {kNan, kInfinity, -kInfinity}) {
+            EXPECT_NE(vsmReason([&](MomentOptions& o) { members[i](o, value); }), "") << i << " " << value;
+        }
+    }
+    for (const float value : {kNan, kInfinity, 0.0F, -1.0F}) {
+        EXPECT_NE(reasonFor(Filter::esm, MapFormat::r32f,
+                            [&](MomentOptions& o) {
+                                o.esm_exponent = value;
+                                o.log_space = true;
+                            }),
+                  "")
+            << value;
+    }
+    EXPECT_NE(reasonFor(Filter::lvsm, MapFormat::rgba16,
+                        [](MomentOptions& o) {
+                            o.placement = LayerPlacement::by_hand;
+                            o.splits[0] = kNan;
+                        }),
+              "");
+}
+
+TEST(MomentOptions, UnormHoldsNoNegativeDepth)
+{
+    const Change remap = [](MomentOptions& o) {
+        o.remap = true;
+    };
+    const std::vector<std::pair<Filter, MapFormat>> unorms{
+        {Filter::vsm, MapFormat::rg16}, {Filter::lvsm, MapFormat::rgba16}, {Filter::msm, MapFormat::rgba16}};
+    for (const auto& [filter, format] : unorms) {
+        EXPECT_EQ(reasonFor(filter, format, remap),
+                  std::string(nameOf(format)) +
+                      " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can");
+    }
+    EXPECT_EQ(reasonFor(Filter::vsm, MapFormat::rg16f, remap), "");
+    EXPECT_EQ(reasonFor(Filter::msm, MapFormat::rgba32f, remap), "");
+}
+
+TEST(MomentOptions, ExponentsEndWhereTheFormatDoes)
+{
+    const auto esm = [](MapFormat format, float exponent, bool log_space) {
+        return reasonFor(Filter::esm, format, [&](MomentOptions& o) {
+            o.esm_exponent = exponent;
+            o.log_space = log_space;
+        });
+    };
+    EXPECT_EQ(esm(MapFormat::r32f, 88.0F, false), "");
+    EXPECT_EQ(esm(MapFormat::r32f, 88.5F, false),
+              "exponent 88.5 would overflow r32f, which holds up to 88; in log space there is no such limit");
+    EXPECT_EQ(esm(MapFormat::r16f, 11.0F, false), "");
+    EXPECT_EQ(esm(MapFormat::r16f, 11.1F, false),
+              "exponent 11.1 would overflow r16f, which holds up to 11; in log space there is no such limit");
+    EXPECT_EQ(esm(MapFormat::r16f, 500.0F, true), "");
+    EXPECT_EQ(esm(MapFormat::r32f, 0.0F, true), "exponent is 0; it must be above 0 and finite");
+
+    const auto evsm = [](MapFormat format, float positive, float negative) {
+        return reasonFor(Filter::evsm, format, [&](MomentOptions& o) {
+            o.evsm_positive = positive;
+            o.evsm_negative = negative;
+        });
+    };
+    EXPECT_EQ(evsm(MapFormat::rgba32f, 42.0F, 42.0F), "");
+    EXPECT_EQ(evsm(MapFormat::rgba32f, 42.5F, 5.0F),
+              "positive exponent 42.5 would overflow rgba32f, which holds up to 42; in log space there is no such "
+              "limit");
+    EXPECT_EQ(evsm(MapFormat::rgba16f, 5.54F, 5.54F), "");
+    EXPECT_EQ(evsm(MapFormat::rgba16f, 5.0F, 5.6F),
+              "negative exponent 5.6 would overflow rgba16f, which holds up to 5.54; in log space there is no such "
+              "limit");
+    EXPECT_EQ(evsm(MapFormat::rg16f, 5.0F, 5.6F), ""); // which stores the positive warp alone
+}
+
+TEST(MomentOptions, ExponentsThatNobodyChoseFit)
+{
+    const MomentOptions options;
+    EXPECT_EQ(defaultExponent(Filter::esm, MapFormat::r32f, options, false), 80.0);
+    EXPECT_EQ(defaultExponent(Filter::esm, MapFormat::r16f, options, false), 11.0);
+    EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba32f, options, false), 40.0);
+    EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba32f, options, true), 5.0);
+    EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba16f, options, false), 5.54);
+    EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba16f, options, true), 5.0);
+    const MomentOptions logs{.log_space = true};
+    EXPECT_EQ(defaultExponent(Filter::esm, MapFormat::r16f, logs, false), 80.0);
+    EXPECT_EQ(largestExponent(Filter::evsm, MapFormat::rg16f, logs), std::numeric_limits<double>::infinity());
+    // A sum of a kernel's texels stays finite: e^c and e^2c themselves are below the largest number.
+    EXPECT_LT(std::exp(largestExponent(Filter::esm, MapFormat::r16f, options)), 65504.0);
+    EXPECT_LT(std::exp(largestExponent(Filter::esm, MapFormat::r32f, options)), 3.4e38);
+    EXPECT_LT(std::exp(2.0 * largestExponent(Filter::evsm, MapFormat::rg16f, options)), 65504.0);
+    EXPECT_LT(std::exp(2.0 * largestExponent(Filter::evsm, MapFormat::rg32f, options)), 3.4e38);
+}
+
+TEST(MomentOptions, LayersByHandMeetInOrder)
+{
+    const auto by_hand = [](std::uint32_t layers, std::vector<float> splits) {
+        return reasonFor(Filter::lvsm, MapFormat::rgba16, [&](MomentOptions& o) {
+            o.placement = LayerPlacement::by_hand;
+            o.layers = layers;
+            std::copy(splits.begin(), splits.end(), o.splits.begin());
+        });
+    };
+    const std::string sentence =
+        "layers placed by hand meet at ascending depths between 0 and 1, one fewer than there are layers";
+    EXPECT_EQ(by_hand(2, {0.5F}), "");
+    EXPECT_EQ(by_hand(8, {0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F}), "");
+    EXPECT_EQ(by_hand(2, {0.5F, 0.4F}), ""); // only the first counts
+    EXPECT_EQ(by_hand(2, {}), sentence);
+    EXPECT_EQ(by_hand(2, {1.0F}), sentence);
+    EXPECT_EQ(by_hand(3, {0.5F, 0.5F}), sentence);
+    EXPECT_EQ(by_hand(3, {0.5F, 0.4F}), sentence);
+    EXPECT_EQ(by_hand(8, {0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F}), sentence);
+    EXPECT_EQ(reasonFor(Filter::lvsm, MapFormat::rgba16, [](MomentOptions& o) { o.splits[0] = 2.0F; }), "");
+}
+
+TEST(MomentOptions, BlurRadius)
+{
+    MomentOptions options;
+    EXPECT_EQ(blurRadius(options), 4U); // 3.75
+    options.blur_sigma_texels = 1.0F;
+    EXPECT_EQ(blurRadius(options), 3U);
+    options.blur_sigma_texels = 0.3F;
+    EXPECT_EQ(blurRadius(options), 1U);
+    options.blur_sigma_texels = 10.0F;
+    EXPECT_EQ(blurRadius(options), 30U);
+    options.blur_radius_texels = 31;
+    EXPECT_EQ(blurRadius(options), 31U);
+    options.blur = BlurKind::box;
+    EXPECT_EQ(blurRadius(options), 31U);
+    options.blur_radius_texels = 0;
+    EXPECT_EQ(blurRadius(options), 2U);
+    options.blur = BlurKind::none;
+    options.blur_radius_texels = 5;
+    EXPECT_EQ(blurRadius(options), 0U);
+}
+
+TEST(MomentOptions, TwoLayersOfDepthShareAnImageLayer)
+{
+    const std::uint32_t expected[] = {1, 2, 2, 3, 3, 4, 4}; // of 2 .. 8
+    for (std::uint32_t layers = 2; layers <= kMaxDepthLayers; ++layers) {
+        const MomentOptions options{.layers = layers};
+        EXPECT_EQ(imageLayersPerMap(Filter::lvsm, options), expected[layers - 2]);
+        for (const Filter filter : {Filter::hard, Filter::pcf, Filter::vsm, Filter::esm, Filter::evsm, Filter::msm}) {
+            EXPECT_EQ(imageLayersPerMap(filter, options), 1U);
+        }
+    }
+}
+
+template <typename Enum>
+std::vector<std::string_view> namesOf(int count)
+{
+    std::vector<std::string_view> names;
+    for (int i = 0; i < count; ++i) {
+        names.push_back(nameOf(static_cast<Enum>(i)));
+    }
+    return names;
+}
+
+TEST(MomentOptions, Names)
+{
+    using Names = std::vector<std::string_view>;
+    EXPECT_EQ(namesOf<DepthMetricKind>(3), (Names{"linear", "z-over-w", "?"}));
+    EXPECT_EQ(namesOf<BlurKind>(4), (Names{"none", "gaussian", "box", "?"}));
+    EXPECT_EQ(namesOf<BlurPath>(4), (Names{"auto", "compute", "fragment", "?"}));
+    EXPECT_EQ(namesOf<MapSampling>(5), (Names{"nearest", "bilinear", "trilinear", "anisotropic", "?"}));
+    EXPECT_EQ(namesOf<LayerPlacement>(4), (Names{"uniform", "hand", "lloyd", "?"}));
+    EXPECT_EQ(namesOf<MomentSolver>(3), (Names{"hamburger", "hausdorff", "?"}));
+}
+
+} // namespace
+} // namespace gnomon
