@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layer_placer.h"
 
+#include <depth_layers.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <cassert>
 
@@ -12,33 +16,59 @@ bool isSame(const Tile& a, const Tile& b)
     return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
 
-/// What the placements that look at nothing say of every view.
+/// What the placements that look at nothing say of every view. Those that look start from it.
 shared::GpuDepthLayers fixedLayers(const MomentOptions& options)
 {
     const auto count = static_cast<int>(options.layers);
-    const auto begins = [&](int i) {
-        if (i <= 0 || i >= count) {
-            return i <= 0 ? 0.0F : 1.0F;
-        }
-        return options.placement == LayerPlacement::by_hand ? options.splits[static_cast<std::size_t>(i) - 1]
-                                                            : static_cast<float>(i) / static_cast<float>(count);
-    };
     shared::GpuDepthLayers layers{};
     for (int i = 0; i < shared::kDepthLayers; ++i) {
-        const float reach = (begins(i + 1) - begins(i)) * options.layer_overlap;
-        const float near = i == 0 ? 0.0F : std::max(begins(i) - reach, 0.0F);
-        const float far = i + 1 == count ? 1.0F : std::min(begins(i + 1) + reach, 1.0F);
-        layers.layer[i] = i < count ? glm::vec4(near, far, begins(i), 0.5F * (begins(i) + begins(i + 1)))
-                                    : glm::vec4(0.0F, 1.0F, 2.0F, 0.0F);
+        const auto split = [&](int after) {
+            return after > 0 && after < count ? options.splits[static_cast<std::size_t>(after) - 1] : 0.0F;
+        };
+        layers.layer[i] = i >= count ? shared::noLayer()
+                          : options.placement == LayerPlacement::by_hand
+                              ? shared::layerByHand(i, count, split(i), split(i + 1), options.layer_overlap)
+                              : shared::uniformLayer(i, count, options.layer_overlap);
     }
     return layers;
 }
 
+int depthFlags(const FilterOptions& filter)
+{
+    return filter.moments.metric == DepthMetricKind::z_over_w ? shared::kMomentZOverW : 0;
+}
+
+float nearOverFar(const View& view, const DepthMetric& metric)
+{
+    return view.orthographic ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
+}
+
+/// What takes depths of one metric to those of a view's, in the middle of what the view holds: the two may measure
+/// along directions that are not quite the same. x: factor, y: summand.
+glm::dvec2 carryOver(const DepthMetric& from, const View& view)
+{
+    const glm::dvec4& row = view.metric.metric_ws;
+    const glm::dvec3 axis = glm::dvec3(row) / glm::dot(glm::dvec3(row), glm::dvec3(row));
+    const double start = glm::dot(row, glm::dvec4(view.light_place_ws, 1.0));
+    const glm::dvec3 middle_ws = view.light_place_ws + axis * (0.5 - start);
+    const double factor = (from.far_m - from.near_m) / (view.metric.far_m - view.metric.near_m);
+    return {factor, 0.5 - factor * glm::dot(from.metric_ws, glm::dvec4(middle_ws, 1.0))};
+}
+
+// Layers that are new have all the steps that they need; those that were there go half way to where they would be in
+// each of a few steps, so that what changes of a sudden does not show of a sudden.
+constexpr int kFirstSteps = 256;
+constexpr int kLaterSteps = 2;
+constexpr float kLaterShare = 0.5F;
+
 } // namespace
 
-LayerPlacer::LayerPlacer(Device& device, const FilterOptions& filter, [[maybe_unused]] VkPipelineCache cache)
+LayerPlacer::LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache)
     : device_(device), filter_(filter)
 {
+    if (filter.filter == Filter::lvsm && filter.moments.placement == LayerPlacement::lloyd) {
+        relaxation_.emplace(device, filter, cache);
+    }
     makeBuffer(1);
 }
 
@@ -49,6 +79,7 @@ void LayerPlacer::makeBuffer(std::uint32_t slots)
         HostBuffer(device_, slots * sizeof(shared::GpuDepthLayers), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "depth layers");
     slots_.assign(slots, {});
     std::fill_n(entries(), slots, fixedLayers(filter_.moments));
+    forgetDepth();
 }
 
 shared::GpuDepthLayers* LayerPlacer::entries() const
@@ -83,22 +114,60 @@ bool LayerPlacer::prepare(const Plan& plan)
     for (const View& view : plan.views) {
         const std::uint32_t slot = findSlot(view.tile);
         assert(slot != kNoIndex); // a slot that is taken is some view's, and there are as many as views
-        slots_[slot] = {true, view.tile};
+        if (!slots_[slot].taken) {
+            slots_[slot] = {true, view.tile, kNoIndex, std::nullopt};
+        }
         slot_of_view_.push_back(slot);
     }
     return grows;
 }
 
-void LayerPlacer::forgetDepth() {}
+void LayerPlacer::forgetDepth()
+{
+    if (relaxation_) {
+        relaxation_->forget();
+    }
+}
 
 std::uint32_t LayerPlacer::slotOf(std::uint32_t view) const
 {
     return filter_.filter == Filter::lvsm ? slot_of_view_[view] : 0;
 }
 
-void LayerPlacer::record([[maybe_unused]] VkCommandBuffer commands, [[maybe_unused]] const Plan& plan,
-                         [[maybe_unused]] std::uint32_t view, [[maybe_unused]] VkImageView depth)
+shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
 {
+    const Tile& tile = view.tile;
+    const auto side = static_cast<int>(std::max(tile.width, tile.height));
+    shared::GpuHistogramPush push;
+    push.tile = {tile.x, tile.y, tile.width, tile.height};
+    push.more = {(side + shared::kMostSamplesAlong - 1) / shared::kMostSamplesAlong, depthFlags(filter_), 0, 0};
+    push.metric = {nearOverFar(view, view.metric), 0.0F, 0.0F, 0.0F};
+    return push;
+}
+
+shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t index) const
+{
+    const Slot& slot = slots_[index];
+    const bool anew = !slot.metric || slot.light != view.light;
+    const DepthMetric& before = anew ? view.metric : *slot.metric;
+    const glm::dvec2 carry = carryOver(before, view);
+    shared::GpuPlacePush push;
+    push.slot = {index, filter_.moments.layers, anew ? kFirstSteps : kLaterSteps, depthFlags(filter_)};
+    push.how = {filter_.moments.layer_overlap, anew ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F, 0.0F};
+    push.carry = {carry.x, carry.y, nearOverFar(view, before), nearOverFar(view, view.metric)};
+    return push;
+}
+
+void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view_index, VkImageView depth)
+{
+    if (!relaxation_) {
+        return;
+    }
+    const View& view = plan.views[view_index];
+    const std::uint32_t index = slotOf(view_index);
+    relaxation_->record(commands, {depth, buffer_.buffer(), histogramPush(view), placePush(view, index)});
+    slots_[index].light = view.light;
+    slots_[index].metric = view.metric;
 }
 
 VkBuffer LayerPlacer::buffer() const

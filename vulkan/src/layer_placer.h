@@ -2,9 +2,11 @@
 // Where lvsm's layers of depth lie, for every view, in one buffer that the passes read.
 #pragma once
 
-#include "device.h"
+#include "layer_relaxation.h"
 
 #include <gpu_structs.h>
+
+#include <optional>
 
 namespace gnomon::vulkan {
 
@@ -34,15 +36,21 @@ private:
     struct Slot {
         bool taken = false;
         Tile tile;
+        // What its layers were placed for; nothing placed yet without a metric.
+        std::uint32_t light = kNoIndex;
+        std::optional<DepthMetric> metric;
     };
 
     /// The slot of this tile, or else a free one, or kNoIndex.
     [[nodiscard]] std::uint32_t findSlot(const Tile& tile) const;
     void makeBuffer(std::uint32_t slots);
     [[nodiscard]] shared::GpuDepthLayers* entries() const;
+    [[nodiscard]] shared::GpuHistogramPush histogramPush(const View& view) const;
+    [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot) const;
 
     Device& device_;
     FilterOptions filter_;
+    std::optional<LayerRelaxation> relaxation_; // lvsm with layers placed by Lloyd's rule
     HostBuffer buffer_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> slot_of_view_;
