@@ -25,7 +25,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 }
 
 void recordTransition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, std::uint32_t layer,
-                      VkImageLayout from, VkImageLayout to)
+                      VkImageLayout from, VkImageLayout to, std::uint32_t level = 0)
 {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -35,11 +35,16 @@ void recordTransition(VkCommandBuffer commands, VkImage image, VkImageAspectFlag
     barrier.oldLayout = from;
     barrier.newLayout = to;
     barrier.image = image;
-    barrier.subresourceRange = {aspect, 0, 1, layer, 1};
+    barrier.subresourceRange = {aspect, level, 1, layer, 1};
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.imageMemoryBarrierCount = 1;
     info.pImageMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &info);
+}
+
+VkExtent3D extentOf(const vulkan::ImageRef& ref, std::uint32_t level)
+{
+    return {std::max(ref.extent.width >> level, 1U), std::max(ref.extent.height >> level, 1U), 1};
 }
 
 } // namespace
@@ -273,24 +278,46 @@ VkDescriptorSet Gpu::makeTextureSet(VkDescriptorSetLayout layout, VkImageView vi
 }
 
 std::vector<std::byte> Gpu::read(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t texel_bytes,
-                                 VkImageAspectFlags aspect)
+                                 VkImageAspectFlags aspect, std::uint32_t level)
 {
-    const std::size_t bytes = std::size_t{ref.extent.width} * ref.extent.height * texel_bytes;
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {aspect, level, layer, 1};
+    copy.imageExtent = extentOf(ref, level);
+    const std::size_t bytes = std::size_t{copy.imageExtent.width} * copy.imageExtent.height * texel_bytes;
     const TestBuffer buffer = makeBuffer(bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     run([&](VkCommandBuffer commands) {
-        recordTransition(commands, ref.image, aspect, layer, ref.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        VkBufferImageCopy copy{};
-        copy.imageSubresource = {aspect, 0, layer, 1};
-        copy.imageExtent = {ref.extent.width, ref.extent.height, 1};
+        recordTransition(commands, ref.image, aspect, layer, ref.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, level);
         vkCmdCopyImageToBuffer(commands, ref.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer, 1, &copy);
-        recordTransition(commands, ref.image, aspect, layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, ref.layout);
+        recordTransition(commands, ref.image, aspect, layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, ref.layout, level);
     });
     const auto* first = static_cast<const std::byte*>(buffer.mapped);
     std::vector<std::byte> result(first, first + bytes);
-    vkDestroyBuffer(device_, buffer.buffer, nullptr);
-    vkFreeMemory(device_, buffer.memory, nullptr);
-    buffers_.pop_back();
+    dropLastBuffer();
     return result;
+}
+
+void Gpu::write(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t level,
+                std::span<const std::byte> texels)
+{
+    const TestBuffer buffer = makeBuffer(texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    std::memcpy(buffer.mapped, texels.data(), texels.size());
+    constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {kColour, level, layer, 1};
+    copy.imageExtent = extentOf(ref, level);
+    run([&](VkCommandBuffer commands) {
+        recordTransition(commands, ref.image, kColour, layer, ref.layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, level);
+        vkCmdCopyBufferToImage(commands, buffer.buffer, ref.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+        recordTransition(commands, ref.image, kColour, layer, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, ref.layout, level);
+    });
+    dropLastBuffer();
+}
+
+void Gpu::dropLastBuffer()
+{
+    vkDestroyBuffer(device_, buffers_.back().buffer, nullptr);
+    vkFreeMemory(device_, buffers_.back().memory, nullptr);
+    buffers_.pop_back();
 }
 
 } // namespace gnomon::test

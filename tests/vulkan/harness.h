@@ -44,15 +44,20 @@ public:
     [[nodiscard]] TestImage makeImage(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels);
     /// A set with this texture, nearest and repeated, for CasterBatch::texture.
     [[nodiscard]] VkDescriptorSet makeTextureSet(VkDescriptorSetLayout layout, VkImageView view);
-    /// One layer's texels, tightly packed. The image is in ref.layout before and after.
+    /// Texels of one layer and mip level, tightly packed. The image is in ref.layout before and after.
     [[nodiscard]] std::vector<std::byte> read(const vulkan::ImageRef& ref, std::uint32_t layer,
-                                              std::uint32_t texel_bytes, VkImageAspectFlags aspect);
+                                              std::uint32_t texel_bytes, VkImageAspectFlags aspect,
+                                              std::uint32_t level = 0);
+    /// The reverse: colour texels of one layer and mip level, which must be as many as it has.
+    void write(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t level,
+               std::span<const std::byte> texels);
     /// Validation messages since the last call.
     [[nodiscard]] std::vector<std::string> takeMessages();
 
 private:
     void makeInstance();
     void makeDevice();
+    void dropLastBuffer();
     [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties);
 
     VkInstance instance_ = VK_NULL_HANDLE;

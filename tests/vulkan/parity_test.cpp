@@ -35,6 +35,7 @@ struct Rendered {
     Scene scene = makeScene();
     std::vector<Light> lights;
     Plan plan;
+    Camera camera;
     Picture picture;
     std::vector<CpuMap> maps;                  // by layer
     std::vector<std::vector<std::byte>> masks; // by light, one byte a pixel
@@ -44,7 +45,7 @@ void readBack(Gpu& gpu, const ShadowRenderer& renderer, Rendered& r)
 {
     const auto maps = renderer.maps();
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
-        r.maps.push_back({maps.extent.width, maps.extent.height, readMapLayer(gpu, maps, layer)});
+        r.maps.push_back(readCpuMap(gpu, maps, layer));
     }
     for (const LightPlan& light : r.plan.lights) {
         r.masks.push_back(readMaskChannel(gpu, renderer.mask(), light));
@@ -65,6 +66,7 @@ Rendered render(Gpu& gpu, const FilterOptions& options, bool sun_alone = false)
     Frame frame;
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kScreen.width) / kScreen.height);
     frame.lights = r.lights;
+    r.camera = frame.camera;
     r.picture = tracePicture(r.scene, frame.camera, kScreen);
     const vulkan::MaskInputs inputs = uploadPicture(gpu, r.picture);
 
@@ -97,8 +99,8 @@ Rendered render(Gpu& gpu, const FilterOptions& options, bool sun_alone = false)
 void expectParity(const Rendered& r, const FilterOptions& options, const std::string& name)
 {
     for (std::uint32_t light = 0; light < r.lights.size(); ++light) {
-        const CpuMap& map = r.maps[r.plan.views[light].tile.layer];
-        const auto reference = referenceMask(r.picture, r.lights, r.plan, light, map, options);
+        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps};
+        const auto reference = referenceMask(scene, light, options);
         std::size_t different = 0;
         std::size_t dark = 0;
         for (std::size_t i = 0; i < reference.size(); ++i) {
@@ -185,7 +187,7 @@ TEST_P(MapContents, areTheDepthMetric)
         for (std::uint32_t y = 0; y < view.tile.height; ++y) {
             for (std::uint32_t x = 0; x < view.tile.width; ++x) {
                 const double expected = expectedDepth(r.scene, view, view.tile.x + x + 0.5, view.tile.y + y + 0.5);
-                const double stored = map.texels[(view.tile.y + y) * std::size_t{map.width} + view.tile.x + x];
+                const double stored = map.depth(view.tile.x + x, view.tile.y + y);
                 wrong += std::abs(stored - expected) > tolerance ? 1 : 0;
             }
         }

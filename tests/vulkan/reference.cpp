@@ -2,6 +2,8 @@
 #define GNOMON_REAL double
 #include "reference.h"
 
+#include "moment_numbers.h"
+
 #include <shared/discs.h>
 
 #include <algorithm>
@@ -9,28 +11,46 @@
 
 namespace gnomon::test {
 namespace {
-const CpuMap* current_map = nullptr;
+std::span<const CpuMap> current_maps;
+std::span<const vulkan::DepthLayer> current_layers;
 bool current_poisson = false;
 int current_taps = 0;
-double texel(std::int64_t x, std::int64_t y)
+
+const CpuMap& mapOf(double layer)
 {
-    const std::int64_t cx = std::clamp<std::int64_t>(x, 0, current_map->width - 1);
-    const std::int64_t cy = std::clamp<std::int64_t>(y, 0, current_map->height - 1);
-    return current_map->texels[static_cast<std::size_t>(cy * current_map->width + cx)];
+    return current_maps[static_cast<std::size_t>(layer)];
+}
+double texel(double layer, double x, double y)
+{
+    return texelAt(mapOf(layer), 0, x, y).x;
 }
 } // namespace
 } // namespace gnomon::test
 
 GN_BEGIN
-inline real mapTexel(real2 at, real)
+inline real mapTexel(real2 at, real layer)
 {
-    return test::texel(static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y));
+    return test::texel(layer, at.x, at.y);
 }
-inline real4 mapGather(real2 corner, real)
+inline real4 mapGather(real2 corner, real layer)
 {
-    const auto x = static_cast<std::int64_t>(corner.x);
-    const auto y = static_cast<std::int64_t>(corner.y);
-    return {test::texel(x - 1, y), test::texel(x, y), test::texel(x, y - 1), test::texel(x - 1, y - 1)};
+    const real x = corner.x;
+    const real y = corner.y;
+    return {test::texel(layer, x - 1, y), test::texel(layer, x, y), test::texel(layer, x, y - 1),
+            test::texel(layer, x - 1, y - 1)};
+}
+inline real4 mapMoments(real2 texel, real level, real layer)
+{
+    return test::sampleAt(test::mapOf(layer), texel, level);
+}
+inline real4 mapDepthLayer(int, int i)
+{
+    const auto index = static_cast<std::size_t>(i);
+    if (index >= test::current_layers.size()) {
+        return {0.0, 1.0, 2.0, 0.0};
+    }
+    const vulkan::DepthLayer& layer = test::current_layers[index];
+    return {layer.near, layer.far, layer.begins, 0.0};
 }
 inline real2 discPoint(int i)
 {
@@ -81,10 +101,38 @@ MapRows rowsOf(const View& view)
     return rows;
 }
 
+// Error of what a texel holds.
+double quantumOf(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::d16:
+    case MapFormat::rg16:
+    case MapFormat::rgba16:
+        return 4e-6 + 1.5 / 65535.0;
+    case MapFormat::r16f:
+    case MapFormat::rg16f:
+    case MapFormat::rgba16f:
+        return 1.0 / 2048.0;
+    default:
+        return 4e-6;
+    }
+}
+
+// How far from the receiver the centres of the texels are that the filter reads.
+double reachOf(const vulkan::FilterOptions& options)
+{
+    if (options.filter == Filter::hard) {
+        return 0.5;
+    }
+    if (isFilterable(options.filter)) {
+        return blurRadius(options.moments) + 1.0;
+    }
+    const double width = widthOf(options.pcf_kernel);
+    return width > 0 ? (width + 1) / 2 : double(options.disc_radius_texels) + 1.0;
+}
+
 BiasRule ruleOf(const vulkan::FilterOptions& options)
 {
-    const double width = widthOf(options.pcf_kernel);
-    const double pcf_reach = width > 0 ? (width + 1) / 2 : double(options.disc_radius_texels) + 1.0;
     const BiasOptions& bias = options.bias;
     BiasRule rule;
     rule.automatic = bias.automatic ? 1.0 : 0.0;
@@ -92,38 +140,88 @@ BiasRule ruleOf(const vulkan::FilterOptions& options)
     rule.slope = bias.slope;
     rule.normal_texels = bias.normal_texels;
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
-    rule.reach_texels = options.filter == Filter::hard ? 0.5 : pcf_reach;
-    rule.quantum = 4e-6 + (options.format == MapFormat::d16 ? 1.5 / 65535.0 : 0.0);
+    rule.reach_texels = reachOf(options);
+    rule.quantum = quantumOf(options.format);
     return rule;
 }
 
-double edgeMargin(const vulkan::FilterOptions& options)
+shared::MomentRule momentsOf(const vulkan::FilterOptions& options)
 {
-    const int width = widthOf(options.pcf_kernel);
-    if (options.filter == Filter::hard) {
-        return 1e-3;
-    }
-    return 1e-3 + (width > 0 ? width * 0.5 : double(options.disc_radius_texels) + 0.5);
+    const MomentNumbers n = momentNumbers(options);
+    shared::MomentRule rule;
+    rule.flags = n.flags;
+    rule.sampling = n.sampling;
+    rule.layers = n.layers;
+    rule.exponent = n.exponent;
+    rule.exponent_negative = n.exponent_negative;
+    rule.moment_bias = n.moment_bias;
+    rule.min_variance = n.min_variance;
+    rule.min_variance_texels = n.min_variance_texels;
+    rule.linstep = n.linstep;
+    rule.power = n.power;
+    rule.lighten = n.lighten;
+    rule.anisotropy = n.anisotropy;
+    return rule;
 }
+
+FilterInput inputOf(const ReferenceScene& scene, const View& view, const vulkan::FilterOptions& options)
+{
+    FilterInput input{};
+    input.layer = view.tile.layer;
+    input.kernel_width = widthOf(options.pcf_kernel);
+    input.disc_taps = int(options.disc_taps);
+    input.disc_radius = options.disc_radius_texels;
+    input.kernel = shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.gaussian_sigma_texels));
+    input.moments = momentsOf(options);
+    input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
+    input.coarsest = coarsestOf(view.tile, levelsOf(options, scene.plan.atlas));
+    input.near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+    return input;
+}
+
+// The receiver's footprint on the map. In world space: the camera's rays are those of its whole matrix.
+class Footprint {
+public:
+    Footprint(const ReferenceScene& scene, const MapRows& rows)
+        : camera_(scene.camera), rows_(rows), world_from_ndc_(glm::inverse(scene.camera.clip_from_world)),
+          pixel_(2.0 / glm::dvec2(scene.picture.extent.width, scene.picture.extent.height))
+    {
+    }
+    void fill(const shared::MapPoint& point, const glm::dvec3& p, const glm::dvec3& n, FilterInput& input) const
+    {
+        // What the matrix makes of the pixel is (p, 1) times the reciprocal of clip space's w.
+        const double w = 1.0 / (camera_.clip_from_world * glm::dvec4(p, 1.0)).w;
+        const glm::dvec4 right = world_from_ndc_[0] * (pixel_.x / w);
+        const glm::dvec4 below = world_from_ndc_[1] * (pixel_.y / w);
+        const glm::dvec4 along = world_from_ndc_[2] / w;
+        input.footprint_x = shared::footprintOf(rows_, point.texel, point.w, p, n, right, along);
+        input.footprint_y = shared::footprintOf(rows_, point.texel, point.w, p, n, below, along);
+    }
+
+private:
+    const Camera& camera_;
+    const MapRows& rows_;
+    glm::dmat4 world_from_ndc_;
+    glm::dvec2 pixel_;
+};
 
 } // namespace
 
-std::vector<double> referenceMask(const Picture& picture, std::span<const Light> lights, const Plan& plan,
-                                  std::uint32_t index, const CpuMap& map, const vulkan::FilterOptions& options)
+std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
+                                  const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
 {
-    current_map = &map;
-    const Light& light = lights[index];
-    const View& view = plan.views[plan.lights[index].first_view];
+    current_maps = scene.maps;
+    current_layers = layers;
+    current_poisson = options.pcf_kernel == PcfKernel::poisson;
+    current_taps = int(options.disc_taps);
+    const Picture& picture = scene.picture;
+    const Light& light = scene.lights[index];
+    const View& view = scene.plan.views[scene.plan.lights[index].first_view];
     const MapRows rows = rowsOf(view);
     const BiasRule rule = ruleOf(options);
-    FilterInput input{};
-    input.kernel_width = widthOf(options.pcf_kernel);
-    input.disc_taps = int(options.disc_taps);
-    current_poisson = options.pcf_kernel == PcfKernel::poisson;
-    current_taps = input.disc_taps;
-    input.disc_radius = options.disc_radius_texels;
-    input.kernel = shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.gaussian_sigma_texels));
-    const double margin = edgeMargin(options);
+    const Footprint footprint(scene, rows);
+    FilterInput input = inputOf(scene, view, options);
+    const double margin = 1e-3 + reachOf(options) - 0.5;
     std::vector<double> mask;
     for (std::size_t i = 0; i < picture.depth.size(); ++i) {
         const glm::dvec3 n = picture.normal[i];
@@ -144,11 +242,15 @@ std::vector<double> referenceMask(const Picture& picture, std::span<const Light>
             }
             input.pixel = glm::dvec2(i % picture.extent.width, i / picture.extent.width) + 0.5;
             const auto point = shared::projectReceiver(rows, rule, p, n);
+            if (options.moments.sampling >= MapSampling::trilinear) {
+                footprint.fill(point, p, n, input);
+            }
             mask.push_back(
                 shared::boundedVisibility(shared::applyFilter(static_cast<int>(options.filter), point, input)));
         }
     }
-    current_map = nullptr;
+    current_maps = {};
+    current_layers = {};
     return mask;
 }
 

@@ -3,19 +3,22 @@
 // files that the GPU runs. The way from frame and plan to the filter's input is written anew here, in world space.
 #pragma once
 
+#include "cpu_map.h"
 #include "scene.h"
 
 namespace gnomon::test {
 
-struct CpuMap {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<float> texels;
+struct ReferenceScene {
+    const Picture& picture;
+    const Camera& camera;
+    std::span<const Light> lights;
+    const Plan& plan;
+    std::span<const CpuMap> maps; // by layer of the image
 };
 
-/// Visibility per pixel of `picture` for light `index` of the plan.
-[[nodiscard]] std::vector<double> referenceMask(const Picture& picture, std::span<const Light> lights, const Plan& plan,
-                                                std::uint32_t index, const CpuMap& map,
-                                                const vulkan::FilterOptions& options);
+/// Visibility per pixel of the picture for light `index` of the plan. `layers`: of depth, of the light's view (lvsm).
+[[nodiscard]] std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
+                                                const vulkan::FilterOptions& options,
+                                                std::span<const vulkan::DepthLayer> layers = {});
 
 } // namespace gnomon::test
