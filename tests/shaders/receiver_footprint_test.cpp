@@ -68,12 +68,12 @@ Screen orthographicScreen(const dvec3& eye, const dvec3& target)
     return {glm::inverse(clip_from_view * glm::lookAtRH(eye, target, dvec3(0, 1, 0)))};
 }
 
-// A map of 1000 texels around the origin, by a sun or by a spot that stands 20 m off.
-MapRows mapAlong(const dvec3& axis, bool perspective)
+// A map of 1000 texels around the origin, by a sun or by a spot that stands 20 m off or elsewhere.
+MapRows mapAlong(const dvec3& axis, bool perspective, std::optional<dvec3> place = {})
 {
     const dvec3 right = glm::normalize(glm::cross(axis, dvec3(0.3, 0.8, -0.5)));
     const dvec3 down = glm::cross(axis, right);
-    const dvec3 origin = axis * -20.0;
+    const dvec3 origin = place.value_or(axis * -20.0);
     MapRows rows{};
     rows.range_m = 40.0;
     rows.texel_m = perspective ? 0.001 : 0.02;
@@ -192,10 +192,9 @@ TEST(ReceiverFootprint, stepsTowardsALightKeepAwayFromItsPlane)
     const dvec3 n = glm::normalize(dvec3(0.2, 0.1, 1.0));
     const dvec2 pixel(320.5, 200.5);
     const dvec3 p = *screen.meet(pixel, dvec3(0.0), n);
-    MapRows map = mapAlong(dvec3(1.0, 0.0, 0.0), true);
     const PixelSteps s = screen.steps(pixel, p);
     for (const double before : {0.1, 0.02, 0.003, 1e-6}) {
-        map.w.w = before - p.x;
+        const MapRows map = mapAlong(dvec3(1.0, 0.0, 0.0), true, p - dvec3(before, 0.0, 0.0));
         for (const dvec4& step : {s.right, -s.right, s.below, -s.below}) {
             const dvec2 moved = footprint(map, p, n, step, s.along);
             const double length = glm::length(moved);
