@@ -13,10 +13,12 @@ namespace gnomon::scene {
 
 namespace {
 
-constexpr std::array<World, 3> kWorlds{{
+constexpr std::array<World, 4> kWorlds{{
     {"rts", "a strategy game's map: 400 walking units, a camp, groves, floating debris, one sun (Marinescu 2011)",
      &makeRts},
     {"spotlit", "sculpture on a stage under three spot lights with cookies (Shastry 2005)", &makeSpotlit},
+    {"canopies", "three roofs over each other, where averaged maps let light through; closed-form answers",
+     &makeCanopies},
     {"planes", "one box above one plane, a sun and a spot light, with closed-form answers", &makePlanes},
 }};
 
