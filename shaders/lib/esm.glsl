@@ -2,18 +2,82 @@
 // esm: how far the receiver lies behind the average of an exponential of depth.
 // Based on: T. Annen, T. Mertens, H.-P. Seidel, E. Flerackers, J. Kautz, "Exponential Shadow Maps", Graphics Interface
 // 2008; M. Salvi, "Rendering Filtered Shadows with Exponential Shadow Maps", ShaderX6, 2008.
+//
+// Where it fails, how that is seen, and what is done. V = sat(x), x = e^(-c d) E[e^(c z)], supposes that no occluder z of
+// the kernel is behind the receiver d. One that is (the floor beyond a table's edge) adds e^(c (z - d)) times its weight
+// to x, which drowns the shadow of all the others: light leaks along the edge. It shows in x > 1, which nothing else
+// causes but the receiver's bias. Annen et al. then compare texels one by one, which a blurred map does not have. We
+// look kRing texels of the level to each side, at the depth that the receiver's own plane has there, and average
+//   V = sum w_i sat(x_i) / max(x_i, 1) / sum w_i / max(x_i, 1),
+// so that what is drowned counts as little as it knows, and the next place on the same surface answers instead. Where
+// all x_i are 1 or more that is exactly 1: lit surfaces stay lit, slanted ones too, because of the plane. Where x <= 1
+// nothing changes. Over an edge above a far floor this takes 58 % off the mean error with the default blur, 43 % at sigma
+// 3 texels (esm_test.cpp has the errors with and without). What is left: leaks where no read is clear of what is behind
+// (slats over a drop), and where the blur reaches further than the reads.
 #ifndef GNOMON_ESM_GLSL
 #define GNOMON_ESM_GLSL
 #include "../shared/exponential.h"
 #include "moment_sampling.glsl"
 GN_BEGIN
 
+GN_CONST real kRing = real(3.0);         // texels of the level; the error is least at 3 with the default blur
+GN_CONST real kRingWeight = real(0.05);  // of each of its reads, against 1 of the receiver's own
+
+GN_FN real esmCoordinate(real depth, FilterInput f)
+{
+    return momentCoordinate(receiverDepth(depth, f.moments.flags, f.near_over_far), f.moments.flags);
+}
+
+// The level that sampleMoments() reads.
+GN_FN real esmLevel(FilterInput f)
+{
+    if (f.moments.sampling == kSamplingNearest || f.moments.sampling == kSamplingBilinear) {
+        return real(0.0);
+    }
+    if (f.moments.sampling == kSamplingTrilinear) {
+        return footprintLevel(f.footprint_x, f.footprint_y, f.coarsest);
+    }
+    return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy).level;
+}
+
+// log x at `offset` texels from the receiver. Beyond the reach that its bias is made for, surfaces may bend.
+GN_FN real esmExcessAt(MapPoint point, FilterInput f, real2 offset, real level)
+{
+    real2 reference = referenceAt(point, offset);
+    real bend = kRoughnessPerTexel * kRing * (exp2(level) - real(1.0)) * point.texel_depth;
+    real t = esmCoordinate(reference.x / reference.y - bend, f);
+    return esmExcess(readMoments(point.texel + offset, level, f, f.layer).x, t, f.moments);
+}
+
+GN_FN real esmWithRing(MapPoint point, FilterInput f, real excess, real weight)
+{
+    real level = esmLevel(f);
+    real r = kRing * exp2(level);
+    real4 ring = real4(esmExcessAt(point, f, real2(r, real(0.0)), level),
+                       esmExcessAt(point, f, real2(-r, real(0.0)), level),
+                       esmExcessAt(point, f, real2(real(0.0), r), level),
+                       esmExcessAt(point, f, real2(real(0.0), -r), level));
+    real4 over = max(ring, real4(real(0.0)));
+    // Over the least of them, so that the largest trust is 1, whatever e^x may be.
+    real least = min(max(excess, real(0.0)), min(min(over.x, over.y), min(over.z, over.w)));
+    real own = exp(least - max(excess, real(0.0)));
+    real4 trust = exp(real4(least) - over) * weight;
+    real4 lit = exp(min(ring, real4(real(0.0))));
+    return (own * esmVisibility(excess) + dot(trust, lit)) / (own + dot(trust, real4(real(1.0))));
+}
+
 GN_FN real filterEsm(MapPoint point, FilterInput f)
 {
-    int flags = f.moments.flags;
-    real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
-    real4 stored = sampleMoments(point, f, f.layer);
-    return shapeVisibility(esmVisibility(esmExcess(stored.x, t, f.moments)), f.moments);
+    real t = esmCoordinate(point.depth, f);
+    real excess = esmExcess(sampleMoments(point, f, f.layer).x, t, f.moments);
+    real v = esmVisibility(excess);
+    // What the bias of a lit receiver amounts to is no sign of anything: a texel's depth.
+    real allowed = esmExponents(f.moments).x * momentScale(f.moments.flags) * point.texel_depth;
+    real surplus = excess - allowed;
+    if (surplus > real(0.0)) {
+        v = esmWithRing(point, f, excess, kRingWeight * (real(1.0) - exp(-surplus)));
+    }
+    return shapeVisibility(v, f.moments);
 }
 
 GN_END
