@@ -100,6 +100,7 @@ struct Settings {
     // results
     std::string output;
     bool mask = false;
+    std::string debug; // render: what the picture shows instead, see debug_views.h; "none"
     std::string light;
     std::string json; // empty: not asked for; "-": stdout
     std::vector<std::string> techniques;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon plan`: the plan of a frame as JSON. Uses core alone, so it needs no GPU and says the same on every machine.
+// `gnomon plan`: the plan of a frame as JSON. Uses core alone, so it needs no GPU and says the same on every machine;
+// but for lvsm's layers of depth where they follow what is drawn (lloyd): those are drawn and read back.
 #include "app/shot.h"
+#include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
 #include "subcommands.h"
@@ -59,7 +61,7 @@ Json objectsJson(const Shot& shot, const ObjectSet& objects)
 }
 
 /// The last frame's plan; the ones before it decide what is redrawn.
-const Plan& planFrames(Shot& shot, const Settings& settings, ObjectSet& objects, Planner& planner)
+const Plan& planFrames(Shot& shot, const Settings& settings, ObjectSet& objects, Planner& planner, PlanLayers& layers)
 {
     const FrameRange range = settings.frames.value_or(FrameRange{});
     host::fillObjectSet(shot.state, objects);
@@ -78,6 +80,7 @@ const Plan& planFrames(Shot& shot, const Settings& settings, ObjectSet& objects,
         frame.lights = lights;
         frame.objects = &objects;
         const Plan& plan = planner.plan(frame);
+        layers.follow(shot);
         progress.step();
         if (index == range.last) {
             return plan;
@@ -95,10 +98,12 @@ int runPlan(const Settings& settings)
     }
     ObjectSet objects;
     Planner planner(settings.plan);
-    const Plan& plan = planFrames(shot, settings, objects, planner);
+    PlanLayers layers(settings, shot);
+    const Plan& plan = planFrames(shot, settings, objects, planner, layers);
     Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"camera", shot.camera}};
     json["settings"] = settingsJson(settings, kPlan);
     json.update(Json::parse(toJson(plan)));
+    layers.describe(plan, json["views"]);
     for (std::size_t i = 0; i < shot.lights.size() && i < json["lights"].size(); ++i) {
         describeLight(shot.lights[i], json["lights"][i]);
     }

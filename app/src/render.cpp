@@ -2,6 +2,7 @@
 // `gnomon render`: pictures and masks to files, with a technique's shadows or with the ray tracer's.
 #include "app/shot.h"
 #include "app/visual.h"
+#include "debug_views.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "render_target.h"
@@ -101,7 +102,11 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 noteOutcomes(shot, renderer.plan());
             }
-            writePicture(target.frame(index), renderer, settings, light);
+            if (settings.debug != "none") {
+                writePng(target.frame(index), debugPicture(renderer, shot, settings, light));
+            } else {
+                writePicture(target.frame(index), renderer, settings, light);
+            }
         });
     }
     requireSilence(*gpu);
@@ -159,6 +164,7 @@ std::string writeTruth(Shot& shot, const Settings& settings, RenderTarget& targe
 int runRender(const Settings& settings)
 {
     const auto start = std::chrono::steady_clock::now();
+    requireDebugView(settings);
     RenderTarget target(settings);
     Shot shot = makeShot(settings);
     const std::size_t light = lightIndex(shot, settings);

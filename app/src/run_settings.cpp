@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Truth, time, the run itself and its results. A new option is one row here.
+#include "debug_views.h"
 #include "setting_rows.h"
 #include "setting_values.h"
 
@@ -97,14 +98,17 @@ bool isArea(const Settings& s)
 {
     return s.truth == truth::Kind::area;
 }
-/// The ray tracer's mask is written as it is: nothing is drawn.
+/// The ray tracer's mask is written as it is, and a plan is worked out but for layers that follow what is drawn.
 bool draws(const Settings& s)
 {
+    if (s.subcommand == kPlan) {
+        return s.filter.filter == Filter::lvsm && s.filter.moments.placement == LayerPlacement::lloyd;
+    }
     return !(s.mask && s.truth.has_value());
 }
 bool judgesALight(const Settings& s)
 {
-    return s.mask || s.subcommand == kCompare;
+    return s.mask || s.debug != "none" || s.subcommand == kCompare;
 }
 
 void applySamples(Settings& s, const Value& v)
@@ -218,9 +222,9 @@ const std::vector<Setting>& rows()
         {.key = "seed", .group = Group::run, .type = integer, .form = "N", .default_text = "1", .min = 0, .max = 9e15,
          .doc = "everything random", .apply = [](Settings& s, const Value& v) { s.seed = static_cast<std::uint64_t>(v.integer); }},
         {.key = "gpu", .group = Group::run, .type = text, .form = "NAME", .doc = "part of a GPU's name, or software; else the first real one",
-         .subcommands = kDraw, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
+         .subcommands = kFrames, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
-         .subcommands = kDraw, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
+         .subcommands = kFrames, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
         {.key = "limit", .group = Group::run, .type = text, .form = "NAME=N", .doc = "raise a limit of the scene reader, as its message says", .repeatable = true,
          .apply = applyLimit},
 
@@ -228,8 +232,10 @@ const std::vector<Setting>& rows()
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
+        {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
+         .doc = "tint the picture by what the technique does: layers (lvsm)", .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kCompare,
-         .used = judgesALight, .used_when = "--mask, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+         .used = judgesALight, .used_when = "--mask or --debug, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,

@@ -61,7 +61,23 @@ constexpr int kFirstSteps = 256;
 constexpr int kLaterSteps = 2;
 constexpr float kLaterShare = 0.5F;
 
+std::vector<DepthLayer> described(const shared::GpuDepthLayers& entry, const MomentOptions& options)
+{
+    std::vector<DepthLayer> layers;
+    for (std::uint32_t i = 0; i < options.layers; ++i) {
+        const glm::vec4& layer = entry.layer[i];
+        layers.push_back({layer.x, layer.y, layer.z});
+    }
+    return layers;
+}
+
 } // namespace
+
+std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options)
+{
+    return options.placement == LayerPlacement::lloyd ? std::vector<DepthLayer>{}
+                                                      : described(fixedLayers(options), options);
+}
 
 LayerPlacer::LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache)
     : device_(device), filter_(filter)
@@ -185,12 +201,7 @@ std::vector<DepthLayer> LayerPlacer::read(std::uint32_t view) const
     if (filter_.filter != Filter::lvsm || view >= slot_of_view_.size()) {
         return {};
     }
-    std::vector<DepthLayer> layers;
-    for (std::uint32_t i = 0; i < filter_.moments.layers; ++i) {
-        const glm::vec4& layer = entries()[slot_of_view_[view]].layer[i];
-        layers.push_back({layer.x, layer.y, layer.z});
-    }
-    return layers;
+    return described(entries()[slot_of_view_[view]], filter_.moments);
 }
 
 } // namespace gnomon::vulkan

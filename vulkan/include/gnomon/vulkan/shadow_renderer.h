@@ -34,6 +34,8 @@ struct FilterOptions {
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. What PlanOptions::border_texels should have room for.
 [[nodiscard]] float filterReachTexels(const FilterOptions& filter);
+/// Mip levels of maps of this size: 1 unless the filter is filterable and its sampling reads coarser ones.
+[[nodiscard]] std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height);
 
 struct ShadowRendererOptions {
     FilterOptions filter;
@@ -103,6 +105,8 @@ struct DepthLayer {
     float far = 1.0F;
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };
+/// The layers of every view where they do not depend on what is drawn (uniform, by hand); empty for lloyd.
+[[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
 
 class ShadowRenderer {
 public:

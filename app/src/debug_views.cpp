@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "debug_views.h"
+
+#include "lab/tint.h"
+#include "layer_depths.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace gnomon::app {
+namespace {
+
+/// What a view of this kind is made of.
+struct Drawn {
+    const host::Picture& picture;
+    const Plan& plan;
+    host::Renderer& renderer;
+    const Shot& shot;
+    const Settings& settings;
+    std::size_t light;
+};
+
+/// The first of a light's views that has a point, or kNoIndex.
+std::uint32_t viewOf(const Plan& plan, const LightPlan& light, const glm::dvec3& point_ws)
+{
+    for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
+        const glm::dvec4 clip = plan.views[i].clip_from_world * glm::dvec4(point_ws, 1.0);
+        if (clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w) {
+            return i;
+        }
+    }
+    return kNoIndex;
+}
+
+/// 1 + the layer that each receiver reads; 0 for the background and what is in no map.
+ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::vector<vulkan::DepthLayer>>& layers)
+{
+    const ImageF& depth = drawn.picture.depth;
+    const Camera camera = host::cameraOf(drawn.shot.eye, depth.width, depth.height, drawn.shot.state.bounds_ws);
+    const glm::dmat4 world_from_clip = glm::inverse(camera.clip_from_world);
+    const LightPlan& light = drawn.plan.lights[drawn.light];
+    ImageOf<std::uint8_t> kinds(depth.width, depth.height, 1);
+    for (std::uint32_t y = 0; y < depth.height; ++y) {
+        for (std::uint32_t x = 0; x < depth.width; ++x) {
+            if (*drawn.picture.object_ids.pixel(x, y) == 0) {
+                continue;
+            }
+            const glm::dvec4 ndc(2.0 * (x + 0.5) / depth.width - 1.0, 2.0 * (y + 0.5) / depth.height - 1.0,
+                                 *depth.pixel(x, y), 1.0);
+            const glm::dvec4 place = world_from_clip * ndc;
+            const glm::dvec3 point_ws = glm::dvec3(place) / place.w;
+            const std::uint32_t view = viewOf(drawn.plan, light, point_ws);
+            if (view != kNoIndex) {
+                const double d = storedDepth(drawn.plan.views[view], drawn.settings.filter.moments, point_ws);
+                *kinds.pixel(x, y) = static_cast<std::uint8_t>(1 + layerOf(layers[view - light.first_view], d));
+            }
+        }
+    }
+    return kinds;
+}
+
+Image8 layersPicture(const Drawn& drawn)
+{
+    const LightPlan& light = drawn.plan.lights[drawn.light];
+    const std::string& name = drawn.shot.lights[drawn.light].name;
+    if (!light.outcome.hasMap()) {
+        throw Error("showing the layers of light " + name, std::string(light.outcome.reason));
+    }
+    std::vector<std::vector<vulkan::DepthLayer>> layers;
+    for (std::uint32_t i = 0; i < light.view_count; ++i) {
+        layers.push_back(drawn.renderer.depthLayers(light.first_view + i));
+    }
+    const MomentOptions& options = drawn.settings.filter.moments;
+    lab::TintLegend legend;
+    legend.title = fmt::format("Layers of depth, placed {}",
+                               options.placement == LayerPlacement::by_hand ? "by hand" : nameOf(options.placement));
+    legend.subtitle = "by the layer that a receiver reads; grey: no map here";
+    for (std::uint32_t i = 0; i < options.layers; ++i) {
+        const View& view = drawn.plan.views[light.first_view];
+        const std::vector<vulkan::DepthLayer>& first = layers.front();
+        const double ends = i + 1 < first.size() ? static_cast<double>(first[i + 1].begins) : 1.0;
+        legend.kinds.push_back(light.view_count > 1
+                                   ? fmt::format("layer {}", i)
+                                   : fmt::format("layer {}: {:.2f} to {:.2f} m", i,
+                                                 metresOf(view, options, static_cast<double>(first[i].begins)),
+                                                 metresOf(view, options, ends)));
+    }
+    return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
+}
+
+struct DebugView {
+    std::string_view name;
+    bool (*used)(const Settings&);
+    std::string_view used_when;
+    Image8 (*paint)(const Drawn&);
+};
+constexpr std::array kViews{
+    DebugView{"layers", [](const Settings& s) { return s.filter.filter == Filter::lvsm; },
+              "filter lvsm: the others have no layers of depth", layersPicture},
+};
+
+const DebugView* findView(std::string_view name)
+{
+    const auto* const found =
+        std::find_if(kViews.begin(), kViews.end(), [&](const DebugView& view) { return view.name == name; });
+    return found != kViews.end() ? found : nullptr;
+}
+
+} // namespace
+
+std::vector<std::string_view> debugViewNames()
+{
+    std::vector<std::string_view> names{"none"};
+    for (const DebugView& view : kViews) {
+        names.push_back(view.name);
+    }
+    return names;
+}
+
+void requireDebugView(const Settings& settings)
+{
+    const DebugView* view = findView(settings.debug);
+    if (view == nullptr) {
+        return;
+    }
+    if (settings.mask || settings.truth) {
+        throw UsageError(fmt::format("--debug {} shows a technique's picture, so it cannot be had with {}", view->name,
+                                     settings.mask ? "--mask" : "--truth"));
+    }
+    if (std::filesystem::path(settings.output).extension() == ".exr") {
+        throw UsageError(fmt::format("--debug {} makes a picture of 8 bits; write it as .png", view->name));
+    }
+    if (!view->used(settings)) {
+        throw UsageError(fmt::format("--debug {} has an effect only with {}", view->name, view->used_when));
+    }
+}
+
+Image8 debugPicture(host::Renderer& renderer, const Shot& shot, const Settings& settings, std::size_t light)
+{
+    const host::Picture picture = renderer.read({.colour = true, .linear = false, .masks = false, .geometry = true});
+    return findView(settings.debug)->paint({picture, renderer.plan(), renderer, shot, settings, light});
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan_layers.h"
+
+#include "app/visual.h"
+#include "layer_depths.h"
+
+#include <cassert>
+
+namespace gnomon::app {
+
+struct PlanLayers::Drawing {
+    Drawing(const Settings& settings, const Shot& shot)
+        : gpu(openGpu(settings)), renderer(*gpu, shot.scene, shot.state, renderOptions(settings))
+    {
+    }
+    std::unique_ptr<host::Gpu> gpu;
+    host::Renderer renderer;
+};
+
+PlanLayers::PlanLayers(const Settings& settings, const Shot& shot) : settings_(settings)
+{
+    const vulkan::FilterOptions& filter = settings.filter;
+    if (filter.filter == Filter::lvsm && filter.moments.placement == LayerPlacement::lloyd) {
+        drawing_ = std::make_unique<Drawing>(settings, shot);
+    }
+}
+
+PlanLayers::~PlanLayers() = default;
+
+void PlanLayers::follow(const Shot& shot)
+{
+    if (drawing_ != nullptr) {
+        drawing_->renderer.draw(shot.state, shot.eye, shot.lights);
+        requireSilence(*drawing_->gpu);
+    }
+}
+
+void PlanLayers::describe(const Plan& plan, Json& views) const
+{
+    if (settings_.filter.filter != Filter::lvsm) {
+        return;
+    }
+    assert(views.size() == plan.views.size());
+    const MomentOptions& options = settings_.filter.moments;
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const std::vector<vulkan::DepthLayer> layers =
+            drawing_ != nullptr ? drawing_->renderer.depthLayers(i) : vulkan::fixedDepthLayers(options);
+        Json list = Json::array();
+        for (const vulkan::DepthLayer& layer : layers) {
+            const auto metres = [&](float stored) {
+                return metresOf(plan.views[i], options, static_cast<double>(stored));
+            };
+            list.push_back({{"near", layer.near},
+                            {"far", layer.far},
+                            {"begins", layer.begins},
+                            {"near_m", metres(layer.near)},
+                            {"far_m", metres(layer.far)},
+                            {"begins_m", metres(layer.begins)}});
+        }
+        views[i]["layers"] = std::move(list);
+    }
+}
+
+} // namespace gnomon::app

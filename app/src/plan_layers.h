@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// lvsm's layers of depth for `gnomon plan`.
+#pragma once
+
+#include "app/shot.h"
+#include "result_json.h"
+
+#include <memory>
+
+namespace gnomon::app {
+
+/// For other filters, nothing; where layers do not depend on what is drawn, it needs no GPU.
+class PlanLayers {
+public:
+    /// Opens the GPU where layers follow what is drawn. Throws Error.
+    PlanLayers(const Settings& settings, const Shot& shot);
+    ~PlanLayers();
+    PlanLayers(const PlanLayers&) = delete;
+    PlanLayers& operator=(const PlanLayers&) = delete;
+
+    /// A frame, drawn where it must be: layers follow from frame to frame.
+    void follow(const Shot& shot);
+    /// Adds "layers" to each view of the last frame.
+    void describe(const Plan& plan, Json& views) const;
+
+private:
+    struct Drawing;
+    const Settings& settings_;
+    std::unique_ptr<Drawing> drawing_;
+};
+
+} // namespace gnomon::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: M. Okabe, K. Ito, "Color Universal Design", 2002: the colours. Departure: a grey-blue in place of black,
+// which could not be tinted with.
+#include "lab/tint.h"
+
+#include "false_colour.h"
+#include "image/srgb.h"
+#include "legend.h"
+#include "lettering.h"
+
+#include <array>
+#include <cassert>
+
+namespace gnomon::lab {
+namespace {
+
+// Neighbours in this order are far apart in lightness too.
+constexpr std::array<Colour, kMostTints> kTints{{{230, 159, 0},
+                                                 {0, 114, 178},
+                                                 {240, 228, 66},
+                                                 {213, 94, 0},
+                                                 {86, 180, 233},
+                                                 {0, 158, 115},
+                                                 {204, 121, 167},
+                                                 {112, 128, 144}}};
+
+// Of light that a surface of no colour would send; Rec. 709.
+double luminance(const std::uint8_t* rgb)
+{
+    return 0.2126 * decodeSrgb(rgb[0] / 255.0) + 0.7152 * decodeSrgb(rgb[1] / 255.0) +
+           0.0722 * decodeSrgb(rgb[2] / 255.0);
+}
+
+// Shadows keep enough of the colour that it can be told.
+constexpr double kDarkest = 0.25;
+
+Colour tinted(Colour tint, double light)
+{
+    const double strength = kDarkest + (1.0 - kDarkest) * light;
+    const auto channel = [&](std::uint8_t c) {
+        return encodeSrgb(decodeSrgb(c / 255.0) * strength);
+    };
+    return {channel(tint.red), channel(tint.green), channel(tint.blue)};
+}
+
+} // namespace
+
+Image8 tintedPicture(const Image8& picture, const ImageOf<std::uint8_t>& kinds, const TintLegend& legend)
+{
+    assert(picture.channels == 3 && kinds.channels == 1);
+    assert(picture.width == kinds.width && picture.height == kinds.height);
+    assert(legend.kinds.size() <= kMostTints);
+    Image8 result(picture.width, picture.height, 3);
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
+        for (std::uint32_t x = 0; x < picture.width; ++x) {
+            const double light = luminance(picture.pixel(x, y));
+            const std::uint8_t kind = *kinds.pixel(x, y);
+            const std::uint8_t grey = encodeSrgb(light);
+            setPixel(result, x, y, kind == 0 ? Colour{grey, grey, grey} : tinted(kTints[kind - 1U], light));
+        }
+    }
+    Legend shown;
+    shown.title = legend.title;
+    shown.subtitle = legend.subtitle;
+    for (std::size_t i = 0; i < legend.kinds.size(); ++i) {
+        shown.swatches.push_back({tinted(kTints[i], 0.0), kTints[i], legend.kinds[i]});
+    }
+    return addLegend(result, shown);
+}
+
+} // namespace gnomon::lab
