@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_numbers.h"
 
+#include <mip_level.h>
 #include <moment_rule_of.h>
 
 namespace gnomon::test {
@@ -35,9 +36,9 @@ std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const AtlasSize& atl
     return vulkan::mipLevels(filter, atlas.width, atlas.height);
 }
 
-double coarsestOf([[maybe_unused]] const Tile& tile, std::uint32_t levels)
+double coarsestOf(const Tile& tile, std::uint32_t levels)
 {
-    return levels - 1.0;
+    return vulkan::coarsestLevel(tile, levels);
 }
 
 } // namespace gnomon::test

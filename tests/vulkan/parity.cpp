@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parity.h"
+
+#include "fixture.h"
+#include "moment_numbers.h"
+#include "write_pgm.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::CasterDrawer;
+using vulkan::FilterOptions;
+using vulkan::MapPass;
+using vulkan::ShadowRenderer;
+
+void readBack(const ShadowRenderer& renderer, const FilterOptions& options, Rendered& r)
+{
+    const auto maps = renderer.maps();
+    for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
+        r.maps.push_back(readCpuMap(gpu(), maps, layer, levelsOf(options, r.plan.atlas)));
+    }
+    for (const LightPlan& light : r.plan.lights) {
+        r.masks.push_back(readMaskChannel(gpu(), renderer.mask(), light));
+    }
+    for (std::uint32_t view = 0; view < r.plan.views.size(); ++view) {
+        r.layers.push_back(renderer.depthLayers(view));
+    }
+}
+
+void setLights(ParityLights lights, Rendered& r)
+{
+    const Light sun = makeSun({0.8, -0.9, -0.35});
+    const Light spot = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
+    std::vector<Tile> tiles{{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
+    AtlasSize atlas{512, 512, 2};
+    r.lights = {sun, spot};
+    if (lights == ParityLights::sun_alone) {
+        r.lights.pop_back();
+    } else if (lights == ParityLights::one_layer) {
+        r.lights.push_back(makeSun({-0.5, -0.9, 0.4}));
+        tiles = {{0, 0, 0, 256, 256}, {0, 256, 0, 256, 256}, {0, 256, 256, 128, 128}};
+        atlas.layers = 1;
+    }
+    r.plan = makePlan(r.scene, r.lights, tiles, atlas);
+}
+
+} // namespace
+
+Rendered renderParity(const FilterOptions& options, ParityLights lights)
+{
+    Rendered r;
+    setLights(lights, r);
+    constexpr std::uint32_t kFrames = 3;
+    Frame frame;
+    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kParityScreen.width) / kParityScreen.height);
+    frame.lights = r.lights;
+    r.camera = frame.camera;
+    r.picture = tracePicture(r.scene, frame.camera, kParityScreen);
+    const vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
+
+    vulkan::ShadowRendererOptions renderer_options;
+    renderer_options.filter = options;
+    renderer_options.frames_in_flight = kFrames;
+    ShadowRenderer renderer(gpu().view(), renderer_options);
+    vulkan::CasterDrawerOptions drawer_options;
+    drawer_options.orthographic = renderer.mapFormats(true);
+    drawer_options.perspective = renderer.mapFormats(false);
+    drawer_options.frames_in_flight = kFrames;
+    CasterDrawer drawer(gpu().view(), drawer_options);
+    const SceneMesh mesh = uploadMesh(gpu(), r.scene);
+    drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+    const auto transforms = r.scene.transforms();
+    EXPECT_TRUE(renderer.prepare(r.plan, kParityScreen));
+    EXPECT_FALSE(renderer.prepare(r.plan, kParityScreen));
+    // All frames in one submission: the layer checks the order of one frame's reads and the next one's writes.
+    gpu().run([&](VkCommandBuffer commands) {
+        for (std::uint32_t slot = 0; slot < kFrames; ++slot) {
+            drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
+            renderer.recordMaps(commands, slot, frame, r.plan, [&](const MapPass& pass) { drawer.draw(pass); });
+            renderer.recordMask(commands, slot, frame, r.plan, inputs);
+        }
+    });
+    readBack(renderer, options, r);
+    return r;
+}
+
+ParityFigures expectParity(const Rendered& r, const FilterOptions& options, const std::string& name, double steps)
+{
+    ParityFigures worst;
+    for (std::uint32_t light = 0; light < r.lights.size(); ++light) {
+        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps};
+        const auto reference = referenceMask(scene, light, options, r.layers[r.plan.lights[light].first_view]);
+        ParityFigures figures;
+        figures.pixels = reference.size();
+        std::size_t dark = 0;
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            const double off = std::abs(std::to_integer<int>(r.masks[light][i]) - 255.0 * reference[i]);
+            figures.different += off > steps ? 1 : 0;
+            figures.worst = std::max(figures.worst, off);
+            dark += reference[i] < 0.5 ? 1 : 0;
+        }
+        EXPECT_LE(figures.different, reference.size() / 1000) << "light " << light << ", worst " << figures.worst;
+        EXPECT_GT(dark, reference.size() / 100) << "the scene must have shadows for this to mean anything";
+        EXPECT_LT(dark, reference.size() * 9 / 10);
+        writePgm(name + "_light" + std::to_string(light), r.masks[light], kParityScreen);
+        if (figures.different >= worst.different) {
+            figures.worst = std::max(figures.worst, worst.worst);
+            worst = figures;
+        }
+    }
+    return worst;
+}
+
+} // namespace gnomon::test

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of the scene of boxes on the GPU, with everything that the CPU's reference needs to say what its masks
+// should be.
+#pragma once
+
+#include "cpu_map.h"
+#include "reference.h"
+
+#include <string>
+
+namespace gnomon::test {
+
+inline constexpr VkExtent2D kParityScreen{320, 200};
+
+enum class ParityLights : std::uint8_t {
+    sun_and_spot, // on a layer each, the spot's tile amid room to spare, so tile offsets count
+    sun_alone,    // then the mask is drawn by pipelines for orthographic views
+    one_layer,    // a sun, a spot and a second sun, each with a tile of the same layer
+};
+
+struct Rendered {
+    Scene scene = makeScene();
+    std::vector<Light> lights;
+    Plan plan;
+    Camera camera;
+    Picture picture;
+    std::vector<CpuMap> maps;                            // by layer of the image
+    std::vector<std::vector<std::byte>> masks;           // by light, one byte a pixel
+    std::vector<std::vector<vulkan::DepthLayer>> layers; // by view
+};
+[[nodiscard]] Rendered renderParity(const vulkan::FilterOptions& options,
+                                    ParityLights lights = ParityLights::sun_and_spot);
+
+struct ParityFigures {
+    std::size_t pixels = 0;
+    std::size_t different = 0; // by more than a step of the mask, and what rounding to it may add
+    double worst = 0.0;        // in steps of the mask
+};
+/// Every mask against the reference: at most a pixel in a thousand may be off by more than `steps` of the mask's 255.
+/// Writes the masks as pictures named for the case, and returns the light that is worst.
+ParityFigures expectParity(const Rendered& r, const vulkan::FilterOptions& options, const std::string& name,
+                           double steps = 1.001);
+
+} // namespace gnomon::test
