@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_constants.h"
 
+#include "mip_level.h"
 #include "moment_rule_of.h"
 
 #include <discs.h>
@@ -151,7 +152,8 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
         const View& view = plan.views[index];
         shared::GpuView gpu = gpuView(view, world_from_eye, margin);
         const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
-        gpu.more = glm::dvec4(around.placer.slotOf(index), around.map_levels - 1, near_over_far, 0.0);
+        gpu.more =
+            glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
         return gpu;
     };
     std::uint32_t further = shared::kLightsPerLayer;
