@@ -26,10 +26,23 @@ GN_CONST real kMomentArithmetic = real(0.000001);
 
 // The least variance that hides rounding, in squares of the coordinate that is stored: 7.0e-5 at 16-bit unorm, 2.2e-3
 // at half and 1.3e-6 at single precision. In squares of d', divide by momentScale()^2: remapped, a half needs 5.5e-4.
-// What stores exp(c d') instead divides by c^2.
 GN_FN real varianceOfRounding(real step_of_format)
 {
     return real(1.5) * real(kMomentRoundings) * step_of_format + kMomentArithmetic;
+}
+
+// The same in squares of x where moments of w = exp(c x) are stored, c > 0. Floats err in proportion to what they hold,
+// just above a power of two by twice as much, and the variance of w is (c w)^2 that of x.
+GN_FN real varianceOfWarpRounding(real step_of_format, real c)
+{
+    return varianceOfRounding(real(2.0) * step_of_format) / (c * c);
+}
+
+// And where their logarithms are, as log(M1) / c and log(M2) / (2 c): errors e1, e2 of these change M1^2 and M2 by the
+// factors e^(2 c e1) and e^(2 c e2), which to the first order loses 2 c (e2 - e1) w^2: 4/3 c of the 3/2 steps above.
+GN_FN real varianceOfLogRounding(real step_of_format, real c)
+{
+    return varianceOfRounding(step_of_format) * real(4.0) / (real(3.0) * c);
 }
 
 // A variance that rounding of the arithmetic itself cannot tell from 0, whatever the user asks for.

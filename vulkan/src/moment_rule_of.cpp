@@ -28,12 +28,20 @@ float stepBelowOne(MapFormat format)
 }
 
 /// Least variance of d' (lvsm: of a layer's own metric) that hides what the format's rounding does to M2 - M1^2, see
-/// shaders/shared/moments.h. Whatever a filter stores in place of d' changes so many times faster.
+/// shaders/shared/moments.h.
 float automaticVariance(const FilterOptions& filter, const shared::MomentRule& rule)
 {
-    const float warp = filter.filter == Filter::evsm ? std::min(rule.exponent, rule.exponent_negative)
-                                                     : shared::momentScale(rule.flags);
-    return shared::varianceOfRounding(stepBelowOne(filter.format)) / (warp * warp);
+    const float step = stepBelowOne(filter.format);
+    const float scale = shared::momentScale(rule.flags);
+    if (filter.filter != Filter::evsm) {
+        return shared::varianceOfRounding(step) / (scale * scale);
+    }
+    const bool both = shared::hasFlag(rule.flags, shared::kMomentFourChannels);
+    const float c = both ? std::min(rule.exponent, rule.exponent_negative) : rule.exponent;
+    const bool logarithms = shared::hasFlag(rule.flags, shared::kMomentLogSpace);
+    const float variance =
+        logarithms ? shared::varianceOfLogRounding(step, c) : shared::varianceOfWarpRounding(step, c);
+    return variance / (scale * scale);
 }
 
 int flagsOf(const FilterOptions& filter)
