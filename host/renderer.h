@@ -47,12 +47,24 @@ struct ShadedLight {
 /// side) and averages them.
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
+/// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
+/// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
+struct BloomOptions {
+    bool on = false;
+    float threshold = 1.6F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]
+    float knee = 0.5F;        // share of the threshold, to both sides of it, over which that sets in; [0, 1]
+    float intensity = 0.35F;  // how much of the light above the threshold is spread; [0, 4]
+    float radius = 1.0F;      // half the reach of the tent that enlarges each level, in the level's texels; [0.5, 3]
+    std::uint32_t levels = 6; // halvings, each of which doubles the glow's reach; 1 to 8, and no more than the size has
+};
+
 struct RenderOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     PlanOptions plan;
     vulkan::FilterOptions filter;
     AntiAliasing anti_aliasing = AntiAliasing::none;
+    BloomOptions bloom;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
     bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
 };
@@ -93,6 +105,7 @@ struct FrameTimes {
 struct Picture {
     Image8 colour;                     // RGB, sRGB-encoded, tone-mapped
     ImageF linear;                     // RGB, linear radiance before the tone curve; only if asked for
+    ImageF glow;                       // RGB, half the size: sum of the levels of bloom; only if asked for and on
     std::vector<ImageF> masks;         // one 1-channel image per light, in the order of the lights given
     ImageF depth;                      // camera depth, reversed z
     ImageOf<std::uint32_t> object_ids; // index into State::objects + 1; 0 background
@@ -101,6 +114,7 @@ struct Picture {
 struct WantedImages {
     bool colour = true;
     bool linear = false;
+    bool glow = false;
     bool masks = false;
     bool geometry = false; // depth, ids, normals
 };

@@ -69,6 +69,14 @@ bool drawsAPicture(const Settings& s)
 {
     return !(s.mask && s.truth.has_value());
 }
+bool isPicture(const Settings& s)
+{
+    return !s.mask;
+}
+bool glows(const Settings& s)
+{
+    return isPicture(s) && s.bloom.on;
+}
 bool isArea(const Settings& s)
 {
     return s.truth == truth::Kind::area;
@@ -82,6 +90,23 @@ const std::vector<Setting>& rows()
          .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
         {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "none", .choices = antiAliasingNames,
          .doc = "anti-aliasing of the picture: none, fxaa or ssaa4", .subcommands = kRender | kBench, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+        {.key = "bloom", .group = Group::picture, .type = flag, .default_text = "0", .doc = "let what is very bright glow into its surroundings",
+         .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.bloom.on = v.flag; }},
+        {.key = "bloom.threshold", .group = Group::picture, .type = real, .form = "LIGHT", .default_text = "1.6", .min = 0, .max = 64,
+         .doc = "brighter light glows; 1 shows at 80 % of white, a sunlit white wall is 1.35", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .apply = [](Settings& s, const Value& v) { s.bloom.threshold = static_cast<float>(v.real); }},
+        {.key = "bloom.knee", .group = Group::picture, .type = real, .form = "SHARE", .default_text = "0.5", .min = 0, .max = 1,
+         .doc = "share of the threshold, both ways, over which glowing sets in", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .apply = [](Settings& s, const Value& v) { s.bloom.knee = static_cast<float>(v.real); }},
+        {.key = "bloom.intensity", .group = Group::picture, .type = real, .form = "SHARE", .default_text = "0.35", .min = 0, .max = 4,
+         .doc = "how much of the light above the threshold is spread", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .apply = [](Settings& s, const Value& v) { s.bloom.intensity = static_cast<float>(v.real); }},
+        {.key = "bloom.radius", .group = Group::picture, .type = real, .form = "TEXELS", .unit = "texels", .default_text = "1", .min = 0.5, .max = 3,
+         .doc = "half the reach of the tent that enlarges each level", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .apply = [](Settings& s, const Value& v) { s.bloom.radius = static_cast<float>(v.real); }},
+        {.key = "bloom.levels", .group = Group::picture, .type = integer, .form = "N", .default_text = "6", .min = 1, .max = 8,
+         .doc = "halvings; each doubles the glow's reach", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
         {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
          .apply = [](Settings& s, const Value& v) { s.ground = v.flag; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",

@@ -272,6 +272,7 @@ host::RenderOptions renderOptions(const Settings& settings)
     options.plan = settings.plan;
     options.filter = settings.filter;
     options.anti_aliasing = settings.anti_aliasing;
+    options.bloom = settings.bloom;
     return options;
 }
 

@@ -217,6 +217,9 @@ void Renderer::Impl::record(bool has_mask)
         recordShadows(cmd);
     }
     recordLight(cmd);
+    if (bloom) {
+        recordBloom(cmd);
+    }
     recordPicture(cmd);
 }
 
@@ -306,7 +309,16 @@ void Renderer::Impl::recordLight(VkCommandBuffer cmd)
     draws.bindStreams(cmd);
     profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
     vkCmdEndRendering(cmd);
-    barrier(cmd, targets.light, kColourWrite, kSampled);
+    barrier(cmd, targets.light, kColourWrite, bloom ? kSampledByAll : kSampled);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
+}
+
+void Renderer::Impl::recordBloom(VkCommandBuffer cmd)
+{
+    memory.names().begin(cmd, "bloom");
+    profiler.beginPass(cmd, "bloom");
+    bloom->record(cmd);
     profiler.endPass(cmd);
     memory.names().end(cmd);
 }

@@ -5,6 +5,7 @@
 #include "gnomon_host_spirv.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 namespace gnomon::host {
@@ -87,7 +88,7 @@ struct Pipelines::Wish {
     const char* name = "";
     std::span<const std::uint32_t> vertex;
     std::span<const std::uint32_t> fragment;
-    std::array<VkBool32, 4> constants{}; // specialization constants 0 to 3
+    std::array<VkBool32, 4> constants{}; // specialization constants 0 to 3; floats by their bits
     std::span<const VkFormat> colours;
     bool scene = false; // vertex streams, dynamic culling; else one full-screen triangle
     bool blend = false;
@@ -96,14 +97,14 @@ struct Pipelines::Wish {
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
 };
 
-Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, bool average_four)
+Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const ToneFacts& tone_facts)
     : gpu_(gpu), names_(names)
 {
     makeLayouts(materials.layout());
     physical_only_ =
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
     makeScene(materials);
-    makeScreen(average_four);
+    makeScreen(tone_facts);
     destroyModules();
 }
 
@@ -129,7 +130,7 @@ Pipelines::~Pipelines()
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
 {
     VkDevice device = gpu_.view().device;
-    std::array<VkDescriptorSetLayoutBinding, 10> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, 11> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
@@ -247,7 +248,7 @@ void Pipelines::makeScene(const Materials& materials)
     }
 }
 
-void Pipelines::makeScreen(bool average_four)
+void Pipelines::makeScreen(const ToneFacts& tone_facts)
 {
     Wish wish;
     wish.vertex = spirv::fullscreen_vert;
@@ -261,7 +262,8 @@ void Pipelines::makeScreen(bool average_four)
     wish.colours = {&kPictureFormat, 1};
     wish.name = "tone";
     wish.fragment = spirv::tone_frag;
-    wish.constants[0] = average_four ? VK_TRUE : VK_FALSE;
+    wish.constants = {tone_facts.average_four, tone_facts.bloom > 0.0F, std::bit_cast<VkBool32>(tone_facts.bloom),
+                      std::bit_cast<VkBool32>(tone_facts.bloom_radius)};
     tone = make(wish);
     wish.name = "fxaa";
     wish.fragment = spirv::fxaa_frag;

@@ -28,9 +28,16 @@ struct InstanceData {
 };
 static_assert(sizeof(InstanceData) == 64);
 
+/// What the tone pass does beside its curve.
+struct ToneFacts {
+    bool average_four = false;
+    float bloom = 0.0F; // what the bloom's sum is multiplied by; 0: none
+    float bloom_radius = 1.0F;
+};
+
 class Pipelines {
 public:
-    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, bool average_four);
+    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const ToneFacts& tone_facts);
     ~Pipelines();
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
@@ -54,7 +61,7 @@ private:
     struct Wish;
     VkPipeline make(const Wish& wish);
     void makeScene(const Materials& materials);
-    void makeScreen(bool average_four);
+    void makeScreen(const ToneFacts& tone_facts);
     void destroyModules();
 
     const Gpu& gpu_;

@@ -73,7 +73,8 @@ bool convert(const void* texels, Number number, std::vector<float>& out)
     const auto* const words = static_cast<const std::uint16_t*>(texels);
     switch (number) {
     case Number::unorm8:
-        return from(static_cast<const std::uint8_t*>(texels), [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; });
+        return from(static_cast<const std::uint8_t*>(texels),
+                    [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; });
     case Number::unorm16:
         return from(words, [](std::uint16_t v) { return static_cast<float>(v) / 65535.0F; });
     case Number::half:
@@ -188,6 +189,16 @@ void Renderer::Impl::readLinear(Picture& picture)
     }
 }
 
+void Renderer::Impl::readGlow(Picture& picture)
+{
+    const Image& glow = bloom->result();
+    picture.glow = ImageF(glow.extent.width, glow.extent.height, 3);
+    const auto* halves = static_cast<const std::uint16_t*>(fetch(*this, sourceOf(glow, kSampled.layout)));
+    for (std::size_t i = 0; i < picture.glow.values.size(); ++i) {
+        picture.glow.values[i] = glm::unpackHalf1x16(halves[i / 3 * 4 + i % 3]);
+    }
+}
+
 void Renderer::Impl::readMasks(Picture& picture)
 {
     for (std::uint32_t light = 0; light < light_count; ++light) {
@@ -244,6 +255,9 @@ Picture Renderer::read(const WantedImages& wanted)
     }
     if (wanted.linear) {
         impl_->readLinear(picture);
+    }
+    if (wanted.glow && impl_->bloom) {
+        impl_->readGlow(picture);
     }
     if (wanted.masks) {
         impl_->readMasks(picture);

@@ -16,6 +16,33 @@ VkExtent2D drawnExtent(const RenderOptions& options)
     return {options.width * scale, options.height * scale};
 }
 
+ToneFacts toneFacts(const RenderOptions& options)
+{
+    ToneFacts facts;
+    facts.average_four = options.anti_aliasing == AntiAliasing::ssaa4;
+    if (options.bloom.on) {
+        const std::uint32_t levels = bloomLevels({options.width, options.height}, options.bloom.levels);
+        facts.bloom = options.bloom.intensity / static_cast<float>(levels);
+        facts.bloom_radius = options.bloom.radius;
+    }
+    return facts;
+}
+
+void checkBloom(const BloomOptions& bloom)
+{
+    const auto within = [](const char* name, float value, float low, float high) {
+        if (!(value >= low && value <= high)) {
+            throw Error("making a picture with bloom", std::string(name) + " is " + std::to_string(value),
+                        "choose one from " + std::to_string(low) + " to " + std::to_string(high));
+        }
+    };
+    within("its threshold", bloom.threshold, 0.0F, 64.0F);
+    within("its knee", bloom.knee, 0.0F, 1.0F);
+    within("its intensity", bloom.intensity, 0.0F, 4.0F);
+    within("its radius", bloom.radius, 0.5F, 3.0F);
+    within("its number of levels", static_cast<float>(bloom.levels), 1.0F, 8.0F);
+}
+
 const RenderOptions& checked(const Gpu& gpu, const RenderOptions& options)
 {
     const std::uint32_t limit = gpu.properties().limits.maxImageDimension2D;
@@ -30,6 +57,9 @@ const RenderOptions& checked(const Gpu& gpu, const RenderOptions& options)
         refuse(std::to_string(options.width) + "x" + std::to_string(options.height) +
                " is beyond the device's limit of " + std::to_string(limit / scale) + " on a side");
     }
+    if (options.bloom.on) {
+        checkBloom(options.bloom);
+    }
     return options;
 }
 
@@ -40,7 +70,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     : gpu(the_gpu), scene(the_scene), options(checked(the_gpu, the_options)), memory(the_gpu),
       uploader(std::make_unique<Uploader>(the_gpu, memory)), textures(the_gpu, memory, *uploader, the_scene),
       materials(the_gpu, memory, *uploader, textures, the_scene), geometry(memory, *uploader, the_scene, state),
-      pipelines(the_gpu, memory.names(), materials, options.anti_aliasing == AntiAliasing::ssaa4),
+      pipelines(the_gpu, memory.names(), materials, toneFacts(options)),
       targets(memory, drawnExtent(options), {options.width, options.height},
               options.anti_aliasing == AntiAliasing::fxaa),
       draws(memory, geometry, materials, the_scene, state), commands(the_gpu, memory.names(), "frame"),
@@ -52,6 +82,10 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     fillObjectSet(state, objects);
     visible.reserve(state.objects.size());
     by_distance.reserve(state.objects.size());
+    if (toneFacts(options).bloom > 0.0F) {
+        bloom.emplace(gpu, memory, options.bloom, targets.light, targets.shown,
+                      options.anti_aliasing == AntiAliasing::ssaa4, textures.plainSampler());
+    }
     makeFrameSet();
     if (options.shadows) {
         vulkan::ShadowRendererOptions wish;
@@ -79,7 +113,7 @@ void Renderer::Impl::makeFrameSet()
 {
     VkDevice device = gpu.view().device;
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 9}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 10}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = 1;
     pool_info.poolSizeCount = sizes.size();
@@ -97,7 +131,8 @@ void Renderer::Impl::makeFrameSet()
     const VkDescriptorBufferInfo buffer{frame_buffer.handle, 0, sizeof(FrameData)};
     const VkDescriptorImageInfo cookies = textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
-    const std::array<VkDescriptorImageInfo, 9> images{
+    const VkImageView glow = bloom ? bloom->result().view : targets.light.view; // not read then
+    const std::array<VkDescriptorImageInfo, 10> images{
         {{nearest, targets.depth.view, kDepthRead.layout},
          {nearest, targets.gbuffer[0].view, kSampled.layout},
          {nearest, targets.gbuffer[1].view, kSampled.layout},
@@ -106,8 +141,9 @@ void Renderer::Impl::makeFrameSet()
          cookies, // in the mask's place until there is one: an array too, and never read then
          cookies,
          {nearest, targets.light.view, kSampled.layout},
-         {textures.plainSampler(), toned, kSampled.layout}}};
-    std::array<VkWriteDescriptorSet, 10> writes{};
+         {textures.plainSampler(), toned, kSampled.layout},
+         {textures.plainSampler(), glow, kSampled.layout}}};
+    std::array<VkWriteDescriptorSet, 11> writes{};
     for (std::uint32_t i = 0; i < writes.size(); ++i) {
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         writes[i].dstSet = frame_set;

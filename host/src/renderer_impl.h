@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bloom.h"
 #include "frame_data.h"
 #include "scene_draws.h"
 #include "targets.h"
@@ -25,6 +26,7 @@ struct Renderer::Impl {
     Geometry geometry;
     Pipelines pipelines;
     Targets targets;
+    std::optional<Bloom> bloom;
     SceneDraws draws;
     Commands commands;
     Buffer frame_buffer;
@@ -73,10 +75,12 @@ struct Renderer::Impl {
     void recordShadows(VkCommandBuffer cmd);
     void recordInstead(VkCommandBuffer cmd) const;
     void recordLight(VkCommandBuffer cmd);
+    void recordBloom(VkCommandBuffer cmd);
     void recordPicture(VkCommandBuffer cmd);
     void setViewport(VkCommandBuffer cmd, VkExtent2D extent) const;
     void readColour(Picture& picture);
     void readLinear(Picture& picture);
+    void readGlow(Picture& picture);
     void readMasks(Picture& picture);
     void readGeometry(Picture& picture);
     void screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target);
