@@ -146,7 +146,7 @@ void LayerRelaxation::updateSet(const Job& job)
 void LayerRelaxation::record(VkCommandBuffer commands, const Job& job)
 {
     constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    constexpr VkPipelineStageFlags2 kClear = VK_PIPELINE_STAGE_2_CLEAR_BIT;
+    constexpr VkPipelineStageFlags2 kClear = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
     constexpr VkAccessFlags2 kReadWrite = kRead | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     const auto wait = [&](const MemoryBarrier& barrier) {

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers of depth: the GPU's relaxation against the same rules on the CPU, in double precision and by another sum; what
+// keeps its place from frame to frame and what does not.
+#define GNOMON_REAL double
+#include "fixture.h"
+
+#include "layer_placer.h"
+
+#include <depth_layers.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::DepthLayer;
+
+constexpr std::uint32_t kSide = 256;
+constexpr int kBins = 1024;
+
+class LayersOfDepth : public testing::Test {
+protected:
+    void TearDown() override { expectSilence(gpu()); }
+};
+
+vulkan::FilterOptions lvsm(LayerPlacement placement, std::uint32_t layers)
+{
+    vulkan::FilterOptions filter;
+    filter.filter = Filter::lvsm;
+    filter.format = MapFormat::rgba16;
+    filter.moments.placement = placement;
+    filter.moments.layers = layers;
+    filter.moments.samples = 1;
+    return filter;
+}
+
+/// Looks down an axis from a place; 100 m deep.
+View viewOf(const Tile& tile, const glm::dvec3& direction_ws = {0.0, -1.0, 0.0}, double backed_out_m = 0.0)
+{
+    View view;
+    view.tile = tile;
+    view.light_place_ws = -direction_ws * (100.0 + backed_out_m);
+    view.metric.near_m = 0.0;
+    view.metric.far_m = 100.0;
+    view.metric.metric_ws = glm::dvec4(direction_ws, -glm::dot(direction_ws, view.light_place_ws)) / 100.0;
+    return view;
+}
+
+Plan planOf(const std::vector<View>& views)
+{
+    Plan plan;
+    plan.views = views;
+    return plan;
+}
+
+/// Ground that rises slowly, houses on it, things in the air; a fifth is empty. `lower` sinks all of it.
+std::vector<float> depthsOf(float lower = 0.0F)
+{
+    std::vector<float> depths(std::size_t{kSide} * kSide);
+    std::uint32_t state = 7;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        state = state * 1664525U + 1013904223U;
+        const float noise = static_cast<float>(state >> 8) / 16777216.0F;
+        const std::uint32_t kind = (state >> 4) % 20;
+        const float ground = 0.80F + 0.1F * static_cast<float>(i) / static_cast<float>(depths.size());
+        depths[i] = kind < 4 ? 1.0F
+                             : lower + (kind < 7    ? 0.1F + 0.05F * noise
+                                        : kind < 10 ? ground - 0.2F * noise
+                                                    : ground);
+    }
+    return depths;
+}
+
+std::vector<double> lloydOnCpu(const std::vector<float>& depths, int count, int flags = 0, double ratio = 1.0)
+{
+    std::vector<double> histogram(kBins, 0.0);
+    for (const float depth : depths) {
+        if (depth < 1.0F) {
+            ++histogram[static_cast<std::size_t>(
+                shared::binOf(shared::momentDepth(double{depth}, flags, ratio), kBins))];
+        }
+    }
+    const auto lowest = std::find_if(histogram.begin(), histogram.end(), [](double n) { return n > 0.0; });
+    const auto highest = std::find_if(histogram.rbegin(), histogram.rend(), [](double n) { return n > 0.0; });
+    const int low = static_cast<int>(lowest - histogram.begin());
+    const int high = kBins - 1 - static_cast<int>(highest - histogram.rbegin());
+    std::vector<double> means;
+    for (int i = 0; i < count; ++i) {
+        means.push_back(shared::lloydStart(i, count, shared::binCentre(low, kBins), shared::binCentre(high, kBins)));
+    }
+    std::vector<double> begins(static_cast<std::size_t>(count) + 1, 0.0);
+    begins.back() = 1.0;
+    for (int step = 0; step < 300; ++step) {
+        for (std::size_t i = 1; i < means.size(); ++i) {
+            begins[i] = shared::lloydSplit(static_cast<int>(i), count, means[i - 1], means[i], begins[i - 1]);
+        }
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            double held = 0.0;
+            double sum = 0.0;
+            for (int bin = 0; bin < kBins; ++bin) {
+                if (shared::layerHoldsBin(bin, kBins, begins[i], begins[i + 1])) {
+                    held += histogram[static_cast<std::size_t>(bin)];
+                    sum += histogram[static_cast<std::size_t>(bin)] * shared::binCentre(bin, kBins);
+                }
+            }
+            means[i] = shared::lloydMean(held, sum, means[i]);
+        }
+    }
+    begins.pop_back();
+    return begins;
+}
+
+class Placed {
+public:
+    explicit Placed(const vulkan::FilterOptions& filter)
+        : device_(gpu().view()), placer_(device_, filter, VK_NULL_HANDLE)
+    {
+    }
+    std::vector<DepthLayer> place(const View& view, const std::vector<float>& depths)
+    {
+        const TestImage image = gpu().makeImage(VK_FORMAT_R32_SFLOAT, {kSide, kSide}, std::as_bytes(std::span(depths)));
+        const Plan plan = planOf({view});
+        (void)placer_.prepare(plan);
+        placer_.forgetDepth();
+        gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0, image.view); });
+        return placer_.read(0);
+    }
+    vulkan::LayerPlacer& placer() { return placer_; }
+
+private:
+    vulkan::Device device_;
+    vulkan::LayerPlacer placer_;
+};
+
+constexpr Tile kWhole{0, 0, 0, kSide, kSide};
+
+TEST_F(LayersOfDepth, areWhereTheHandPutThem)
+{
+    vulkan::FilterOptions filter = lvsm(LayerPlacement::by_hand, 3);
+    filter.moments.splits = {0.2F, 0.6F};
+    filter.moments.layer_overlap = 0.1F;
+    Placed placed(filter);
+    const auto layers = placed.place(viewOf(kWhole), depthsOf());
+    ASSERT_EQ(layers.size(), 3U);
+    const float expected[3][3] = {{0.0F, 0.22F, 0.0F}, {0.16F, 0.64F, 0.2F}, {0.56F, 1.0F, 0.6F}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(layers[i].near, expected[i][0], 1e-6);
+        EXPECT_NEAR(layers[i].far, expected[i][1], 1e-6);
+        EXPECT_NEAR(layers[i].begins, expected[i][2], 1e-6);
+    }
+    const auto fixed = vulkan::fixedDepthLayers(filter.moments);
+    ASSERT_EQ(fixed.size(), 3U);
+    EXPECT_EQ(fixed[1].near, layers[1].near);
+}
+
+TEST_F(LayersOfDepth, areOfOneWidthWhenUniform)
+{
+    for (std::uint32_t count = 2; count <= kMaxDepthLayers; ++count) {
+        Placed placed(lvsm(LayerPlacement::uniform, count));
+        const auto layers = placed.place(viewOf(kWhole), depthsOf());
+        ASSERT_EQ(layers.size(), count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            EXPECT_NEAR(layers[i].begins, double(i) / count, 1e-6);
+            EXPECT_NEAR(layers[i].far, std::min(1.0, (i + 1.05) / count), 1e-6);
+        }
+    }
+    EXPECT_TRUE(vulkan::fixedDepthLayers(lvsm(LayerPlacement::lloyd, 2).moments).empty());
+}
+
+TEST_F(LayersOfDepth, relaxOnTheGpuAsOnTheCpu)
+{
+    const std::vector<float> depths = depthsOf();
+    for (std::uint32_t count = 2; count <= kMaxDepthLayers; ++count) {
+        Placed placed(lvsm(LayerPlacement::lloyd, count));
+        const auto layers = placed.place(viewOf(kWhole), depths);
+        const auto expected = lloydOnCpu(depths, static_cast<int>(count));
+        ASSERT_EQ(layers.size(), count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            EXPECT_NEAR(layers[i].begins, expected[i], 1e-5) << count << " layers, " << i;
+        }
+        // Not what they started from: things in the air have a layer of their own.
+        EXPECT_GT(layers[1].begins, 0.15F);
+        EXPECT_LT(layers[1].begins, 0.65F);
+    }
+}
+
+TEST_F(LayersOfDepth, followWhatIsStoredUnderASpot)
+{
+    vulkan::FilterOptions filter = lvsm(LayerPlacement::lloyd, 4);
+    filter.moments.metric = DepthMetricKind::z_over_w;
+    View view = viewOf(kWhole);
+    view.orthographic = false;
+    view.metric.near_m = 5.0;
+    view.metric.far_m = 100.0;
+    Placed placed(filter);
+    const std::vector<float> depths = depthsOf();
+    const auto layers = placed.place(view, depths);
+    const auto expected = lloydOnCpu(depths, 4, shared::kMomentZOverW, 0.05);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        EXPECT_NEAR(layers[i].begins, expected[i], 1e-5) << i;
+    }
+}
+
+TEST_F(LayersOfDepth, areUniformOverNothing)
+{
+    Placed placed(lvsm(LayerPlacement::lloyd, 4));
+    const auto layers = placed.place(viewOf(kWhole), std::vector<float>(std::size_t{kSide} * kSide, 1.0F));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        EXPECT_NEAR(layers[i].begins, 0.25 * double(i), 1e-6);
+    }
+}
+
+TEST_F(LayersOfDepth, lookAtTheirTileOnly)
+{
+    // The half of the image that is not the view's own holds one depth.
+    std::vector<float> depths = depthsOf();
+    std::vector<float> own;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        if (i % kSide < kSide / 2) {
+            depths[i] = 0.5F;
+        } else {
+            own.push_back(depths[i]);
+        }
+    }
+    Placed placed(lvsm(LayerPlacement::lloyd, 3));
+    const auto layers = placed.place(viewOf({0, kSide / 2, 0, kSide / 2, kSide}), depths);
+    const auto expected = lloydOnCpu(own, 3);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        EXPECT_NEAR(layers[i].begins, expected[i], 1e-5);
+    }
+}
+
+TEST_F(LayersOfDepth, stayInAStillScene)
+{
+    Placed placed(lvsm(LayerPlacement::lloyd, 8));
+    const auto first = placed.place(viewOf(kWhole), depthsOf());
+    for (int frame = 0; frame < 3; ++frame) {
+        const auto next = placed.place(viewOf(kWhole), depthsOf());
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            EXPECT_EQ(next[i].begins, first[i].begins) << i;
+            EXPECT_EQ(next[i].near, first[i].near);
+            EXPECT_EQ(next[i].far, first[i].far);
+        }
+    }
+}
+
+TEST_F(LayersOfDepth, moveNoFasterThanWhatTheyHold)
+{
+    constexpr float kSunk = 0.01F;
+    Placed placed(lvsm(LayerPlacement::lloyd, 4));
+    auto last = placed.place(viewOf(kWhole), depthsOf());
+    double moved = 0.0;
+    for (int frame = 1; frame <= 5; ++frame) {
+        const auto next = placed.place(viewOf(kWhole), depthsOf(kSunk * static_cast<float>(frame)));
+        for (std::size_t i = 1; i < next.size(); ++i) {
+            EXPECT_LE(std::abs(next[i].begins - last[i].begins), 1.5F * kSunk) << "frame " << frame << ", layer " << i;
+            moved += next[i].begins - last[i].begins;
+        }
+        last = next;
+    }
+    EXPECT_GT(moved, 0.05); // and they do follow
+}
+
+TEST_F(LayersOfDepth, keepTheirPlaceInTheWorldWhenTheLightIsBackedOut)
+{
+    // All depths are 0.05 larger because they are measured from 5 m farther up: the layers go with them at once.
+    Placed placed(lvsm(LayerPlacement::lloyd, 4));
+    const auto before = placed.place(viewOf(kWhole), depthsOf());
+    const auto after = placed.place(viewOf(kWhole, {0.0, -1.0, 0.0}, 5.0), depthsOf(0.05F));
+    for (std::size_t i = 1; i < before.size(); ++i) {
+        EXPECT_NEAR(after[i].begins, before[i].begins + 0.05, 1e-3) << i; // bins are as wide
+    }
+}
+
+TEST_F(LayersOfDepth, moveLittleWithTheSun)
+{
+    Placed placed(lvsm(LayerPlacement::lloyd, 4));
+    const auto before = placed.place(viewOf(kWhole), depthsOf());
+    const auto after = placed.place(viewOf(kWhole, glm::normalize(glm::dvec3(0.01, -1.0, 0.0))), depthsOf());
+    for (std::size_t i = 1; i < before.size(); ++i) {
+        EXPECT_NEAR(after[i].begins, before[i].begins, 1e-3) << i;
+    }
+}
+
+TEST_F(LayersOfDepth, beginAnewForAnotherLight)
+{
+    Placed placed(lvsm(LayerPlacement::lloyd, 3));
+    std::vector<float> shallow = depthsOf();
+    for (float& depth : shallow) {
+        depth = depth < 1.0F ? 0.2F * depth : 1.0F;
+    }
+    (void)placed.place(viewOf(kWhole), shallow);
+    View other = viewOf(kWhole);
+    other.light = 1;
+    const auto layers = placed.place(other, depthsOf());
+    const auto expected = lloydOnCpu(depthsOf(), 3);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        EXPECT_NEAR(layers[i].begins, expected[i], 1e-5);
+    }
+}
+
+TEST_F(LayersOfDepth, keepTheirSlotWithTheirTile)
+{
+    vulkan::Device device(gpu().view());
+    vulkan::LayerPlacer placer(device, lvsm(LayerPlacement::lloyd, 2), VK_NULL_HANDLE);
+    const View a = viewOf({0, 0, 0, 64, 64});
+    const View b = viewOf({0, 64, 0, 64, 64});
+    const View c = viewOf({1, 64, 0, 64, 64});
+    EXPECT_TRUE(placer.prepare(planOf({a, b})));
+    const std::uint32_t slot_of_b = placer.slotOf(1);
+    EXPECT_NE(placer.slotOf(0), slot_of_b);
+    EXPECT_FALSE(placer.prepare(planOf({b})));
+    EXPECT_EQ(placer.slotOf(0), slot_of_b);
+    EXPECT_FALSE(placer.prepare(planOf({c, b})));
+    EXPECT_EQ(placer.slotOf(1), slot_of_b);
+    EXPECT_NE(placer.slotOf(0), slot_of_b);
+    EXPECT_TRUE(placer.prepare(planOf({a, b, c})));
+    EXPECT_GE(placer.bytes(), 3 * sizeof(shared::GpuDepthLayers));
+}
+
+TEST_F(LayersOfDepth, areNoneForOtherFilters)
+{
+    vulkan::Device device(gpu().view());
+    vulkan::LayerPlacer placer(device, {}, VK_NULL_HANDLE);
+    EXPECT_FALSE(placer.prepare(planOf({viewOf(kWhole)})));
+    EXPECT_NE(placer.buffer(), VK_NULL_HANDLE);
+    EXPECT_TRUE(placer.read(0).empty());
+}
+
+} // namespace
+} // namespace gnomon::test
