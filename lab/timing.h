@@ -52,6 +52,7 @@ struct Counters {
     std::uint64_t draws = 0;
     std::uint64_t passes = 0;
     std::uint64_t bytes_minimum = 0; // leastBytes() of lab/score/traffic.h; 0 without shadows
+    vulkan::FilterCost filter;       // of the blur; what countersOf() cannot know
 };
 [[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
 
@@ -88,7 +89,9 @@ struct TimingResult {
 [[nodiscard]] std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count);
 
 /// The most contestants that take turns together, and the most texels of maps that they may have among them (unless one
-/// alone has more): their images are all in memory at once. A map of 16384 and one of 8192 on a side fit together.
+/// alone has more): their images are all in memory at once. Texels of four bytes: a texel of a filterable map counts
+/// for as many as it takes, with the images that it is made from. A depth map of 16384 and one of 8192 on a side fit
+/// together.
 inline constexpr std::size_t kMaxTogether = 8;
 inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
 

@@ -24,11 +24,30 @@ std::string iqrCell(const std::vector<host::FrameTimes>& samples)
     return cell(samples.size() > 1 ? std::optional(spreadOfStage(samples, stages().back()).iqr) : std::nullopt, 3);
 }
 
+/// What making maps filterable took: a line for each technique that blurs.
+std::string blurTable(const BenchResult& result)
+{
+    TextTable table{{"blur", "path", "Mtexels", "taps/texel", "MiB moved", "least", "ratio"}, {}};
+    for (const BenchedTechnique& technique : result.techniques) {
+        const vulkan::FilterCost& cost = technique.redrawn.counters.filter;
+        if (cost.texels == 0) {
+            continue;
+        }
+        constexpr double kMiB = 1024.0 * 1024.0;
+        const auto texels = static_cast<double>(cost.texels);
+        table.rows.push_back({describeTechnique(technique.settings), std::string(nameOf(cost.path)),
+                              cell(texels / 1e6, 2), cell(static_cast<double>(cost.taps) / texels, 1),
+                              cell(static_cast<double>(cost.bytes_moved) / kMiB, 1),
+                              cell(static_cast<double>(cost.bytes_minimum) / kMiB, 1), cell(filterRatio(cost), 2)});
+    }
+    return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
+}
+
 Json techniqueJson(const BenchedTechnique& technique)
 {
     Json json{{"technique", describeTechnique(technique.settings)},
               {"choices", choicesJson(technique.settings.plan.technique)},
-              {"map", mapJson(technique.redrawn.atlas, technique.settings.filter.format)}};
+              {"map", mapJson(technique.redrawn.atlas, technique.settings.filter)}};
     addTimes(json, "", technique.redrawn.samples);
     json["frame_ratio"] = frameRatioJson(technique.redrawn);
     addTimes(json, "static_", technique.reused.samples);
@@ -98,7 +117,7 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
                             ratioCell(technique.reused),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
-    return text;
+    return text + blurTable(result);
 }
 
 } // namespace gnomon::app

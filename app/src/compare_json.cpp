@@ -90,7 +90,7 @@ Json techniqueJson(const ComparedTechnique& technique)
     const lab::Score& score = technique.score;
     Json json{{"technique", technique.name},
               {"choices", choicesJson(technique.settings.plan.technique)},
-              {"map", mapJson(score.atlas, technique.settings.filter.format)},
+              {"map", mapJson(score.atlas, technique.settings.filter)},
               {"error", errorJson(score)}};
     addTimes(json, "", technique.timed.samples);
     json["frame_ratio"] = frameRatioJson(technique.timed);

@@ -4,6 +4,7 @@
 #include "contestants.h"
 #include "lab/score/traffic.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -87,10 +88,27 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
     }
 }
 
-Json mapJson(const AtlasSize& atlas, MapFormat format)
+Json mapJson(const AtlasSize& atlas, const vulkan::FilterOptions& filter)
 {
-    const std::uint64_t texels = std::uint64_t{atlas.width} * atlas.height * atlas.layers;
-    return {{"texels", texels}, {"bytes", texels * lab::texelBytes(format)}, {"format", nameOf(format)}};
+    const std::uint32_t image_layers = imageLayersPerMap(filter.filter, filter.moments);
+    const std::uint32_t levels = vulkan::mipLevels(filter, atlas.width, atlas.height);
+    std::uint64_t stored = 0; // texels of one layer
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        stored += std::uint64_t{std::max(atlas.width >> level, 1U)} * std::max(atlas.height >> level, 1U);
+    }
+    const bool is_empty = atlas.width == 0 || atlas.height == 0;
+    return {{"texels", std::uint64_t{atlas.width} * atlas.height * atlas.layers},
+            {"bytes", is_empty ? 0 : stored * atlas.layers * image_layers * lab::texelBytes(filter.format)},
+            {"format", nameOf(filter.format)},
+            {"image_layers", atlas.layers * image_layers},
+            {"mip_levels", levels}};
+}
+
+double filterRatio(const vulkan::FilterCost& filter)
+{
+    return filter.bytes_minimum == 0
+               ? 0.0
+               : static_cast<double>(filter.bytes_moved) / static_cast<double>(filter.bytes_minimum);
 }
 
 Json passesJson(const std::vector<host::FrameTimes>& samples)
@@ -131,14 +149,23 @@ Json sharedUnitsJson()
             {"fit_efficiency", "texels read / texels rendered"},
             {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
             {"eye.far_m", "metres; 0: behind everything"},
-            {"map.texels", "texels of all layers"},
+            {"map.texels", "places in all maps: texels of the finest level, however many image layers each takes"},
+            {"map.bytes", "bytes of the maps' image: all image layers and mip levels"},
+            {"counters.filter_bytes", "bytes that the blur reads and writes"},
             {"pixels", "pixels"}};
 }
 
 Json countersJson(const lab::Counters& counters)
 {
+    const vulkan::FilterCost& filter = counters.filter;
+    const double ratio = filterRatio(filter);
     return {{"texels_rendered", counters.texels_rendered},
-            {"texels_filtered", 0}, // hard and pcf filter nothing ahead of the mask
+            {"texels_filtered", filter.texels},
+            {"filter_taps", filter.taps},
+            {"filter_bytes", filter.bytes_moved},
+            {"filter_bytes_minimum", filter.bytes_minimum},
+            {"filter_bytes_ratio", ratio > 0.0 ? numberJson(rounded(ratio)) : Json(nullptr)},
+            {"blur_path", filter.texels > 0 ? Json(nameOf(filter.path)) : Json(nullptr)},
             {"vertex_invocations", counters.vertex_invocations},
             {"primitives", counters.primitives},
             {"fragment_invocations", counters.fragment_invocations},

@@ -41,11 +41,14 @@ struct Stage {
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples);
 /// "memory_bytes" and "memory_by_purpose_bytes".
 void addMemory(Json& json, const MemoryByPurpose& memory);
-/// {"texels", "bytes", "format"} of all layers of the map's image.
-[[nodiscard]] Json mapJson(const AtlasSize& atlas, MapFormat format);
+/// {"texels", "bytes", "format", "image_layers", "mip_levels"}: texels of all maps, bytes of their image with all that
+/// it has for each texel: image layers (lvsm) and mip levels.
+[[nodiscard]] Json mapJson(const AtlasSize& atlas, const vulkan::FilterOptions& filter);
 /// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went. Passes of one
 /// name are added up within each frame, as the stages are.
 [[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
+/// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.
+[[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);

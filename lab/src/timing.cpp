@@ -62,6 +62,18 @@ std::vector<Turn> makeTurns(host::Gpu& gpu, const Subject& subject, std::span<co
     return turns;
 }
 
+/// How many times the four bytes of a plain depth map one texel of this filter's map takes, with all that it is made
+/// from.
+std::uint64_t weightOf(const vulkan::FilterOptions& filter)
+{
+    const FilterTraits* traits = filterTraits(filter.filter);
+    const std::uint64_t map =
+        std::uint64_t{texelBytes(filter.format)} * imageLayersPerMap(filter.filter, filter.moments);
+    const bool filterable = traits != nullptr && traits->filterable;
+    const std::uint64_t made_from = filterable ? map + 4 * filter.moments.samples : 0; // scratch and depth
+    return std::max<std::uint64_t>(1, (map + made_from + 3) / 4);
+}
+
 double medianFrame(const Timed& timed)
 {
     std::vector<double> frames;
@@ -100,6 +112,7 @@ void timeGroup(host::Gpu& gpu, const Subject& subject, std::span<const Contestan
         timed.plan = turn.renderer->plan();
         timed.atlas = timed.plan.atlas;
         timed.counters = countersOf(timed.samples.back(), timed.plan, !turn.options.reuse_maps);
+        timed.counters.filter = turn.renderer->filterCost();
         timed.added_memory = addedMemory(*turn.renderer, *turns.front().renderer);
         timed.baseline_ms = baseline_ms;
     }
@@ -180,7 +193,7 @@ std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants
     std::uint64_t texels = 0;
     for (const Contestant& contestant : contestants) {
         const std::uint64_t side = contestant.options.plan.map_size;
-        const std::uint64_t needs = side * side * lights;
+        const std::uint64_t needs = side * side * lights * weightOf(contestant.options.filter);
         if (groups.empty() || groups.back() == kMaxTogether || texels + needs > kMaxTexelsTogether) {
             groups.push_back(0);
             texels = 0;

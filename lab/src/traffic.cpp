@@ -4,6 +4,20 @@
 #include <vector>
 
 namespace gnomon::lab {
+namespace {
+
+/// How far the mask pass must read at least. A filterable map was blurred before; with mip levels the one that fits has
+/// a texel for each pixel, so that one of the finest level stands for what a pixel reads.
+double leastReach(const vulkan::FilterOptions& filter)
+{
+    const FilterTraits* traits = filterTraits(filter.filter);
+    if (traits == nullptr || !traits->filterable) {
+        return vulkan::filterReachTexels(filter);
+    }
+    return filter.moments.sampling == MapSampling::bilinear ? 1.0 : 0.5;
+}
+
+} // namespace
 
 std::uint64_t leastBytes(host::Renderer& renderer, const Subject& subject, const host::RenderOptions& options)
 {
@@ -18,7 +32,10 @@ std::uint64_t leastBytes(host::Renderer& renderer, const Subject& subject, const
     }
     TrafficOptions traffic;
     traffic.format = options.filter.format;
-    traffic.reach_texels = vulkan::filterReachTexels(options.filter);
+    traffic.reach_texels = leastReach(options.filter);
+    traffic.image_layers = imageLayersPerMap(options.filter.filter, options.filter.moments);
+    const AtlasSize& atlas = renderer.plan().atlas;
+    traffic.mip_levels = vulkan::mipLevels(options.filter, atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;
     traffic.reads_object_ids = true;
     traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;

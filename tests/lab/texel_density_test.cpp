@@ -242,11 +242,40 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     EXPECT_EQ(leastBytes(seen, {}, Plan(), options), 0U); // without shadows
 }
 
+TEST(LeastBytes, OfAFilterableMapAreThoseOfItsLayersAndLevels)
+{
+    const Above above(4.0);
+    const Sight seen{above.camera, above.picture.depth, above.picture.normals};
+    Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 256, 256);
+    plan.views[0].clip_from_world[3] += glm::dvec4(0.3 / 128.0, 0.3 / 128.0, 0.0, 0.0);
+    plan.mask_layers = 1;
+    const std::vector<Light> lights(1);
+    const std::uint64_t pixels = kSide_px * kSide_px;
+    TrafficOptions options{.format = MapFormat::rgba16, .reach_texels = 0.5, .image_layers = 2};
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 8 * (2 * 256 * 256 + pixels) + pixels * 13);
+    options.mip_levels = 3;
+    const std::uint64_t levels = 256 * 256 + 128 * 128 + 64 * 64;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 8 * (2 * levels + pixels) + pixels * 13);
+    // A tile whose edge lies within a texel of level 2 has no such level.
+    plan.views[0].tile.height = 254;
+    options.mip_levels = 9;
+    const std::uint64_t two = 256 * 254 + 128 * 127;
+    const std::uint64_t with_two = leastBytes(seen, lights, plan, options);
+    options.mip_levels = 1;
+    EXPECT_EQ(with_two - leastBytes(seen, lights, plan, options), 8 * 2 * (two - 256 * 254));
+}
+
 TEST(LeastBytes, KnowEveryFormat)
 {
     EXPECT_EQ(texelBytes(MapFormat::d16), 2U);
+    EXPECT_EQ(texelBytes(MapFormat::r16f), 2U);
+    EXPECT_EQ(texelBytes(MapFormat::d32f), 4U);
+    EXPECT_EQ(texelBytes(MapFormat::r32f), 4U);
     EXPECT_EQ(texelBytes(MapFormat::rg16), 4U);
+    EXPECT_EQ(texelBytes(MapFormat::rg16f), 4U);
     EXPECT_EQ(texelBytes(MapFormat::rg32f), 8U);
+    EXPECT_EQ(texelBytes(MapFormat::rgba16), 8U);
+    EXPECT_EQ(texelBytes(MapFormat::rgba16f), 8U);
     EXPECT_EQ(texelBytes(MapFormat::rgba32f), 16U);
 }
 

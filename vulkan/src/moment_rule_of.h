@@ -11,7 +11,5 @@ namespace gnomon::vulkan {
 [[nodiscard]] bool isFilterable(Filter filter);
 /// Precondition: refusal(filter.filter, filter.format, filter.moments) is nothing.
 [[nodiscard]] shared::MomentRule momentRuleOf(const FilterOptions& filter);
-/// Mip levels of a map of this size: 1 unless the filter is filterable and its sampling reads coarser ones.
-[[nodiscard]] std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height);
 
 } // namespace gnomon::vulkan

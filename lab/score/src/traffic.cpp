@@ -6,13 +6,24 @@
 namespace gnomon::lab {
 namespace {
 
-std::uint64_t texelsDrawn(const Plan& plan, bool redraws_all)
+/// Of a tile with its mip levels, of which there are those whose texels lie in it wholly.
+std::uint64_t texelsOf(const Tile& tile, std::uint32_t levels)
+{
+    const std::uint32_t edges = tile.x | tile.y | tile.width | tile.height;
+    std::uint64_t texels = 0;
+    for (std::uint32_t level = 0; level < levels && edges % (1U << level) == 0; ++level) {
+        texels += std::uint64_t{tile.width >> level} * (tile.height >> level);
+    }
+    return texels;
+}
+
+std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
 {
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
-        texels += view.redraw || redraws_all ? std::uint64_t{view.tile.width} * view.tile.height : 0;
+        texels += view.redraw || options.redraws_all ? texelsOf(view.tile, options.mip_levels) : 0;
     }
-    return texels;
+    return texels * options.image_layers;
 }
 
 /// One byte for a single light, else four to a layer (ShadowRenderer::mask()).
@@ -51,7 +62,7 @@ std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const
         return 0;
     }
     assert(lights.size() == plan.lights.size());
-    std::uint64_t texels = texelsDrawn(plan, options.redraws_all);
+    std::uint64_t texels = texelsDrawn(plan, options);
     for (std::uint32_t light = 0; light < lights.size(); ++light) {
         if (plan.lights[light].outcome.hasMap()) {
             texels += texelUse(seen, facingPixels(seen, lights[light]), plan, light, options.reach_texels).read;
