@@ -84,6 +84,15 @@ struct Parsed {
     bool help = false;
 };
 
+/// An option that may be given again and again and takes one value each time, so that a scene may follow it.
+void addValues(CLI::App& cli, const std::string& name, std::vector<std::string>& values)
+{
+    cli.add_option(name, values)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+}
+
 void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
 {
     for (const Setting& setting : settingTable()) {
@@ -95,13 +104,13 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
         if (setting.type == SettingType::flag) {
             cli.add_flag_callback(name, [&values] { values.emplace_back("1"); });
         } else {
-            cli.add_option(name, values)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+            addValues(cli, name, values);
         }
     }
     if ((subcommand.bit & kFrames) != 0) {
         cli.add_option("scene", parsed.scenes)->expected(-1);
-        cli.add_option("--set", parsed.sets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        cli.add_option("--preset", parsed.presets)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        addValues(cli, "--set", parsed.sets);
+        addValues(cli, "--preset", parsed.presets);
     }
     if (subcommand.bit == kMetrics) {
         cli.add_option("images", parsed.images)->expected(-1);
@@ -131,7 +140,12 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
         if ((findSetting("json")->subcommands & subcommand.bit) == 0 ||
             (argument != "--json" && !argument.starts_with("--json="))) {
             rest.push_back(argument);
-        } else if (argument != "--json") {
+            continue;
+        }
+        if (json) {
+            throw UsageError("--json is given twice");
+        }
+        if (argument != "--json") {
             json = argument.substr(argument.find('=') + 1);
         } else if (i + 1 < arguments.size() && (arguments[i + 1] == "-" || arguments[i + 1].ends_with(".json"))) {
             json = arguments[++i];
@@ -213,6 +227,11 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
         settings.scene = parsed.scenes.front();
     }
     for (const auto& [setting, values] : parsed.options) {
+        // Of two files the first would stay empty, without a word.
+        if (values.size() > 1 && setting->group == SettingGroup::result && !setting->repeatable &&
+            setting->type != SettingType::flag) {
+            throw UsageError(fmt::format("{} is given twice", spelled(*setting)));
+        }
         for (const std::string& value : values) {
             applyGiven(settings, *setting, value, subcommand);
         }

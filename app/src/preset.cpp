@@ -30,6 +30,13 @@ constexpr std::array kPresets{
     Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF on a 1024 R32F map, bias 0.1", R"({
   "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1"
 })"},
+    // A layer for the ground and one for what floats above it, four samples, a Gaussian of 1.25 texels, unsigned
+    // normalised moments; the figures for variance, contrast and the lightened shadow are the paper's shader's.
+    Preset{"rts-2011", "A. Marinescu, soft shadows of a real-time strategy game, 2011: two layers of variance", R"({
+  "scene": "rts", "camera": "camp", "filter": "lvsm", "map-size": 1024, "map-format": "rgba16", "lvsm.layers": 2,
+  "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "bilinear", "min-variance": 0.01,
+  "bleeding.power": 1.3, "lighten": 0.65, "bloom": true
+})"},
 };
 
 /// A JSON value as it would be typed; `between` the elements of a list.

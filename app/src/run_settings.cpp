@@ -20,7 +20,9 @@ using Value = SettingValue;
 
 void applyTechniques(Settings& s, const Value& v)
 {
-    for (const std::string_view piece : split(v.text, ',')) {
+    for (std::string_view piece : split(v.text, ',')) {
+        piece.remove_prefix(std::min(piece.find_first_not_of(' '), piece.size()));
+        piece = piece.substr(0, piece.find_last_not_of(' ') + 1);
         if (piece.empty()) {
             throw UsageError(
                 fmt::format("--techniques: \"{}\" has a comma with no technique before or after it", v.text));

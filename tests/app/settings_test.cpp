@@ -82,12 +82,11 @@ TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
 
 TEST(Contestants, AreTheOnesNamed)
 {
-    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 7U);
-    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 7U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 12U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 12U);
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--filter", "hard"})).size(), 1U);
     EXPECT_EQ(app::contestants(settingsOf({"bench", "--techniques", "hard,pcf"})).size(), 2U);
-    EXPECT_THROW((void)app::contestants(settingsOf({"bench", "--techniques", "pcf,pcf+pcf.kernel=3x3"})),
-                 app::UsageError);
+    EXPECT_THROW((void)settingsOf({"bench", "--techniques", "pcf,pcf+pcf.kernel=3x3"}), app::UsageError);
 }
 
 } // namespace
