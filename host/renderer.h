@@ -51,9 +51,9 @@ enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 /// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
 struct BloomOptions {
     bool on = false;
-    float threshold = 1.6F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]
-    float knee = 0.5F;        // share of the threshold, to both sides of it, over which that sets in; [0, 1]
-    float intensity = 0.35F;  // how much of the light above the threshold is spread; [0, 4]
+    float threshold = 0.8F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]
+    float knee = 0.25F;       // share of the threshold, to both sides of it, over which that sets in; [0, 1]
+    float intensity = 1.0F;   // how much of the light above the threshold is spread; [0, 4]
     float radius = 1.0F;      // half the reach of the tent that enlarges each level, in the level's texels; [0.5, 3]
     std::uint32_t levels = 6; // halvings, each of which doubles the glow's reach; 1 to 8, and no more than the size has
 };
