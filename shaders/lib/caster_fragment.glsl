@@ -2,12 +2,19 @@
 // GLSL only: body of the caster fragment shaders.
 #include "caster.glsl"
 
-layout(location = 0) in float metric;
+#ifdef PER_SAMPLE
+// The rasteriser's depth is each sample's own, and so must be the one that is written instead. All inputs are read at the
+// sample then: the shader runs for each, and a texture's edge in a texel costs nothing more.
+#define AT sample
+#else
+#define AT
+#endif
+layout(location = 0) AT in float metric;
 #ifdef WRITE_COLOUR
 layout(location = 0) out float stored;
 #endif
 #ifdef MASKED
-layout(location = 1) in vec2 uv;
+layout(location = 1) AT in vec2 uv;
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
 {

@@ -25,9 +25,14 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     if (formats.colour != VK_FORMAT_UNDEFINED) {
         return masked ? spirv::caster_colour_masked_frag : spirv::caster_colour_frag;
     }
+    if (formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT) {
+        return masked ? spirv::caster_depth_samples_masked_frag : spirv::caster_depth_samples_frag;
+    }
     if (formats.write_frag_depth) {
         return masked ? spirv::caster_depth_masked_frag : spirv::caster_depth_frag;
     }
+    // Alpha is tested once for all samples of a texel: testing each would run the shader four times for what is a
+    // depth write else.
     return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
 }
 

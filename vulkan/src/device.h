@@ -124,9 +124,12 @@ struct ImageInfo {
     VkImageUsageFlags usage = 0;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     const char* purpose = "";
+    std::uint32_t levels = 1;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-/// A 2D array image with a view of all layers and one view of each.
+/// A 2D array image with a view of all of it, one of each layer's finest level and, if shaders write to
+/// it, one of all layers at each level.
 class Image {
 public:
     Image() = default;
@@ -134,7 +137,11 @@ public:
     Image(Device& device, const ImageInfo& info);
     [[nodiscard]] VkImage image() const { return image_.get(); }
     [[nodiscard]] VkImageView view() const { return all_.get(); }
-    [[nodiscard]] VkImageView layer(std::uint32_t index) const { return layers_[index].get(); }
+    [[nodiscard]] VkImageView layer(std::uint32_t index) const { return layers_[index].get(); } // 2D
+    [[nodiscard]] VkImageView level(std::uint32_t index) const
+    {
+        return levels_[index].get();
+    } // 2D array; of storage images
     [[nodiscard]] const ImageInfo& info() const { return info_; }
     explicit operator bool() const { return static_cast<bool>(image_); }
 
@@ -144,26 +151,43 @@ private:
     Owned<VkImage, &Functions::DestroyImage> image_;
     ImageView all_;
     std::vector<ImageView> layers_;
+    std::vector<ImageView> levels_;
 };
 
-/// Mapped for as long as it lives; coherent.
-class HostBuffer {
+class Buffer {
 public:
-    HostBuffer() = default;
-    HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
     [[nodiscard]] VkBuffer buffer() const { return buffer_.get(); }
-    [[nodiscard]] void* data() const { return memory_.block().mapped; }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
 
-private:
+protected:
+    Buffer() = default;
+    Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags properties,
+           const char* purpose);
     Memory memory_;
+
+private:
     Owned<VkBuffer, &Functions::DestroyBuffer> buffer_;
     VkDeviceSize size_ = 0;
 };
 
+/// Mapped for as long as it lives; coherent.
+class HostBuffer : public Buffer {
+public:
+    HostBuffer() = default;
+    HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
+    [[nodiscard]] void* data() const { return memory_.block().mapped; }
+};
+
+/// For the GPU alone.
+class DeviceBuffer : public Buffer {
+public:
+    DeviceBuffer() = default;
+    DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose);
+};
+
 [[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
 
-/// One image barrier, sent at once.
+/// One image barrier of all levels, sent at once.
 struct ImageBarrier {
     VkImage image = VK_NULL_HANDLE;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
@@ -177,5 +201,14 @@ struct ImageBarrier {
     VkAccessFlags2 target_access = 0;
 };
 void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBarrier& barrier);
+
+/// One barrier for all memory, sent at once.
+struct MemoryBarrier {
+    VkPipelineStageFlags2 source_stages = 0;
+    VkAccessFlags2 source_access = 0;
+    VkPipelineStageFlags2 target_stages = 0;
+    VkAccessFlags2 target_access = 0;
+};
+void recordBarrier(const Device& device, VkCommandBuffer commands, const MemoryBarrier& barrier);
 
 } // namespace gnomon::vulkan

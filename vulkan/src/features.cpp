@@ -27,7 +27,9 @@ struct Feature {
     VkBool32& (*of)(Chain&);
 };
 
-// Indirect drawing of instances · casters clamped onto the near plane · the profiler · passes and barriers.
+// Indirect drawing of instances · casters clamped onto the near plane · the profiler · the linear metric of perspective
+// views in each sample, not only in each texel · one compute shader for all formats of filterable maps ·
+// passes and barriers.
 constexpr Feature kFeatures[] = {
     {"multiDrawIndirect",
      [](Chain& c) -> VkBool32& {
@@ -45,6 +47,14 @@ constexpr Feature kFeatures[] = {
      [](Chain& c) -> VkBool32& {
          return c.core.features.pipelineStatisticsQuery;
      }},
+    {"sampleRateShading",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.sampleRateShading;
+     }},
+    {"shaderStorageImageWriteWithoutFormat",
+     [](Chain& c) -> VkBool32& {
+         return c.core.features.shaderStorageImageWriteWithoutFormat;
+     }},
     {"hostQueryReset",
      [](Chain& c) -> VkBool32& {
          return c.v12.hostQueryReset;
@@ -56,6 +66,11 @@ constexpr Feature kFeatures[] = {
     {"synchronization2",
      [](Chain& c) -> VkBool32& {
          return c.v13.synchronization2;
+     }},
+    // The size of a compute shader's group, as SPIR-V 1.6 writes it.
+    {"maintenance4",
+     [](Chain& c) -> VkBool32& {
+         return c.v13.maintenance4;
      }},
 };
 

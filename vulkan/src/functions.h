@@ -14,12 +14,12 @@
     X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(CreateImageView) X(DestroyImageView) \
     X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(CreateSampler) X(DestroySampler) \
     X(CreateShaderModule) X(DestroyShaderModule) X(CreatePipelineLayout) X(DestroyPipelineLayout) \
-    X(CreateGraphicsPipelines) X(DestroyPipeline) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
+    X(CreateGraphicsPipelines) X(CreateComputePipelines) X(DestroyPipeline) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
     X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) X(UpdateDescriptorSets) \
     X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) X(ResetQueryPool) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline) X(CmdBindDescriptorSets) \
     X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdPushConstants) X(CmdSetViewport) X(CmdSetScissor) \
-    X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
+    X(CmdDispatch) X(CmdFillBuffer) X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
 
 #define GNOMON_DEBUG_FUNCTIONS(X) \
     X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_pass.h"
 
+#include "draw_view.h"
+#include "timed.h"
+
 #include <gnomon/error.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
 
 namespace gnomon::vulkan {
 namespace {
-
-// Maps are read by our mask pass and by hosts that shade from them.
-constexpr VkPipelineStageFlags2 kReaders =
-    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags2 kDepthStages =
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags2 kDepthAccess =
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
 VkImageLayout attachmentLayout(const MapStorage& storage)
 {
@@ -33,8 +27,9 @@ VkAccessFlags2 attachmentAccess(const MapStorage& storage)
 
 } // namespace
 
-bool MapPassRecorder::prepare(const AtlasSize& atlas)
+bool DepthMaps::prepare(const Plan& plan)
 {
+    const AtlasSize& atlas = plan.atlas;
     const AtlasSize need{std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
     if (maps_ && maps_.info().extent.width >= need.width && maps_.info().extent.height >= need.height &&
         maps_.info().layers >= need.layers) {
@@ -58,13 +53,18 @@ bool MapPassRecorder::prepare(const AtlasSize& atlas)
     return true;
 }
 
-bool MapPassRecorder::layerIsDrawn(const Plan& plan, std::uint32_t layer) const
+MapPassFormats DepthMaps::formats(bool orthographic) const
+{
+    return {storage_.colour, storage_.depth, VK_SAMPLE_COUNT_1_BIT, storage_.depthOnly() && !orthographic};
+}
+
+bool DepthMaps::layerIsDrawn(const Plan& plan, std::uint32_t layer) const
 {
     return std::any_of(plan.views.begin(), plan.views.end(),
                        [&](const View& view) { return view.tile.layer == layer && (view.redraw || redraw_all_); });
 }
 
-void MapPassRecorder::toAttachment(VkCommandBuffer commands, std::uint32_t layer)
+void DepthMaps::toAttachment(VkCommandBuffer commands, std::uint32_t layer)
 {
     ImageBarrier barrier;
     barrier.image = maps_.image();
@@ -72,14 +72,14 @@ void MapPassRecorder::toAttachment(VkCommandBuffer commands, std::uint32_t layer
     barrier.first_layer = layer;
     barrier.old_layout = layouts_[layer];
     barrier.new_layout = attachmentLayout(storage_);
-    barrier.source_stages = kReaders; // the last frame's reads come first; there is nothing to make visible
+    barrier.source_stages = kMapReaders; // the last frame's reads come first; there is nothing to make visible
     barrier.target_stages = attachmentStages(storage_);
     barrier.target_access = attachmentAccess(storage_);
     recordBarrier(device_, commands, barrier);
     layouts_[layer] = barrier.new_layout;
 }
 
-void MapPassRecorder::toReadable(VkCommandBuffer commands, std::uint32_t layer)
+void DepthMaps::toReadable(VkCommandBuffer commands, std::uint32_t layer)
 {
     ImageBarrier barrier;
     barrier.image = maps_.image();
@@ -92,13 +92,13 @@ void MapPassRecorder::toReadable(VkCommandBuffer commands, std::uint32_t layer)
         barrier.source_access = storage_.depthOnly() ? VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT
                                                      : VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
     }
-    barrier.target_stages = kReaders;
+    barrier.target_stages = kMapReaders;
     barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
     recordBarrier(device_, commands, barrier);
     layouts_[layer] = barrier.new_layout;
 }
 
-void MapPassRecorder::makeReadable(VkCommandBuffer commands)
+void DepthMaps::makeReadable(VkCommandBuffer commands)
 {
     for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
         if (layouts_[layer] != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
@@ -107,7 +107,7 @@ void MapPassRecorder::makeReadable(VkCommandBuffer commands)
     }
 }
 
-void MapPassRecorder::beginRendering(VkCommandBuffer commands, const Tile& tile)
+void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile)
 {
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     depth.imageView = storage_.depthOnly() ? maps_.layer(tile.layer) : depth_.layer(0);
@@ -123,36 +123,22 @@ void MapPassRecorder::beginRendering(VkCommandBuffer commands, const Tile& tile)
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
 
-    const VkRect2D area{{static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
-                        {tile.width, tile.height}};
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = area;
+    info.renderArea = areaOf(tile);
     info.layerCount = 1;
     info.colorAttachmentCount = storage_.depthOnly() ? 0U : 1U;
     info.pColorAttachments = storage_.depthOnly() ? nullptr : &colour;
     info.pDepthAttachment = &depth;
     device_.vk.CmdBeginRendering(commands, &info);
 
-    const VkViewport viewport{static_cast<float>(tile.x),
-                              static_cast<float>(tile.y),
-                              static_cast<float>(tile.width),
-                              static_cast<float>(tile.height),
-                              0.0F,
-                              1.0F};
-    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    device_.vk.CmdSetScissor(commands, 0, 1, &area);
+    setViewport(device_, commands, tile);
 }
 
-void MapPassRecorder::recordView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index,
-                                 const DrawCasters& draw)
+void DepthMaps::recordView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
 {
-    const View& view = plan.views[index];
-    const Tile& tile = view.tile;
+    const Tile& tile = plan.views[index].tile;
     assert(tile.x + tile.width <= maps_.info().extent.width && tile.y + tile.height <= maps_.info().extent.height);
-    assert(view.first_caster + view.caster_count <= plan.casters.size());
-    char label[64];
-    std::snprintf(label, sizeof label, "shadow map of light %u, view %u", view.light, index);
-    device_.beginLabel(commands, label);
+    beginViewLabel(device_, commands, plan, index);
     if (!storage_.depthOnly()) {
         ImageBarrier barrier;
         barrier.image = depth_.image();
@@ -165,21 +151,15 @@ void MapPassRecorder::recordView(VkCommandBuffer commands, const Plan& plan, std
         recordBarrier(device_, commands, barrier);
     }
     beginRendering(commands, tile);
-    MapPass pass;
-    pass.commands = commands;
-    pass.plan = &plan;
-    pass.view = &view;
-    pass.view_index = index;
-    pass.casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
-    pass.clip_from_world = glm::mat4(view.clip_from_world);
-    pass.metric_ws = glm::vec4(view.metric.metric_ws);
-    draw(pass);
+    drawView(commands, plan, index, draw);
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);
 }
 
-void MapPassRecorder::record(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
+void DepthMaps::record(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot, const Plan& plan,
+                       const DrawCasters& draw, Profiler* profiler)
 {
+    const Timed timed(profiler, commands, "shadow maps");
     // Layers that keep some of their tiles must not lose them in the transition; so the old layout is named, not
     // UNDEFINED.
     for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {

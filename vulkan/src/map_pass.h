@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atlas of shadow maps and the passes that draw it.
+// Maps that are drawn and then read as they are: an atlas of depths, in a depth format or a colour format.
 #pragma once
 
-#include "device.h"
+#include "map_recorder.h"
 #include "map_storage.h"
 
 namespace gnomon::vulkan {
 
-class MapPassRecorder {
+class DepthMaps final : public MapRecorder {
 public:
-    MapPassRecorder(Device& device, const MapStorage& storage) : device_(device), storage_(storage) {}
+    DepthMaps(Device& device, const MapStorage& storage) : device_(device), storage_(storage) {}
 
-    /// Makes the images if the plan's atlas does not fit; true when it did.
-    bool prepare(const AtlasSize& atlas);
-    /// Every view is drawn at the next record(), whatever it says.
-    void forget() { redraw_all_ = true; }
-    void record(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw);
-    /// Brings layers that were never drawn into the layout that the mask pass reads them in.
-    void makeReadable(VkCommandBuffer commands);
-
-    [[nodiscard]] const Image& maps() const { return maps_; }
+    bool prepare(const Plan& plan) override;
+    void forget() override { redraw_all_ = true; }
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
+                Profiler* profiler) override;
+    void makeReadable(VkCommandBuffer commands) override;
+    [[nodiscard]] const Image& maps() const override { return maps_; }
+    [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
+    [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
     [[nodiscard]] bool layerIsDrawn(const Plan& plan, std::uint32_t layer) const;

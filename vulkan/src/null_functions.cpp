@@ -197,6 +197,17 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache,
     return VK_SUCCESS;
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache, std::uint32_t count,
+                                                      const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
+                                                      VkPipeline* pipelines)
+{
+    driverOf(device).counts.created += count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        pipelines[i] = freshHandle<VkPipeline>(driverOf(device));
+    }
+    return VK_SUCCESS;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL allocateSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
                                             VkDescriptorSet* sets)
 {
@@ -260,6 +271,15 @@ VKAPI_ATTR void VKAPI_CALL cmdDraw(VkCommandBuffer commands, std::uint32_t, std:
 {
     ++driverOf(commands).counts.draws;
     cmdLogged<NullEvent::Kind::draw>(commands);
+}
+
+VKAPI_ATTR void VKAPI_CALL cmdDispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z)
+{
+    ++driverOf(commands).counts.dispatches;
+    NullEvent event;
+    event.kind = NullEvent::Kind::dispatch;
+    event.count = x * y * z;
+    log(driverOf(commands), event);
 }
 
 // Reads the commands, as a GPU would.
@@ -328,6 +348,7 @@ const Entry kEntries[] = {
     GNOMON_NULL(CreatePipelineLayout, create),
     GNOMON_NULL(DestroyPipelineLayout, destroy),
     GNOMON_NULL(CreateGraphicsPipelines, createPipelines),
+    GNOMON_NULL(CreateComputePipelines, createComputePipelines),
     GNOMON_NULL(DestroyPipeline, destroy),
     GNOMON_NULL(CreateDescriptorSetLayout, create),
     GNOMON_NULL(DestroyDescriptorSetLayout, destroy),
@@ -349,6 +370,8 @@ const Entry kEntries[] = {
     GNOMON_NULL(CmdPushConstants, cmdIgnored),
     GNOMON_NULL(CmdSetViewport, cmdIgnored),
     GNOMON_NULL(CmdSetScissor, cmdIgnored),
+    GNOMON_NULL(CmdDispatch, cmdDispatch),
+    GNOMON_NULL(CmdFillBuffer, cmdIgnored),
     GNOMON_NULL(CmdDraw, cmdDraw),
     GNOMON_NULL(CmdDrawIndexedIndirect, cmdDrawIndirect),
     GNOMON_NULL(CmdBeginQuery, cmdLogged<NullEvent::Kind::begin_query>),

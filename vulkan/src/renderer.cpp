@@ -4,6 +4,9 @@
 #include "map_pass.h"
 #include "mask_constants.h"
 #include "mask_pass.h"
+#include "moment_maps.h"
+#include "moment_rule_of.h"
+#include "timed.h"
 
 #include <gnomon/error.h>
 #include <gnomon/vulkan/shadow_renderer.h>
@@ -35,27 +38,14 @@ const MapStorage& storageFor(const Device& device, const FilterOptions& filter)
     return *storage;
 }
 
-class Timed {
-public:
-    Timed(Profiler* profiler, VkCommandBuffer commands, const char* name) : profiler_(profiler), commands_(commands)
-    {
-        if (profiler_ != nullptr) {
-            profiler_->beginPass(commands, name);
-        }
+std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ShadowRendererOptions& options,
+                                          const MapStorage& storage, LayerPlacer& placer)
+{
+    if (isFilterable(options.filter.filter)) {
+        return std::make_unique<MomentMaps>(device, options, storage, placer);
     }
-    ~Timed()
-    {
-        if (profiler_ != nullptr) {
-            profiler_->endPass(commands_);
-        }
-    }
-    Timed(const Timed&) = delete;
-    Timed& operator=(const Timed&) = delete;
-
-private:
-    Profiler* profiler_;
-    VkCommandBuffer commands_;
-};
+    return std::make_unique<DepthMaps>(device, storage);
+}
 
 ImageRef describe(const Image& image)
 {
@@ -67,15 +57,16 @@ ImageRef describe(const Image& image)
 
 struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options)
-        : device(view), storage(storageFor(device, options.filter)), maps(device, storage),
-          placer(device, options.filter, options.pipeline_cache), mask(device, options, storage.quantum)
+        : device(view), storage(storageFor(device, options.filter)),
+          placer(device, options.filter, options.pipeline_cache), maps(makeRecorder(device, options, storage, placer)),
+          mask(device, options, storage.quantum)
     {
     }
 
     Device device;
     const MapStorage& storage;
-    MapPassRecorder maps;
     LayerPlacer placer;
+    std::unique_ptr<MapRecorder> maps;
     MaskPassRecorder mask;
 };
 
@@ -93,38 +84,34 @@ ShadowRenderer::~ShadowRenderer() = default;
 
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
-    bool maps_changed = impl_->maps.prepare(plan.atlas);
-    maps_changed = impl_->placer.prepare(plan) || maps_changed;
+    const bool maps_changed = impl_->maps->prepare(plan);
     if (maps_changed) {
         impl_->mask.forgetMaps();
     }
     const bool mask_changed = impl_->mask.prepare(plan, screen);
     if (mask_changed) {
-        impl_->maps.forget();
+        impl_->maps->forget();
     }
     return maps_changed || mask_changed;
 }
 
-void ShadowRenderer::recordMaps(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot,
-                                [[maybe_unused]] const Frame& frame, const Plan& plan, const DrawCasters& draw,
-                                Profiler* profiler)
+void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
+                                const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
-    const Timed timed(profiler, commands, "shadow maps");
-    impl_->maps.record(commands, plan, draw);
+    impl_->maps->record(commands, slot, plan, draw, profiler);
 }
 
 void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                 const MaskInputs& inputs, Profiler* profiler)
 {
     const Timed timed(profiler, commands, "mask");
-    impl_->maps.makeReadable(commands);
-    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps.maps(), impl_->placer);
+    impl_->maps->makeReadable(commands);
+    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps->maps(), impl_->placer);
 }
 
 MapPassFormats ShadowRenderer::mapFormats(bool orthographic) const
 {
-    const MapStorage& storage = impl_->storage;
-    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic};
+    return impl_->maps->formats(orthographic);
 }
 
 ImageRef ShadowRenderer::mask() const
@@ -134,17 +121,17 @@ ImageRef ShadowRenderer::mask() const
 
 ImageRef ShadowRenderer::maps() const
 {
-    return describe(impl_->maps.maps());
+    return describe(impl_->maps->maps());
 }
 
-FilterCost ShadowRenderer::filterCost([[maybe_unused]] std::uint32_t slot) const
+FilterCost ShadowRenderer::filterCost(std::uint32_t slot) const
 {
-    return {};
+    return impl_->maps->cost(slot);
 }
 
-std::vector<DepthLayer> ShadowRenderer::depthLayers([[maybe_unused]] std::uint32_t view) const
+std::vector<DepthLayer> ShadowRenderer::depthLayers(std::uint32_t view) const
 {
-    return {};
+    return impl_->placer.read(view);
 }
 
 std::span<const MemoryUse> ShadowRenderer::memory() const

@@ -7,14 +7,14 @@
 namespace gnomon::vulkan {
 namespace {
 
-ImageView makeView(Device& device, VkImage image, const ImageInfo& info, VkImageViewType type, std::uint32_t first,
-                   std::uint32_t count)
+ImageView makeView(Device& device, VkImage image, const ImageInfo& info, VkImageViewType type,
+                   const VkImageSubresourceRange& range)
 {
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     create.image = image;
     create.viewType = type;
     create.format = info.format;
-    create.subresourceRange = {info.aspect, 0, 1, first, count};
+    create.subresourceRange = range;
     VkImageView view = VK_NULL_HANDLE;
     check(device.vk.CreateImageView(device.handle(), &create, nullptr, &view), "create an image view");
     device.name(VK_OBJECT_TYPE_IMAGE_VIEW, handleBits(view), info.purpose);
@@ -46,9 +46,9 @@ Image::Image(Device& device, const ImageInfo& info) : info_(info)
     create.imageType = VK_IMAGE_TYPE_2D;
     create.format = info.format;
     create.extent = {info.extent.width, info.extent.height, 1};
-    create.mipLevels = 1;
+    create.mipLevels = info.levels;
     create.arrayLayers = info.layers;
-    create.samples = VK_SAMPLE_COUNT_1_BIT;
+    create.samples = info.samples;
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
     create.usage = info.usage;
     VkImage image = VK_NULL_HANDLE;
@@ -62,14 +62,22 @@ Image::Image(Device& device, const ImageInfo& info) : info_(info)
     check(device.vk.BindImageMemory(device.handle(), image, memory_.block().memory, memory_.block().offset),
           "bind image memory");
 
-    all_ = makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, info.layers);
+    all_ = makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D_ARRAY, {info.aspect, 0, info.levels, 0, info.layers});
     layers_.reserve(info.layers);
     for (std::uint32_t i = 0; i < info.layers; ++i) {
-        layers_.push_back(makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D, i, 1));
+        layers_.push_back(makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D, {info.aspect, 0, 1, i, 1}));
+    }
+    const bool written_by_shaders = (info.usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
+    levels_.reserve(info.levels);
+    for (std::uint32_t i = 0; written_by_shaders && i < info.levels; ++i) {
+        levels_.push_back(
+            makeView(device, image, info, VK_IMAGE_VIEW_TYPE_2D_ARRAY, {info.aspect, i, 1, 0, info.layers}));
     }
 }
 
-HostBuffer::HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose) : size_(bytes)
+Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags properties,
+               const char* purpose)
+    : size_(bytes)
 {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = bytes;
@@ -81,10 +89,19 @@ HostBuffer::HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags us
 
     VkMemoryRequirements needs{};
     device.vk.GetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    memory_ =
-        Memory(device, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, purpose);
+    memory_ = Memory(device, needs, properties, purpose);
     check(device.vk.BindBufferMemory(device.handle(), buffer, memory_.block().memory, memory_.block().offset),
           "bind buffer memory");
+}
+
+HostBuffer::HostBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose)
+    : Buffer(device, bytes, usage, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, purpose)
+{
+}
+
+DeviceBuffer::DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose)
+    : Buffer(device, bytes, usage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, purpose)
+{
 }
 
 ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
@@ -108,10 +125,23 @@ void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBa
     image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     image.image = barrier.image;
-    image.subresourceRange = {barrier.aspect, 0, 1, barrier.first_layer, barrier.layer_count};
+    image.subresourceRange = {barrier.aspect, 0, VK_REMAINING_MIP_LEVELS, barrier.first_layer, barrier.layer_count};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &image;
+    device.vk.CmdPipelineBarrier2(commands, &dependency);
+}
+
+void recordBarrier(const Device& device, VkCommandBuffer commands, const MemoryBarrier& barrier)
+{
+    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    memory.srcStageMask = barrier.source_stages;
+    memory.srcAccessMask = barrier.source_access;
+    memory.dstStageMask = barrier.target_stages;
+    memory.dstAccessMask = barrier.target_access;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
     device.vk.CmdPipelineBarrier2(commands, &dependency);
 }
 

@@ -19,6 +19,7 @@ struct NullCounts {
     std::uint64_t bytes = 0;              // allocated now
     std::uint64_t descriptor_updates = 0; // vkUpdateDescriptorSets
     std::uint64_t draws = 0;              // vkCmdDraw
+    std::uint64_t dispatches = 0;         // vkCmdDispatch
     std::uint64_t indirect_draws = 0;     // draw count of vkCmdDrawIndexedIndirect
     std::uint64_t instances = 0;          // of the indirect draws
     std::uint64_t indices = 0;            // of the indirect draws, over all instances
@@ -30,6 +31,7 @@ struct NullEvent {
         begin_rendering,
         end_rendering,
         bind_pipeline,
+        dispatch,
         draw,
         draw_indirect,
         timestamp,
@@ -41,7 +43,7 @@ struct NullEvent {
     std::uint32_t layer = 0;                              // barrier: the first layer
     VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
     VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
-    std::uint32_t count = 0;                              // draw_indirect: commands
+    std::uint32_t count = 0;                              // draw_indirect: commands; dispatch: groups
 };
 
 struct NullLimits {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: what the passes that make a map filterable are bound to. One layout for all of them; each uses what it needs.
+#ifndef GNOMON_FILTER_PASS_GLSL
+#define GNOMON_FILTER_PASS_GLSL
+#include "../shared/filter_pass.h"
+#include "../shared/gpu_structs.h"
+#include "average.glsl"
+
+// In the order of FilterConstants (vulkan/src/filter_layout.h).
+layout(constant_id = 0) const int kFilter = 3;
+layout(constant_id = 1) const int kFlags = 0;
+layout(constant_id = 2) const int kLayers = 2;
+layout(constant_id = 3) const float kExponent = 1.0;
+layout(constant_id = 4) const float kExponentNegative = 1.0;
+layout(constant_id = 5) const float kMomentBias = 0.0;
+layout(constant_id = 6) const int kSamples = 1;
+layout(constant_id = 7) const int kRadius = 1;
+layout(constant_id = 8) const int kAxis = 0;
+
+layout(push_constant) uniform Place
+{
+    FilterPassPlace place;
+};
+#ifndef GN_SOURCE
+#define GN_SOURCE sampler2DArray
+#endif
+layout(set = 0, binding = 0) uniform GN_SOURCE source_image;
+#ifndef GN_FRAGMENT
+layout(set = 0, binding = 1) uniform writeonly image2DArray target_image;
+layout(set = 0, binding = 2, std430) buffer Blocks
+{
+    uint blocks[];
+};
+layout(set = 0, binding = 5, std430) buffer Counts
+{
+    BlurCounts counts;
+};
+#else
+layout(set = 0, binding = 2, std430) readonly buffer Blocks
+{
+    uint blocks[];
+};
+#endif
+layout(set = 0, binding = 3, std430) readonly buffer Layers
+{
+    GpuDepthLayers depth_layers[];
+};
+layout(set = 0, binding = 4) uniform Kernel
+{
+    BlurKernel kernel;
+};
+
+// Of a block.
+const uint kHasCaster = 1u; // something was drawn in it
+const uint kBlurX = 2u;     // a blur along x reaches a caster
+const uint kFillX = 4u;     // it does not, but a blur along y reads what would be there
+const uint kBlurY = 8u;
+
+MomentRule momentRule()
+{
+    return MomentRule(kFlags, 0, kLayers, kExponent, kExponentNegative, kMomentBias, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0);
+}
+bool averagesLogs()
+{
+    return averagesLogarithms(kFilter, kFlags);
+}
+
+// What a texel without a caster holds: the far plane.
+EncodeInput litInput(int image_layer)
+{
+    EncodeInput e;
+    e.depth = momentDepth(1.0, kFlags, place.metric.x);
+    e.variance = 0.0;
+    e.first = depth_layers[place.source.w].layer[min(2 * image_layer, kDepthLayers - 1)];
+    e.second = depth_layers[place.source.w].layer[min(2 * image_layer + 1, kDepthLayers - 1)];
+    return e;
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the passes that make a map filterable are given, declared once for both sides.
+#ifndef GNOMON_FILTER_PASS_H
+#define GNOMON_FILTER_PASS_H
+
+#ifdef __cplusplus
+#include <glm/vec4.hpp>
+#define GN_IVEC4 glm::ivec4
+#define GN_PLACE_VEC4 glm::vec4
+namespace gnomon::shared {
+#define GN_FILTER_CONST inline constexpr
+#define GN_UINT unsigned int
+#else
+#define GN_IVEC4 ivec4
+#define GN_PLACE_VEC4 vec4
+#define GN_FILTER_CONST const
+#define GN_UINT uint
+#endif
+
+GN_FILTER_CONST int kBlockTexels = 32;     // side of the squares that are blurred or left out as one
+GN_FILTER_CONST int kMostImageLayers = 4;  // of one map: lvsm with eight layers
+GN_FILTER_CONST int kMostBlurRadius = 31;  // less than a block: what reaches into a block is in a neighbour of it
+GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from the radius on, as far as shaders look
+
+// Push constants of every pass.
+struct FilterPassPlace {
+    GN_IVEC4 source;      // x, y: the tile's first texel; z: its first image layer; w: slot of its depth layers (lvsm)
+    GN_IVEC4 target;      // likewise, where the pass writes to; w: image layers of the map
+    GN_IVEC4 size;        // x, y: of the tile in texels, at the level that is written; z, w: in blocks
+    GN_PLACE_VEC4 metric; // x: near / far of the view, 1 under a parallel light
+};
+
+// Of the blur. weight[d].x is the weight of the texel at distance d. y and z hold for reading two texels at once with a
+// linear filter: weight[0] the middle alone, weight[i] the texels 2 i - 1 and 2 i together; y: distance, z: weight.
+struct BlurKernel {
+    GN_PLACE_VEC4 weight[kBlurTableLength];
+};
+
+// Written by the GPU: texels of all image layers.
+struct BlurCounts {
+    GN_UINT blurred_x;
+    GN_UINT blurred_y;
+    GN_UINT filled; // copied for the second pass to read
+    GN_UINT unused;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(FilterPassPlace) == 64 && sizeof(BlurKernel) == 16 * kBlurTableLength && sizeof(BlurCounts) == 16);
+} // namespace gnomon::shared
+#endif
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "draw_view.h"
+
+#include <cassert>
+#include <cstdio>
+
+namespace gnomon::vulkan {
+
+VkRect2D areaOf(const Tile& tile)
+{
+    return {{static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)}, {tile.width, tile.height}};
+}
+
+void setViewport(const Device& device, VkCommandBuffer commands, const Tile& tile)
+{
+    const VkViewport viewport{static_cast<float>(tile.x),
+                              static_cast<float>(tile.y),
+                              static_cast<float>(tile.width),
+                              static_cast<float>(tile.height),
+                              0.0F,
+                              1.0F};
+    const VkRect2D area = areaOf(tile);
+    device.vk.CmdSetViewport(commands, 0, 1, &viewport);
+    device.vk.CmdSetScissor(commands, 0, 1, &area);
+}
+
+void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& plan, std::uint32_t view)
+{
+    char label[64];
+    std::snprintf(label, sizeof label, "shadow map of light %u, view %u", plan.views[view].light, view);
+    device.beginLabel(commands, label);
+}
+
+void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+{
+    const View& view = plan.views[index];
+    assert(view.first_caster + view.caster_count <= plan.casters.size());
+    MapPass pass;
+    pass.commands = commands;
+    pass.plan = &plan;
+    pass.view = &view;
+    pass.view_index = index;
+    pass.casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    pass.clip_from_world = glm::mat4(view.clip_from_world);
+    pass.metric_ws = glm::vec4(view.metric.metric_ws);
+    draw(pass);
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every pass that draws a view's casters does.
+#pragma once
+
+#include "device.h"
+
+namespace gnomon::vulkan {
+
+inline constexpr VkPipelineStageFlags2 kDepthStages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+inline constexpr VkAccessFlags2 kDepthAccess =
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+// Maps are read by our mask pass and by hosts that shade from them.
+inline constexpr VkPipelineStageFlags2 kMapReaders =
+    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+
+[[nodiscard]] VkRect2D areaOf(const Tile& tile);
+/// Viewport and scissor.
+void setViewport(const Device& device, VkCommandBuffer commands, const Tile& tile);
+void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
+/// Calls the host's callback. Rendering has begun.
+void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the passes that make a map filterable share: one layout for all of their shaders (shaders/lib/filter_pass.glsl),
+// compute and fragment, the pool of their descriptor sets, and how their pipelines are made.
+#pragma once
+
+#include "device.h"
+
+#include <filter_pass.h>
+
+namespace gnomon::vulkan {
+
+/// The constant_ids of filter_pass.glsl, four bytes each, in their order.
+struct FilterConstants {
+    std::int32_t filter = 0;
+    std::int32_t flags = 0;
+    std::int32_t layers = 0;
+    float exponent = 0.0F;
+    float exponent_negative = 0.0F;
+    float moment_bias = 0.0F;
+    std::int32_t samples = 1;
+    std::int32_t radius = 0;
+    std::int32_t axis = 0; // of the blur: 0 along x, 1 along y
+};
+[[nodiscard]] FilterConstants filterConstants(const FilterOptions& filter);
+
+/// What one set names. lavapipe 22.3 crashes on descriptors that were never written, so all are given always.
+struct FilterBindings {
+    VkImageView source = VK_NULL_HANDLE;
+    bool source_is_depth = false;        // then in SHADER_READ_ONLY_OPTIMAL, else in GENERAL
+    VkImageView target = VK_NULL_HANDLE; // of a storage image in GENERAL
+    VkBuffer blocks = VK_NULL_HANDLE;
+    VkBuffer depth_layers = VK_NULL_HANDLE;
+    VkBuffer kernel = VK_NULL_HANDLE;
+    VkBuffer counts = VK_NULL_HANDLE; // BlurCounts, at dynamic offsets
+};
+
+class FilterLayout {
+public:
+    FilterLayout(Device& device, VkPipelineCache cache);
+
+    /// Room for this many sets, all of them new. Sets that were made before are gone.
+    void reset(std::uint32_t sets);
+    [[nodiscard]] VkDescriptorSet makeSet(const FilterBindings& bindings);
+    [[nodiscard]] Pipeline makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+                                       const char* name);
+    /// A triangle that covers the viewport, into one colour attachment.
+    [[nodiscard]] Pipeline makeFragment(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
+                                        VkFormat format, const char* name);
+    /// Binds everything; `counts_offset` is that of BlurCounts in their buffer.
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline, VkDescriptorSet set,
+              std::uint32_t counts_offset, const shared::FilterPassPlace& place) const;
+    [[nodiscard]] Device& device() const { return device_; }
+
+private:
+    void makeLayouts();
+    [[nodiscard]] Sampler makeSampler(VkFilter filter);
+
+    Device& device_;
+    VkPipelineCache cache_;
+    SetLayout set_layout_;
+    PipelineLayout layout_;
+    // Clamped. Depth formats need not be filterable, and are only ever fetched from.
+    Sampler nearest_;
+    Sampler linear_;
+    DescriptorPool pool_;
+};
+
+} // namespace gnomon::vulkan
