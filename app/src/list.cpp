@@ -62,6 +62,70 @@ void forEachCombination(const Visit& visit)
     }
 }
 
+std::vector<MapFormat> allFormats()
+{
+    std::vector<MapFormat> formats;
+    for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::r16f); ++i) {
+        formats.push_back(static_cast<MapFormat>(i));
+    }
+    return formats;
+}
+
+void addRefusedFormats(std::vector<RefusedCombination>& refused)
+{
+    for (const auto filter : availableValues("filter")) {
+        for (const MapFormat format : allFormats()) {
+            if (const auto reason = refusal(valueOf<Filter>("filter", filter), format)) {
+                refused.push_back(
+                    {"any", fmt::format("{}+map-format={}", filter, nameOf(format)), std::string(*reason)});
+            }
+        }
+    }
+}
+
+/// What a filter's options may not be with a format that it can use: each at the end of its range.
+void addRefusedMoments(std::vector<RefusedCombination>& refused)
+{
+    constexpr std::string_view kOptions[] = {"depth-remap=1", "esm.exponent=10000", "evsm.positive=10000",
+                                             "evsm.negative=10000"};
+    const Settings defaults = defaultSettings();
+    for (const auto filter : availableValues("filter")) {
+        for (const std::string_view option : kOptions) {
+            for (const MapFormat format : filterTraits(valueOf<Filter>("filter", filter))->formats) {
+                const std::string text = fmt::format("{}+map-format={}", filter, nameOf(format));
+                Settings settings = parseTechnique(defaults, text);
+                const std::size_t equals = option.find('=');
+                const Setting& setting = *findSetting(option.substr(0, equals));
+                applySetting(settings, setting, option.substr(equals + 1));
+                if (!setting.used(settings)) {
+                    continue;
+                }
+                if (const auto reason = refusal(settings.filter.filter, format, settings.filter.moments)) {
+                    refused.push_back({"any", fmt::format("{}+{}", text, option), *reason});
+                }
+            }
+        }
+    }
+}
+
+/// Rows that differ in their last value alone, for one reason, as one: map-format=d16|d32f.
+std::vector<RefusedCombination> joined(const std::vector<RefusedCombination>& rows)
+{
+    std::vector<RefusedCombination> made;
+    for (const RefusedCombination& row : rows) {
+        const std::size_t value = row.choices.rfind('=') + 1; // 0: none
+        const bool follows = value != 0 && !made.empty() && made.back().light == row.light &&
+                             made.back().reason == row.reason &&
+                             made.back().choices.starts_with(std::string_view(row.choices).substr(0, value));
+        if (follows) {
+            made.back().choices += "|" + row.choices.substr(value);
+        } else {
+            made.push_back(row);
+        }
+    }
+    return made;
+}
+
 std::vector<RefusedCombination> refusedCombinations()
 {
     std::vector<RefusedCombination> refused;
@@ -73,15 +137,8 @@ std::vector<RefusedCombination> refusedCombinations()
                                std::string(*reason)});
         }
     });
-    for (const auto filter : availableValues("filter")) {
-        for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::r16f); ++i) {
-            const auto format = static_cast<MapFormat>(i);
-            if (const auto reason = refusal(valueOf<Filter>("filter", filter), format)) {
-                refused.push_back(
-                    {"any", fmt::format("{}+map-format={}", filter, nameOf(format)), std::string(*reason)});
-            }
-        }
-    }
+    addRefusedFormats(refused);
+    addRefusedMoments(refused);
     return refused;
 }
 
@@ -125,7 +182,7 @@ std::string textList()
         text += fmt::format("  {} {:<15} {}\n", row.available ? ' ' : '-', row.name, row.summary);
     }
     text += "\nRefused combinations of values that are in this version:\n";
-    for (const RefusedCombination& row : refusedCombinations()) {
+    for (const RefusedCombination& row : joined(refusedCombinations())) {
         text += fmt::format("  {} light, {}: {}\n", row.light, row.choices, row.reason);
     }
     text += "\nSettings (options of their own as --KEY; all by --set KEY=VALUE and in presets):\n";

@@ -160,7 +160,7 @@ void addOwnRows(std::vector<Setting>& table)
         {.key = "lvsm.placement", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "lloyd", .choices = [] { return enumNames<LayerPlacement>(3); },
          .doc = "hand: lvsm.splits; lloyd: where the map's depths gather", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applyPlacement},
         {.key = "lvsm.splits", .group = Group::technique, .type = numbers, .form = "D/D/...", .unit = "depth", .min = 0, .max = 1, .count = kMaxDepthLayers - 1, .min_count = 1, .between = '/',
-         .doc = "where layers meet, ascending, one less than layers; implies placement hand", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applySplits},
+         .doc = "where layers meet, as 0.3/0.6: ascending, one less than layers; means placement hand", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applySplits},
         {.key = "lvsm.overlap", .group = Group::technique, .type = real, .form = "V", .unit = "of a layer", .default_text = "0.05", .min = 0, .max = 0.5,
          .doc = "how far a layer reaches into its neighbours", .own_option = false, .used = isLvsm, .used_when = "filter lvsm",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.layer_overlap = static_cast<float>(v.real); }},
