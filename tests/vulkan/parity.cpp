@@ -49,6 +49,15 @@ void setLights(ParityLights lights, Rendered& r)
     r.plan = makePlan(r.scene, r.lights, tiles, atlas);
 }
 
+std::vector<std::byte> toBytes(const std::vector<double>& mask)
+{
+    std::vector<std::byte> bytes;
+    for (const double v : mask) {
+        bytes.push_back(static_cast<std::byte>(std::lround(255.0 * v)));
+    }
+    return bytes;
+}
+
 } // namespace
 
 Rendered renderParity(const FilterOptions& options, ParityLights lights)
@@ -108,6 +117,7 @@ ParityFigures expectParity(const Rendered& r, const FilterOptions& options, cons
         EXPECT_GT(dark, reference.size() / 100) << "the scene must have shadows for this to mean anything";
         EXPECT_LT(dark, reference.size() * 9 / 10);
         writePgm(name + "_light" + std::to_string(light), r.masks[light], kParityScreen);
+        writePgm(name + "_light" + std::to_string(light) + "_cpu", toBytes(reference), kParityScreen);
         if (figures.different >= worst.different) {
             figures.worst = std::max(figures.worst, worst.worst);
             worst = figures;

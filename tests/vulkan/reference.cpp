@@ -131,6 +131,19 @@ double reachOf(const vulkan::FilterOptions& options)
     return width > 0 ? (width + 1) / 2 : double(options.disc_radius_texels) + 1.0;
 }
 
+// How far away what the receiver is compared with typically is.
+double biasReachOf(const vulkan::FilterOptions& options)
+{
+    if (!isFilterable(options.filter)) {
+        return reachOf(options);
+    }
+    const MomentOptions& o = options.moments;
+    const double radius = blurRadius(o);
+    const double of_blur =
+        o.blur == BlurKind::gaussian ? std::min(double(o.blur_sigma_texels), radius) : radius / std::sqrt(3.0);
+    return std::max(of_blur + 0.5, options.filter == Filter::esm ? 3.0 : 0.0);
+}
+
 BiasRule ruleOf(const vulkan::FilterOptions& options)
 {
     const BiasOptions& bias = options.bias;
@@ -140,7 +153,7 @@ BiasRule ruleOf(const vulkan::FilterOptions& options)
     rule.slope = bias.slope;
     rule.normal_texels = bias.normal_texels;
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
-    rule.reach_texels = reachOf(options);
+    rule.reach_texels = biasReachOf(options);
     rule.quantum = quantumOf(options.format);
     return rule;
 }

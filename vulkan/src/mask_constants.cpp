@@ -58,6 +58,23 @@ shared::GpuLight gpuLight(const Light& light, const glm::dvec3& eye_ws)
     return gpu;
 }
 
+/// How far away what a filter compares a receiver with typically is, for the bias. Averages are compared with the
+/// receiver alone: on a plane they are the plane's depth there, however far the kernel reaches, so what its ends may be
+/// off does not matter; where a surface bends, an average is off as a texel at the kernel's root mean square distance
+/// is.
+float biasReachTexels(const FilterOptions& filter)
+{
+    if (!isFilterable(filter.filter)) {
+        return filterReachTexels(filter);
+    }
+    const MomentOptions& o = filter.moments;
+    const auto radius = static_cast<float>(blurRadius(o));
+    const float of_blur = o.blur == BlurKind::gaussian ? std::min(o.blur_sigma_texels, radius) : radius * 0.57735F;
+    constexpr float kOfBilinear = 0.5F;
+    constexpr float kOfRing = 3.0F; // esm also compares single reads that far off (shaders/lib/esm.glsl)
+    return std::max(of_blur + kOfBilinear, filter.filter == Filter::esm ? kOfRing : 0.0F);
+}
+
 void fillMoments(const FilterOptions& filter, shared::GpuMaskLayer& out)
 {
     const shared::MomentRule rule = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
@@ -70,7 +87,7 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer
 {
     const BiasOptions& bias = filter.bias;
     out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
-    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, filterReachTexels(filter), quantum, 0.0F};
+    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(filter), quantum, 0.0F};
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(filter), 1), filter.gaussian_sigma_texels);
     out.disc = {filter.disc_radius_texels, 0.0F, 0.0F, 0.0F};
     const auto taps = static_cast<int>(filter.disc_taps);
