@@ -31,12 +31,12 @@ double luminance(const std::uint8_t* rgb)
            0.0722 * decodeSrgb(rgb[2] / 255.0);
 }
 
-// Shadows keep enough of the colour that it can be told.
+// Shadows keep enough of the colour that it can be told, and what is half as bright to the eye is half as strong.
 constexpr double kDarkest = 0.25;
 
 Colour tinted(Colour tint, double light)
 {
-    const double strength = kDarkest + (1.0 - kDarkest) * light;
+    const double strength = kDarkest + (1.0 - kDarkest) * (encodeSrgb(light) / 255.0);
     const auto channel = [&](std::uint8_t c) {
         return encodeSrgb(decodeSrgb(c / 255.0) * strength);
     };
