@@ -130,6 +130,11 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
            std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });
 }
 
+bool isJsonFile(std::string_view word)
+{
+    return word == "-" || (word.ends_with(".json") && !word.starts_with("--"));
+}
+
 /// --json's FILE may be left out, which no parser can tell from a scene that follows: a value is "-" or ends in .json.
 std::vector<std::string> takeJson(std::span<const std::string> arguments, const Subcommand& subcommand,
                                   std::optional<std::string>& json)
@@ -147,7 +152,7 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
         }
         if (argument != "--json") {
             json = argument.substr(argument.find('=') + 1);
-        } else if (i + 1 < arguments.size() && (arguments[i + 1] == "-" || arguments[i + 1].ends_with(".json"))) {
+        } else if (i + 1 < arguments.size() && isJsonFile(arguments[i + 1])) {
             json = arguments[++i];
         } else if (i + 1 < arguments.size() && isStrayFile(arguments[i + 1], subcommand)) {
             throw UsageError(fmt::format("--json: \"{0}\" is no {1}, and a file for JSON must end in .json or be given "
