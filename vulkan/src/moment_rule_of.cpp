@@ -82,7 +82,10 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     rule.layers = static_cast<int>(o.layers);
     rule.exponent = exponent(filter.filter == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
     rule.exponent_negative = exponent(o.evsm_negative, true);
-    rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? 3e-5F : 3e-7F);
+    // The least that keeps slanted planes lit whose moments were rounded at the first write and by the blur, found by
+    // trying (tests/shaders/msm_test.cpp); the tighter bound takes twice as much of 16 bits.
+    const float bias16 = o.solver == MomentSolver::hausdorff ? 6e-5F : 3e-5F;
+    rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? bias16 : 3e-7F);
     rule.min_variance = o.min_variance.value_or(automaticVariance(filter, rule));
     rule.min_variance_texels = o.min_variance ? 0.0F : 0.5F;
     rule.linstep = o.bleeding_linstep;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chebyshev's bounds in exponential warps, against random distributions of depth.
+#include "cpu_map.h"
+
+#include <gtest/gtest.h>
+#include <lib/average.glsl>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+
+namespace gnomon::shared {
+namespace {
+
+struct Distribution {
+    std::vector<double> depths;
+    std::vector<double> weights;
+
+    [[nodiscard]] double lit(double receiver) const
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            sum += depths[i] >= receiver ? weights[i] : 0.0;
+        }
+        return sum;
+    }
+};
+
+Distribution randomDistribution(std::mt19937& rng, int points)
+{
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Distribution d;
+    double sum = 0.0;
+    for (int i = 0; i < points; ++i) {
+        d.depths.push_back(unit(rng));
+        d.weights.push_back(0.02 + unit(rng));
+        sum += d.weights.back();
+    }
+    for (double& w : d.weights) {
+        w /= sum;
+    }
+    return d;
+}
+
+MomentRule evsmRule(double positive, double negative, int flags)
+{
+    MomentRule rule{};
+    rule.flags = flags;
+    rule.sampling = kSamplingBilinear;
+    rule.exponent = positive;
+    rule.exponent_negative = negative;
+    rule.power = 1.0;
+    return rule;
+}
+
+glm::dvec4 encoded(double depth, double variance, const MomentRule& rule)
+{
+    return encodeEvsm({depth, variance, glm::dvec4(0.0), glm::dvec4(0.0)}, rule);
+}
+
+glm::dvec4 averaged(const Distribution& d, const MomentRule& rule)
+{
+    const glm::dvec4 k = averageExponents(kFilterEvsm, rule);
+    const bool logarithms = averagesLogarithms(kFilterEvsm, rule.flags);
+    MomentSum sum = startAverage(encoded(d.depths[0], 0.0, rule), d.weights[0], logarithms);
+    for (std::size_t i = 1; i < d.depths.size(); ++i) {
+        sum = addToAverage(sum, encoded(d.depths[i], 0.0, rule), d.weights[i], k, logarithms);
+    }
+    return finishAverage(sum, k, logarithms);
+}
+
+double visibility(const Distribution& d, double receiver, double least, const MomentRule& rule)
+{
+    return evsmVisibility(averaged(d, rule), momentCoordinate(receiver, rule.flags), least, rule);
+}
+
+TEST(Evsm, boundsAreAboveTheTruthAndBothTogetherTighter)
+{
+    std::mt19937 rng(11);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double two_sum = 0.0;
+    double four_sum = 0.0;
+    double vsm_sum = 0.0;
+    for (int round = 0; round < 10000; ++round) {
+        const Distribution d = randomDistribution(rng, 1 + round % 6);
+        const int flags = round % 2 == 0 ? 0 : kMomentRemap;
+        const double receiver = unit(rng);
+        const double two = visibility(d, receiver, 0.0, evsmRule(20.0, 5.0, flags));
+        const double four = visibility(d, receiver, 0.0, evsmRule(20.0, 5.0, flags | kMomentFourChannels));
+        double m1 = 0.0;
+        double m2 = 0.0;
+        for (std::size_t i = 0; i < d.depths.size(); ++i) {
+            m1 += d.weights[i] * d.depths[i];
+            m2 += d.weights[i] * d.depths[i] * d.depths[i];
+        }
+        EXPECT_GE(four, d.lit(receiver) - 1e-7);
+        EXPECT_LE(four, two);
+        EXPECT_LE(two, 1.0);
+        two_sum += two - d.lit(receiver);
+        four_sum += four - d.lit(receiver);
+        vsm_sum += chebyshevBound(m1, m2, receiver, 0.0) - d.lit(receiver);
+    }
+    std::printf("mean light too much: vsm %.4f, evsm of two %.4f, of four %.4f\n", vsm_sum / 1e4, two_sum / 1e4,
+                four_sum / 1e4);
+    EXPECT_LT(four_sum, 0.9 * vsm_sum);
+    EXPECT_LT(four_sum, 0.9 * two_sum);
+}
+
+TEST(Evsm, twoDepthsAreExactAtTheFartherOne)
+{
+    // Chebyshev's bound is met by two depths, the receiver being one of them.
+    for (const int flags :
+         {0, kMomentRemap, kMomentLogSpace, kMomentFourChannels, kMomentFourChannels | kMomentLogSpace}) {
+        for (double w = 0.1; w < 1.0; w += 0.2) {
+            const Distribution d{{0.3, 0.7}, {w, 1.0 - w}};
+            EXPECT_NEAR(visibility(d, 0.7, 0.0, evsmRule(20.0, 5.0, flags)), 1.0 - w, 1e-9);
+        }
+    }
+}
+
+TEST(Evsm, logarithmsGiveTheSameAndDoNotOverflow)
+{
+    std::mt19937 rng(12);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int round = 0; round < 5000; ++round) {
+        const int flags = kMomentFourChannels | (round % 2 == 0 ? 0 : kMomentRemap);
+        const Distribution d = randomDistribution(rng, 2 + round % 5);
+        const double receiver = unit(rng);
+        const double positive = 0.5 + 20.0 * unit(rng);
+        const double least = 1e-4;
+        const double linear = visibility(d, receiver, least, evsmRule(positive, 5.0, flags));
+        const double logs = visibility(d, receiver, least, evsmRule(positive, 5.0, flags | kMomentLogSpace));
+        EXPECT_NEAR(logs, linear, 1e-9 * std::max(linear, 1e-3));
+        for (const double huge : {500.0, 1e5, 3e38}) {
+            const double v = visibility(d, receiver, 1e-12, evsmRule(huge, huge, flags | kMomentLogSpace));
+            EXPECT_TRUE(v >= 0.0 && v <= 1.0) << huge;
+            // (1e30 times the rounding of a depth is anything.)
+            EXPECT_GE(v, huge < 1e6 ? d.lit(receiver) - 1e-6 : 0.0) << huge;
+        }
+    }
+    const Distribution d{{0.2, 0.9}, {0.5, 0.5}};
+    EXPECT_FALSE(std::isfinite(averaged(d, evsmRule(500.0, 5.0, 0)).y)) << "or there is nothing to show";
+    EXPECT_TRUE(std::isfinite(averaged(d, evsmRule(500.0, 5.0, kMomentLogSpace)).y));
+}
+
+TEST(Evsm, leastVarianceIsThatOfDepth)
+{
+    // Just behind one depth, where the warp is a line: v / (v + (d - z)^2), in each warp.
+    const double step = 1e-5;
+    const double least = 1e-8;
+    for (const int flags : {0, kMomentFourChannels, kMomentLogSpace, kMomentFourChannels | kMomentLogSpace}) {
+        for (double z = 0.05; z < 1.0; z += 0.1) {
+            const Distribution d{{z}, {1.0}};
+            const double v = visibility(d, z + step, least, evsmRule(40.0, 5.0, flags));
+            EXPECT_NEAR(v, least / (least + step * step), 2e-4);
+        }
+    }
+}
+
+TEST(Evsm, varianceOfATexelScalesWithTheSlopeOfTheWarp)
+{
+    const double variance = 1e-6;
+    for (const int remap : {0, int(kMomentRemap)}) {
+        for (double z = 0.05; z < 0.95; z += 0.1) {
+            const MomentRule rule = evsmRule(20.0, 5.0, kMomentFourChannels | remap);
+            const double scale = momentScale(remap);
+            const glm::dvec4 m = encoded(z, variance, rule);
+            EXPECT_NEAR(m.y / (m.x * m.x), 1.0 + 400.0 * variance * scale * scale, 1e-12);
+            EXPECT_NEAR(m.w / (m.z * m.z), 1.0 + 25.0 * variance * scale * scale, 1e-12);
+            const MomentRule logs = evsmRule(20.0, 5.0, rule.flags | kMomentLogSpace);
+            const glm::dvec4 v = encoded(z, variance, logs);
+            const glm::dvec4 k = averageExponents(kFilterEvsm, logs);
+            EXPECT_NEAR(std::exp(k.y * v.y), m.y, 1e-9 * m.y);
+            EXPECT_NEAR(std::exp(k.w * v.w), m.w, 1e-9 * m.w);
+        }
+    }
+    // At the far plane it would not fit the format: it is as much as fits.
+    const MomentRule rule = evsmRule(5.54, 5.54, kMomentFourChannels);
+    EXPECT_LE(encoded(1.0, 0.5, rule).y, 65504.0);
+    EXPECT_LE(encoded(0.0, 0.5, evsmRule(5.54, 5.54, kMomentFourChannels | kMomentRemap)).w, 65504.0);
+}
+
+TEST(Evsm, hostileValuesStayInRange)
+{
+    const double inf = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double values[] = {nan, inf, -inf, 1e300, -1e300, 0.0, -1.0, 1.0};
+    MapPoint point{};
+    point.texel = {8.0, 8.0};
+    for (const int flags : {0, int(kMomentFourChannels), kMomentFourChannels | kMomentLogSpace, int(kMomentZOverW)}) {
+        for (const double c : {0.5, 42.0, 3e38}) {
+            FilterInput f{};
+            f.tile = {0.0, 0.0, 16.0, 16.0};
+            f.moments = evsmRule(c, c, flags);
+            for (const double a : values) {
+                for (const double b : values) {
+                    test::map_moments = [&](glm::dvec2, double, double) {
+                        return glm::dvec4(a, b, b, a);
+                    };
+                    for (const double depth : values) {
+                        point.depth = depth;
+                        point.texel_depth = depth;
+                        const double v = filterEvsm(point, f);
+                        EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
+                    }
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::shared

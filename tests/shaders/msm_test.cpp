@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bounds of four moments against random distributions of depth, and what 16 bits leave of them.
+#include "cpu_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+
+namespace gnomon::shared {
+namespace {
+
+// What the renderer's options give by default (vulkan/src/moment_rule_of.cpp).
+constexpr double kBias16 = 3e-5;
+constexpr double kBias16Hausdorff = 6e-5;
+constexpr double kBias32 = 3e-7;
+
+MomentRule msmRule(int flags, double bias)
+{
+    MomentRule rule{};
+    rule.flags = flags | kMomentRemap;
+    rule.sampling = kSamplingBilinear;
+    rule.moment_bias = bias;
+    rule.power = 1.0;
+    return rule;
+}
+
+glm::dvec4 encoded(double t, int flags)
+{
+    return encodeMsm({0.5 * t + 0.5, 0.0, glm::dvec4(0.0), glm::dvec4(0.0)}, msmRule(flags, 0.0));
+}
+
+struct Distribution {
+    std::vector<double> depths; // -1 .. 1
+    std::vector<double> weights;
+
+    [[nodiscard]] double lit(double receiver) const
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            sum += depths[i] >= receiver ? weights[i] : 0.0;
+        }
+        return sum;
+    }
+    [[nodiscard]] glm::dvec4 mean(int flags) const
+    {
+        glm::dvec4 sum(0.0);
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            sum += encoded(depths[i], flags) * weights[i];
+        }
+        return sum;
+    }
+};
+
+Distribution randomDistribution(std::mt19937& rng, int points)
+{
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Distribution d;
+    double sum = 0.0;
+    for (int i = 0; i < points; ++i) {
+        d.depths.push_back(2.0 * unit(rng) - 1.0);
+        d.weights.push_back(0.02 + unit(rng));
+        sum += d.weights.back();
+    }
+    for (double& w : d.weights) {
+        w /= sum;
+    }
+    return d;
+}
+
+double quantised16(double x)
+{
+    return std::round(std::clamp(x, 0.0, 1.0) * 65535.0) / 65535.0;
+}
+
+TEST(Msm, boundsAreAboveTheTruthAndHausdorffIsTighter)
+{
+    std::mt19937 rng(21);
+    std::uniform_real_distribution<double> receiver(-1.0, 1.0);
+    double hamburger_sum = 0.0;
+    double hausdorff_sum = 0.0;
+    double vsm_sum = 0.0;
+    for (int round = 0; round < 10000; ++round) {
+        const Distribution d = randomDistribution(rng, 4);
+        const double t = receiver(rng);
+        const glm::dvec4 b = d.mean(0);
+        const double hamburger = msmVisibility(b, t, msmRule(0, 0.0));
+        const double hausdorff = msmVisibility(b, t, msmRule(kMomentHausdorff, 0.0));
+        EXPECT_GE(hausdorff, d.lit(t) - 1e-7);
+        EXPECT_LE(hausdorff, hamburger + 1e-5); // receivers within 5e-6 of an end are moved in
+        EXPECT_LE(hamburger, chebyshevBound(b.x, b.y, t, 0.0) + 1e-9) << "two more moments make it no worse";
+        hamburger_sum += hamburger - d.lit(t);
+        hausdorff_sum += hausdorff - d.lit(t);
+        vsm_sum += chebyshevBound(b.x, b.y, t, 0.0) - d.lit(t);
+    }
+    std::printf("mean light too much: vsm %.4f, hamburger %.4f, hausdorff %.4f\n", vsm_sum / 1e4, hamburger_sum / 1e4,
+                hausdorff_sum / 1e4);
+    EXPECT_LT(hausdorff_sum, 0.96 * hamburger_sum);
+    EXPECT_LT(hamburger_sum, 0.7 * vsm_sum);
+}
+
+TEST(Msm, hausdorffIsMetByADistributionWithTheSameMoments)
+{
+    // -1, 1, the receiver and one more point: no bound can be below what such a distribution has at the receiver.
+    std::mt19937 rng(22);
+    std::uniform_real_distribution<double> place(-0.9, 0.9);
+    for (int round = 0; round < 2000; ++round) {
+        Distribution d = randomDistribution(rng, 4);
+        d.depths = {-1.0, 1.0, place(rng), place(rng)};
+        if (std::abs(d.depths[2] - d.depths[3]) < 0.05) {
+            continue;
+        }
+        const double t = d.depths[2];
+        EXPECT_NEAR(msmVisibility(d.mean(0), t, msmRule(kMomentHausdorff, 0.0)), d.lit(t), 1e-5);
+    }
+}
+
+// Without bias; least pivots leave 1.4e-5 of light.
+TEST(Msm, oneAndTwoDepthsAreExact)
+{
+    std::mt19937 rng(23);
+    std::uniform_real_distribution<double> receiver(-1.0, 1.0);
+    for (int round = 0; round < 20000; ++round) {
+        const Distribution d = randomDistribution(rng, 1 + round % 2);
+        const double t = receiver(rng);
+        double margin = 2.0;
+        for (const double z : d.depths) {
+            margin = std::min(margin, std::abs(z - t));
+        }
+        if (margin < 0.02 || (round % 2 == 1 && std::abs(d.depths[0] - d.depths[1]) < 0.02)) {
+            continue;
+        }
+        for (const int flags : {0, int(kMomentHausdorff)}) {
+            EXPECT_NEAR(msmVisibility(d.mean(0), t, msmRule(flags, 0.0)), d.lit(t), round % 2 == 0 ? 5e-4 : 5e-5);
+        }
+    }
+}
+
+TEST(Msm, neverLighterFartherFromTheLight)
+{
+    std::mt19937 rng(24);
+    for (int round = 0; round < 500; ++round) {
+        const Distribution d = randomDistribution(rng, 2 + round % 5);
+        for (const int flags : {0, int(kMomentHausdorff)}) {
+            double last = 1.0;
+            for (double t = -1.0; t <= 1.0; t += 0.01) {
+                const double v = msmVisibility(d.mean(0), t, msmRule(flags, 1e-6));
+                EXPECT_LE(v, last + 1e-6) << t;
+                last = v;
+            }
+        }
+    }
+}
+
+TEST(Msm, basisForSixteenBitsFitsAndRoundTrips)
+{
+    for (double t = -1.0; t <= 1.0; t += 0.001) {
+        const glm::dvec4 q = encoded(t, kMomentQuantised);
+        for (int c = 0; c < 4; ++c) {
+            EXPECT_GE(q[c], -1e-12);
+            EXPECT_LE(q[c], 1.0 + 1e-12);
+        }
+        const glm::dvec4 b = momentsOfQuantised(q);
+        EXPECT_NEAR(glm::length(b - encoded(t, 0)), 0.0, 1e-14);
+    }
+    // An error of half a step in each channel, each way: rows of the inverse, sums of magnitudes.
+    const double step = 0.5 / 65535.0;
+    const glm::dvec4 limit = step * glm::dvec4(1.0 / 3.0 + std::sqrt(3.0), 1.125, 0.75 + 0.75 * std::sqrt(3.0), 1.125);
+    std::mt19937 rng(25);
+    glm::dvec4 largest(0.0);
+    for (int round = 0; round < 20000; ++round) {
+        const Distribution d = randomDistribution(rng, 4);
+        glm::dvec4 q = d.mean(kMomentQuantised);
+        for (int c = 0; c < 4; ++c) {
+            q[c] = quantised16(q[c]);
+        }
+        const glm::dvec4 error = glm::abs(momentsOfQuantised(q) - d.mean(0));
+        largest = glm::max(largest, error);
+        for (int c = 0; c < 4; ++c) {
+            EXPECT_LE(error[c], limit[c] * (1.0 + 1e-9));
+        }
+    }
+    for (int c = 0; c < 4; ++c) {
+        EXPECT_GT(largest[c], 0.9 * limit[c]) << "the limit is no larger than it must be";
+    }
+}
+
+// A slanted receiver under a Gaussian of 9 x 9 texels, rounded after the first write and each pass of the blur,
+// compared at its own depth less the least bias there is: how dark does it get?
+double darkestLitPlane(int flags, double bias, bool sixteen_bits, std::mt19937& rng)
+{
+    std::uniform_real_distribution<double> depth(-0.97, 0.97);
+    std::uniform_real_distribution<double> slope(0.0, 0.002);
+    const auto stored = [&](glm::dvec4 m) {
+        for (int c = 0; c < 4; ++c) {
+            m[c] = sixteen_bits ? quantised16(m[c]) : static_cast<double>(static_cast<float>(m[c]));
+        }
+        return m;
+    };
+    double darkest = 1.0;
+    for (int round = 0; round < 3000; ++round) {
+        const double t = depth(rng);
+        const glm::dvec2 s(slope(rng), slope(rng));
+        glm::dvec4 sum(0.0);
+        double weights = 0.0;
+        for (int i = -4; i <= 4; ++i) {
+            weights += std::exp(-0.32 * i * i);
+        }
+        for (int j = -4; j <= 4; ++j) {
+            glm::dvec4 row(0.0);
+            for (int i = -4; i <= 4; ++i) {
+                row += stored(encoded(t + s.x * i + s.y * j, flags)) * (std::exp(-0.32 * i * i) / weights);
+            }
+            sum += stored(row) * (std::exp(-0.32 * j * j) / weights);
+        }
+        const double least_bias = 2.0 * (sixteen_bits ? 1.5 / 65535.0 + 4e-6 : 4e-6) + 0.3 * (s.x + s.y);
+        darkest = std::min(darkest, msmVisibility(stored(sum), t - least_bias, msmRule(flags, bias)));
+    }
+    return darkest;
+}
+
+TEST(Msm, defaultBiasKeepsAQuantisedPlaneLitAndASmallerOneDoesNot)
+{
+    for (const int solver : {0, int(kMomentHausdorff)}) {
+        for (const bool sixteen_bits : {true, false}) {
+            const int flags = solver | (sixteen_bits ? kMomentQuantised : 0);
+            for (const double bias : {0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5, 6e-5, 1e-4}) {
+                std::mt19937 rng(26);
+                std::printf("%s %s bits, bias %.0e: darkest lit plane %.4f\n", solver == 0 ? "hamburger" : "hausdorff",
+                            sixteen_bits ? "16" : "32", bias, darkestLitPlane(flags, bias, sixteen_bits, rng));
+            }
+            std::mt19937 rng(26);
+            const double bias = !sixteen_bits ? kBias32 : solver == 0 ? kBias16 : kBias16Hausdorff;
+            EXPECT_GT(darkestLitPlane(flags, bias, sixteen_bits, rng), 0.97);
+            EXPECT_LT(darkestLitPlane(flags, 0.03 * bias, sixteen_bits, rng), 0.97);
+        }
+    }
+}
+
+TEST(Msm, hostileValuesStayInRange)
+{
+    const double inf = std::numeric_limits<double>::infinity();
+    const double values[] = {std::numeric_limits<double>::quiet_NaN(), inf, -inf, 1e300, -1e300, 0.0, -1.0, 1.0, 0.5};
+    MapPoint point{};
+    point.texel = {8.0, 8.0};
+    for (const int solver : {0, int(kMomentHausdorff)}) {
+        for (const int basis : {0, int(kMomentQuantised)}) {
+            FilterInput f{};
+            f.tile = {0.0, 0.0, 16.0, 16.0};
+            f.near_over_far = 0.1;
+            for (const double bias : {0.0, 3e-5, 0.1}) {
+                f.moments = msmRule(solver | basis, bias);
+                for (const double a : values) {
+                    for (const double b : values) {
+                        for (const double c : values) {
+                            test::map_moments = [&](glm::dvec2, double, double) {
+                                return glm::dvec4(a, b, c, a);
+                            };
+                            for (const double depth : values) {
+                                point.depth = depth;
+                                const double v = filterMsm(point, f);
+                                EXPECT_TRUE(v >= 0.0 && v <= 1.0) << v;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Msm, anEmptyMapLightsEverything)
+{
+    for (const int flags : {0, int(kMomentHausdorff), int(kMomentQuantised), kMomentQuantised | kMomentHausdorff}) {
+        const glm::dvec4 far = encoded(1.0, flags);
+        for (double t = -1.0; t <= 1.0; t += 0.01) {
+            EXPECT_GT(msmVisibility(far, t, msmRule(flags, kBias16)), 0.999) << t;
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::shared
