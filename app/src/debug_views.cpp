@@ -79,7 +79,7 @@ Image8 layersPicture(const Drawn& drawn)
     lab::TintLegend legend;
     legend.title = fmt::format("Layers of depth, placed {}",
                                options.placement == LayerPlacement::by_hand ? "by hand" : nameOf(options.placement));
-    legend.subtitle = "by the layer that a receiver reads; grey: no map here";
+    legend.subtitle = "the layer a receiver reads; grey: no map here";
     for (std::uint32_t i = 0; i < options.layers; ++i) {
         const View& view = drawn.plan.views[light.first_view];
         const std::vector<vulkan::DepthLayer>& first = layers.front();
