@@ -68,7 +68,7 @@ void main()
 {
     ivec2 block = ivec2(gl_WorkGroupID.xy);
     uint work = blocks[block.y * place.size.z + block.x];
-    ivec2 axis = kAxis == 0 ? ivec2(1, 0) : ivec2(0, 1);
+    ivec2 axis = ivec2(1 - kAxis, kAxis); // choosing one of two vectors by a constant is wrong in Mesa 22.3
     ivec2 across = ivec2(1) - axis;
     ivec2 first = block * kBlockTexels + across * int(gl_LocalInvocationID.x) +
                   axis * kOutputs * int(gl_LocalInvocationID.y);
