@@ -10,6 +10,8 @@
 
 namespace gnomon::host {
 
+struct BlurChoices;
+
 struct GpuOptions {
     /// Part of a device's name, "software" for a CPU rasteriser, or empty: the first real GPU, else software.
     std::string gpu;
@@ -34,6 +36,8 @@ public:
     [[nodiscard]] std::vector<std::string> messages() const;
     /// On-disk pipeline cache, loaded from and stored to the user's cache folder; VK_NULL_HANDLE never.
     [[nodiscard]] VkPipelineCache pipelineCache() const;
+    /// What was found out about blurring on this device (host/src/blur_choice.h).
+    [[nodiscard]] BlurChoices& blurChoices();
 
 private:
     struct Impl;

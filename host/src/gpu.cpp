@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu.h"
 
+#include "blur_choice.h"
 #include "check.h"
 #include "pipeline_cache.h"
 
@@ -145,6 +146,7 @@ struct Gpu::Impl {
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     VkPipelineCache cache = VK_NULL_HANDLE;
     std::filesystem::path cache_file;
+    BlurChoices blur_choices;
     mutable std::mutex mutex; // validation may speak from any thread
     std::vector<std::string> messages;
 
@@ -302,6 +304,11 @@ bool Gpu::software() const
 VkPipelineCache Gpu::pipelineCache() const
 {
     return impl_->cache;
+}
+
+BlurChoices& Gpu::blurChoices()
+{
+    return impl_->blur_choices;
 }
 
 std::vector<std::string> Gpu::messages() const

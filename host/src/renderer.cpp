@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "blur_choice.h"
 #include "renderer_impl.h"
 
 #include <gnomon/error.h>
@@ -90,6 +91,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     if (options.shadows) {
         vulkan::ShadowRendererOptions wish;
         wish.filter = options.filter;
+        wish.filter.moments.blur_path = chooseBlurPath(gpu, wish.filter);
         wish.frames_in_flight = 1; // draw() waits, so that its times are whole
         wish.pipeline_cache = gpu.pipelineCache();
         shadows.emplace(gpu.view(), wish);

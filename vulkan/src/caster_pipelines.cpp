@@ -117,6 +117,8 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
     state.colour_format = formats.colour;
     state.depth_format = formats.depth;
     state.samples = formats.samples;
+    // The shader's inputs say so already (caster_fragment.glsl); Mesa 22.3 wants to hear it here.
+    state.shade_samples = formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT;
     state.cull = key.cull ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     state.depth_clamp = key.clamp;
     state.cache = options_.pipeline_cache;

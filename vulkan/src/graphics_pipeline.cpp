@@ -24,6 +24,8 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     raster.lineWidth = 1.0F;
     VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     multisample.rasterizationSamples = state.samples;
+    multisample.sampleShadingEnable = state.shade_samples ? VK_TRUE : VK_FALSE;
+    multisample.minSampleShading = state.shade_samples ? 1.0F : 0.0F;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = depth.depthTestEnable;

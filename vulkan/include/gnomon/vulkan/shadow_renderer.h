@@ -73,7 +73,10 @@ struct MapPassFormats {
     VkFormat colour = VK_FORMAT_UNDEFINED; // UNDEFINED: depth only
     VkFormat depth = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool write_frag_depth = false; // perspective view into a depth-only map: gl_FragDepth = metric (caster.glsl)
+    /// Perspective view into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample, each
+    /// has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
+    /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
+    bool write_frag_depth = false;
 };
 
 struct ImageRef {
@@ -92,16 +95,19 @@ struct MemoryUse {
 
 /// What making maps filterable took: counted by the GPU while it worked. Zeros for filters that have no such passes.
 struct FilterCost {
-    std::uint64_t texels = 0;        // blurred, over both passes
-    std::uint64_t taps = 0;          // texels read for that
-    std::uint64_t bytes_moved = 0;   // read from and written to images by the blur
+    std::uint64_t texels = 0; // blurred, over both passes
+    /// Reads of images for that, radius r. By compute, a run of eight texels shares them: texels (8 + 2 r) / 8. By
+    /// fragment shaders, the middle, and two texels at a time: texels (1 + 2 ceil(r / 2)). In log space by either:
+    /// texels (2 r + 1). And one for each texel that is copied for the second pass to read.
+    std::uint64_t taps = 0;
+    std::uint64_t bytes_moved = 0;   // read from and written to images by the blur; a filtered read is of its texels
     std::uint64_t bytes_minimum = 0; // each texel that needs it read once and written once in each pass
     BlurPath path = BlurPath::compute;
 };
 
 /// One layer of depth of an lvsm map, in the view's depth metric.
 struct DepthLayer {
-    float near = 0.0F;   // what it spans, overlaps included: d'' = (d' - near) / (far - near)
+    float near = 0.0F; // what it spans, overlaps included: d'' = (d' - near) / (far - near)
     float far = 1.0F;
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };

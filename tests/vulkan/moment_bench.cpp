@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#define GNOMON_REAL double
+#include "moment_bench.h"
+
+#include "moment_numbers.h"
+
+#include <lib/average.glsl>
+#include <lib/encoders.glsl>
+
+#include <gtest/gtest.h>
+
+namespace gnomon::test {
+namespace {
+
+shared::MomentRule ruleOf(const vulkan::FilterOptions& filter)
+{
+    const MomentNumbers n = momentNumbers(filter);
+    shared::MomentRule rule{};
+    rule.flags = n.flags;
+    rule.layers = n.layers;
+    rule.exponent = n.exponent;
+    rule.exponent_negative = n.exponent_negative;
+    rule.moment_bias = n.moment_bias;
+    return rule;
+}
+
+glm::dvec4 layerOf(const std::vector<vulkan::DepthLayer>& layers, std::size_t i)
+{
+    return i < layers.size() ? glm::dvec4(layers[i].near, layers[i].far, layers[i].begins, 0.0)
+                             : glm::dvec4(0.0, 1.0, 2.0, 0.0);
+}
+
+} // namespace
+
+Plan momentPlan(const Scene& scene)
+{
+    const std::vector<Light> lights{makeSun({0.8, -0.9, -0.35}), makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6)};
+    const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {0, 288, 64, 160, 96}};
+    return makePlan(scene, lights, tiles, {512, 256, 1});
+}
+
+DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOptions& filter)
+{
+    vulkan::ShadowRendererOptions options;
+    options.filter = filter;
+    options.frames_in_flight = 1;
+    vulkan::ShadowRenderer renderer(gpu().view(), options);
+    vulkan::CasterDrawerOptions drawer_options;
+    drawer_options.orthographic = renderer.mapFormats(true);
+    drawer_options.perspective = renderer.mapFormats(false);
+    drawer_options.frames_in_flight = 1;
+    vulkan::CasterDrawer drawer(gpu().view(), drawer_options);
+    const SceneMesh mesh = uploadMesh(gpu(), scene);
+    drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+    const auto transforms = scene.transforms();
+    EXPECT_TRUE(renderer.prepare(plan, {8, 8}));
+    const Frame frame;
+    gpu().run([&](VkCommandBuffer commands) {
+        drawer.beginFrame(0, plan, mesh.geometry, transforms);
+        renderer.recordMaps(commands, 0, frame, plan, [&](const vulkan::MapPass& pass) { drawer.draw(pass); });
+    });
+    DrawnMaps drawn;
+    const vulkan::ImageRef maps = renderer.maps();
+    for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
+        drawn.layers.push_back(readCpuMap(gpu(), maps, layer, levelsOf(filter, plan.atlas)));
+    }
+    drawn.cost = renderer.filterCost(0);
+    for (std::uint32_t view = 0; view < plan.views.size(); ++view) {
+        drawn.depth_layers.push_back(renderer.depthLayers(view));
+    }
+    expectSilence(gpu());
+    return drawn;
+}
+
+CpuMap drawDepths(const Scene& scene, const Plan& plan)
+{
+    vulkan::FilterOptions filter;
+    filter.filter = Filter::hard;
+    filter.format = MapFormat::d32f;
+    return drawMaps(scene, plan, filter).layers[0];
+}
+
+vulkan::FilterOptions momentFilter(Filter filter, MapFormat format)
+{
+    vulkan::FilterOptions options;
+    options.filter = filter;
+    options.format = format;
+    options.moments.samples = 1;
+    options.moments.blur = BlurKind::none;
+    options.moments.sampling = MapSampling::bilinear;
+    options.moments.layers = 2;
+    options.moments.placement = LayerPlacement::uniform;
+    return options;
+}
+
+glm::dvec4 encodeSamples(const vulkan::FilterOptions& filter, const View& view,
+                         const std::vector<vulkan::DepthLayer>& layers, std::uint32_t image_layer,
+                         std::span<const double> depths)
+{
+    const shared::MomentRule rule = ruleOf(filter);
+    const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+    shared::EncodeInput input{};
+    input.first = layerOf(layers, std::size_t{2} * image_layer);
+    input.second = layerOf(layers, std::size_t{2} * image_layer + 1);
+    std::vector<std::pair<glm::dvec4, double>> encoded;
+    for (const double depth : depths) {
+        input.depth = shared::momentDepth(depth, rule.flags, near_over_far);
+        encoded.emplace_back(shared::encodeDepth(static_cast<int>(filter.filter), input, rule),
+                             1.0 / static_cast<double>(depths.size()));
+    }
+    return averageStored(filter, encoded);
+}
+
+// By the definition, not by the shaders' running sums.
+glm::dvec4 averageStored(const vulkan::FilterOptions& filter, std::span<const std::pair<glm::dvec4, double>> weighted)
+{
+    const shared::MomentRule rule = ruleOf(filter);
+    const int number = static_cast<int>(filter.filter);
+    const glm::dvec4 k = shared::averageExponents(number, rule);
+    glm::dvec4 average(0.0);
+    for (int c = 0; c < 4; ++c) {
+        if (!shared::averagesLogarithms(number, rule.flags)) {
+            for (const auto& [value, weight] : weighted) {
+                average[c] += weight * value[c];
+            }
+            continue;
+        }
+        double largest = -1e300;
+        for (const auto& [value, weight] : weighted) {
+            largest = std::max(largest, k[c] * value[c]);
+        }
+        double sum = 0.0;
+        for (const auto& [value, weight] : weighted) {
+            sum += weight * std::exp(k[c] * value[c] - largest);
+        }
+        average[c] = (largest + std::log(sum)) / k[c];
+    }
+    return average;
+}
+
+double storageError(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::rg16:
+    case MapFormat::rgba16:
+        return 1.01 / 65535.0;
+    case MapFormat::r16f:
+    case MapFormat::rg16f:
+    case MapFormat::rgba16f:
+        return 1.0 / 1024.0; // of the value
+    default:
+        return 2e-6;
+    }
+}
+
+int channelsOf(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::rg16:
+    case MapFormat::rg16f:
+    case MapFormat::rg32f:
+        return 2;
+    case MapFormat::rgba16:
+    case MapFormat::rgba16f:
+    case MapFormat::rgba32f:
+        return 4;
+    default:
+        return 1;
+    }
+}
+
+} // namespace gnomon::test
