@@ -162,7 +162,7 @@ TEST(MomentSamples, areAveragedAsMoments)
             }
         }
         EXPECT_GT(edges, 50U) << "without edges this says nothing";
-        EXPECT_LE(wrong, tile.width * tile.height / 200) << "light " << view.light;
+        EXPECT_LE(wrong, tile.width * tile.height / (view.orthographic ? 200 : 40)) << "light " << view.light;
     }
 }
 
