@@ -14,7 +14,7 @@ struct GraphicsState {
     VkFormat colour_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no colour attachment
     VkFormat depth_format = VK_FORMAT_UNDEFINED;  // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool shade_samples = false; // the fragment shader runs for each
+    bool shade_samples = false;               // the fragment shader runs for each
     VkCullModeFlags cull = VK_CULL_MODE_NONE; // counter-clockwise is front
     bool depth_clamp = false;
     VkPipelineCache cache = VK_NULL_HANDLE;

@@ -10,8 +10,8 @@
 
 namespace gnomon::vulkan {
 
-/// The coarsest mip level whose texels lie in one tile, each over whole texels of the next finer level. `levels`: of the
-/// map's image, at least 1.
+/// The coarsest mip level whose texels lie in one tile, each over whole texels of the next finer level. `levels`: of
+/// the map's image, at least 1.
 [[nodiscard]] inline std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels)
 {
     const std::uint32_t edges = tile.x | tile.y | tile.width | tile.height;
