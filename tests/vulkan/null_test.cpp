@@ -176,6 +176,38 @@ TEST(NullRecording, steadyStateAllocatesNothing)
     }
 }
 
+TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
+{
+    for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
+        NullDriver driver;
+        const NullHost host(driver);
+        ShadowRendererOptions options = NullHost::options(MapFormat::rg16f);
+        options.filter.filter = Filter::vsm;
+        options.filter.moments.blur_path = path;
+        ShadowRenderer renderer(driver.view(), options);
+        Plan plan = host.plan;
+        const vulkan::DrawCasters nothing = [](const MapPass&) {
+        };
+        (void)renderer.prepare(plan, kScreen);
+        renderer.recordMaps(driver.commands(), 0, host.frame, plan, nothing);
+        const auto counts = driver.counts();
+        const auto heap = heapAllocations();
+        EXPECT_GT(counts.dispatches, 2U);
+        EXPECT_EQ(counts.draws, path == BlurPath::fragment ? 4U : 0U) << "two directions of two views";
+        renderer.recordMaps(driver.commands(), 1, host.frame, plan, nothing);
+        EXPECT_EQ(driver.counts().dispatches, 2 * counts.dispatches);
+        EXPECT_EQ(driver.counts().created, counts.created);
+        EXPECT_EQ(driver.counts().descriptor_updates, counts.descriptor_updates);
+        for (View& view : plan.views) {
+            view.redraw = false;
+        }
+        driver.clearEvents();
+        renderer.recordMaps(driver.commands(), 0, host.frame, plan, nothing);
+        EXPECT_TRUE(driver.events().empty()) << "not even a barrier";
+        EXPECT_EQ(heapAllocations(), heap);
+    }
+}
+
 TEST(NullRecording, everythingIsDestroyed)
 {
     NullDriver driver;
