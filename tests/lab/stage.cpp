@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -21,11 +22,10 @@ host::Eye eyeOf(const scene::Scene& scene, const std::string& name)
     throw std::invalid_argument("no view " + name);
 }
 
-truth::Traced traceHard(const Subject& subject, glm::uvec2 size_px)
+truth::Traced traceOf(const Subject& subject, glm::uvec2 size_px, const truth::Options& options)
 {
     const truth::Tracer tracer(*subject.scene, *subject.state);
     const truth::View view = truthView(subject, size_px);
-    const truth::Options options{.kind = truth::Kind::hard};
     truth::Traced traced;
     traced.surfaces = tracer.see(view, options).value();
     traced.visibility = tracer.trace(traced.surfaces, view, truthLight(subject), options).value();
@@ -61,9 +61,24 @@ void Stage::turnLight(const glm::dvec3& direction_ws)
 const truth::Traced& Stage::hardTruth()
 {
     if (!hard_truth_) {
-        hard_truth_ = traceHard(subject_, size_px_);
+        hard_truth_ = traceOf(subject_, size_px_, {.kind = truth::Kind::hard});
     }
     return *hard_truth_;
+}
+
+truth::Traced Stage::areaTruth(std::uint32_t samples)
+{
+    return traceOf(subject_, size_px_, {.kind = truth::Kind::area, .samples = samples});
+}
+
+View Stage::mapView(const host::RenderOptions& options)
+{
+    host::RenderOptions sized = options;
+    sized.width = size_px_.x;
+    sized.height = size_px_.y;
+    host::Renderer renderer(gpu_, scene_, state_, sized);
+    renderer.draw(state_, subject_.eye, subject_.lights);
+    return renderer.plan().views[renderer.plan().lights[subject_.light].first_view];
 }
 
 host::Picture Stage::geometry()
@@ -82,12 +97,28 @@ Score Stage::score(const host::RenderOptions& options, bool with_perception)
     return scoreTechnique(gpu_, subject_, hardTruth(), options, with_perception);
 }
 
+Score Stage::score(const host::RenderOptions& options, const truth::Traced& truth)
+{
+    return scoreTechnique(gpu_, subject_, truth, options, false);
+}
+
 host::RenderOptions hardOptions(std::uint32_t map_size)
 {
     host::RenderOptions options;
     options.plan.technique.filter = Filter::hard;
     options.plan.map_size = map_size;
     options.filter.filter = Filter::hard;
+    return options;
+}
+
+host::RenderOptions filterOptions(Filter filter, MapFormat format, std::uint32_t map_size)
+{
+    host::RenderOptions options;
+    options.plan.technique.filter = filter;
+    options.plan.map_size = map_size;
+    options.filter.filter = filter;
+    options.filter.format = format;
+    options.plan.border_texels = std::ceil(static_cast<double>(vulkan::filterReachTexels(options.filter)));
     return options;
 }
 

@@ -32,9 +32,15 @@ public:
     void turnLight(const glm::dvec3& direction_ws);
     /// Traced when first asked for.
     [[nodiscard]] const truth::Traced& hardTruth();
+    /// Traced anew each time.
+    [[nodiscard]] truth::Traced areaTruth(std::uint32_t samples);
+    /// The first view of the judged light in a map of these options.
+    [[nodiscard]] View mapView(const host::RenderOptions& options);
     /// Geometry alone, without shadows.
     [[nodiscard]] host::Picture geometry();
     [[nodiscard]] Score score(const host::RenderOptions& options, bool with_perception = false);
+    /// Against `truth`, of this stage.
+    [[nodiscard]] Score score(const host::RenderOptions& options, const truth::Traced& truth);
 
 private:
     scene::Scene scene_;
@@ -47,5 +53,7 @@ private:
 
 /// The filter `hard`, with automatic bias.
 [[nodiscard]] host::RenderOptions hardOptions(std::uint32_t map_size);
+/// Any filter with its usual settings, and room around the map for what it reads.
+[[nodiscard]] host::RenderOptions filterOptions(Filter filter, MapFormat format, std::uint32_t map_size);
 
 } // namespace gnomon::lab::test

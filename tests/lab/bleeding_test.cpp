@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light bleeding: where two casters lie over each other, the averages that a map stores cannot tell the two apart from
+// one that lets part of the light through. What layers of depth, warps and four moments save of it.
+#include "stage.h"
+
+#include "scene/worlds.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gnomon::lab::test {
+namespace {
+
+using World = scene::CanopiesWorld;
+
+constexpr std::uint32_t kVsmSide = 1024;
+// As many bytes to a texel: two floats, or four of 16 bits.
+host::RenderOptions vsm()
+{
+    return filterOptions(Filter::vsm, MapFormat::rg32f, kVsmSide);
+}
+host::RenderOptions lvsm(const std::vector<float>& splits)
+{
+    host::RenderOptions options = filterOptions(Filter::lvsm, MapFormat::rgba16, kVsmSide);
+    options.filter.moments.layers = static_cast<std::uint32_t>(splits.size()) + 1;
+    options.filter.moments.placement = LayerPlacement::by_hand;
+    std::copy(splits.begin(), splits.end(), options.filter.moments.splits.begin());
+    return options;
+}
+
+double bleedingOf(const Score& score)
+{
+    return score.classification.value().errors.bleeding;
+}
+
+/// World::depthOf() in the metric of the sun's map.
+float splitAt(const View& view, float depth)
+{
+    const glm::dvec3 along = glm::normalize(glm::dvec3(World::sun_direction));
+    return static_cast<float>(glm::dot(view.metric.metric_ws, glm::dvec4(along * static_cast<double>(depth), 1.0)));
+}
+
+constexpr float kAboveAwning = -4.5F; // below the sail
+constexpr float kBelowAwning = -1.7F; // above the ground; see PlanesAcrossTheSunPartItsRoofs
+
+/// Without what widens a border beyond the class of edges.
+host::RenderOptions unblurred(host::RenderOptions options)
+{
+    options.filter.moments.blur = BlurKind::none;
+    options.filter.moments.sampling = MapSampling::bilinear;
+    return options;
+}
+
+TEST(Bleeding, IsNothingWhereEachCasterHasALayerOfItsOwn)
+{
+    Stage stage(scene::makeCanopies(1), "side", {320, 213});
+    const View view = stage.mapView(vsm());
+    const truth::Traced area = stage.areaTruth(16);
+    for (const truth::Traced* truth : {&stage.hardTruth(), &area}) {
+        const double of_vsm = bleedingOf(stage.score(unblurred(vsm()), *truth));
+        const double of_lvsm = bleedingOf(
+            stage.score(unblurred(lvsm({splitAt(view, kAboveAwning), splitAt(view, kBelowAwning)})), *truth));
+        std::printf("canopies, bleeding: vsm %.3e, three layers %.3e\n", of_vsm, of_lvsm);
+        EXPECT_GT(of_vsm, 1e-4);
+        EXPECT_EQ(of_lvsm, 0.0);
+    }
+}
+
+struct Rival {
+    const char* name;
+    Filter filter;
+    MapFormat format;
+    std::uint32_t map_size; // of the bytes of vsm's map
+};
+constexpr std::array kRivals{Rival{"evsm, two warps", Filter::evsm, MapFormat::rgba32f, 724},
+                             Rival{"evsm, one warp", Filter::evsm, MapFormat::rg32f, kVsmSide},
+                             Rival{"msm", Filter::msm, MapFormat::rgba16, kVsmSide}};
+
+struct Shares { // of vsm's bleeding, the most that is allowed
+    double lvsm = 0.2;
+    std::array<double, kRivals.size()> rivals{1.0, 1.0, 1.0};
+};
+
+/// At equal bytes, size and blur.
+void expectShares(Stage& stage, const truth::Traced& truth, const std::string& name, float split, const Shares& most)
+{
+    const double of_vsm = bleedingOf(stage.score(vsm(), truth));
+    const double of_lvsm = bleedingOf(stage.score(lvsm({split}), truth));
+    std::printf("%s, bleeding: vsm %.3e, two layers %.3e (%.0f %%)\n", name.c_str(), of_vsm, of_lvsm,
+                100.0 * of_lvsm / of_vsm);
+    EXPECT_GT(of_vsm, 1e-5) << name;
+    EXPECT_LE(of_lvsm, most.lvsm * of_vsm) << name;
+    for (std::size_t i = 0; i < kRivals.size(); ++i) {
+        const Rival& rival = kRivals[i];
+        const double own = bleedingOf(stage.score(filterOptions(rival.filter, rival.format, rival.map_size), truth));
+        std::printf("  %s %.3e (%.0f %%)\n", rival.name, own, 100.0 * own / of_vsm);
+        EXPECT_LE(own, most.rivals[i] * of_vsm) << name << ", " << rival.name;
+    }
+}
+
+TEST(Bleeding, IsLessOnCanopies)
+{
+    Stage stage(scene::makeCanopies(1), "side", {320, 213});
+    const float split = splitAt(stage.mapView(vsm()), kBelowAwning);
+    const Shares most;
+    expectShares(stage, stage.hardTruth(), "canopies, hard", split, most);
+    expectShares(stage, stage.areaTruth(16), "canopies, area", split, most);
+}
+
+TEST(Bleeding, IsLessOnTheStrategyWorld)
+{
+    Stage stage(scene::makeRts(1), "camp", {320, 180});
+    // Depths of casters and receivers lie close to each other here, so that two layers save less; and one warp alone
+    // takes what lies just behind its caster for lit.
+    const Shares most{.lvsm = 1.0, .rivals = {1.0, std::numeric_limits<double>::infinity(), 1.0}};
+    expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most);
+    expectShares(stage, stage.areaTruth(16), "rts, camp, area", 0.6F, most);
+}
+
+} // namespace
+} // namespace gnomon::lab::test
