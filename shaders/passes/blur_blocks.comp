@@ -27,17 +27,22 @@ void main()
     }
     bool in_row = rowHasCaster(block);
     bool in_reach = in_row || rowHasCaster(block + ivec2(0, -1)) || rowHasCaster(block + ivec2(0, 1));
-    if (!in_reach) {
+    // A blur along y reads the next block's rows, whatever the reason why it is done.
+    bool is_read = in_reach || rowHasCaster(block + ivec2(0, -2)) || rowHasCaster(block + ivec2(0, 2));
+    if (!is_read) {
         return;
     }
     ivec2 texels = min(place.size.xy - block * kBlockTexels, ivec2(kBlockTexels));
     uint count = uint(texels.x * texels.y * place.target.w);
-    atomicAdd(counts.blurred_y, count);
+    if (in_reach) {
+        atomicAdd(counts.blurred_y, count);
+    }
     if (in_row) {
         atomicAdd(counts.blurred_x, count);
     } else {
         atomicAdd(counts.filled, count);
     }
+    uint work = (in_row ? kBlurX : kFillX) | (in_reach ? kBlurY : 0u);
     // Neighbours look at kHasCaster alone, which stays as it is.
-    atomicOr(blocks[block.y * place.size.z + block.x], kBlurY | (in_row ? kBlurX : kFillX));
+    atomicOr(blocks[block.y * place.size.z + block.x], work);
 }
