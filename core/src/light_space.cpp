@@ -88,6 +88,7 @@ LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double ha
 {
     LightSpace space;
     space.forward_ws = axis_ws;
+    space.depth_ws = axis_ws;
     axesAcross(axis_ws, space.right_ws, space.up_ws);
     if (light.type == LightType::directional)
         return space;

@@ -22,16 +22,18 @@ struct LightSpace {
     glm::dvec3 right_ws{1.0, 0.0, 0.0};
     glm::dvec3 up_ws{0.0, 0.0, -1.0};
     glm::dvec3 forward_ws{0.0, -1.0, 0.0};
+    /// Gradient of depth: forward_ws itself, or under parallel light one that leans (depth_tilt.h).
+    glm::dvec3 depth_ws{0.0, -1.0, 0.0};
     bool perspective = false;
     double near_m = 0.0; // perspective: depths that count, along `forward`
     double reach_m = 0.0;
     double tangent = 0.0; // perspective: of the half angle
 
-    /// (right, up, forward) coordinates, metres.
+    /// Coordinates along right and up, and depth; metres.
     [[nodiscard]] glm::dvec3 coordinates(const glm::dvec3& p_ws) const
     {
         const glm::dvec3 p = p_ws - origin_ws;
-        return {glm::dot(right_ws, p), glm::dot(up_ws, p), glm::dot(forward_ws, p)};
+        return {glm::dot(right_ws, p), glm::dot(up_ws, p), glm::dot(depth_ws, p)};
     }
     /// The same with x and y as LightRect has them. Perspective: depth must be > 0.
     [[nodiscard]] glm::dvec3 project(const glm::dvec3& p_ws) const

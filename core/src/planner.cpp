@@ -3,6 +3,7 @@
 // into a map, and does the map of the last frame still hold.
 #include "atlas/layers.h"
 #include "camera_view.h"
+#include "depth_tilt.h"
 #include "fit/fit.h"
 #include "motion/motion.h"
 #include "partition/partition.h"
@@ -19,7 +20,7 @@ namespace gnomon {
 namespace {
 
 struct DepthRange {
-    double near_m = 0.0; // along the light's axis from LightSpace::origin_ws
+    double near_m = 0.0; // as LightSpace::depth_ws measures it, from its origin
     double far_m = 1.0;
 };
 
@@ -195,10 +196,13 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index, Plan& pla
 Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const Slice& slice, std::uint32_t layer,
                                 Plan& plan)
 {
-    const LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
+    LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
+    if (options.level_depth)
+        space.depth_ws = levelDepth(space, *frame.objects, plan.receivers);
     const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
     const Outcome found = region.gather(
-        {space, slice, view, *frame.objects, plan.receivers, options.map_size, border_texels}, plan.casters);
+        {space, slice, view, *frame.objects, plan.receivers, options.map_size, border_texels, filter->filterable},
+        plan.casters);
     if (found.kind != OutcomeKind::ok)
         return found;
 
@@ -223,7 +227,7 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
         space.perspective ? space.origin_ws : centre_ws + space.forward_ws * (place_m - space.coordinates(centre_ws).z);
     made.metric.near_m = range.near_m - place_m;
     made.metric.far_m = range.far_m - place_m;
-    const glm::dvec4 depth(space.forward_ws, -glm::dot(space.forward_ws, space.origin_ws) - range.near_m);
+    const glm::dvec4 depth(space.depth_ws, -glm::dot(space.depth_ws, space.origin_ws) - range.near_m);
     made.metric.metric_ws = depth / (range.far_m - range.near_m);
     made.tile = atlas.tile(layer);
     made.first_caster = first_caster;

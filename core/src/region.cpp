@@ -66,7 +66,7 @@ Aabb grown(const Aabb& box, double by_m)
 Outcome Region::gatherReceivers(const RegionInput& input)
 {
     const LightSpace& space = input.space;
-    const glm::dmat3 axes(space.right_ws, space.up_ws, space.forward_ws);
+    const glm::dmat3 axes(space.right_ws, space.up_ws, space.depth_ws);
     const glm::dmat3 sizes(glm::abs(axes[0]), glm::abs(axes[1]), glm::abs(axes[2]));
     makeConePlanes(space, cone_planes_);
     Aabb receivers_ws;
@@ -181,8 +181,7 @@ void Region::makeCasterPlanes(const RegionInput& input)
     addSidePlane(space, {0.0, 1.0}, -rect_.low.y, pad);
     addSidePlane(space, {0.0, -1.0}, rect_.high.y, pad);
     const double pad_m = (space.perspective ? pad * receiver_far_m_ : pad) + input.view.pad_m;
-    caster_planes_.push_back(
-        {-space.forward_ws, receiver_far_m_ + pad_m + glm::dot(space.forward_ws, space.origin_ws)});
+    caster_planes_.push_back({-space.depth_ws, receiver_far_m_ + pad_m + glm::dot(space.depth_ws, space.origin_ws)});
     if (space.perspective)
         caster_planes_.push_back({space.forward_ws, -space.near_m - glm::dot(space.forward_ws, space.origin_ws)});
 
@@ -214,6 +213,10 @@ Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& cas
     makeCasterPlanes(input);
     const std::size_t first = casters.size();
     input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
+    if (casters.size() != first && input.draws_receivers) {
+        casters.resize(first);
+        input.objects.query(caster_planes_, ObjectSet::Want::all, casters);
+    }
     if (casters.size() == first)
         return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
     measureCasters(input, std::span(casters).subspan(first));
@@ -223,7 +226,7 @@ Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& cas
 void Region::measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters)
 {
     const LightSpace& space = input.space;
-    const glm::dvec3 size = glm::abs(space.forward_ws);
+    const glm::dvec3 size = glm::abs(space.depth_ws);
     const std::span<const Aabb> bounds = input.objects.allBounds();
     int cut_boxes = 0;
     caster_near_m_ = kInfinity;
@@ -231,7 +234,7 @@ void Region::measureCasters(const RegionInput& input, std::span<const std::uint3
         const Aabb& box = bounds[object];
         const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
         const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
-        const double depth_m = glm::dot(space.forward_ws, centre - space.origin_ws) - glm::dot(size, half);
+        const double depth_m = glm::dot(space.depth_ws, centre - space.origin_ws) - glm::dot(size, half);
         if (depth_m >= caster_near_m_)
             continue;
         // A floor or wall that passes the light has its nearest corner behind it, and says nothing; its part in the

@@ -18,6 +18,7 @@ struct RegionInput {
     std::span<const std::uint32_t> seen; // receivers that the camera sees
     std::uint32_t map_size = 0;
     double border_texels = 0.0;
+    bool draws_receivers = false; // FilterTraits::filterable
 };
 
 class Region {
@@ -28,7 +29,7 @@ public:
     /// Valid after gather() said ok, until the next one.
     [[nodiscard]] const ConvexBody& body() const { return body_; }
     [[nodiscard]] const LightRect& rect() const { return rect_; }
-    /// Depths along the light's axis from LightSpace::origin_ws.
+    /// Depths as LightSpace::depth_ws measures them, from its origin.
     [[nodiscard]] double receiverNear_m() const { return receiver_near_m_; }
     [[nodiscard]] double receiverFar_m() const { return receiver_far_m_; }
     [[nodiscard]] double casterNear_m() const { return caster_near_m_; }

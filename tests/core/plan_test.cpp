@@ -106,7 +106,9 @@ TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
 {
     World world;
     world.lights[0] = test::sun({0.5, -1, 0.25});
-    Planner planner({});
+    PlanOptions options;
+    options.level_depth = false; // distances from the light's plane
+    Planner planner(options);
     const Plan& plan = world.plan(planner);
     const View& view = plan.views.at(0);
     const glm::dvec3 forward = world.lights[0].direction_ws;

@@ -63,7 +63,7 @@ struct FilterTraits {
     std::span<const MapFormat> formats; // usable, the default first
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
-    bool filterable;                    // texels may be averaged: MomentOptions apply
+    bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
 };
 /// Null for a filter that is not available.
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of the filterable shadow maps (vsm, lvsm, esm, evsm, msm): what is stored, how it is blurred and read, and how
-// visibility is made of it.
+// Options of the filterable shadow maps (vsm, lvsm, esm, evsm, msm): what is stored, how it is blurred and read, and
+// how visibility is made of it.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -13,15 +13,15 @@
 
 namespace gnomon {
 
-/// What depth is stored. `z_over_w` is what a perspective projection's depth buffer holds, z' = m / (r + m (1 - r)) with
-/// r = near / far; it is there to show why it is worse. Under a parallel light both are one.
+/// What depth is stored. `z_over_w` is what a perspective projection's depth buffer holds, z' = m / (r + m (1 - r))
+/// with r = near / far; it is there to show why it is worse. Under a parallel light both are one.
 enum class DepthMetricKind : std::uint8_t { linear, z_over_w };
 /// Separable; `box` weighs all texels alike.
 enum class BlurKind : std::uint8_t { none, gaussian, box };
 /// Which shaders blur: `automatic` lets the device decide, by measurement (BlurTrial) or else compute.
 enum class BlurPath : std::uint8_t { automatic, compute, fragment };
-/// How the map is read: `trilinear` at the level that the receiver's footprint asks for, `anisotropic` with several such
-/// reads along its longer side.
+/// How the map is read: `trilinear` at the level that the receiver's footprint asks for, `anisotropic` with several
+/// such reads along its longer side.
 enum class MapSampling : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
 /// lvsm: where one layer of depth ends and the next begins.
 enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd };
@@ -36,7 +36,7 @@ struct MomentOptions {
     bool remap = false;        // store 2 d' - 1: a float's sign bit is precision too. Refused for unorm formats
     std::uint32_t samples = 4; // of the depth pass, 1 or 4; averaged as moments, never as depths
     BlurKind blur = BlurKind::gaussian;
-    float blur_sigma_texels = 1.25F;    // gaussian; 0.3 .. 10
+    float blur_sigma_texels = 1.25F;      // gaussian; 0.3 .. 10
     std::uint32_t blur_radius_texels = 0; // 1 .. 31; 0: three sigma rounded up (box: 2)
     BlurPath blur_path = BlurPath::automatic;
     MapSampling sampling = MapSampling::trilinear;

@@ -60,7 +60,9 @@ struct Tile {
     return kRounding_texels + reach_texels - 0.5;
 }
 
-/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near), d in metres along the axis.
+/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near), d in metres along the ray of
+/// light: from a plane across it, or one that leans with the receivers (PlanOptions::level_depth). Along each ray d'
+/// grows by 1 / (far - near) per metre.
 struct DepthMetric {
     glm::dvec4 metric_ws{0.0};
     double near_m = 0.0;
@@ -76,7 +78,7 @@ struct View {
     bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
     double texel_m = 0.0;     // side of a texel: metres across the light (orthographic), or metres at 1 m distance
     Tile tile;
-    std::uint32_t first_caster = 0; // range of Plan::casters
+    std::uint32_t first_caster = 0; // range of Plan::casters: what is drawn, see ObjectFlags::casts
     std::uint32_t caster_count = 0;
     bool redraw = true;         // false: the map of the last frame still holds
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one

@@ -13,7 +13,7 @@ struct FitInput {
     const LightSpace& space;
     const ConvexBody& body; // what is seen and lit: it has to be in the map
     LightRect rect;         // of it across the light
-    double near_m = 0.0;    // depths to cover, along the light's axis from space.origin_ws
+    double near_m = 0.0;    // depths to cover, by space.depth_ws from space.origin_ws
     double far_m = 1.0;
     double least_size = 0.0; // no side of the map is shorter (as rect has it)
     const ObjectSet& objects;

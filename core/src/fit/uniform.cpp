@@ -29,7 +29,7 @@ FitResult fitUniform(const FitInput& input)
         return glm::dvec4(axis, -glm::dot(axis, space.origin_ws));
     };
     const glm::dvec4 one(0.0, 0.0, 0.0, 1.0);
-    const glm::dvec4 depth = row(space.forward_ws);
+    const glm::dvec4 depth = row(space.depth_ws);
     const glm::dvec4 w = space.perspective ? depth : one;
     const double length = input.far_m - input.near_m;
     const glm::dvec4 z = space.perspective ? (depth - one * input.near_m) * (input.far_m / length)

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The leaning depth of parallel light, and that filterable maps hold their receivers.
+#include "worlds.h"
+
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+const glm::dvec3 kSun = glm::normalize(glm::dvec3(0.8, -0.9, -0.35));
+
+struct Ground {
+    ObjectSet set;
+    std::vector<Light> lights{test::sun(kSun)};
+
+    Ground()
+    {
+        set.add({{-40, 0, -40}, {40, 0.01F, 40}}, {false, true, false}); // level, so spared where it may be
+        set.add({{-1, 0, -1}, {1, 4, 1}});
+        set.add({{5, 0, 8}, {6, 3, 9}});
+    }
+    Plan plan(const PlanOptions& options)
+    {
+        Planner planner(options);
+        Frame frame;
+        frame.objects = &set;
+        frame.lights = lights;
+        frame.camera = test::orthographicCamera({0, 500, 0}, {0, 0, 0}, 60.0);
+        return planner.plan(frame);
+    }
+};
+
+double metricAt(const View& view, const glm::dvec3& p)
+{
+    return glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
+}
+
+double spreadOverGround(const View& view)
+{
+    const double range_m = view.metric.far_m - view.metric.near_m;
+    double low = 1e9;
+    double high = -1e9;
+    for (const glm::dvec3& p :
+         {glm::dvec3(-40, 0, -40), glm::dvec3(40, 0, -40), glm::dvec3(-40, 0, 40), glm::dvec3(40, 0, 40)}) {
+        low = std::min(low, metricAt(view, p) * range_m);
+        high = std::max(high, metricAt(view, p) * range_m);
+    }
+    return high - low;
+}
+
+TEST(LevelDepth, LevelGroundIsLevelInDepthUnderASlantedSun)
+{
+    Ground ground;
+    PlanOptions options;
+    const View level = ground.plan(options).views.at(0);
+    options.level_depth = false;
+    const View along_axis = ground.plan(options).views.at(0);
+    EXPECT_GT(spreadOverGround(along_axis), 50.0); // metres: the sun is 46 degrees high, the ground 80 m wide
+    // The share of the axes is rounded to 1/128, and boxes on the ground pull at the plane a little.
+    EXPECT_LT(spreadOverGround(level), 2.0);
+    // Less range is more digits in every format.
+    EXPECT_LT(level.metric.far_m - level.metric.near_m, 0.5 * (along_axis.metric.far_m - along_axis.metric.near_m));
+}
+
+TEST(LevelDepth, GrowsByOneMetrePerMetreAlongTheRay)
+{
+    Ground ground;
+    const View view = ground.plan({}).views.at(0);
+    const double range_m = view.metric.far_m - view.metric.near_m;
+    for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(30, 2, -20), glm::dvec3(-7, 3, 11)})
+        EXPECT_NEAR((metricAt(view, p + kSun * 2.5) - metricAt(view, p)) * range_m, 2.5, 1e-9);
+    // The rasteriser's depth is the metric still, so a bare depth map holds it.
+    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(3, 1, 2, 1);
+    EXPECT_NEAR(clip.z / clip.w, metricAt(view, {3, 1, 2}), 1e-12);
+}
+
+TEST(LevelDepth, KeepsReceiversBeforeTheFarPlaneAndCastersAfterTheNearOne)
+{
+    Ground ground;
+    PlanOptions options;
+    options.technique.filter = Filter::vsm;
+    const Plan plan = ground.plan(options);
+    for (const std::uint32_t object : plan.receivers)
+        for (int i = 0; i < 8; ++i)
+            EXPECT_LE(metricAt(plan.views.at(0), glm::dvec3(ground.set.bounds(object).corner(i))), 1.0);
+}
+
+TEST(LevelDepth, LeavesSpotsAloneAndObjectsThatMove)
+{
+    Ground ground;
+    const View before = ground.plan({}).views.at(0);
+    ground.set.add({{-30, 0, 20}, {-20, 25, 30}}, {true, true, true});
+    const View after = ground.plan({}).views.at(0);
+    const double before_m = before.metric.far_m - before.metric.near_m;
+    const double after_m = after.metric.far_m - after.metric.near_m;
+    EXPECT_LT(
+        glm::length(glm::dvec3(before.metric.metric_ws) * before_m - glm::dvec3(after.metric.metric_ws) * after_m),
+        1e-12);
+    ground.lights[0] = test::sun(kSun);
+    ground.lights[0].type = LightType::spot;
+    ground.lights[0].position_ws = {-8, 12, 4};
+    ground.lights[0].outer_half_angle_rad = 0.6;
+    const View spot = ground.plan({}).views.at(0);
+    const glm::dvec3 gradient = glm::dvec3(spot.metric.metric_ws) * (spot.metric.far_m - spot.metric.near_m);
+    EXPECT_LT(glm::length(gradient - kSun), 1e-9);
+}
+
+TEST(LevelDepth, FilterableMapsHoldTheirReceivers)
+{
+    Ground ground;
+    PlanOptions options;
+    options.technique.filter = Filter::pcf;
+    const Plan spared = ground.plan(options);
+    EXPECT_EQ(std::count(spared.casters.begin(), spared.casters.end(), 0U), 0);
+    options.technique.filter = Filter::vsm;
+    const Plan drawn = ground.plan(options);
+    EXPECT_EQ(std::count(drawn.casters.begin(), drawn.casters.end(), 0U), 1);
+}
+
+TEST(LevelDepth, ReceiversAloneThrowNoShadow)
+{
+    ObjectSet set;
+    set.add({{-40, 0, -40}, {40, 0.01F, 40}}, {false, true, false});
+    PlanOptions options;
+    options.technique.filter = Filter::vsm;
+    Planner planner(options);
+    Frame frame;
+    const std::vector<Light> lights{test::sun(kSun)};
+    frame.objects = &set;
+    frame.lights = lights;
+    frame.camera = test::orthographicCamera({0, 500, 0}, {0, 0, 0}, 60.0);
+    EXPECT_EQ(planner.plan(frame).lights.at(0).outcome.kind, OutcomeKind::no_caster);
+}
+
+} // namespace
+} // namespace gnomon
