@@ -1,34 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In the precision of the GPU, where huge numbers overflow earlier and small ones vanish.
-#define GNOMON_REAL float
+#include "float_map.h"
 #include "hostile_values.h"
-
-#include <shared/discs.h>
-
-GN_BEGIN
-inline real mapTexel(real2, real)
-{
-    return test::hostileTexel().x;
-}
-inline real4 mapGather(real2, real)
-{
-    return test::hostileTexel();
-}
-inline real4 mapMoments(real2, real, real)
-{
-    return test::hostileTexel();
-}
-inline real4 mapDepthLayer(int, int)
-{
-    return test::hostileTexel();
-}
-inline real2 discPoint(int i)
-{
-    return kPoissonPoints[i];
-}
-GN_END
-
-#include <lib/visibility.glsl>
 
 #include <gtest/gtest.h>
 
@@ -42,7 +15,13 @@ namespace {
 
 TEST(HostileMaps, giveVisibilityInSinglePrecision)
 {
+    test::float_texel = test::hostileTexel;
+    test::float_layers = [](int) {
+        return test::hostileTexel();
+    };
     hostile::expectAllBounded();
+    test::float_texel = nullptr;
+    test::float_layers = nullptr;
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 // What the renderer's options give by default (vulkan/src/moment_rule_of.cpp).
 constexpr double kBias16 = 3e-5;
 constexpr double kBias16Hausdorff = 6e-5;
-constexpr double kBias32 = 3e-7;
+constexpr double kBias32 = 3e-6;
 
 MomentRule msmRule(int flags, double bias)
 {
@@ -234,7 +234,8 @@ TEST(Msm, defaultBiasKeepsAQuantisedPlaneLitAndASmallerOneDoesNot)
             std::mt19937 rng(26);
             const double bias = !sixteen_bits ? kBias32 : solver == 0 ? kBias16 : kBias16Hausdorff;
             EXPECT_GT(darkestLitPlane(flags, bias, sixteen_bits, rng), 0.97);
-            EXPECT_LT(darkestLitPlane(flags, 0.03 * bias, sixteen_bits, rng), 0.97);
+            // Of 32 bits it is the bounds' own arithmetic that asks for more: single_precision_float_test.cpp.
+            EXPECT_LT(darkestLitPlane(flags, (sixteen_bits ? 0.03 : 0.003) * bias, sixteen_bits, rng), 0.97);
         }
     }
 }

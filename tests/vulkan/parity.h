@@ -35,8 +35,10 @@ struct ParityFigures {
     std::size_t pixels = 0;
     std::size_t different = 0; // by more than a step of the mask, and what rounding to it may add
     double worst = 0.0;        // in steps of the mask
+    std::size_t loose = 0;     // where rounding of single precision alone may be more than a step
 };
-/// Every mask against the reference: at most a pixel in a thousand may be off by more than `steps` of the mask's 255.
+/// Every mask against the reference: at most a pixel in a thousand may be off by more than `steps` of the mask's 255
+/// from what rounding may make of it.
 /// Writes the masks as pictures named for the case, and returns the light that is worst.
 ParityFigures expectParity(const Rendered& r, const vulkan::FilterOptions& options, const std::string& name,
                            double steps = 1.001);

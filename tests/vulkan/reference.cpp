@@ -13,6 +13,7 @@ namespace gnomon::test {
 namespace {
 std::span<const CpuMap> current_maps;
 std::span<const vulkan::DepthLayer> current_layers;
+glm::dvec4 current_nudge(0.0);
 bool current_poisson = false;
 int current_taps = 0;
 
@@ -41,7 +42,7 @@ inline real4 mapGather(real2 corner, real layer)
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {
-    return test::sampleAt(test::mapOf(layer), texel, level);
+    return test::sampleAt(test::mapOf(layer), texel, level) * (1.0 + test::current_nudge);
 }
 inline real4 mapDepthLayer(int, int i)
 {
@@ -225,6 +226,7 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
 {
     current_maps = scene.maps;
     current_layers = layers;
+    current_nudge = scene.nudge;
     current_poisson = options.pcf_kernel == PcfKernel::poisson;
     current_taps = int(options.disc_taps);
     const Picture& picture = scene.picture;
@@ -264,6 +266,7 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
     }
     current_maps = {};
     current_layers = {};
+    current_nudge = {};
     return mask;
 }
 

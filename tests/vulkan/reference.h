@@ -14,6 +14,8 @@ struct ReferenceScene {
     std::span<const Light> lights;
     const Plan& plan;
     std::span<const CpuMap> maps; // by layer of the image
+    /// By this much of itself, each channel of what is read of a filterable map is off: what rounding may amount to.
+    glm::dvec4 nudge{0.0};
 };
 
 /// Visibility per pixel of the picture for light `index` of the plan. `layers`: of depth, of the light's view (lvsm).

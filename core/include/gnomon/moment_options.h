@@ -67,7 +67,10 @@ struct MomentOptions {
     std::optional<float> evsm_negative; // c-
     // msm
     MomentSolver solver = MomentSolver::hamburger;
-    std::optional<float> moment_bias; // 0 .. 0.1; nothing: by format, 3e-5 at 16 bits
+    /// How far moments are moved towards those of a known distribution, 0 .. 0.1: hides rounding, and lets a little
+    /// light through. Nothing: the least that keeps lit surfaces lit and single precision exact enough: 3e-5 at 16
+    /// bits, 6e-5 for the Hausdorff bound, 3e-6 at 32 bits.
+    std::optional<float> moment_bias;
 };
 
 [[nodiscard]] std::string_view nameOf(DepthMetricKind value);

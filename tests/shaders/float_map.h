@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets shaders/lib compile as C++ in the GPU's single precision, with whatever maps hold. All tests that do so include
+// this, so that the shaders' functions are the same ones in each.
+#pragma once
+#define GNOMON_REAL float
+
+#include <shared/discs.h>
+
+#include <functional>
+
+namespace gnomon::test {
+/// What any read of a map answers.
+inline std::function<glm::vec4()> float_texel;
+/// GpuDepthLayers::layer of a view.
+inline std::function<glm::vec4(int i)> float_layers;
+} // namespace gnomon::test
+
+GN_BEGIN
+inline real mapTexel(real2, real)
+{
+    return test::float_texel().x;
+}
+inline real4 mapGather(real2, real)
+{
+    return test::float_texel();
+}
+inline real4 mapMoments(real2, real, real)
+{
+    return test::float_texel();
+}
+inline real4 mapDepthLayer(int, int i)
+{
+    return test::float_layers(i);
+}
+inline real2 discPoint(int i)
+{
+    return kPoissonPoints[i];
+}
+GN_END
+
+#include <lib/visibility.glsl>
