@@ -154,6 +154,10 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// The path that a Renderer with this filter blurs by: the filter's own, or if that is automatic and it blurs at all,
+/// the one that was faster when it was first asked on this device for such maps. Throws Error.
+[[nodiscard]] BlurPath chooseBlurPath(Gpu& gpu, const vulkan::FilterOptions& filter);
+
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
 /// Fills an ObjectSet with a state's objects (handle = index) or updates it.

@@ -80,14 +80,16 @@ BenchResult measure(host::Gpu& gpu, const Shot& shot, const Settings& settings, 
 
 } // namespace
 
-int runBench(const Settings& settings)
+int runBench(const Settings& asked)
 {
+    Settings settings = asked;
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    const std::vector<Settings> techniques = contestants(settings);
+    std::vector<Settings> techniques = contestants(settings);
     const Shot shot = makeShot(settings);
     const auto gpu = openGpu(settings);
+    settleBlurPaths(*gpu, settings, techniques);
     for (const std::string& text : shot.notices) {
         notice(text);
     }

@@ -234,7 +234,7 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
     for (const auto& [setting, values] : parsed.options) {
         // Of two files the first would stay empty, without a word.
         if (values.size() > 1 && setting->group == SettingGroup::result && !setting->repeatable &&
-            setting->type != SettingType::flag) {
+            setting->type == SettingType::text) {
             throw UsageError(fmt::format("{} is given twice", spelled(*setting)));
         }
         for (const std::string& value : values) {

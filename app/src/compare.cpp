@@ -302,15 +302,22 @@ void put(const Comparison& comparison, const Shot& shot, const Settings& setting
     }
 }
 
+/// Of the shot that is made first.
+Settings firstOf(const std::optional<SweepPlan>& sweep, const Settings& settings)
+{
+    return sweep && sweep->remakes_shot ? settingsAt(*sweep, 0, settings) : settings;
+}
+
 } // namespace
 
-int runCompare(const Settings& settings)
+int runCompare(const Settings& asked)
 {
+    Settings settings = asked;
     validateSweep(settings);
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    const std::vector<Settings> techniques = contestants(settings);
+    std::vector<Settings> techniques = contestants(settings);
     std::optional<SweepPlan> sweep;
     if (settings.sweep) {
         sweep = planSweep(*settings.sweep, techniques);
@@ -321,13 +328,17 @@ int runCompare(const Settings& settings)
         files = reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value());
         folder = std::make_unique<ReportFolder>(settings.report, files);
     }
-    const Settings first = sweep && sweep->remakes_shot ? settingsAt(*sweep, 0, settings) : settings;
-    const Shot shot = makeShot(first);
-    const host::ShadedLight& light = shot.lights[lightIndex(shot, first)];
-    requireSizedLights(first, {&light, 1});
+    const Shot shot = makeShot(firstOf(sweep, settings));
+    const host::ShadedLight& light = shot.lights[lightIndex(shot, settings)];
+    requireSizedLights(firstOf(sweep, settings), {&light, 1});
     requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
     requireMapsFit(*gpu, techniques, sweep);
+    settleBlurPaths(*gpu, settings, techniques);
+    if (sweep) {
+        sweep = planSweep(*settings.sweep, techniques);
+    }
+    const Settings first = firstOf(sweep, settings);
     std::for_each(shot.notices.begin(), shot.notices.end(), notice);
     Comparison comparison(first, shot, *gpu, std::move(files));
     comparison.trace();

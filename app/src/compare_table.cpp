@@ -150,6 +150,23 @@ std::string commonParts(const std::vector<std::string>& techniques)
     return common;
 }
 
+std::string commonBlurPath(const std::vector<std::string>& techniques)
+{
+    std::string common;
+    for (const std::string& technique : techniques) {
+        for (const auto part : split(technique, '+')) {
+            if (!part.starts_with("blur.path=")) {
+                continue;
+            }
+            if (!common.empty() && common != part) {
+                return {};
+            }
+            common = part;
+        }
+    }
+    return common;
+}
+
 std::string withoutParts(std::string_view technique, std::string_view parts)
 {
     const auto gone = split(parts, '+');

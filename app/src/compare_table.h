@@ -44,6 +44,8 @@ void addErrorCells(std::vector<std::string>& row, const std::optional<lab::Error
 /// fewer than two techniques.
 [[nodiscard]] std::string commonParts(const std::vector<std::string>& techniques);
 /// `technique` less the parts of `parts`.
+/// The part that says how techniques blur, if all of them that blur say the same: "blur.path=compute"; else empty.
+[[nodiscard]] std::string commonBlurPath(const std::vector<std::string>& techniques);
 [[nodiscard]] std::string withoutParts(std::string_view technique, std::string_view parts);
 
 } // namespace gnomon::app

@@ -73,6 +73,7 @@ std::string tracedText(std::uint64_t rays, double seconds)
 TextTable compareTable(const CompareResult& result, bool short_names)
 {
     const std::string common = short_names ? commonParts(namesOf(result)) : std::string();
+    const std::string path = short_names ? commonBlurPath(namesOf(result)) : std::string();
     const bool equal = hasEqualError(result);
     TextTable table;
     table.columns = {"technique"};
@@ -84,7 +85,7 @@ TextTable compareTable(const CompareResult& result, bool short_names)
     }
     for (const ComparedTechnique& technique : result.techniques) {
         const lab::Score& score = technique.score;
-        std::vector<std::string> row{short_names ? withoutParts(technique.name, common) : technique.name};
+        std::vector<std::string> row{withoutParts(withoutParts(technique.name, common), path)};
         addErrorCells(row, score.error, score.classification ? score.classification->errors : lab::ClassErrors{});
         row.push_back(cell(score.ssim, 3));
         row.push_back(cell(score.flip, 3));
@@ -194,6 +195,9 @@ std::string compareText(const CompareResult& result, const Shot& shot, const Set
     }
     if (const std::string common = commonParts(namesOf(result)); !common.empty()) {
         text += fmt::format("all with {}\n", common);
+    }
+    if (const std::string path = commonBlurPath(namesOf(result)); !path.empty()) {
+        text += fmt::format("blurred with {}\n", path);
     }
     text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({:.2f} ms){}\n\n",
                         settings.repetitions, frameMedian(result.baseline.samples),

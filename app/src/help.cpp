@@ -25,7 +25,7 @@ std::string programHelp()
     for (const scene::World& world : scene::worlds()) {
         worlds.push_back(world.name);
     }
-    text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world: {}. Without one it is rts.\n",
+    text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world:\n{}; without one it is rts.\n",
                         listed(worlds));
     return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` every value and setting there is,\n"
                   "`gnomon --version` the version. Exit status: 0 success, 1 failure, 2 wrong usage.\n";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blur_choice.h"
 
+#include "host/renderer.h"
+
 #include "commands.h"
 
 #include <gnomon/vulkan/blur_trial.h>

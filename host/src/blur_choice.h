@@ -2,9 +2,7 @@
 // Which shaders blur filterable maps, where the options leave it open: tried once for a device, format and radius.
 #pragma once
 
-#include "host/gpu.h"
-
-#include <gnomon/vulkan/shadow_renderer.h>
+#include <gnomon/moment_options.h>
 
 #include <vector>
 
@@ -21,8 +19,5 @@ struct BlurChoices {
     };
     std::vector<Entry> entries;
 };
-
-/// The filter's own path, or if that is automatic and it blurs at all, the faster one.
-[[nodiscard]] BlurPath chooseBlurPath(Gpu& gpu, const vulkan::FilterOptions& filter);
 
 } // namespace gnomon::host

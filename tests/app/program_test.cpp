@@ -69,14 +69,17 @@ TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
     const json list = json::parse(ran.out);
     ASSERT_EQ(list["choices"].size(), 6U);
     EXPECT_GE(list["settings"].size(), 30U);
-    bool vsm_is_known = false;
+    bool vsm_is_there = false;
+    bool pcss_is_known = false;
     for (const auto& choice : list["choices"]) {
         for (const auto& value : choice["values"]) {
-            vsm_is_known |= value["name"] == "vsm" && value["available"] == false;
+            vsm_is_there |= value["name"] == "vsm" && value["available"] == true;
+            pcss_is_known |= value["name"] == "pcss" && value["available"] == false;
             EXPECT_FALSE(value["source"].get<std::string>().empty());
         }
     }
-    EXPECT_TRUE(vsm_is_known);
+    EXPECT_TRUE(vsm_is_there);
+    EXPECT_TRUE(pcss_is_known);
     bool point_in_one_frustum = false;
     for (const auto& refused : list["refused"]) {
         point_in_one_frustum |= refused["light"] == "point";
@@ -105,7 +108,7 @@ TEST(List, JsonGoesToAFileAndOnlyThere)
 TEST(Plan, IsTheSameBytesEveryTime)
 {
     const test::Folder folder;
-    for (const char* world : {"planes", "rts", "spotlit"}) {
+    for (const char* world : {"planes", "rts", "spotlit", "canopies"}) {
         const test::Ran first = inFolder(folder, {"plan", world, "--time", "1.5"});
         const test::Ran second = inFolder(folder, {"plan", world, "--time", "1.5"});
         ASSERT_EQ(first.status, 0) << first.err;
