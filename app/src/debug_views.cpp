@@ -3,6 +3,7 @@
 
 #include "lab/tint.h"
 #include "layer_depths.h"
+#include "progress.h"
 
 #include <gnomon/error.h>
 
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace gnomon::app {
 namespace {
@@ -64,13 +67,19 @@ ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::
     return kinds;
 }
 
+void requireMap(const Drawn& drawn, std::string_view what)
+{
+    const Outcome& outcome = drawn.plan.lights[drawn.light].outcome;
+    if (!outcome.hasMap()) {
+        throw Error(fmt::format("showing the {} of light {}", what, drawn.shot.lights[drawn.light].name),
+                    std::string(outcome.reason));
+    }
+}
+
 Image8 layersPicture(const Drawn& drawn)
 {
     const LightPlan& light = drawn.plan.lights[drawn.light];
-    const std::string& name = drawn.shot.lights[drawn.light].name;
-    if (!light.outcome.hasMap()) {
-        throw Error("showing the layers of light " + name, std::string(light.outcome.reason));
-    }
+    requireMap(drawn, "layers");
     std::vector<std::vector<vulkan::DepthLayer>> layers;
     for (std::uint32_t i = 0; i < light.view_count; ++i) {
         layers.push_back(drawn.renderer.depthLayers(light.first_view + i));
@@ -93,6 +102,40 @@ Image8 layersPicture(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
 }
 
+/// The first channel of the light's first map, as it is read: of lvsm its first layer, of others blurred if they blur.
+Image8 mapPicture(const Drawn& drawn)
+{
+    requireMap(drawn, "map");
+    const vulkan::FilterOptions& filter = drawn.settings.filter;
+    const Tile& tile = drawn.plan.views[drawn.plan.lights[drawn.light].first_view].tile;
+    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(filter.filter, filter.moments));
+    float least = std::numeric_limits<float>::infinity();
+    float most = -least;
+    for (std::uint32_t y = 0; y < tile.height; ++y) {
+        for (std::uint32_t x = 0; x < tile.width; ++x) {
+            const float value = *map.pixel(tile.x + x, tile.y + y);
+            if (std::isfinite(value)) {
+                least = std::min(least, value);
+                most = std::max(most, value);
+            }
+        }
+    }
+    Image8 grey(tile.width, tile.height, 3);
+    for (std::uint32_t y = 0; y < tile.height; ++y) {
+        for (std::uint32_t x = 0; x < tile.width; ++x) {
+            const float value = *map.pixel(tile.x + x, tile.y + y);
+            // A map of one value alone is black; so is what is no number.
+            const float share = most > least && std::isfinite(value) ? (value - least) / (most - least) : 0.0F;
+            std::fill_n(grey.pixel(x, y), 3, static_cast<std::uint8_t>(std::lround(share * 255.0F)));
+        }
+    }
+    if (most >= least) {
+        notice(fmt::format("light {}: its map's first channel is {:.6g} where black and {:.6g} where white",
+                           drawn.shot.lights[drawn.light].name, least, most));
+    }
+    return grey;
+}
+
 struct DebugView {
     std::string_view name;
     bool (*used)(const Settings&);
@@ -102,6 +145,7 @@ struct DebugView {
 constexpr std::array kViews{
     DebugView{"layers", [](const Settings& s) { return s.filter.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
+    DebugView{"map", [](const Settings&) { return true; }, "a technique that has a map", mapPicture},
 };
 
 const DebugView* findView(std::string_view name)

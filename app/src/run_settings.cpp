@@ -235,7 +235,7 @@ const std::vector<Setting>& rows()
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
-         .doc = "tint the picture by what the technique does: layers (lvsm)", .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
+         .doc = "tint by lvsm's layers, or show the map in grey", .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kCompare,
          .used = judgesALight, .used_when = "--mask or --debug, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",

@@ -147,8 +147,8 @@ TEST(DebugLayers, ColoursReceiversByTheirLayer)
         EXPECT_EQ(ran.status, 0) << ran.err;
         return readImage(folder / file);
     };
-    const ImageF deep = draw("lvsm.splits=0.999", "deep.png");
-    const ImageF flat = draw("lvsm.splits=0.001", "flat.png");
+    const ImageF deep = draw("lvsm.splits=0.99999", "deep.png");
+    const ImageF flat = draw("lvsm.splits=0.00001", "flat.png");
     EXPECT_EQ(deep.width, 320U);
     EXPECT_GT(deep.height, 180U); // the legend
     // All in the first layer, all in the second; the background is grey.
@@ -156,6 +156,42 @@ TEST(DebugLayers, ColoursReceiversByTheirLayer)
     EXPECT_LT(shareOf(deep, 180, Hue::blue), 0.01);
     EXPECT_GT(shareOf(flat, 180, Hue::blue), 0.3);
     EXPECT_LT(shareOf(flat, 180, Hue::orange), 0.01);
+}
+
+/// All of its grey is in it: the nearest caster black, what nothing covers white.
+TEST(DebugMap, IsTheFirstMapFromBlackToWhite)
+{
+    const test::Folder folder;
+    for (const char* filter : {"hard", "vsm", "lvsm", "msm"}) {
+        SCOPED_TRACE(filter);
+        const test::Ran ran = inFolder(folder, {"render", "planes", "--debug", "map", "--filter", filter, "--size",
+                                                "32x18", "--map-size", "128", "--validate", "--out", "map.png"});
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        EXPECT_NE(ran.err.find("light sun: its map's first channel is "), std::string::npos) << ran.err;
+        const ImageF map = readImage(folder / "map.png");
+        ASSERT_EQ(map.width, 128U);
+        ASSERT_EQ(map.height, 128U);
+        const auto [least, most] = std::minmax_element(map.values.begin(), map.values.end());
+        EXPECT_EQ(*least, 0.0F);
+        EXPECT_EQ(*most, 1.0F);
+        for (std::size_t i = 0; i < map.values.size(); i += map.channels) {
+            ASSERT_EQ(map.values[i], map.values[i + 1]);
+            ASSERT_EQ(map.values[i], map.values[i + 2]);
+        }
+        std::filesystem::remove(folder / "map.png");
+    }
+}
+
+TEST(DebugMap, IsRefusedWhereThereIsNoMap)
+{
+    const test::Folder folder;
+    const test::Ran sky =
+        inFolder(folder, {"render", "planes", "--debug", "map", "--eye", "0,5,0", "--target", "0,50,1"});
+    EXPECT_EQ(sky.status, 1);
+    EXPECT_NE(sky.err.find("showing the map of light"), std::string::npos) << sky.err;
+    const test::Ran mask = inFolder(folder, {"render", "planes", "--debug", "map", "--mask"});
+    EXPECT_EQ(mask.status, 2);
+    EXPECT_FALSE(exists(folder / "gnomon.png"));
 }
 
 TEST(DebugLayers, IsRefusedWhereThereIsNothingToShow)

@@ -2,6 +2,7 @@
 // Draws every case of goldens.json with the software rasteriser, under validation, and compares with its image. After
 // looking at a change at full size: GNOMON_GOLDEN_UPDATE=1 test_golden writes the images anew.
 #include "compare_images.h"
+#include "debug_views.h"
 
 #include "app/command_line.h"
 #include "app/shot.h"
@@ -99,6 +100,16 @@ protected:
         return device;
     }
 
+    static std::size_t lightOf(const app::Shot& shot, const app::Settings& settings)
+    {
+        for (std::size_t i = 0; i < shot.lights.size(); ++i) {
+            if (settings.light.empty() || shot.lights[i].name == settings.light) {
+                return i;
+            }
+        }
+        throw app::UsageError("no light " + settings.light);
+    }
+
     static ImageF draw(const Case& wanted)
     {
         std::vector<std::string> arguments{"render", sceneFile(wanted.scene)};
@@ -107,19 +118,15 @@ protected:
         const app::Shot shot = app::makeShot(settings);
         host::Renderer renderer(gpu(), shot.scene, shot.state, app::renderOptions(settings));
         renderer.draw(shot.state, shot.eye, shot.lights);
+        const std::size_t light = lightOf(shot, settings);
+        if (settings.debug != "none") {
+            return toFloat(app::debugPicture(renderer, shot, settings, light));
+        }
         const host::Picture picture = renderer.read(
             {.colour = !settings.mask, .linear = !settings.mask, .masks = settings.mask, .geometry = false});
         // The tone curve would hide what is not finite.
         EXPECT_TRUE(compare(picture.linear, picture.linear, {}).same) << "the radiance is not finite everywhere";
-        if (!settings.mask) {
-            return toFloat(picture.colour);
-        }
-        for (std::size_t i = 0; i < shot.lights.size(); ++i) {
-            if (settings.light.empty() || shot.lights[i].name == settings.light) {
-                return picture.masks.at(i);
-            }
-        }
-        throw app::UsageError("no light " + settings.light);
+        return settings.mask ? picture.masks.at(light) : toFloat(picture.colour);
     }
 
     static void keepForPeople(const Case& wanted, const ImageF& actual, const ImageF& golden)
