@@ -23,8 +23,33 @@ vec4 sourceBetween(vec2 texel)
     return textureLod(source_image, vec3(uv, float(place.source.z)), 0.0);
 }
 
+// A filtered read touches the texels beside its place, too, if only with the weight 0. Beyond the edges of a block, across
+// the direction, and of the tile these may be what nobody wrote: 0 times what is not a number is not 0.
+bool isNearEdge(ivec2 texel)
+{
+    int across = kAxis == 0 ? texel.y : texel.x;
+    int along = kAxis == 0 ? texel.x : texel.y;
+    int last_across = (kAxis == 0 ? place.size.y : place.size.x) - 1;
+    int last_along = (kAxis == 0 ? place.size.x : place.size.y) - 1;
+    int in_block = across % kBlockTexels;
+    return in_block == 0 || in_block == kBlockTexels - 1 || across == last_across || along <= kRadius ||
+           along >= last_along - kRadius;
+}
+
+vec4 blurOneByOne(ivec2 texel)
+{
+    vec4 total = vec4(0.0);
+    for (int i = -kRadius; i <= kRadius; ++i) {
+        total += sourceAt(texel + i * kAxisVector) * kernel.weight[abs(i)].x;
+    }
+    return total;
+}
+
 vec4 blurValues(ivec2 texel)
 {
+    if (isNearEdge(texel)) {
+        return blurOneByOne(texel);
+    }
     vec4 total = sourceAt(texel) * kernel.weight[0].z;
     vec2 centre = vec2(texel) + 0.5;
     for (int i = 1; i <= (kRadius + 1) / 2; ++i) {

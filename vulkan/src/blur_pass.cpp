@@ -181,7 +181,9 @@ FilterCost BlurPass::cost(const shared::BlurCounts& counts) const
     } else if (logarithms_) {
         cost.taps = texels_read;
     } else {
-        cost.taps = cost.texels * (1 + 2 * ((radius_ + 1) / 2));
+        // Of a block's 32 rows across the direction, the first and the last read texels one by one (blur.frag).
+        const std::uint64_t merged = 1 + 2 * ((radius_ + 1) / 2);
+        cost.taps = cost.texels * (15 * merged + kernel) / 16;
     }
     cost.taps += counts.filled;
     cost.bytes_moved = (texels_read + cost.texels + 2 * std::uint64_t{counts.filled}) * texel_bytes_;
