@@ -300,6 +300,30 @@ TEST(NullRecording, aFormatThatTheFilterCannotUseIsRefused)
     EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
 }
 
+TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
+{
+    ShadowRendererOptions options = NullHost::options(MapFormat::rg32f);
+    options.filter.filter = Filter::vsm;
+    struct Lack {
+        VkFormatFeatureFlags feature;
+        const char* said;
+    };
+    for (const Lack& lack : {Lack{VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "write in shaders"},
+                             Lack{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "draw to"},
+                             Lack{VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filter linearly"}}) {
+        NullDriver driver;
+        driver.hideFormatFeatures(lack.feature);
+        try {
+            const ShadowRenderer renderer(driver.view(), options);
+            FAIL() << lack.said;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(lack.said), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("rg32f"), std::string::npos) << error.what();
+        }
+        EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+    }
+}
+
 TEST(NullRecording, lightsWithoutMapsStillHaveAMask)
 {
     NullDriver driver;

@@ -56,6 +56,11 @@ void NullDriver::setMemory(std::uint64_t bytes)
     impl_->limits.memory_bytes = bytes;
 }
 
+void NullDriver::hideFormatFeatures(VkFormatFeatureFlags features)
+{
+    impl_->hidden_features = features;
+}
+
 void NullDriver::hideFunction(const char* name)
 {
     impl_->hidden = name;

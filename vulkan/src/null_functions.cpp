@@ -59,10 +59,10 @@ VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryPro
     properties->memoryHeapCount = 1;
 }
 
-VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice, VkFormat, VkFormatProperties* properties)
+VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat, VkFormatProperties* properties)
 {
     *properties = {};
-    properties->optimalTilingFeatures = ~VkFormatFeatureFlags{0};
+    properties->optimalTilingFeatures = ~driverOf(device).hidden_features;
 }
 
 // All that were asked for are there.

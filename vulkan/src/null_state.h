@@ -14,6 +14,7 @@ struct NullDriver::Impl {
     std::vector<NullEvent> events;
     std::uint64_t next_handle = 1;
     const char* hidden = nullptr;
+    VkFormatFeatureFlags hidden_features = 0;
 };
 
 template <class Handle>

@@ -71,6 +71,8 @@ public:
     [[nodiscard]] std::span<const NullEvent> events() const;
     void clearEvents();
     void setMemory(std::uint64_t bytes);
+    /// From now on every format lacks these features.
+    void hideFormatFeatures(VkFormatFeatureFlags features);
     /// From now on this function is missing (nullptr: none is). The name must outlive the driver.
     void hideFunction(const char* name);
 
