@@ -197,7 +197,7 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
                                 Plan& plan)
 {
     LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
-    if (options.level_depth)
+    if (options.level_depth && filter->filterable)
         space.depth_ws = levelDepth(space, *frame.objects, plan.receivers);
     const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
     const Outcome found = region.gather(

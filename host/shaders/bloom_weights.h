@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014: a chain of
-// halvings, each the weighted mean of five overlapping boxes of 4 x 4 texels (thirteen bilinear taps), enlarged again by
-// tents of 3 x 3 taps; the first halving weighs each box by 1 / (1 + brightness), after B. Karis, "Tone Mapping", 2013,
-// so that a single sparkling pixel does not light up its surroundings. Both GLSL and C++.
+// halvings, each the weighted mean of five overlapping boxes of 4 x 4 texels (thirteen bilinear taps), enlarged again
+// by tents of 3 x 3 taps; the first halving weighs each box by 1 / (1 + brightness), after B. Karis, "Tone Mapping",
+// 2013, so that a single sparkling pixel does not light up its surroundings. Both GLSL and C++.
 //
 // Every texel's weights sum to 1 over all that read it (times 4 where a level is enlarged), so light is only moved. All
 // levels have the same share, so the sum over the chain is divided by their number.

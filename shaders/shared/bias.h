@@ -47,7 +47,7 @@ struct MapPoint {
     real2 depth_slope;
     real2 w_slope;
     real cap;
-    real w; // > 0 in front of a perspective light; 1 for an orthographic one
+    real w;           // > 0 in front of a perspective light; 1 for an orthographic one
     real texel_depth; // a texel's width here, as a metric difference
 };
 

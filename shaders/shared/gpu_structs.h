@@ -67,8 +67,7 @@ struct GpuMaskLayer {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 176 && sizeof(GpuLight) == 32 &&
-              sizeof(GpuDepthLayers) == 128 &&
+static_assert(sizeof(GpuView) == 176 && sizeof(GpuLight) == 32 && sizeof(GpuDepthLayers) == 128 &&
               sizeof(GpuMaskLayer) == 208 + 32 * 16 + 4 * 32 + 64 * 176);
 } // namespace gnomon::shared
 #endif

@@ -27,7 +27,7 @@ struct GpuPlacePush {
     GN_IVEC4 slot; // x: of the layers, y: how many layers, z: most steps, w: MomentRule::flags
     GN_VEC4 how;   // x: overlap, y: share of the way to the new means that a step goes, z: 1 to begin anew
     GN_VEC4
-        carry; // last frame's depths to this one's metric: x times the linear depth plus y; near / far: z then, w now
+    carry; // last frame's depths to this one's metric: x times the linear depth plus y; near / far: z then, w now
 };
 
 #ifdef __cplusplus

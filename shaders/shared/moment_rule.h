@@ -16,12 +16,12 @@ GN_CONST int kMomentDerivatives = 64; // derivative-based variance
 
 struct MomentRule {
     int flags;
-    int sampling;            // gnomon::MapSampling
-    int layers;              // lvsm: 2 .. 8
-    real exponent;           // esm: c; evsm: c+
-    real exponent_negative;  // evsm: c-
-    real moment_bias;        // msm
-    real min_variance;       // of d', absolute
+    int sampling;             // gnomon::MapSampling
+    int layers;               // lvsm: 2 .. 8
+    real exponent;            // esm: c; evsm: c+
+    real exponent_negative;   // evsm: c-
+    real moment_bias;         // msm
+    real min_variance;        // of d', absolute
     real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds
     real linstep;
     real power;

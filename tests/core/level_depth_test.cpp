@@ -24,8 +24,9 @@ struct Ground {
         set.add({{-1, 0, -1}, {1, 4, 1}});
         set.add({{5, 0, 8}, {6, 3, 9}});
     }
-    Plan plan(const PlanOptions& options)
+    Plan plan(PlanOptions options, Filter filter = Filter::vsm)
     {
+        options.technique.filter = filter;
         Planner planner(options);
         Frame frame;
         frame.objects = &set;
@@ -67,6 +68,14 @@ TEST(LevelDepth, LevelGroundIsLevelInDepthUnderASlantedSun)
     EXPECT_LT(level.metric.far_m - level.metric.near_m, 0.5 * (along_axis.metric.far_m - along_axis.metric.near_m));
 }
 
+TEST(LevelDepth, IsForMapsThatAreAveraged)
+{
+    Ground ground;
+    const View bare = ground.plan({}, Filter::hard).views.at(0);
+    const glm::dvec3 gradient = glm::dvec3(bare.metric.metric_ws) * (bare.metric.far_m - bare.metric.near_m);
+    EXPECT_LT(glm::length(gradient - kSun), 1e-9);
+}
+
 TEST(LevelDepth, GrowsByOneMetrePerMetreAlongTheRay)
 {
     Ground ground;
@@ -82,9 +91,7 @@ TEST(LevelDepth, GrowsByOneMetrePerMetreAlongTheRay)
 TEST(LevelDepth, KeepsReceiversBeforeTheFarPlaneAndCastersAfterTheNearOne)
 {
     Ground ground;
-    PlanOptions options;
-    options.technique.filter = Filter::vsm;
-    const Plan plan = ground.plan(options);
+    const Plan plan = ground.plan({});
     for (const std::uint32_t object : plan.receivers)
         for (int i = 0; i < 8; ++i)
             EXPECT_LE(metricAt(plan.views.at(0), glm::dvec3(ground.set.bounds(object).corner(i))), 1.0);
@@ -113,12 +120,9 @@ TEST(LevelDepth, LeavesSpotsAloneAndObjectsThatMove)
 TEST(LevelDepth, FilterableMapsHoldTheirReceivers)
 {
     Ground ground;
-    PlanOptions options;
-    options.technique.filter = Filter::pcf;
-    const Plan spared = ground.plan(options);
+    const Plan spared = ground.plan({}, Filter::pcf);
     EXPECT_EQ(std::count(spared.casters.begin(), spared.casters.end(), 0U), 0);
-    options.technique.filter = Filter::vsm;
-    const Plan drawn = ground.plan(options);
+    const Plan drawn = ground.plan({});
     EXPECT_EQ(std::count(drawn.casters.begin(), drawn.casters.end(), 0U), 1);
 }
 

@@ -18,8 +18,9 @@ struct PlanOptions {
     double max_distance_m = 0.0;
     /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64.
     double border_texels = 4.0; // at most a quarter of map_size is used, so that half of the map is left
-    /// Parallel light: measure depth from a plane that leans with what receives shadow, so that level ground is level
-    /// in depth whatever the sun's height. It is still metres along the ray. False: along the light's axis.
+    /// Filterable maps under parallel light: measure depth from a plane that leans with what receives shadow, so that
+    /// level ground is level in depth whatever the sun's height. It is still metres along the ray. False: along the
+    /// light's axis, as maps of bare depth always do.
     bool level_depth = true;
     /// Layers that the atlas may have: 1 .. 2048. Lights that find none get Outcome atlas_full.
     std::uint32_t max_layers = 64;
