@@ -174,7 +174,7 @@ void addOwnRows(std::vector<Setting>& table)
          .doc = "else 80, or the most that the format holds", .own_option = false, .used = isEsm, .used_when = "filter esm",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.esm_exponent = static_cast<float>(v.real); }},
         {.key = "evsm.positive", .group = Group::technique, .type = real, .form = "C", .min = 0.01, .max = 10000,
-         .doc = "exponent; else 40, or the most that the format holds", .own_option = false, .used = isEvsm, .used_when = "filter evsm",
+         .doc = "exponent; else 40, of two channels 5; at most what the format holds", .own_option = false, .used = isEvsm, .used_when = "filter evsm",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.evsm_positive = static_cast<float>(v.real); }},
         {.key = "evsm.negative", .group = Group::technique, .type = real, .form = "C", .min = 0.01, .max = 10000,
          .doc = "exponent of the second warp; else 5", .own_option = false, .used = hasBothWarps, .used_when = "filter evsm and four channels",

@@ -205,6 +205,7 @@ TEST(MomentOptions, ExponentsThatNobodyChoseFit)
     EXPECT_EQ(defaultExponent(Filter::esm, MapFormat::r16f, options, false), 11.0);
     EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba32f, options, false), 40.0);
     EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba32f, options, true), 5.0);
+    EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rg32f, options, false), 5.0);
     EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba16f, options, false), 5.54);
     EXPECT_EQ(defaultExponent(Filter::evsm, MapFormat::rgba16f, options, true), 5.0);
     const MomentOptions logs{.log_space = true};

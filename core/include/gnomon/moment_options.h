@@ -86,7 +86,7 @@ struct MomentOptions {
 [[nodiscard]] std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options);
 /// The largest exponent whose stored values a format holds: ESM stores e^c, EVSM e^2c; without bound in log space.
 [[nodiscard]] double largestExponent(Filter filter, MapFormat format, const MomentOptions& options);
-/// esm 80; evsm 40 and 5; or the format's largest where that is less.
+/// esm 80; evsm 40 and 5, of two channels 5; or the format's largest where that is less.
 [[nodiscard]] double defaultExponent(Filter filter, MapFormat format, const MomentOptions& options, bool negative);
 /// Why these options cannot be had together, as a sentence; nothing when they can. Ranges above are checked here too.
 [[nodiscard]] std::optional<std::string> refusal(Filter filter, MapFormat format, const MomentOptions& options);
