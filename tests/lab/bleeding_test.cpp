@@ -88,13 +88,14 @@ struct Shares { // of vsm's bleeding, the most that is allowed
 };
 
 /// At equal bytes, size and blur.
-void expectShares(Stage& stage, const truth::Traced& truth, const std::string& name, float split, const Shares& most)
+void expectShares(Stage& stage, const truth::Traced& truth, const std::string& name, float split, const Shares& most,
+                  double least_of_vsm = 1e-5)
 {
     const double of_vsm = bleedingOf(stage.score(vsm(), truth));
     const double of_lvsm = bleedingOf(stage.score(lvsm({split}), truth));
     std::printf("%s, bleeding: vsm %.3e, two layers %.3e (%.0f %%)\n", name.c_str(), of_vsm, of_lvsm,
                 100.0 * of_lvsm / of_vsm);
-    EXPECT_GT(of_vsm, 1e-5) << name;
+    EXPECT_GT(of_vsm, least_of_vsm) << name;
     EXPECT_LE(of_lvsm, most.lvsm * of_vsm) << name;
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
         const Rival& rival = kRivals[i];
@@ -115,10 +116,9 @@ TEST(Bleeding, IsLessOnCanopies)
 TEST(Bleeding, IsLessOnTheStrategyWorld)
 {
     Stage stage(scene::makeRts(1), "camp", {240, 135});
-    // Depths of casters and receivers lie close to each other here, so that two layers save less; and one warp alone
-    // takes what lies just behind its caster for lit.
-    const Shares most{.lvsm = 1.0, .rivals = {1.0, std::numeric_limits<double>::infinity(), 1.0}};
-    expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most);
+    // Measured: 28 %, and 35, 35 and 21 % for the others; a picture this small has few pixels to tell by.
+    const Shares most{.lvsm = 0.6, .rivals = {0.7, 0.7, 0.6}};
+    expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most, 2e-6);
 }
 
 } // namespace

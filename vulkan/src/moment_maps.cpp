@@ -132,7 +132,7 @@ void MomentMaps::makeImages(const Need& need)
         scratch.format = storage_.colour;
         scratch.extent = need.tile;
         scratch.layers = layers_per_map_;
-        scratch.usage = kColour;
+        scratch.usage = kColour | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         scratch.purpose = "shadow blur";
         images_.scratch = Image(device_, scratch);
     }
@@ -141,7 +141,7 @@ void MomentMaps::makeImages(const Need& need)
     images_.blocks =
         DeviceBuffer(device_, 4 * blocks, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                      "shadow filter buffers");
-    scratch_is_ready_ = false;
+    cleared_ = false;
 }
 
 void MomentMaps::makeSets()
@@ -203,25 +203,44 @@ void MomentMaps::toLayout(VkCommandBuffer commands, VkImageLayout layout)
 
 void MomentMaps::makeReadable(VkCommandBuffer commands)
 {
+    clearNewImages(commands);
     if (layout_of_maps_ != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
         toLayout(commands, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }
 
-void MomentMaps::prepareScratch(VkCommandBuffer commands)
+// A filtered read at the edge of a tile or of a block touches texels beside it with weight 0. New memory may hold NaN
+// there, and 0 times that is not 0.
+void MomentMaps::clearNewImages(VkCommandBuffer commands)
 {
-    if (!images_.scratch || scratch_is_ready_) {
+    if (cleared_) {
         return;
     }
-    ImageBarrier barrier;
-    barrier.image = images_.scratch.image();
-    barrier.layer_count = images_.scratch.info().layers;
-    barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
-    barrier.target_stages = kShaders | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-                            VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
-    scratch_is_ready_ = true;
+    for (const Image* image : {&images_.maps, &images_.scratch}) {
+        if (!*image) {
+            continue;
+        }
+        ImageBarrier barrier;
+        barrier.image = image->image();
+        barrier.layer_count = image->info().layers;
+        barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        recordBarrier(device_, commands, barrier);
+        const VkClearColorValue zeros{};
+        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                          VK_REMAINING_ARRAY_LAYERS};
+        device_.vk.CmdClearColorImage(commands, image->image(), VK_IMAGE_LAYOUT_GENERAL, &zeros, 1, &all);
+        barrier.old_layout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.target_stages = kShaders | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+        barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                                VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+        recordBarrier(device_, commands, barrier);
+    }
+    layout_of_maps_ = VK_IMAGE_LAYOUT_GENERAL;
+    cleared_ = true;
 }
 
 void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
@@ -233,6 +252,7 @@ void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan
         if (!plan.views[i].redraw && !redraw_all_) {
             continue;
         }
+        clearNewImages(commands);
         if (layout_of_maps_ != VK_IMAGE_LAYOUT_GENERAL) {
             toLayout(commands, VK_IMAGE_LAYOUT_GENERAL);
         }
@@ -296,7 +316,6 @@ void MomentMaps::recordFilter(VkCommandBuffer commands, std::uint32_t slot, cons
     step.depth_slot = placer_.slotOf(index);
     step.near_over_far = view.orthographic ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
     step.counts_offset = slot * counts_stride_;
-    prepareScratch(commands);
 
     // The flags of the view before were read by both kinds of shaders.
     MemoryBarrier barrier;

@@ -40,7 +40,7 @@ private:
     void makeImages(const Need& need);
     void makeSets();
     void toLayout(VkCommandBuffer commands, VkImageLayout layout);
-    void prepareScratch(VkCommandBuffer commands);
+    void clearNewImages(VkCommandBuffer commands);
     void recordDepth(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
     void recordFilter(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, std::uint32_t view);
     [[nodiscard]] shared::BlurCounts& counts(std::uint32_t slot) const;
@@ -59,7 +59,7 @@ private:
     MomentImages images_;
     bool ready_ = false; // images and sets are all there
     VkImageLayout layout_of_maps_ = VK_IMAGE_LAYOUT_UNDEFINED;
-    bool scratch_is_ready_ = false;
+    bool cleared_ = false;
     bool redraw_all_ = true;
 };
 

@@ -372,6 +372,7 @@ const Entry kEntries[] = {
     GNOMON_NULL(CmdSetScissor, cmdIgnored),
     GNOMON_NULL(CmdDispatch, cmdDispatch),
     GNOMON_NULL(CmdFillBuffer, cmdIgnored),
+    GNOMON_NULL(CmdClearColorImage, cmdIgnored),
     GNOMON_NULL(CmdDraw, cmdDraw),
     GNOMON_NULL(CmdDrawIndexedIndirect, cmdDrawIndirect),
     GNOMON_NULL(CmdBeginQuery, cmdLogged<NullEvent::Kind::begin_query>),
