@@ -107,7 +107,7 @@ void addMapRows(std::vector<Setting>& table)
         {.key = "blur.path", .group = Group::technique, .type = choice, .form = "PATH", .default_text = "auto", .choices = [] { return enumNames<BlurPath>(3); },
          .doc = "which shaders blur; auto: the ones that are faster here", .own_option = false, .used = isBlurred, .used_when = "a filterable map and blur gaussian or box",
          .apply = [](Settings& s, const Value& v) { setNamed(s.filter.moments.blur_path, v, 3); }},
-        {.key = "map-sampling", .group = Group::technique, .type = choice, .form = "KIND", .default_text = "trilinear", .choices = [] { return enumNames<MapSampling>(4); },
+        {.key = "map-sampling", .group = Group::technique, .type = choice, .form = "KIND", .default_text = "bilinear", .choices = [] { return enumNames<MapSampling>(4); },
          .doc = "how the map is read; the last two have mip levels", .own_option = false, .used = isFilterable, .used_when = kFilterable,
          .apply = [](Settings& s, const Value& v) { setNamed(s.filter.moments.sampling, v, 4); }},
         {.key = "anisotropy", .group = Group::technique, .type = integer, .form = "N", .unit = "reads", .default_text = "8", .min = 2, .max = 16,

@@ -39,8 +39,8 @@ struct MomentOptions {
     float blur_sigma_texels = 1.25F;      // gaussian; 0.3 .. 10
     std::uint32_t blur_radius_texels = 0; // 1 .. 31; 0: three sigma rounded up (box: 2)
     BlurPath blur_path = BlurPath::automatic;
-    MapSampling sampling = MapSampling::trilinear;
-    std::uint32_t anisotropy = 8; // anisotropic: most reads a pixel, 2 .. 16
+    MapSampling sampling = MapSampling::bilinear; // nearest to the truth at rest; coarser levels spare shimmer
+    std::uint32_t anisotropy = 8;                 // anisotropic: most reads a pixel, 2 .. 16
 
     // vsm, lvsm, evsm
     /// Least variance, in squares of the depth metric, 0 .. 1. Nothing: what the format's rounding and half a texel of
