@@ -193,7 +193,7 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     if (options.remap && isUnorm(format)) {
         return std::string(nameOf(format)) + " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can";
     }
-    if (const auto reason = rangeRefusal(options)) {
+    if (auto reason = rangeRefusal(options)) {
         return reason;
     }
     const double largest = largestExponent(filter, format, options);
@@ -203,7 +203,7 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     case Filter::esm:
         return exponentRefusal("exponent", options.esm_exponent, format, largest);
     case Filter::evsm:
-        if (const auto reason = exponentRefusal("positive exponent", options.evsm_positive, format, largest)) {
+        if (auto reason = exponentRefusal("positive exponent", options.evsm_positive, format, largest)) {
             return reason;
         }
         return hasFourChannels(format) ? exponentRefusal("negative exponent", options.evsm_negative, format, largest)
