@@ -25,7 +25,7 @@ Outcome checkCamera(const Camera& camera)
 }
 
 /// Half-spaces around the ball of what is near enough to be shadowed.
-void addDistancePlanes(const Camera& camera, double max_distance_m, std::vector<Plane>& planes)
+void addDistancePlanes(const Camera& camera, const CameraView& view, double max_distance_m, std::vector<Plane>& planes)
 {
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
@@ -33,13 +33,19 @@ void addDistancePlanes(const Camera& camera, double max_distance_m, std::vector<
             normal[axis] = sign;
             planes.push_back({normal, max_distance_m - glm::dot(normal, camera.eye_ws)});
         }
-    // Of a perspective camera w grows along the view axis.
+    if (view.perspective)
+        planes.push_back({-view.forward_ws, max_distance_m + glm::dot(view.forward_ws, camera.eye_ws)});
+}
+
+/// Of a perspective camera w grows along the view axis, of an orthographic one z does, or falls.
+void findAxis(const Camera& camera, CameraView& view)
+{
     const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
-    const glm::dvec3 forward(rows[3]);
-    if (const double length = glm::length(forward); length > 0.0) {
-        const glm::dvec3 normal = -forward / length;
-        planes.push_back({normal, max_distance_m - glm::dot(normal, camera.eye_ws)});
-    }
+    const glm::dvec3 w(rows[3]);
+    view.eye_ws = camera.eye_ws;
+    view.perspective = glm::length(w) > 0.0;
+    const glm::dvec3 z = camera.reversed_z ? -glm::dvec3(rows[2]) : glm::dvec3(rows[2]);
+    view.forward_ws = glm::normalize(view.perspective ? w : z);
 }
 
 } // namespace
@@ -52,6 +58,7 @@ void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std
     outcome = checkCamera(frame.camera);
     if (outcome.kind != OutcomeKind::ok || scene_ws.empty())
         return;
+    findAxis(frame.camera, *this);
     const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(scene_ws.min)), glm::abs(glm::dvec3(scene_ws.max)));
     pad_m = 1e-6 * std::max({largest.x, largest.y, largest.z}) + 1e-5;
 
@@ -59,7 +66,7 @@ void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std
         if (plane.normal != glm::dvec3(0.0))
             planes.push_back(plane);
     if (max_distance_m > 0.0)
-        addDistancePlanes(frame.camera, max_distance_m, planes);
+        addDistancePlanes(frame.camera, *this, max_distance_m, planes);
     frame.objects->query(planes, ObjectSet::Want::receivers, receivers);
     if (max_distance_m > 0.0)
         std::erase_if(receivers, [&](std::uint32_t object) {

@@ -157,6 +157,11 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.flag("clamp_near", view.clamp_near);
     json.value("texel_m", view.texel_m);
     json.vector("texel_xy_m", view.texel_xy_m, 2);
+    json.openLine("fit", '{');
+    json.value("strength", view.fit.strength);
+    json.vector("finest_texel", view.fit.finest_texel, 2);
+    json.vector("coarsest_texel", view.fit.coarsest_texel, 2);
+    json.closeLine('}');
     json.vector("light_place_ws", view.light_place_ws, 3);
     json.open("clip_from_world_rows", '[');
     for (int row = 0; row < 4; ++row) {

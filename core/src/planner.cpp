@@ -4,7 +4,7 @@
 #include "atlas/layers.h"
 #include "camera_view.h"
 #include "depth_tilt.h"
-#include "fit/fit.h"
+#include "fit/projection.h"
 #include "motion/motion.h"
 #include "partition/partition.h"
 #include "region.h"
@@ -199,28 +199,31 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
     if (options.level_depth && filter->filterable)
         space.depth_ws = levelDepth(space, *frame.objects, plan.receivers);
-    const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
-    const Outcome found = region.gather(
-        {space, slice, view, *frame.objects, plan.receivers, options.map_size, border_texels, filter->filterable},
-        plan.casters);
-    if (found.kind != OutcomeKind::ok)
+    const RegionInput input{space, slice, view, *frame.objects, plan.receivers, filter->filterable};
+    if (const Outcome found = region.gatherReceivers(input); found.kind != OutcomeKind::ok)
         return found;
+    const Warp warp = fit({space, region.outline(), region.body().points(), view});
+    // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
+    const LightRect rect = warp.warped() ? rectOf(warp, region.outline()) : region.rect();
+    const MapFrame shown = frameOf(motion(rect, {options.map_size, border_texels}),
+                                   space.perspective ? 1e-4 : 1e-3 + view.pad_m, options.map_size, border_texels);
 
     View made;
     made.light = light;
+    made.fit = reportOf(warp, shown, region.outline());
+    made.texel_xy_m = made.fit.coarsest_texel;
+    made.texel_m = std::max(made.texel_xy_m.x, made.texel_xy_m.y);
+    const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
+    const Outcome found = region.gatherCasters(input, (border_texels + 1.0) * made.texel_m, plan.casters);
+    if (found.kind != OutcomeKind::ok)
+        return found;
+    const std::span casters = std::span(plan.casters).subspan(first_caster);
+
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
     made.clamp_near = filter->clamps_near && !space.perspective;
-    const glm::dvec2 size_m = region.rect().high - region.rect().low; // across a light without a place
-    const double about_a_texel_m = std::max(size_m.x, size_m.y) / options.map_size;
-    const DepthRange range = depthRangeOf(region, space, made.clamp_near, about_a_texel_m, view.pad_m);
-    const std::span casters = std::span(plan.casters).subspan(first_caster);
-    const FitResult fitted = fit({space, region.body(), motion(region.rect(), {options.map_size, border_texels}),
-                                  range.near_m, range.far_m, space.perspective ? 1e-4 : 1e-3 + view.pad_m,
-                                  *frame.objects, casters, frame.camera, options.map_size, border_texels});
-    made.clip_from_world = fitted.clip_from_world;
-    made.orthographic = fitted.orthographic;
-    made.texel_xy_m = fitted.texel_xy;
-    made.texel_m = std::max(fitted.texel_xy.x, fitted.texel_xy.y);
+    const DepthRange range = depthRangeOf(region, space, made.clamp_near, made.texel_m, view.pad_m);
+    made.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
+    made.orthographic = !space.perspective && !warp.warped();
     const double place_m = lightPlaceOf(region, space, range.near_m);
     const glm::dvec3 centre_ws = region.centre_ws();
     made.light_place_ws =
@@ -233,7 +236,7 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     made.first_caster = first_caster;
     made.caster_count = static_cast<std::uint32_t>(casters.size());
     plan.views.push_back(made);
-    return fitted.outcome;
+    return warp.outcome;
 }
 
 void Planner::Impl::decideRedraws(const Frame& frame, Plan& plan, const Plan& last) const

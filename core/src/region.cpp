@@ -35,7 +35,7 @@ double cross2(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
 }
 
 /// Convex outline, counter-clockwise. Based on: A. M. Andrew, "Another efficient algorithm for convex hulls in two
-/// dimensions", 1979. Sorts `points`.
+/// dimensions", 1979. Sorts `points`, of which there is one at least.
 void outlineOf(std::vector<glm::dvec2>& points, std::vector<glm::dvec2>& outline)
 {
     std::sort(points.begin(), points.end(),
@@ -53,6 +53,8 @@ void outlineOf(std::vector<glm::dvec2>& points, std::vector<glm::dvec2>& outline
     };
     chain(points.begin(), points.end());
     chain(points.rbegin(), points.rend());
+    if (outline.empty()) // all are one point
+        outline.push_back(points.front());
 }
 
 Aabb grown(const Aabb& box, double by_m)
@@ -111,6 +113,7 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     body_.clip(cone_planes_);
     if (!measureBody(space))
         return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    outlineOf(outline_points_, outline_);
     narrowToBoxes(space);
     return {};
 }
@@ -150,6 +153,38 @@ void Region::narrowToBoxes(const LightSpace& space)
     receiver_far_m_ = std::max(std::min(receiver_far_m_, boxes_far_m_), receiver_near_m_);
     if (space.perspective)
         receiver_near_m_ = std::max(receiver_near_m_, space.near_m);
+    narrowOutline();
+}
+
+/// Clips the outline by the rectangle. Based on: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", 1974.
+void Region::narrowOutline()
+{
+    for (int side = 0; side < 4; ++side) {
+        const int axis = side & 1;
+        const double sign = side < 2 ? 1.0 : -1.0;
+        const double limit = side < 2 ? rect_.low[axis] : rect_.high[axis];
+        const auto inside = [&](const glm::dvec2& p) {
+            return sign * (p[axis] - limit);
+        };
+        outline_points_.clear();
+        for (std::size_t i = 0; i < outline_.size(); ++i) {
+            const glm::dvec2& a = outline_[i];
+            const glm::dvec2& b = outline_[(i + 1) % outline_.size()];
+            const double da = inside(a);
+            const double db = inside(b);
+            if (da >= 0.0)
+                outline_points_.push_back(a);
+            if ((da < 0.0) != (db < 0.0)) {
+                glm::dvec2 cut = a + (b - a) * (da / (da - db));
+                cut[axis] = limit;
+                outline_points_.push_back(cut);
+            }
+        }
+        // Nothing is left where rounding alone held the two apart.
+        if (outline_points_.empty())
+            outline_points_.push_back((rect_.low + rect_.high) * 0.5);
+        outline_.swap(outline_points_);
+    }
 }
 
 void Region::addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad)
@@ -167,14 +202,11 @@ void Region::addSidePlane(const LightSpace& space, const glm::dvec2& normal, dou
 
 /// The body swept toward the light: the sides of its outline along the rays, and those of its faces that look away
 /// from the light. Wider by the map's border, because a filter's kernel looks that far.
-void Region::makeCasterPlanes(const RegionInput& input)
+void Region::makeCasterPlanes(const RegionInput& input, double pad)
 {
     const LightSpace& space = input.space;
-    const glm::dvec2 size = rect_.high - rect_.low;
     const double rounding = space.perspective ? 1e-7 : input.view.pad_m;
-    const double texels = static_cast<double>(input.map_size) - 2.0 * input.border_texels;
-    const double pad = (input.border_texels + 1.0) * std::max(size.x, size.y) / texels + rounding;
-
+    pad += rounding;
     caster_planes_.clear();
     addSidePlane(space, {1.0, 0.0}, -rect_.low.x, pad);
     addSidePlane(space, {-1.0, 0.0}, rect_.high.x, pad);
@@ -192,7 +224,6 @@ void Region::makeCasterPlanes(const RegionInput& input)
         if (looks_away)
             caster_planes_.push_back({face.normal, face.d + pad_m});
     }
-    outlineOf(outline_points_, outline_);
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         const glm::dvec2 edge = outline_[(i + 1) % outline_.size()] - outline_[i];
         const double length = glm::length(edge);
@@ -206,11 +237,9 @@ void Region::makeCasterPlanes(const RegionInput& input)
     }
 }
 
-Outcome Region::gather(const RegionInput& input, std::vector<std::uint32_t>& casters)
+Outcome Region::gatherCasters(const RegionInput& input, double pad, std::vector<std::uint32_t>& casters)
 {
-    if (const Outcome outcome = gatherReceivers(input); outcome.kind != OutcomeKind::ok)
-        return outcome;
-    makeCasterPlanes(input);
+    makeCasterPlanes(input, pad);
     const std::size_t first = casters.size();
     input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
     if (casters.size() != first && input.draws_receivers) {

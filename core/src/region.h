@@ -16,32 +16,36 @@ struct RegionInput {
     const CameraView& view;
     const ObjectSet& objects;
     std::span<const std::uint32_t> seen; // receivers that the camera sees
-    std::uint32_t map_size = 0;
-    double border_texels = 0.0;
-    bool draws_receivers = false; // FilterTraits::filterable
+    bool draws_receivers = false;        // FilterTraits::filterable
 };
 
 class Region {
 public:
-    /// ok, no_receiver or no_caster. Appends the casters to `casters`, ascending. Keeps its memory.
-    Outcome gather(const RegionInput& input, std::vector<std::uint32_t>& casters);
+    /// ok or no_receiver. Keeps its memory.
+    Outcome gatherReceivers(const RegionInput& input);
+    /// ok or no_caster; after gatherReceivers() said ok for the same input. Appends the casters to `casters`, ascending.
+    /// `pad`: how far outside the outline texels count, as LightRect has it, because a filter's kernel looks that far.
+    Outcome gatherCasters(const RegionInput& input, double pad, std::vector<std::uint32_t>& casters);
 
-    /// Valid after gather() said ok, until the next one.
+    /// Valid after gatherReceivers() said ok, until the next one.
     [[nodiscard]] const ConvexBody& body() const { return body_; }
+    /// What is seen and lit, seen from the light: convex, counter-clockwise, one corner at least, within rect().
+    [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
     [[nodiscard]] const LightRect& rect() const { return rect_; }
     /// Depths as LightSpace::depth_ws measures them, from its origin.
     [[nodiscard]] double receiverNear_m() const { return receiver_near_m_; }
     [[nodiscard]] double receiverFar_m() const { return receiver_far_m_; }
+    /// Valid after gatherCasters() said ok.
     [[nodiscard]] double casterNear_m() const { return caster_near_m_; }
     [[nodiscard]] glm::dvec3 centre_ws() const { return centre_ws_; }
 
 private:
-    Outcome gatherReceivers(const RegionInput& input);
     bool measureBody(const LightSpace& space);
     void narrowToBoxes(const LightSpace& space);
+    void narrowOutline();
     void measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters);
     double depthInCone(const LightSpace& space, const Aabb& box);
-    void makeCasterPlanes(const RegionInput& input);
+    void makeCasterPlanes(const RegionInput& input, double pad);
     void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);
 
     ConvexBody body_;

@@ -31,6 +31,7 @@ Plan tinyPlan()
     view.metric.far_m = 5.0;
     view.texel_m = 0.25;
     view.texel_xy_m = {0.25, 0.125};
+    view.fit = {4.0, {0.0625, 0.03125}, {0.25, 0.125}};
     view.light_place_ws = {1.0, 2.0, 3.0};
     view.tile = {0, 0, 0, 1024, 1024};
     view.caster_count = 2;
@@ -57,6 +58,7 @@ constexpr const char* kGolden = R"({
       "clamp_near": true,
       "texel_m": 0.25,
       "texel_xy_m": [0.25, 0.125],
+      "fit": {"strength": 4, "finest_texel": [0.0625, 0.03125], "coarsest_texel": [0.25, 0.125]},
       "light_place_ws": [1, 2, 3],
       "clip_from_world_rows": [
         [0.1, 0, 0, 0],

@@ -69,6 +69,13 @@ struct DepthMetric {
     double far_m = 1.0;
 };
 
+/// What a fit achieved. Sides of texels are as View::texel_xy_m has them, in x and y of the map.
+struct FitReport {
+    double strength = 1.0;          // how many times as wide the widest texel is as the narrowest; 1: no warp
+    glm::dvec2 finest_texel{0.0};   // of a warped map: of what is seen and lit, where it is drawn most finely
+    glm::dvec2 coarsest_texel{0.0}; // and most coarsely
+};
+
 /// One map to draw: a frustum of one light.
 struct View {
     std::uint32_t light = 0;         // index into Frame::lights
@@ -76,12 +83,15 @@ struct View {
     DepthMetric metric;
     bool orthographic = true; // then the rasteriser's z is the metric itself, up to rounding
     bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
-    double texel_m = 0.0;     // side of a texel: metres across the light (orthographic), or metres at 1 m distance
+    /// Side of a texel: metres across a directional light, or metres at 1 m distance from a light with a place. Of a
+    /// warped map it is the longest of what is seen and lit.
+    double texel_m = 0.0;
     Tile tile;
     std::uint32_t first_caster = 0; // range of Plan::casters: what is drawn, see ObjectFlags::casts
     std::uint32_t caster_count = 0;
     bool redraw = true;         // false: the map of the last frame still holds
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
+    FitReport fit;
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
     glm::dvec3 light_place_ws{0.0};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/fit.h"
 
-#include <algorithm>
-
 namespace gnomon {
 namespace {
 
@@ -22,11 +20,6 @@ FitFunction fitFunction(Fit fit)
         if (row.fit == fit)
             return row.function;
     return nullptr;
-}
-
-double usableBorder(double border_texels, std::uint32_t map_size)
-{
-    return std::min(border_texels, 0.25 * static_cast<double>(map_size));
 }
 
 } // namespace gnomon
