@@ -9,13 +9,14 @@
 GN_BEGIN
 
 // Rows that take a point (p, 1) to the map: atlas texels (x / w, y / w) and the depth metric. w is (0, 0, 0, 1) for an
-// orthographic map, the distance along the axis in metres for a perspective one.
+// orthographic map, the distance along the axis in metres for a perspective one, and times the warp's w for a warped
+// one.
 struct MapRows {
     real4 x;
     real4 y;
     real4 w;
     real4 metric;
-    real texel_m; // a texel's width in metres at w = 1
+    real texel_m; // a texel's longest side in metres; of use for an orthographic map only
     real range_m; // metres from metric 0 to metric 1
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
     // What receiverPlane() comes down to when w is constant, in xyz: the cross products of the rows' gradients,
@@ -73,6 +74,20 @@ GN_FN real3 gradientOf(real4 row)
     return real3(row.x, row.y, row.z);
 }
 
+GN_FN real mapW(MapRows map, real3 p)
+{
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    return real(1.0);
+#else
+    return dotRow(map.w, p);
+#endif
+}
+
+GN_FN real2 texelAt(MapRows map, real3 p, real w)
+{
+    return real2(dotRow(map.x, p), dotRow(map.y, p)) / w;
+}
+
 // Derivation. Capitals are gradients of the rows, x is the cross product between vectors.
 // Moving from texel (u, v) to (u + du, v + dv) on the plane dot(n, dp) = 0 means
 //   dot(X, dp) = w' du,  dot(Y, dp) = w' dv,
@@ -108,19 +123,37 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
 #endif
 }
 
+// A texel's longest extent across the light where the map has the given w, metres. A texel is a ray of light, so the
+// gradients of its two coordinates lie across the ray, and the inverse of the two stretches a texel to its footprint by
+// at most one over their least singular value: the greatest over their determinant.
+GN_FN real texelExtent(MapRows map, real2 texel, real w)
+{
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    return map.texel_m;
+#else
+    real3 gx = gradientOf(map.x) - gradientOf(map.w) * texel.x;
+    real3 gy = gradientOf(map.y) - gradientOf(map.w) * texel.y;
+    real xx = dot(gx, gx);
+    real yy = dot(gy, gy);
+    real xy = dot(gx, gy);
+    real half_difference = real(0.5) * (xx - yy);
+    real greatest = real(0.5) * (xx + yy) + sqrt(half_difference * half_difference + xy * xy);
+    return w * sqrt(greatest) / length(cross(gx, gy));
+#endif
+}
+
 // `p` in the space of the rows, `n` its unit geometric normal, which faces the light.
 GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
 {
     MapPoint r;
     real offset_texels = rule.automatic > real(0.0) ? real(0.0) : rule.normal_texels;
-    real3 moved = offset_texels == real(0.0) ? p : p + n * (offset_texels * map.texel_m * dotRow(map.w, p));
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    r.w = real(1.0);
-    r.texel = real2(dotRow(map.x, moved), dotRow(map.y, moved));
-#else
-    r.w = dotRow(map.w, moved);
-    r.texel = real2(dotRow(map.x, moved), dotRow(map.y, moved)) / r.w;
-#endif
+    real3 moved = p;
+    if (offset_texels != real(0.0)) {
+        real w = mapW(map, p);
+        moved = p + n * (offset_texels * texelExtent(map, texelAt(map, p, w), w));
+    }
+    r.w = mapW(map, moved);
+    r.texel = texelAt(map, moved, r.w);
     real m = dotRow(map.metric, moved);
 
     real2 plane_slope;
@@ -128,8 +161,7 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
     receiverPlane(map, n, r.texel, r.w, m, plane_slope, w_slope);
     // The slope of depth itself, in metric per texel, at the receiver.
     real2 slope = plane_slope - w_slope * m;
-    real texel_m = map.texel_m * r.w;
-    real texel_depth = texel_m / map.range_m; // a texel's width, as a metric difference
+    real texel_depth = texelExtent(map, r.texel, r.w) / map.range_m; // a texel's width, as a metric difference
     real steepness = length(slope) / texel_depth;
 
     real follow = real(0.0);
