@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The other checks of tools/ must be able to fail: plants one fault at a time. usage: test_checks.py TOOLS_FOLDER"""
 
+import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -39,6 +41,25 @@ class Headers(unittest.TestCase):
         result = run("check_headers.py", {"core/include/gnomon/a.h": '#pragma once\n#include "b.h"\n',
                                           "core/src/b.h": "#pragma once\n"})
         self.assertEqual(result.returncode, 1)
+
+    def test_object_shows_what_its_source_includes_first_unless_a_header_is_newer(self):
+        for guard, older, stands in (("#pragma once\n", True, True), ("#pragma once\n", False, False), ("", True, False)):
+            with self.subTest(guard=guard, older=older), tempfile.TemporaryDirectory() as folder:
+                root, build = Path(folder, "root").resolve(), Path(folder, "build").resolve()
+                header, source, made = root / "core/src/a.h", root / "core/src/a.cpp", build / "a.o"
+                header.parent.mkdir(parents=True)
+                build.mkdir()
+                # Only by taking the object's word can this header pass.
+                header.write_text(guard + "inline std::vector<int> a;\n", encoding="utf-8")
+                source.write_text('#include "a.h"\n', encoding="utf-8")
+                made.write_text("", encoding="utf-8")
+                for file, time in ((header, 1 if older else 3), (source, 1), (made, 2)):
+                    os.utime(file, (time, time))
+                (build / "compile_commands.json").write_text(json.dumps(
+                    [{"file": str(source), "command": "c++ -o a.o -c a.cpp"}]), encoding="utf-8")
+                result = subprocess.run([sys.executable, TOOLS / "check_headers.py", "--build", build, root],
+                                        capture_output=True, text=True, check=False)
+                self.assertEqual(result.returncode == 0, stands, result.stderr)
 
     def test_no_header_fails(self):
         self.assertEqual(run("check_headers.py", {"README.md": ""}).returncode, 1)
