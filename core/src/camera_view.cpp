@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -48,7 +49,44 @@ void findAxis(const Camera& camera, CameraView& view)
     view.forward_ws = glm::normalize(view.perspective ? w : z);
 }
 
+constexpr int kMostCutBoxes = 64;
+
 } // namespace
+
+void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::uint32_t>& receivers)
+{
+    near_m = std::numeric_limits<double>::infinity();
+    far_m = -near_m;
+    int cut_boxes = 0;
+    for (const std::uint32_t object : receivers) {
+        const Aabb& box = objects.bounds(object);
+        const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
+        const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5 + pad_m;
+        const double depth_m = depthOf(centre);
+        const double reach_m = glm::dot(glm::abs(forward_ws), half);
+        if (depth_m - reach_m >= near_m && depth_m + reach_m <= far_m)
+            continue;
+        // Of a box that reaches out of sight only a part is seen. Clipping takes a microsecond, so not for all.
+        if (cut_boxes == kMostCutBoxes) {
+            near_m = std::min(near_m, depth_m - reach_m);
+            far_m = std::max(far_m, depth_m + reach_m);
+            continue;
+        }
+        ++cut_boxes;
+        const glm::vec3 pad(static_cast<float>(pad_m));
+        cut_.reset({box.min - pad, box.max + pad});
+        cut_.clip(planes);
+        for (const glm::dvec3& corner : cut_.points()) {
+            near_m = std::min(near_m, depthOf(corner));
+            far_m = std::max(far_m, depthOf(corner));
+        }
+    }
+    if (!(near_m <= far_m)) // boxes that only touch the view
+        near_m = far_m = 0.0;
+    if (perspective)
+        near_m = std::max(near_m, 0.0);
+    far_m = std::max(far_m, near_m);
+}
 
 void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std::uint32_t>& receivers)
 {

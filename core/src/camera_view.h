@@ -10,16 +10,26 @@
 namespace gnomon {
 
 struct CameraView {
-    Outcome outcome;           // degenerate: the camera's numbers describe no view
+    Outcome outcome; // degenerate: the camera's numbers describe no view
     glm::dvec3 eye_ws{0.0};
     glm::dvec3 forward_ws{0.0, 0.0, -1.0}; // unit: depth of view grows along it
     bool perspective = true;               // else near and far things are seen equally large
-    std::vector<Plane> planes; // inward; planes at infinity are left out
-    double pad_m = 0.0;        // what a float coordinate of this scene may be off
+    std::vector<Plane> planes;             // inward; planes at infinity are left out
+    double pad_m = 0.0;                    // what a float coordinate of this scene may be off
     Aabb scene_ws;
+
+    /// Depths along forward_ws from the eye between which the receivers are; by measureDepths().
+    double near_m = 0.0;
+    double far_m = 0.0;
 
     /// Fills this and `receivers` (ascending, cleared first), keeping memory.
     void look(const Frame& frame, double max_distance_m, std::vector<std::uint32_t>& receivers);
+    /// Depth of what is seen of them. After look(), when it said ok and found receivers.
+    void measureDepths(const ObjectSet& objects, const std::vector<std::uint32_t>& receivers);
+    [[nodiscard]] double depthOf(const glm::dvec3& p_ws) const { return glm::dot(forward_ws, p_ws - eye_ws); }
+
+private:
+    ConvexBody cut_; // scratch
 };
 
 } // namespace gnomon

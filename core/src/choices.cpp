@@ -40,7 +40,7 @@ constexpr std::array kValues{
 
     ChoiceValue{kPartition, "single", number(Partition::single), true, "one frustum for all receivers of a light",
                 kMarinescu},
-    ChoiceValue{kPartition, "cascades", number(Partition::cascades), false,
+    ChoiceValue{kPartition, "cascades", number(Partition::cascades), true,
                 "slices of the camera's frustum by the practical split",
                 "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
     ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), false, "slices fitted to the depth buffer",
@@ -81,7 +81,7 @@ constexpr std::array kValues{
                 "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
 
     ChoiceValue{kMotion, "free", number(Motion::free), true, "the map follows camera and sun exactly", kMarinescu},
-    ChoiceValue{kMotion, "snap", number(Motion::snap), false, "the map moves by whole texels", kIceFall},
+    ChoiceValue{kMotion, "snap", number(Motion::snap), true, "the map moves by whole texels", kIceFall},
     ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), false, "the sun steps, the shadows jump", kIceFall},
     ChoiceValue{kMotion, "step-band", number(Motion::step_band), false, "each step sweeps over the screen in a band",
                 kIceFall},
@@ -156,7 +156,7 @@ struct Rule {
 };
 constexpr std::array kRules{
     Rule{[](LightType light, const Technique& t) {
-             return light == LightType::point && t.partition == Partition::single;
+             return light == LightType::point && t.partition != Partition::cube && t.partition != Partition::multi;
          },
          "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or multi"},
 };

@@ -154,6 +154,7 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.closeLine('}');
     json.flag("redraw", view.redraw);
     json.flag("orthographic", view.orthographic);
+    json.flag("parallel", view.parallel);
     json.flag("clamp_near", view.clamp_near);
     json.value("texel_m", view.texel_m);
     json.vector("texel_xy_m", view.texel_xy_m, 2);
@@ -161,6 +162,12 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.value("strength", view.fit.strength);
     json.vector("finest_texel", view.fit.finest_texel, 2);
     json.vector("coarsest_texel", view.fit.coarsest_texel, 2);
+    json.closeLine('}');
+    json.openLine("slice", '{');
+    json.value("begin_m", view.slice.begin_m);
+    json.value("end_m", view.slice.end_m);
+    json.value("blend_m", view.slice.blend_m);
+    json.vector("axis", view.slice.axis, 4);
     json.closeLine('}');
     json.vector("light_place_ws", view.light_place_ws, 3);
     json.open("clip_from_world_rows", '[');
@@ -251,6 +258,10 @@ std::string toJson(const Plan& plan)
     json.value("layers", plan.atlas.layers);
     json.closeLine('}');
     json.value("mask_layers", plan.mask_layers);
+    json.openLine("fade", '{');
+    json.value("begin_m", plan.fade_begin_m);
+    json.value("end_m", plan.fade_end_m);
+    json.closeLine('}');
     json.open("lights", '[');
     for (const LightPlan& light : plan.lights)
         writeLight(json, light);

@@ -3,9 +3,11 @@
 // into a map, and does the map of the last frame still hold.
 #include "atlas/layers.h"
 #include "camera_view.h"
+#include "depth_range.h"
 #include "depth_tilt.h"
 #include "fit/projection.h"
 #include "motion/motion.h"
+#include "motion/steps.h"
 #include "partition/partition.h"
 #include "region.h"
 
@@ -19,44 +21,6 @@
 namespace gnomon {
 namespace {
 
-struct DepthRange {
-    double near_m = 0.0; // as LightSpace::depth_ws measures it, from its origin
-    double far_m = 1.0;
-};
-
-/// What hangs far above all receivers is clamped onto a near plane this far before them: so many times their own range
-/// or so many texels, whichever is more. A bias is some texels of depth, and more on a slope; a caster clamped closer
-/// than that would cast no shadow on the receivers next to the plane, and none at all on a flat floor, whose own range
-/// is nothing.
-constexpr double kClearanceRanges = 3.0;
-constexpr double kClearanceTexels = 64.0;
-
-/// As tight as the filter allows: precision is shared out between near and far (Marinescu 2011, eq. 1).
-DepthRange depthRangeOf(const Region& region, const LightSpace& space, bool clamp_near, double texel_m, double pad_m)
-{
-    DepthRange range{region.casterNear_m(), region.receiverFar_m()};
-    if (clamp_near) {
-        const double own_m = region.receiverFar_m() - region.receiverNear_m();
-        const double clearance_m = std::max(kClearanceRanges * own_m, kClearanceTexels * texel_m);
-        range.near_m = std::max(range.near_m, region.receiverNear_m() - clearance_m);
-    }
-    range.near_m = std::min(range.near_m, range.far_m);
-    const double margin_m = 1e-4 * (range.far_m - range.near_m) + pad_m;
-    range.near_m -= margin_m;
-    range.far_m += margin_m;
-    if (space.perspective)
-        range.near_m = std::max(range.near_m, space.near_m);
-    range.far_m = std::max(range.far_m, range.near_m + std::max(margin_m, 1e-9 * std::abs(range.near_m)));
-    return range;
-}
-
-/// Eq. 6 of Marinescu 2011: the centre of the box, backed out against the light until everything that can cast is in
-/// front; as a depth along the light's axis. A light that has a place stays there.
-double lightPlaceOf(const Region& region, const LightSpace& space, double near_m)
-{
-    return space.perspective ? 0.0 : std::min({region.casterNear_m(), region.receiverNear_m(), near_m});
-}
-
 bool sameTile(const Tile& a, const Tile& b)
 {
     return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
@@ -67,13 +31,40 @@ bool sameSize(const AtlasSize& a, const AtlasSize& b)
     return a.width == b.width && a.height == b.height && a.layers == b.layers;
 }
 
+[[maybe_unused]] bool usable(const CascadeOptions& options)
+{
+    if (options.count < 1 || options.count > kMaxCascades || !(options.lambda >= 0.0 && options.lambda <= 1.0) ||
+        !(options.blend >= 0.0 && options.blend <= 0.5))
+        return false;
+    double last_m = 0.0;
+    for (std::uint32_t i = 0; options.explicitEnds() && i + 1 < options.count; ++i) {
+        if (!(options.ends_m[i] > last_m))
+            return false;
+        last_m = options.ends_m[i];
+    }
+    return true;
+}
+
+/// So that where slices end does not crawl with the camera.
+void stepDepths(CameraView& view)
+{
+    const double far_m = std::max(view.far_m, view.near_m + 1e-3);
+    const double nearest_m = std::max(view.near_m, 1e-3 * far_m); // has a logarithm, when perspective
+    const SteppedRange stepped = view.perspective ? steppedRatio(nearest_m, far_m) : steppedRange(view.near_m, far_m);
+    view.near_m = stepped.low;
+    view.far_m = stepped.high;
+}
+
+constexpr std::string_view kUnwarped =
+    "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
+
 } // namespace
 
 struct Planner::Impl {
     PlanOptions options;
     PartitionFunction partition = nullptr;
     FitFunction fit = nullptr;
-    MotionFunction motion = nullptr;
+    const MotionTraits* motion = nullptr;
     const FilterTraits* filter = nullptr;
     double border_texels = 0.0;
 
@@ -87,7 +78,10 @@ struct Planner::Impl {
     Region region;
     LayerAtlas atlas;
     std::vector<Slice> slices;
+    std::vector<std::uint32_t> all_receivers; // of the scene, where the motion is steady
 
+    void look(const Frame& frame, Plan& plan);
+    Warp warpOf(const LightSpace& space) const;
     Outcome check(const Light& light) const
     {
         if (!light.casts_shadow)
@@ -108,11 +102,13 @@ Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
     assert(options.map_size >= 16 && options.map_size <= 16384);
     assert(options.max_layers >= 1 && options.max_layers <= 2048);
     assert(options.border_texels >= 0.0 && options.border_texels <= 64.0);
+    assert(options.fade >= 0.0 && options.fade <= 1.0);
+    assert(usable(options.cascades));
     Impl& s = *impl_;
     s.options = options;
     s.partition = partitionFunction(options.technique.partition);
     s.fit = fitFunction(options.technique.fit);
-    s.motion = motionFunction(options.technique.motion);
+    s.motion = motionTraits(options.technique.motion);
     s.filter = filterTraits(options.technique.filter);
     s.border_texels = usableBorder(options.border_texels, options.map_size);
 }
@@ -146,7 +142,7 @@ const Plan& Planner::plan(const Frame& frame)
     plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
 
     s.atlas.begin(s.options.map_size, s.options.max_layers);
-    s.view.look(frame, s.options.max_distance_m, plan.receivers);
+    s.look(frame, plan);
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
         s.planLight(frame, light, plan);
     plan.atlas = s.atlas.size();
@@ -156,6 +152,35 @@ const Plan& Planner::plan(const Frame& frame)
     s.last_version = frame.objects->version();
     s.last_identity = frame.objects->identity();
     return plan;
+}
+
+void Planner::Impl::look(const Frame& frame, Plan& plan)
+{
+    view.look(frame, options.max_distance_m, plan.receivers);
+    plan.fade_end_m = options.max_distance_m;
+    plan.fade_begin_m = options.max_distance_m * (1.0 - options.fade);
+    const bool steady = motion != nullptr && motion->steady;
+    if (view.outcome.kind == OutcomeKind::ok && !plan.receivers.empty() &&
+        (steady || partitionMeasures(options.technique.partition))) {
+        view.measureDepths(*frame.objects, plan.receivers);
+        if (steady)
+            stepDepths(view);
+    }
+    all_receivers.clear();
+    for (std::uint32_t i = 0; steady && i < frame.objects->size(); ++i)
+        if (frame.objects->flags(i).receives)
+            all_receivers.push_back(i);
+}
+
+Warp Planner::Impl::warpOf(const LightSpace& space) const
+{
+    if (!motion->steady)
+        return fit({space, region.outline(), region.body().points(), region.body().faceSizes(), view,
+                    strongestWarp(border_texels, options.map_size)});
+    Warp none;
+    if (options.technique.fit != Fit::uniform)
+        none.outcome = {OutcomeKind::fallback, kUnwarped};
+    return none;
 }
 
 void Planner::Impl::planLight(const Frame& frame, std::uint32_t index, Plan& plan)
@@ -168,7 +193,7 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index, Plan& pla
     std::optional<std::uint32_t> first_layer;
     if (light.outcome.kind == OutcomeKind::ok) {
         slices.clear();
-        partition({frame.lights[index], frame.camera, view}, slices);
+        partition({frame.lights[index], view, options.cascades}, slices);
         first_layer = atlas.take(static_cast<std::uint32_t>(slices.size()));
         if (!first_layer)
             light.outcome = {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
@@ -198,30 +223,36 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
 {
     LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
     if (options.level_depth && filter->filterable)
-        space.depth_ws = levelDepth(space, *frame.objects, plan.receivers);
+        space.depth_ws = levelDepth(space, *frame.objects, motion->steady ? all_receivers : plan.receivers);
     const RegionInput input{space, slice, view, *frame.objects, plan.receivers, filter->filterable};
     if (const Outcome found = region.gatherReceivers(input); found.kind != OutcomeKind::ok)
         return found;
-    const Warp warp = fit({space, region.outline(), region.body().points(), view});
+    const Warp warp = warpOf(space);
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region.outline()) : region.rect();
-    const MapFrame shown = frameOf(motion(rect, {options.map_size, border_texels}),
-                                   space.perspective ? 1e-4 : 1e-3 + view.pad_m, options.map_size, border_texels);
+    const double least_size = space.perspective ? 1e-4 : 1e-3 + view.pad_m;
+    const MapFrame shown =
+        motion->move(rect, {space, frame.camera, view, slice, least_size, options.map_size, border_texels});
 
     View made;
     made.light = light;
+    made.slice = slice.depth;
+    made.parallel = !space.perspective;
     made.fit = reportOf(warp, shown, region.outline());
     made.texel_xy_m = made.fit.coarsest_texel;
     made.texel_m = std::max(made.texel_xy_m.x, made.texel_xy_m.y);
     const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
-    const Outcome found = region.gatherCasters(input, (border_texels + 1.0) * made.texel_m, plan.casters);
+    const CasterReach reach{
+        motion->steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region.rect(),
+        (border_texels + 1.0) * made.texel_m, farthestCaster(region, space, motion->steady), motion->steady};
+    const Outcome found = region.gatherCasters(input, reach, plan.casters);
     if (found.kind != OutcomeKind::ok)
         return found;
     const std::span casters = std::span(plan.casters).subspan(first_caster);
 
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
     made.clamp_near = filter->clamps_near && !space.perspective;
-    const DepthRange range = depthRangeOf(region, space, made.clamp_near, made.texel_m, view.pad_m);
+    const DepthRange range = depthRangeOf({region, space, made.clamp_near, motion->steady, made.texel_m, view.pad_m});
     made.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
     made.orthographic = !space.perspective && !warp.warped();
     const double place_m = lightPlaceOf(region, space, range.near_m);

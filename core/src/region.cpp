@@ -201,22 +201,9 @@ void Region::addSidePlane(const LightSpace& space, const glm::dvec2& normal, dou
 }
 
 /// The body swept toward the light: the sides of its outline along the rays, and those of its faces that look away
-/// from the light. Wider by the map's border, because a filter's kernel looks that far.
-void Region::makeCasterPlanes(const RegionInput& input, double pad)
+/// from the light.
+void Region::addOutlinePlanes(const LightSpace& space, double pad, double pad_m, double rounding)
 {
-    const LightSpace& space = input.space;
-    const double rounding = space.perspective ? 1e-7 : input.view.pad_m;
-    pad += rounding;
-    caster_planes_.clear();
-    addSidePlane(space, {1.0, 0.0}, -rect_.low.x, pad);
-    addSidePlane(space, {-1.0, 0.0}, rect_.high.x, pad);
-    addSidePlane(space, {0.0, 1.0}, -rect_.low.y, pad);
-    addSidePlane(space, {0.0, -1.0}, rect_.high.y, pad);
-    const double pad_m = (space.perspective ? pad * receiver_far_m_ : pad) + input.view.pad_m;
-    caster_planes_.push_back({-space.depth_ws, receiver_far_m_ + pad_m + glm::dot(space.depth_ws, space.origin_ws)});
-    if (space.perspective)
-        caster_planes_.push_back({space.forward_ws, -space.near_m - glm::dot(space.forward_ws, space.origin_ws)});
-
     body_.planes(body_planes_);
     for (const Plane& face : body_planes_) {
         const bool looks_away =
@@ -237,9 +224,28 @@ void Region::makeCasterPlanes(const RegionInput& input, double pad)
     }
 }
 
-Outcome Region::gatherCasters(const RegionInput& input, double pad, std::vector<std::uint32_t>& casters)
+void Region::makeCasterPlanes(const RegionInput& input, const CasterReach& reach)
 {
-    makeCasterPlanes(input, pad);
+    const LightSpace& space = input.space;
+    const double rounding = space.perspective ? 1e-7 : input.view.pad_m;
+    const double pad = reach.pad + rounding;
+
+    caster_planes_.clear();
+    addSidePlane(space, {1.0, 0.0}, -reach.rect.low.x, pad);
+    addSidePlane(space, {-1.0, 0.0}, reach.rect.high.x, pad);
+    addSidePlane(space, {0.0, 1.0}, -reach.rect.low.y, pad);
+    addSidePlane(space, {0.0, -1.0}, reach.rect.high.y, pad);
+    const double pad_m = (space.perspective ? pad * reach.far_m : pad) + input.view.pad_m;
+    caster_planes_.push_back({-space.depth_ws, reach.far_m + pad_m + glm::dot(space.depth_ws, space.origin_ws)});
+    if (space.perspective)
+        caster_planes_.push_back({space.forward_ws, -space.near_m - glm::dot(space.forward_ws, space.origin_ws)});
+    if (!reach.whole)
+        addOutlinePlanes(space, pad, pad_m, rounding);
+}
+
+Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters)
+{
+    makeCasterPlanes(input, reach);
     const std::size_t first = casters.size();
     input.objects.query(caster_planes_, ObjectSet::Want::casters, casters);
     if (casters.size() != first && input.draws_receivers) {

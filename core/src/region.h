@@ -19,13 +19,21 @@ struct RegionInput {
     bool draws_receivers = false;        // FilterTraits::filterable
 };
 
+/// From where casters can throw a shadow into a map.
+struct CasterReach {
+    LightRect rect;     // of the map
+    double pad = 0.0;   // how far outside what is seen texels count, because a filter's kernel looks that far
+    double far_m = 0.0; // depth behind which nothing casts
+    bool whole = false; // all of the rectangle counts, not only what is seen
+};
+
 class Region {
 public:
     /// ok or no_receiver. Keeps its memory.
     Outcome gatherReceivers(const RegionInput& input);
-    /// ok or no_caster; after gatherReceivers() said ok for the same input. Appends the casters to `casters`, ascending.
-    /// `pad`: how far outside the outline texels count, as LightRect has it, because a filter's kernel looks that far.
-    Outcome gatherCasters(const RegionInput& input, double pad, std::vector<std::uint32_t>& casters);
+    /// ok or no_caster; after gatherReceivers() said ok for the same input. Appends the casters to `casters`,
+    /// ascending.
+    Outcome gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters);
 
     /// Valid after gatherReceivers() said ok, until the next one.
     [[nodiscard]] const ConvexBody& body() const { return body_; }
@@ -45,7 +53,8 @@ private:
     void narrowOutline();
     void measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters);
     double depthInCone(const LightSpace& space, const Aabb& box);
-    void makeCasterPlanes(const RegionInput& input, double pad);
+    void makeCasterPlanes(const RegionInput& input, const CasterReach& reach);
+    void addOutlinePlanes(const LightSpace& space, double pad, double pad_m, double rounding);
     void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);
 
     ConvexBody body_;

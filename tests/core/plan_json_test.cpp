@@ -31,6 +31,7 @@ Plan tinyPlan()
     view.metric.far_m = 5.0;
     view.texel_m = 0.25;
     view.texel_xy_m = {0.25, 0.125};
+    view.slice = {{0.0, 0.0, -1.0, 5.0}, 2.0, std::numeric_limits<double>::infinity(), 0.5};
     view.fit = {4.0, {0.0625, 0.03125}, {0.25, 0.125}};
     view.light_place_ws = {1.0, 2.0, 3.0};
     view.tile = {0, 0, 0, 1024, 1024};
@@ -45,6 +46,7 @@ constexpr const char* kGolden = R"({
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
   "atlas": {"width": 1024, "height": 1024, "layers": 1},
   "mask_layers": 1,
+  "fade": {"begin_m": 0, "end_m": 0},
   "lights": [
     {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0},
     {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1}
@@ -55,10 +57,12 @@ constexpr const char* kGolden = R"({
       "tile": {"layer": 0, "x": 0, "y": 0, "width": 1024, "height": 1024},
       "redraw": false,
       "orthographic": true,
+      "parallel": true,
       "clamp_near": true,
       "texel_m": 0.25,
       "texel_xy_m": [0.25, 0.125],
       "fit": {"strength": 4, "finest_texel": [0.0625, 0.03125], "coarsest_texel": [0.25, 0.125]},
+      "slice": {"begin_m": 2, "end_m": null, "blend_m": 0.5, "axis": [0, 0, -1, 5]},
       "light_place_ws": [1, 2, 3],
       "clip_from_world_rows": [
         [0.1, 0, 0, 0],
@@ -99,6 +103,7 @@ TEST(PlanJson, EmptyPlan)
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
   "atlas": {"width": 0, "height": 0, "layers": 0},
   "mask_layers": 0,
+  "fade": {"begin_m": 0, "end_m": 0},
   "lights": [],
   "views": [],
   "objects": []

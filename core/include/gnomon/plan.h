@@ -6,12 +6,15 @@
 #include <gnomon/choices.h>
 #include <gnomon/geometry.h>
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +72,23 @@ struct DepthMetric {
     double far_m = 1.0;
 };
 
+/// The share of the camera's depth that a view serves. Depth is dot(axis, (p, 1)): metres from the eye along its view.
+struct ViewSlice {
+    glm::dvec4 axis{0.0};
+    double begin_m = -std::numeric_limits<double>::infinity();
+    double end_m = std::numeric_limits<double>::infinity();
+    /// Where the view before it, which serves as far as here too, fades over into this one: from begin_m to begin_m +
+    /// blend_m. 0: there is none before it.
+    double blend_m = 0.0;
+
+    [[nodiscard]] bool bounded() const { return std::isfinite(begin_m) || std::isfinite(end_m); }
+    [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
+    {
+        const double depth_m = glm::dot(axis, glm::dvec4(p_ws, 1.0));
+        return depth_m >= begin_m && depth_m <= end_m;
+    }
+};
+
 /// What a fit achieved. Sides of texels are as View::texel_xy_m has them, in x and y of the map.
 struct FitReport {
     double strength = 1.0;          // how many times as wide the widest texel is as the narrowest; 1: no warp
@@ -92,6 +112,9 @@ struct View {
     bool redraw = true;         // false: the map of the last frame still holds
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
+    ViewSlice slice;
+    /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one.
+    bool parallel = true;
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
     glm::dvec3 light_place_ws{0.0};
@@ -121,6 +144,10 @@ struct Plan {
     std::vector<std::uint32_t> receivers; // object handles that the camera sees, ascending
     AtlasSize atlas;
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
+    /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. 0: nothing
+    /// fades.
+    double fade_begin_m = 0.0;
+    double fade_end_m = 0.0;
 };
 
 /// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).

@@ -22,9 +22,11 @@ struct FitInput {
     /// What is seen and lit, which has to be in the map: as seen from the light, convex, counter-clockwise, one point
     /// at least, as LightRect has it;
     std::span<const glm::dvec2> outline;
-    /// and in the world, the corners of its faces.
+    /// and in the world, the corners of its faces, face after face, and how many each has.
     std::span<const glm::dvec3> body_ws;
+    std::span<const std::uint32_t> face_sizes;
     const CameraView& view;
+    double strongest = 1000.0; // greatest w that the outline may get, > 1: strongestWarp() in projection.h
 };
 
 /// A homography of the plane across the light. With q a point of that plane as LightRect has it, s = dot(along, q) and

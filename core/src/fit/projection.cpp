@@ -23,6 +23,18 @@ double usableBorder(double border_texels, std::uint32_t map_size)
     return std::min(border_texels, 0.25 * static_cast<double>(map_size));
 }
 
+double strongestWarp(double border_texels, std::uint32_t map_size)
+{
+    // Numbers in single precision are good for more, but no picture is: a texel would be a million times as long as
+    // another.
+    constexpr double kStrongest = 1000.0;
+    // With r the border's share of the rest, 1/w falls from 1 to 1/W over the rest, and by (1 - 1/W) r beyond it:
+    // to 1/(2 W) where (W - 1) r = 1/2.
+    const double border = usableBorder(border_texels, map_size);
+    const double share = border / (static_cast<double>(map_size) - 2.0 * border);
+    return share > 0.0 ? std::min(kStrongest, 1.0 + 0.5 / share) : kStrongest;
+}
+
 LightRect rectOf(const Warp& warp, std::span<const glm::dvec2> outline)
 {
     LightRect rect{glm::dvec2(std::numeric_limits<double>::infinity()),
@@ -83,7 +95,8 @@ glm::dmat4 clipFromWorld(const LightSpace& space, const Warp& warp, const MapFra
     const glm::dvec4 w = warp.warped() ? constant + s / warp.n : constant;
     const double length = far_m - near_m;
     // Its share of w is constant along a ray of light, and at least 1: so z grows along the ray, and is in [0, w].
-    const glm::dvec4 z = space.perspective ? (depth - one * near_m) * (far_m / length) : (depth - one * near_m) / length;
+    const glm::dvec4 z =
+        space.perspective ? (depth - one * near_m) * (far_m / length) : (depth - one * near_m) / length;
     const glm::dvec4 x = inPlane(warp.across()) - constant * warp.upright;
     // y is down in a Vulkan framebuffer.
     const glm::dmat4 rows((x - w * frame.centre.x) / frame.half.x, -(s - w * frame.centre.y) / frame.half.y, z, w);

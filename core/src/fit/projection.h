@@ -11,6 +11,10 @@ namespace gnomon {
 /// The border that a map of this size can afford, so that at least half of it is left.
 [[nodiscard]] double usableBorder(double border_texels, std::uint32_t map_size);
 
+/// The strongest warp that such a map can bear, > 1 and at most 1000. On the far side the border goes on toward the
+/// vanishing line; a texel at its end shall be no more than twice as wide as the widest inside.
+[[nodiscard]] double strongestWarp(double border_texels, std::uint32_t map_size);
+
 /// What a map shows, as points (x, y) of its warp, and how finely.
 struct MapFrame {
     glm::dvec2 centre{0.0};
@@ -27,7 +31,8 @@ struct MapFrame {
 /// rectangle leaves over.
 [[nodiscard]] MapFrame frameOf(const LightRect& rect, double least_size, std::uint32_t map_size, double border_texels);
 
-/// Longest side of any texel in the outline, as LightRect has it: what its corner at the greatest w has, shear included.
+/// Longest side of any texel in the outline, as LightRect has it: what its corner at the greatest w has, shear
+/// included.
 [[nodiscard]] FitReport reportOf(const Warp& warp, const MapFrame& frame, std::span<const glm::dvec2> outline);
 
 /// z in [0, w] where depth, by space.depth_ws from space.origin_ws, is from near to far and w is at least 1.

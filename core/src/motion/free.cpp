@@ -4,9 +4,9 @@
 
 namespace gnomon {
 
-LightRect moveFreely(const LightRect& wanted, const MotionInput& /*input*/)
+MapFrame moveFreely(const LightRect& wanted, const MotionInput& input)
 {
-    return wanted;
+    return frameOf(wanted, input.least_size, input.map_size, input.border_texels);
 }
 
 } // namespace gnomon

@@ -2,20 +2,34 @@
 // How a map follows a moving camera or sun. A motion is one file and one line in motions.cpp.
 #pragma once
 
-#include "light_space.h"
+#include "fit/projection.h"
+#include "partition/partition.h"
 
 namespace gnomon {
 
 struct MotionInput {
+    const LightSpace& space;
+    const Camera& camera;
+    const CameraView& view; // measured
+    const Slice& slice;
+    double least_size = 0.0; // no side of a map is shorter, as LightRect has it
     std::uint32_t map_size = 0;
     double border_texels = 0.0;
 };
-/// From the rectangle that matters now to the one that is drawn, which contains it.
-using MotionFunction = LightRect (*)(const LightRect& wanted, const MotionInput& input);
+/// From the rectangle that matters now to the map that is drawn, which holds it and the border.
+using MotionFunction = MapFrame (*)(const LightRect& wanted, const MotionInput& input);
 
+struct MotionTraits {
+    Motion motion;
+    MotionFunction move;
+    /// What a map shows and stores changes in steps alone: its rectangle is drawn whole, whoever is seen, with no warp,
+    /// and its range of depth is a multiple of a power of two.
+    bool steady;
+};
 /// Null for a motion that is not available.
-[[nodiscard]] MotionFunction motionFunction(Motion motion);
+[[nodiscard]] const MotionTraits* motionTraits(Motion motion);
 
-LightRect moveFreely(const LightRect& wanted, const MotionInput& input);
+MapFrame moveFreely(const LightRect& wanted, const MotionInput& input);
+MapFrame moveInTexels(const LightRect& wanted, const MotionInput& input);
 
 } // namespace gnomon

@@ -4,21 +4,18 @@
 namespace gnomon {
 namespace {
 
-struct Row {
-    Motion motion;
-    MotionFunction function;
-};
-constexpr Row kMotions[] = {
-    {Motion::free, moveFreely},
+constexpr MotionTraits kMotions[] = {
+    {Motion::free, moveFreely, false},
+    {Motion::snap, moveInTexels, true},
 };
 
 } // namespace
 
-MotionFunction motionFunction(Motion motion)
+const MotionTraits* motionTraits(Motion motion)
 {
-    for (const Row& row : kMotions)
+    for (const MotionTraits& row : kMotions)
         if (row.motion == motion)
-            return row.function;
+            return &row;
     return nullptr;
 }
 

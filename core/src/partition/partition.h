@@ -4,6 +4,8 @@
 
 #include "camera_view.h"
 
+#include <gnomon/planner.h>
+
 #include <span>
 #include <vector>
 
@@ -15,19 +17,26 @@ struct Slice {
     double half_angle_rad = 0.0;        // lights with a place: the frustum is a square pyramid around the axis
     std::array<Plane, 8> cut;           // inward; receivers outside belong to another slice
     std::uint32_t cut_count = 0;
+    ViewSlice depth; // of the camera that it serves
 };
 
 struct PartitionInput {
     const Light& light;
-    const Camera& camera;
-    const CameraView& view;
+    const CameraView& view; // measured, where partitionMeasures() says so
+    const CascadeOptions& cascades;
 };
-/// Appends the slices of a light; the count depends on the technique and the light's type alone, so that tiles last.
+/// Appends the slices of a light; the count depends on the options and the light's type alone, so that tiles last.
 using PartitionFunction = void (*)(const PartitionInput& input, std::vector<Slice>& out);
 
 /// Null for a partition that is not available.
 [[nodiscard]] PartitionFunction partitionFunction(Partition partition);
+/// Does it need CameraView::near_m and far_m?
+[[nodiscard]] bool partitionMeasures(Partition partition);
+
+/// Plane z = depth of the view, which faces away from the eye or towards it.
+[[nodiscard]] Plane depthPlane(const CameraView& view, double depth_m, bool away);
 
 void partitionSingle(const PartitionInput& input, std::vector<Slice>& out);
+void partitionCascades(const PartitionInput& input, std::vector<Slice>& out);
 
 } // namespace gnomon

@@ -7,9 +7,11 @@ namespace {
 struct Row {
     Partition partition;
     PartitionFunction function;
+    bool measures;
 };
 constexpr Row kPartitions[] = {
-    {Partition::single, partitionSingle},
+    {Partition::single, partitionSingle, false},
+    {Partition::cascades, partitionCascades, true},
 };
 
 } // namespace
@@ -20,6 +22,14 @@ PartitionFunction partitionFunction(Partition partition)
         if (row.partition == partition)
             return row.function;
     return nullptr;
+}
+
+bool partitionMeasures(Partition partition)
+{
+    for (const Row& row : kPartitions)
+        if (row.partition == partition)
+            return row.measures;
+    return false;
 }
 
 } // namespace gnomon

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera's depth in slices, each with a map of its own: fine ones near the eye, coarse ones far off.
+// Based on: F. Zhang, H. Sun, L. Xu, L. K. Lun, "Parallel-split shadow maps for large-scale virtual environments",
+// 2006, eq. 3 to 5; W. Engel, "Cascaded Shadow Maps", ShaderX5, 2006.
+// Departure: the near and far ends are those of the receivers that the camera sees, not its planes. A camera may have
+// no far plane, and nothing is gained by maps of the empty air before the eye.
+#include "partition/cascades.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+// A logarithm has to start somewhere: no split is nearer than this share of the far end.
+constexpr double kNearest = 1e-4;
+
+} // namespace
+
+double practicalSplit(double near_m, double far_m, double lambda, std::uint32_t i, std::uint32_t count)
+{
+    const double share = static_cast<double>(i) / count;
+    const double logarithmic = near_m * std::pow(far_m / near_m, share); // eq. 3
+    const double even = near_m + (far_m - near_m) * share;               // eq. 4
+    return lambda * logarithmic + (1.0 - lambda) * even;                 // eq. 5
+}
+
+Plane depthPlane(const CameraView& view, double depth_m, bool away)
+{
+    const double at = glm::dot(view.forward_ws, view.eye_ws) + depth_m;
+    return away ? Plane{view.forward_ws, -at} : Plane{-view.forward_ws, at};
+}
+
+void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
+{
+    const CameraView& view = input.view;
+    const CascadeOptions& options = input.cascades;
+    const std::uint32_t count = options.count;
+    // An orthographic camera's depths may be negative, and it sees near and far alike.
+    const double far_m = std::max(view.far_m, view.near_m + 1e-6);
+    const double near_m = view.perspective ? std::max(view.near_m, kNearest * far_m) : view.near_m;
+    const double lambda = view.perspective ? options.lambda : 0.0;
+    const auto end = [&](std::uint32_t i) {
+        if (options.explicitEnds() && i < count)
+            return i == 0 ? 0.0 : options.ends_m[i - 1];
+        return lambda > 0.0 ? practicalSplit(near_m, far_m, lambda, i, count)
+                            : near_m + (far_m - near_m) * static_cast<double>(i) / count;
+    };
+    const glm::dvec4 axis(view.forward_ws, -glm::dot(view.forward_ws, view.eye_ws));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Slice slice;
+        slice.axis_ws = glm::normalize(input.light.direction_ws);
+        slice.half_angle_rad = input.light.outer_half_angle_rad;
+        slice.depth.axis = axis;
+        // The first and the last serve what lies before and behind all splits too: rounding, and explicit ends that
+        // leave something over.
+        if (i > 0) {
+            slice.depth.blend_m = options.blend * (end(i) - (i > 1 ? end(i - 1) : near_m));
+            slice.depth.blend_m = std::max(slice.depth.blend_m, 0.0);
+            slice.depth.begin_m = end(i) - slice.depth.blend_m;
+            slice.cut[slice.cut_count++] = depthPlane(view, slice.depth.begin_m, true);
+        }
+        if (i + 1 < count) {
+            slice.depth.end_m = end(i + 1);
+            slice.cut[slice.cut_count++] = depthPlane(view, slice.depth.end_m, false);
+        }
+        out.push_back(slice);
+    }
+}
+
+} // namespace gnomon
