@@ -5,6 +5,7 @@ find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 function(gnomon_shaders target)
     set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
+    set(embed ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake)
     file(MAKE_DIRECTORY ${dir})
     set(header "#pragma once\n#include <cstdint>\n#include <span>\nnamespace gnomon::spirv {\n")
     set(cpps)
@@ -20,8 +21,8 @@ function(gnomon_shaders target)
             COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -I ${PROJECT_SOURCE_DIR}/shaders -MD -MF ${dir}/${name}.d
                     -MT ${dir}/${name}.inc -o ${dir}/${name}.spv ${source}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${dir}/${name}.spv
-            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -I ${PROJECT_SOURCE_DIR}/shaders -mfmt=c -o ${dir}/${name}.inc ${source}
-            DEPENDS ${source} DEPFILE ${dir}/${name}.d VERBATIM COMMENT "glslc ${name}")
+            COMMAND ${CMAKE_COMMAND} -DSPIRV=${dir}/${name}.spv -DINC=${dir}/${name}.inc -P ${embed}
+            DEPENDS ${source} ${embed} DEPFILE ${dir}/${name}.d VERBATIM COMMENT "glslc ${name}")
         set_source_files_properties(${dir}/${name}.cpp PROPERTIES OBJECT_DEPENDS ${dir}/${name}.inc)
         list(APPEND cpps ${dir}/${name}.cpp)
     endforeach()
