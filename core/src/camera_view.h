@@ -14,6 +14,7 @@ struct CameraView {
     glm::dvec3 eye_ws{0.0};
     glm::dvec3 forward_ws{0.0, 0.0, -1.0}; // unit: depth of view grows along it
     bool perspective = true;               // else near and far things are seen equally large
+    glm::dmat4 clip_from_world{1.0};
     std::vector<Plane> planes;             // inward; planes at infinity are left out
     double pad_m = 0.0;                    // what a float coordinate of this scene may be off
     Aabb scene_ws;

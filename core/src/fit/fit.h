@@ -53,5 +53,9 @@ using FitFunction = Warp (*)(const FitInput& input);
 [[nodiscard]] FitFunction fitFunction(Fit fit);
 
 Warp fitUniform(const FitInput& input);
+Warp fitLispsm(const FitInput& input);
+Warp fitLispsmSimple(const FitInput& input);
+Warp fitTsm(const FitInput& input);
+Warp fitPsm(const FitInput& input);
 
 } // namespace gnomon

@@ -9,7 +9,8 @@ struct Row {
     FitFunction function;
 };
 constexpr Row kFits[] = {
-    {Fit::uniform, fitUniform},
+    {Fit::uniform, fitUniform}, {Fit::lispsm, fitLispsm}, {Fit::lispsm_simple, fitLispsmSimple},
+    {Fit::tsm, fitTsm},         {Fit::psm, fitPsm},
 };
 
 } // namespace

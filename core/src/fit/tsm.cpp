@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A trapezoid about the viewer's centre line, drawn as the square of the map.
+// Based on: T. Martin, T.-S. Tan, "Anti-aliasing and Continuity with Trapezoidal Shadow Maps", Eurographics Symposium
+// on Rendering 2004.
+//
+// Top and base line lie across the centre line and touch the outline, lambda apart; the sides meet where the centre
+// line meets the vanishing line, n (the paper's eta) behind the top line, and touch the outline too: that is the
+// rectangle around what Warp makes of it. n puts the end of the focus region, delta from the top line, at xi = -0.6 of
+// a map from 1 (top) to -1 (base), so that the region has 80 % of the map:
+//   n = lambda delta (1 + xi) / (lambda - 2 delta - lambda xi).   (the paper's eq. for eta)
+//
+// Departures: the paper leaves the focus distance to the user. Here it lies at z_n^0.2 z_f^0.8: the picture shows a
+// ground plane's depth evenly on a logarithmic scale, and 80 % of that scale get 80 % of the map. For the same reason
+// delta is the distance on a plane across the rays, as in lispsm.cpp: where view and light align, or all is about
+// equally far, the region reaches 80 % of the outline by itself, n grows without bound and the warp fades into none.
+// The paper's trapezoid changes shape there at once. All of it is continuous in camera and light but for that end.
+#include "fit/view_slope.h"
+
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr double kFocusShare = 0.8;
+constexpr double kFocusLine = 1.0 - 2.0 * kFocusShare; // xi
+
+} // namespace
+
+Warp fitTsm(const FitInput& input)
+{
+    const ViewSlope slope = slopeOfView(input);
+    const double focus = std::pow(slope.low, 1.0 - kFocusShare) * std::pow(slope.high, kFocusShare);
+    const double delta = (focus - slope.low) / slope.slope;
+    const double lambda = slope.length;
+    const double rest = lambda - 2.0 * delta - lambda * kFocusLine;
+    const double n = rest > 0.0 ? lambda * delta * (1.0 + kFocusLine) / rest : std::numeric_limits<double>::infinity();
+    Warp warp = warpAlong(input, slope, n);
+    if (warp.warped())
+        standOnViewer(warp, input);
+    return warp;
+}
+
+} // namespace gnomon

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the viewer's depth grows across the light: what every fit that warps along the view asks first.
+#pragma once
+
+#include "fit/fit.h"
+
+namespace gnomon {
+
+/// The plane across the light, with a value on it that says how small things are in the picture: the viewer's depth,
+/// divided by the light's depth where the light has a place. One step dq of the plane is dq metres across the rays, or
+/// dq times the light's depth; so in the picture it is dq / value long, up to a constant. On any plane of the world the
+/// value is affine in q: both depths are affine in the point, and the reciprocal of the light's is affine in q.
+struct ViewSlope {
+    glm::dvec2 along{0.0, 1.0}; // unit; the way in which the value grows
+    double slope = 0.0;         // by so much per step, >= 0; 0: nowhere, and `along` means nothing
+    double low = 0.0;           // the least value of what is seen, >= 0
+    double high = 0.0;          // and the greatest
+    double length = 0.0;        // of the outline, along `along`
+    double nearest = 0.0;       // least dot(along, q) of the outline
+    std::string_view weak;      // what to say when a warp by this slope is too weak to matter
+    Outcome outcome;            // fallback: there is nothing to go by, and the reason says why
+};
+
+/// On planes that lie across the rays. Directional lights: the slope is the sine of the angle between view and light,
+/// and the value is the depth along the view of all that is seen.
+[[nodiscard]] ViewSlope slopeAcrossLight(const FitInput& input);
+
+/// Of what is seen itself: least squares over its faces, as the light sees them. `low` and `high` are at the ends of
+/// the outline, as far as any corner bears them out.
+[[nodiscard]] ViewSlope slopeOfBody(const FitInput& input);
+
+/// slopeAcrossLight() where there is one axis of light, slopeOfBody() where there is not.
+[[nodiscard]] ViewSlope slopeOfView(const FitInput& input);
+
+/// The warp along the slope with the vanishing line `n` behind the nearest point; infinite: no warp is wanted. What is
+/// too strong for the map is weakened; what is too weak to matter is a fallback.
+[[nodiscard]] Warp warpAlong(const FitInput& input, const ViewSlope& slope, double n);
+
+/// Warps weaker than this are not worth that the map no longer keeps to the light's own axes.
+inline constexpr double kLeastStrength = 1.01;
+
+/// Stands the image of the outline upright: of all shears the one that leaves x and y uncorrelated over its area. The
+/// outline of a symmetric view is cut by the viewer's own line then, and no other has less to lose.
+void standUpright(Warp& warp, std::span<const glm::dvec2> outline);
+/// The line upright that the viewer is on. A light with a place may have the viewer beside or behind it, where it casts
+/// no image of him: standUpright() then.
+void standOnViewer(Warp& warp, const FitInput& input);
+
+} // namespace gnomon
