@@ -113,7 +113,9 @@ Ran gnomon(const std::vector<std::string>& arguments, const How& how)
         throw std::runtime_error("no pipe");
     }
     static const Folder cache;
-    std::vector<std::pair<std::string, std::string>> changed{{"XDG_CACHE_HOME", cache.path().string()}};
+    // What Mesa compiles is kept from run to run: it is no part of what is tested, and dear.
+    std::vector<std::pair<std::string, std::string>> changed{{"XDG_CACHE_HOME", cache.path().string()},
+                                                             {"MESA_SHADER_CACHE_DIR", GNOMON_DRIVER_CACHE}};
     changed.insert(changed.end(), how.environment.begin(), how.environment.end());
     std::vector<std::string> environment = environmentWith(changed);
     std::vector<std::string> words{GNOMON_PROGRAM};
