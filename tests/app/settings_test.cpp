@@ -83,6 +83,7 @@ TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
 TEST(Contestants, AreTheOnesNamed)
 {
     EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 12U);
+    EXPECT_EQ(app::contestants(settingsOf({"bench"})).size(), 12U);
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 12U);
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--filter", "hard"})).size(), 1U);
     EXPECT_EQ(app::contestants(settingsOf({"bench", "--techniques", "hard,pcf"})).size(), 2U);
