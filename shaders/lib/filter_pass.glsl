@@ -58,7 +58,22 @@ const uint kBlurY = 8u;
 
 MomentRule momentRule()
 {
-    return MomentRule(kFlags, 0, kLayers, kExponent, kExponentNegative, kMomentBias, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0);
+    MomentRule rule; // of reading it says nothing: these passes write
+    rule.flags = kFlags;
+    rule.sampling = 0;
+    rule.layers = kLayers;
+    rule.exponent = kExponent;
+    rule.exponent_negative = kExponentNegative;
+    rule.moment_bias = kMomentBias;
+    rule.min_variance = 0.0;
+    rule.min_variance_texels = 0.0;
+    rule.rounding = 0.0;
+    rule.rounding_negative = 0.0;
+    rule.linstep = 0.0;
+    rule.power = 1.0;
+    rule.lighten = 0.0;
+    rule.anisotropy = 1.0;
+    return rule;
 }
 bool averagesLogs()
 {

@@ -70,6 +70,8 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     rule.anisotropy = real(warp.w);
     rule.min_variance = real(variance.x);
     rule.min_variance_texels = real(variance.y);
+    rule.rounding = real(variance.z);
+    rule.rounding_negative = real(variance.w);
     rule.linstep = real(shape.x);
     rule.power = real(shape.y);
     rule.lighten = real(shape.z);

@@ -5,7 +5,8 @@
 //   (1) V = sat(e^(-c d) E[e^(c z)]), d the receiver's depth, z the occluders';
 // A. Lauritzen, M. McCool, "Layered Variance Shadow Maps", Graphics Interface 2008, section 5:
 //   (2) the warps e^(c+ z) and -e^(-c- z); (3) Chebyshev's bound in each of them holds, so the smaller one does too;
-//   (4) least variance in a warp is that of depth times the square of the warp's slope.
+//   (4) least variance in a warp is that of depth times the square of the warp's slope;
+//   (5) ours: rounding takes a share of what is stored, which differs from warp to warp (moments.h).
 // Departures: everything is divided by the warp at the receiver (Chebyshev's bound does not change), so that no square
 // of e^c appears and one evaluation does for values stored as they are and as logarithms. Where logarithms are stored
 // ("log space"), a channel holds v, which stands for e^(k v) with k = c+, 2 c+, -c-, -2 c- (esm: c); see
@@ -74,7 +75,8 @@ GN_FN real esmVisibility(real excess)
     return exp(min(excess, real(0.0)));
 }
 
-// (3) in the warp e^(c+ z). `least`: of the coordinate.
+// (3) in the warp e^(c+ z), with (4) and (5). `least`: of the coordinate. Occluders before the receiver are small in this
+// warp, and so is what rounding makes of them: (5) goes with their second moment and lights no deep shadow.
 GN_FN real evsmPositive(real4 stored, real t, real least, MomentRule rule)
 {
     real c = evsmExponents(rule).x;
@@ -88,10 +90,12 @@ GN_FN real evsmPositive(real4 stored, real t, real least, MomentRule rule)
         mean = min(stored.x * one_over, real(1.0));
         second = stored.y * one_over * one_over;
     }
-    return chebyshevBound(mean, second, real(1.0), min(c * c * least, real(1e30)));
+    return chebyshevBound(mean, second, real(1.0), max(min(c * c * least, real(1e30)), rule.rounding * second));
 }
 
-// (3) in the warp -e^(-c- z). Divided by the mean, not by the receiver's warp: -mean is without bound here.
+// (3) in the warp -e^(-c- z), with (4) and (5). Divided by the mean, not by the receiver's warp: -mean is without bound
+// here. Occluders are large in this warp; rounding shows on what is lit, where they are as large as the receiver, so (5)
+// goes with that one's square and pales with depth behind them.
 GN_FN real evsmNegative(real4 stored, real t, real least, MomentRule rule)
 {
     real c = -evsmExponents(rule).z;
@@ -105,7 +109,8 @@ GN_FN real evsmNegative(real4 stored, real t, real least, MomentRule rule)
         at = min(exp(-c * t) * one_over, real(1.0));
         second = stored.w * one_over * one_over;
     }
-    return chebyshevBound(real(-1.0), second, -at, min(c * c * least, real(1e30)) * at * at);
+    real least_here = max(min(c * c * least, real(1e30)), rule.rounding_negative);
+    return chebyshevBound(real(-1.0), second, -at, least_here * at * at);
 }
 
 GN_FN real evsmVisibility(real4 stored, real t, real least, MomentRule rule)

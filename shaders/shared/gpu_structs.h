@@ -59,7 +59,7 @@ struct GpuMaskLayer {
     GN_VEC4 kernel;                       // gaussianWeights
     GN_VEC4 disc;                         // x: radius, texels
     GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy
-    GN_VEC4 moment_variance;              // least: absolute, in texel depths
+    GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-
     GN_VEC4 moment_shape;                 // linstep, power, lighten
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];

@@ -23,6 +23,8 @@ struct MomentRule {
     real moment_bias;         // msm
     real min_variance;        // of d', absolute
     real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds
+    real rounding;            // evsm, warp of c+: share of a second moment that rounding may take
+    real rounding_negative;   // evsm, warp of c-: the same
     real linstep;
     real power;
     real lighten;

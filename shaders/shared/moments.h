@@ -31,18 +31,18 @@ GN_FN real varianceOfRounding(real step_of_format)
     return real(1.5) * real(kMomentRoundings) * step_of_format + kMomentArithmetic;
 }
 
-// The same in squares of x where moments of w = exp(c x) are stored, c > 0. Floats err in proportion to what they hold,
-// just above a power of two by twice as much, and the variance of w is (c w)^2 that of x.
-GN_FN real varianceOfWarpRounding(real step_of_format, real c)
+// The same where moments of w = exp(c x) are stored, c > 0, as a share of M2: floats err in proportion to what they
+// hold, just above a power of two by twice as much.
+GN_FN real shareOfWarpRounding(real step_of_format)
 {
-    return varianceOfRounding(real(2.0) * step_of_format) / (c * c);
+    return varianceOfRounding(real(2.0) * step_of_format);
 }
 
 // And where their logarithms are, as log(M1) / c and log(M2) / (2 c): errors e1, e2 of these change M1^2 and M2 by the
-// factors e^(2 c e1) and e^(2 c e2), which to the first order loses 2 c (e2 - e1) w^2: 4/3 c of the 3/2 steps above.
-GN_FN real varianceOfLogRounding(real step_of_format, real c)
+// factors e^(2 c e1) and e^(2 c e2), which to the first order loses 2 c (e2 - e1) M2: 4/3 c of the 3/2 steps above.
+GN_FN real shareOfLogRounding(real step_of_format, real c)
 {
-    return varianceOfRounding(step_of_format) * real(4.0) / (real(3.0) * c);
+    return varianceOfRounding(step_of_format) * c * real(4.0) / real(3.0);
 }
 
 // A variance that rounding of the arithmetic itself cannot tell from 0, whatever the user asks for.

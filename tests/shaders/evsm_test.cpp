@@ -158,6 +158,48 @@ TEST(Evsm, leastVarianceIsThatOfDepth)
     }
 }
 
+// What rounding takes is a share of what is stored. On a lit surface that is the receiver's own warp, and neither warp may
+// darken it; in a warp that shrinks what is before the receiver, a share of that lights nothing.
+TEST(Evsm, whatHidesRoundingLightsNoDeepShadow)
+{
+    const Distribution lit{{0.7}, {1.0}};
+    const Distribution deep{{0.1, 0.4}, {0.5, 0.5}};
+    for (const int flags : {0, int(kMomentLogSpace)}) {
+        for (const double share : {1e-4, 0.1}) {
+            MomentRule rule = evsmRule(40.0, 5.0, flags | kMomentFourChannels);
+            rule.rounding = share;
+            rule.rounding_negative = share;
+            // Just behind, by a part of what e^(c x) grows by: s / (s + d^2), the smaller one of both warps'.
+            const double behind = 0.1 * std::sqrt(share) / 40.0;
+            EXPECT_NEAR(visibility(lit, 0.7 + behind, 0.0, rule), 1.0 / 1.01, 2e-3);
+            EXPECT_LT(visibility(deep, 0.7, 0.0, rule), 1e-6);
+            MomentRule as_depth = evsmRule(40.0, 5.0, flags); // the same on what is lit, but as a variance of depth
+            EXPECT_NEAR(visibility(deep, 0.7, share / 1600.0, as_depth), share / (1.0 + share), 1e-3);
+        }
+    }
+}
+
+// Each warp is given what its own rounding asks for: a large share in one opens only that one.
+TEST(Evsm, eachWarpHasItsOwnShare)
+{
+    const Distribution lit{{0.7}, {1.0}};
+    for (const int flags : {0, int(kMomentLogSpace)}) {
+        MomentRule rule = evsmRule(40.0, 5.0, flags | kMomentFourChannels);
+        const double behind = 0.01;
+        rule.rounding = 0.0;
+        rule.rounding_negative = 1.0;
+        const double positive_alone = visibility(lit, 0.7 + behind, 0.0, rule);
+        rule.rounding = 1.0;
+        rule.rounding_negative = 0.0;
+        const double negative_alone = visibility(lit, 0.7 + behind, 0.0, rule);
+        rule.rounding_negative = 1.0;
+        const double both = visibility(lit, 0.7 + behind, 0.0, rule);
+        EXPECT_LT(positive_alone, 1e-3);
+        EXPECT_LT(negative_alone, 1e-3);
+        EXPECT_GT(both, 0.8);
+    }
+}
+
 TEST(Evsm, varianceOfATexelScalesWithTheSlopeOfTheWarp)
 {
     const double variance = 1e-6;

@@ -22,6 +22,8 @@ inline MomentRule ruleOf(const Options& o)
     rule.moment_bias = real(3e-5);
     rule.min_variance = real(1e-6);
     rule.min_variance_texels = real(0.5);
+    rule.rounding = real(2e-6);
+    rule.rounding_negative = real(1e-3);
     rule.linstep = real(0.3);
     rule.power = real(1.3);
     rule.lighten = real(0.1);

@@ -15,6 +15,8 @@ inline MomentRule ruleOf(const test::SingleOptions& o)
     rule.moment_bias = real(o.moment_bias);
     rule.min_variance = real(o.min_variance);
     rule.min_variance_texels = real(0.5);
+    rule.rounding = real(o.rounding);
+    rule.rounding_negative = real(o.rounding_negative);
     rule.power = real(1.0);
     return rule;
 }

@@ -20,6 +20,8 @@ struct SingleOptions {
     double exponent = 0.0;
     double moment_bias = 0.0;
     double min_variance = 0.0;
+    double rounding = 0.0; // evsm
+    double rounding_negative = 0.0;
 };
 
 /// What the shaders do in double precision, up to a map of 32-bit floats, and from there.

@@ -251,7 +251,7 @@ TEST_F(Vsm, roundingStaysWithinTheLeastVariance)
     }
 }
 
-TEST_F(Vsm, roundingOfWarpsStaysWithinTheirLeastVariance)
+TEST_F(Vsm, roundingOfWarpsTakesNoMoreThanTheirShare)
 {
     const double step = 1.0 / 2048.0;
     std::mt19937 rng(6);
@@ -266,19 +266,18 @@ TEST_F(Vsm, roundingOfWarpsStaysWithinTheirLeastVariance)
             const double m1 = 0.5 * (std::exp(c * a) + std::exp(c * b));
             const double m2 = 0.5 * (std::exp(2.0 * c * a) + std::exp(2.0 * c * b));
             const double v = m2 - m1 * m1;
-            const double to_x = 1.0 / (c * c * m2); // from squares of w, of one rounding of the three
             const double kept1 = storeHalf(m1, truncate);
             const double lost = v - (storeHalf(m2, truncate) - kept1 * kept1);
-            most_lost = std::max(most_lost, lost * to_x);
+            most_lost = std::max(most_lost, lost / m2);
             const double log1 = storeHalf(std::log(m1) / c, truncate);
             const double log2 = storeHalf(std::log(m2) / (2.0 * c), truncate);
             const double lost_logs = v - (std::exp(2.0 * c * log2) - std::exp(2.0 * c * log1));
-            most_lost_logs = std::max(most_lost_logs, lost_logs * to_x);
+            most_lost_logs = std::max(most_lost_logs, lost_logs / m2);
         }
-        EXPECT_LE(most_lost, varianceOfWarpRounding(step, c) / kMomentRoundings);
-        EXPECT_GT(most_lost, 0.3 * varianceOfWarpRounding(step, c) / kMomentRoundings);
-        EXPECT_LE(most_lost_logs, varianceOfLogRounding(step, c) / kMomentRoundings);
-        EXPECT_GT(most_lost_logs, 0.3 * varianceOfLogRounding(step, c) / kMomentRoundings);
+        EXPECT_LE(most_lost, shareOfWarpRounding(step) / kMomentRoundings);
+        EXPECT_GT(most_lost, 0.3 * shareOfWarpRounding(step) / kMomentRoundings);
+        EXPECT_LE(most_lost_logs, shareOfLogRounding(step, c) / kMomentRoundings);
+        EXPECT_GT(most_lost_logs, 0.3 * shareOfLogRounding(step, c) / kMomentRoundings);
     }
 }
 

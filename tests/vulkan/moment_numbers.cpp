@@ -25,6 +25,8 @@ MomentNumbers momentNumbers(const vulkan::FilterOptions& filter)
             r.moment_bias,
             r.min_variance,
             r.min_variance_texels,
+            r.rounding,
+            r.rounding_negative,
             r.linstep,
             r.power,
             r.lighten,

@@ -17,6 +17,8 @@ struct MomentNumbers {
     double moment_bias = 0.0;
     double min_variance = 0.0;
     double min_variance_texels = 0.0;
+    double rounding = 0.0;
+    double rounding_negative = 0.0;
     double linstep = 0.0;
     double power = 0.0;
     double lighten = 0.0;

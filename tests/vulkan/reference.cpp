@@ -171,6 +171,8 @@ shared::MomentRule momentsOf(const vulkan::FilterOptions& options)
     rule.moment_bias = n.moment_bias;
     rule.min_variance = n.min_variance;
     rule.min_variance_texels = n.min_variance_texels;
+    rule.rounding = n.rounding;
+    rule.rounding_negative = n.rounding_negative;
     rule.linstep = n.linstep;
     rule.power = n.power;
     rule.lighten = n.lighten;

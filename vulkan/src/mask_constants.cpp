@@ -79,7 +79,7 @@ void fillMoments(const FilterOptions& filter, shared::GpuMaskLayer& out)
 {
     const shared::MomentRule rule = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
     out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
-    out.moment_variance = {rule.min_variance, rule.min_variance_texels, 0.0F, 0.0F};
+    out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding, rule.rounding_negative};
     out.moment_shape = {rule.linstep, rule.power, rule.lighten, 0.0F};
 }
 

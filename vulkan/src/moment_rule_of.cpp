@@ -27,21 +27,23 @@ float stepBelowOne(MapFormat format)
     }
 }
 
-/// Least variance of d' (lvsm: of a layer's own metric) that hides what the format's rounding does to M2 - M1^2, see
-/// shaders/shared/moments.h.
-float automaticVariance(const FilterOptions& filter, const shared::MomentRule& rule)
+/// Hides what the format's rounding does to M2 - M1^2, see shaders/shared/moments.h: as a least variance of d' (lvsm: of
+/// a layer's own metric), for evsm as shares of what each warp stores.
+void hideRounding(const FilterOptions& filter, shared::MomentRule& rule)
 {
     const float step = stepBelowOne(filter.format);
-    const float scale = shared::momentScale(rule.flags);
     if (filter.filter != Filter::evsm) {
-        return shared::varianceOfRounding(step) / (scale * scale);
+        const float scale = shared::momentScale(rule.flags);
+        rule.min_variance = shared::varianceOfRounding(step) / (scale * scale);
+        return;
     }
-    const bool both = shared::hasFlag(rule.flags, shared::kMomentFourChannels);
-    const float c = both ? std::min(rule.exponent, rule.exponent_negative) : rule.exponent;
-    const bool logarithms = shared::hasFlag(rule.flags, shared::kMomentLogSpace);
-    const float variance =
-        logarithms ? shared::varianceOfLogRounding(step, c) : shared::varianceOfWarpRounding(step, c);
-    return variance / (scale * scale);
+    const auto share = [&](float c) {
+        const bool logarithms = shared::hasFlag(rule.flags, shared::kMomentLogSpace);
+        // All of it at most: an exponent that is so large loses every digit.
+        return std::min(logarithms ? shared::shareOfLogRounding(step, c) : shared::shareOfWarpRounding(step), 1.0F);
+    };
+    rule.rounding = share(rule.exponent);
+    rule.rounding_negative = share(rule.exponent_negative);
 }
 
 int flagsOf(const FilterOptions& filter)
@@ -88,8 +90,12 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     // within a step of the mask in 99.9 % of distributions (tests/shaders/single_precision_float_test.cpp).
     const float bias16 = o.solver == MomentSolver::hausdorff ? 6e-5F : 3e-5F;
     rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? bias16 : 3e-6F);
-    rule.min_variance = o.min_variance.value_or(automaticVariance(filter, rule));
-    rule.min_variance_texels = o.min_variance ? 0.0F : 0.5F;
+    if (o.min_variance) {
+        rule.min_variance = *o.min_variance;
+    } else {
+        rule.min_variance_texels = 0.5F;
+        hideRounding(filter, rule);
+    }
     rule.linstep = o.bleeding_linstep;
     rule.power = o.bleeding_power;
     rule.lighten = o.lighten;
