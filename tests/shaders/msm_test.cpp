@@ -75,6 +75,16 @@ double quantised16(double x)
     return std::round(std::clamp(x, 0.0, 1.0) * 65535.0) / 65535.0;
 }
 
+// Where a root is outside of the interval, distributions inside of it shadow more. The shader takes the smaller bound of
+// both; here it is the second one as it stands, but for what double precision makes of small pivots.
+void expectEndpointBoundIsTighter(const glm::dvec4& b, double z)
+{
+    const Hankel h = factorise(b);
+    if (h.d1 > 1e-4 && h.d2 > 1e-4 && !rootsInside(h, z, kernelAbout(h, z))) {
+        EXPECT_LE(endpointVisibility(b, z), hamburgerVisibility(b, z) + 1e-9) << z;
+    }
+}
+
 TEST(Msm, boundsAreAboveTheTruthAndHausdorffIsTighter)
 {
     std::mt19937 rng(21);
@@ -89,7 +99,10 @@ TEST(Msm, boundsAreAboveTheTruthAndHausdorffIsTighter)
         const double hamburger = msmVisibility(b, t, msmRule(0, 0.0));
         const double hausdorff = msmVisibility(b, t, msmRule(kMomentHausdorff, 0.0));
         EXPECT_GE(hausdorff, d.lit(t) - 1e-7);
-        EXPECT_LE(hausdorff, hamburger + 1e-5); // receivers within 5e-6 of an end are moved in
+        // Receivers beside an end are moved in first, from the far one towards the light: compared where they are then.
+        const double moved = std::clamp(t, -kNearlyOne, kNearlyOne);
+        EXPECT_LE(hausdorff, msmVisibility(b, moved, msmRule(0, 0.0)));
+        expectEndpointBoundIsTighter(b, moved);
         EXPECT_LE(hamburger, chebyshevBound(b.x, b.y, t, 0.0) + 1e-9) << "two more moments make it no worse";
         hamburger_sum += hamburger - d.lit(t);
         hausdorff_sum += hausdorff - d.lit(t);
@@ -234,8 +247,9 @@ TEST(Msm, defaultBiasKeepsAQuantisedPlaneLitAndASmallerOneDoesNot)
             std::mt19937 rng(26);
             const double bias = !sixteen_bits ? kBias32 : solver == 0 ? kBias16 : kBias16Hausdorff;
             EXPECT_GT(darkestLitPlane(flags, bias, sixteen_bits, rng), 0.97);
-            // Of 32 bits it is the bounds' own arithmetic that asks for more: single_precision_float_test.cpp.
-            EXPECT_LT(darkestLitPlane(flags, (sixteen_bits ? 0.03 : 0.003) * bias, sixteen_bits, rng), 0.97);
+            // A third of it is too little for 16 bits. For 32 this only tells that there must be some: how much is said
+            // by the bounds' own arithmetic, which asks for more than rounding (single_precision_float_test.cpp).
+            EXPECT_LT(darkestLitPlane(flags, sixteen_bits ? bias / 3.0 : 0.0, sixteen_bits, rng), 0.97);
         }
     }
 }
