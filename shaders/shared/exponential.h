@@ -75,8 +75,8 @@ GN_FN real esmVisibility(real excess)
     return exp(min(excess, real(0.0)));
 }
 
-// (3) in the warp e^(c+ z), with (4) and (5). `least`: of the coordinate. Occluders before the receiver are small in this
-// warp, and so is what rounding makes of them: (5) goes with their second moment and lights no deep shadow.
+// (3) in the warp e^(c+ z), with (4) and (5). `least`: of the coordinate. Occluders before the receiver are small in
+// this warp, and so is what rounding makes of them: (5) goes with their second moment and lights no deep shadow.
 GN_FN real evsmPositive(real4 stored, real t, real least, MomentRule rule)
 {
     real c = evsmExponents(rule).x;
@@ -94,8 +94,8 @@ GN_FN real evsmPositive(real4 stored, real t, real least, MomentRule rule)
 }
 
 // (3) in the warp -e^(-c- z), with (4) and (5). Divided by the mean, not by the receiver's warp: -mean is without bound
-// here. Occluders are large in this warp; rounding shows on what is lit, where they are as large as the receiver, so (5)
-// goes with that one's square and pales with depth behind them.
+// here. Occluders are large in this warp; rounding shows on what is lit, where they are as large as the receiver, so
+// (5) goes with that one's square and pales with depth behind them.
 GN_FN real evsmNegative(real4 stored, real t, real least, MomentRule rule)
 {
     real c = -evsmExponents(rule).z;

@@ -158,8 +158,8 @@ TEST(Evsm, leastVarianceIsThatOfDepth)
     }
 }
 
-// What rounding takes is a share of what is stored. On a lit surface that is the receiver's own warp, and neither warp may
-// darken it; in a warp that shrinks what is before the receiver, a share of that lights nothing.
+// What rounding takes is a share of what is stored. On a lit surface that is the receiver's own warp, and neither warp
+// may darken it; in a warp that shrinks what is before the receiver, a share of that lights nothing.
 TEST(Evsm, whatHidesRoundingLightsNoDeepShadow)
 {
     const Distribution lit{{0.7}, {1.0}};

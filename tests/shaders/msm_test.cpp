@@ -75,8 +75,8 @@ double quantised16(double x)
     return std::round(std::clamp(x, 0.0, 1.0) * 65535.0) / 65535.0;
 }
 
-// Where a root is outside of the interval, distributions inside of it shadow more. The shader takes the smaller bound of
-// both; here it is the second one as it stands, but for what double precision makes of small pivots.
+// Where a root is outside of the interval, distributions inside of it shadow more. The shader takes the smaller bound
+// of both; here it is the second one as it stands, but for what double precision makes of small pivots.
 void expectEndpointBoundIsTighter(const glm::dvec4& b, double z)
 {
     const Hankel h = factorise(b);

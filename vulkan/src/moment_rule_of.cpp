@@ -27,8 +27,8 @@ float stepBelowOne(MapFormat format)
     }
 }
 
-/// Hides what the format's rounding does to M2 - M1^2, see shaders/shared/moments.h: as a least variance of d' (lvsm: of
-/// a layer's own metric), for evsm as shares of what each warp stores.
+/// Hides what the format's rounding does to M2 - M1^2, see shaders/shared/moments.h: as a least variance of d' (lvsm:
+/// of a layer's own metric), for evsm as shares of what each warp stores.
 void hideRounding(const FilterOptions& filter, shared::MomentRule& rule)
 {
     const float step = stepBelowOne(filter.format);
