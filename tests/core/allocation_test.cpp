@@ -35,24 +35,28 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     Frame frame;
     frame.lights = lights;
     frame.objects = &set;
-    Planner planner({});
-    const auto play = [&](int step) {
-        const double turn = 6.283185307179586 * step / 60.0;
-        for (std::uint32_t i = 0; i < homes.size(); i += 2) {
-            const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
-            set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
-        }
-        frame.camera = test::perspectiveCamera({150 * std::cos(turn), 60, 150 * std::sin(turn)}, {0, 0, 0}, 1.0);
-        return planner.plan(frame).casters.size();
-    };
-    for (int step = 0; step < 120; ++step)
-        (void)play(step % 60);
-    const std::uint64_t before = test::heapAllocations();
-    std::size_t casters = 0;
-    for (int step = 0; step < 60; ++step)
-        casters += play(step);
-    EXPECT_EQ(test::heapAllocations(), before);
-    EXPECT_GT(casters, 10000U);
+    for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm}) {
+        PlanOptions options;
+        options.technique.fit = fit;
+        Planner planner(options);
+        const auto play = [&](int step) {
+            const double turn = 6.283185307179586 * step / 60.0;
+            for (std::uint32_t i = 0; i < homes.size(); i += 2) {
+                const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
+                set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
+            }
+            frame.camera = test::perspectiveCamera({150 * std::cos(turn), 60, 150 * std::sin(turn)}, {0, 0, 0}, 1.0);
+            return planner.plan(frame).casters.size();
+        };
+        for (int step = 0; step < 120; ++step)
+            (void)play(step % 60);
+        const std::uint64_t before = test::heapAllocations();
+        std::size_t casters = 0;
+        for (int step = 0; step < 60; ++step)
+            casters += play(step);
+        EXPECT_EQ(test::heapAllocations(), before);
+        EXPECT_GT(casters, 10000U);
+    }
 }
 
 } // namespace

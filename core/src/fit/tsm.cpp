@@ -9,11 +9,13 @@
 // a map from 1 (top) to -1 (base), so that the region has 80 % of the map:
 //   n = lambda delta (1 + xi) / (lambda - 2 delta - lambda xi).   (the paper's eq. for eta)
 //
-// Departures: the paper leaves the focus distance to the user. Here it lies at z_n^0.2 z_f^0.8: the picture shows a
-// ground plane's depth evenly on a logarithmic scale, and 80 % of that scale get 80 % of the map. For the same reason
-// delta is the distance on a plane across the rays, as in lispsm.cpp: where view and light align, or all is about
-// equally far, the region reaches 80 % of the outline by itself, n grows without bound and the warp fades into none.
-// The paper's trapezoid changes shape there at once. All of it is continuous in camera and light but for that end.
+// Departures: the paper leaves the focus distance to the user. Here it lies at z_n^0.2 z_f^0.8, with z_n the least
+// depth of view and z_f the one at the base line, on a plane across the rays (as in lispsm.cpp): a picture shows the
+// depth of a ground evenly on a logarithmic scale, and 80 % of that scale get 80 % of the map. So delta / lambda
+// depends on z_f / z_n alone and is less than 0.8: where view and light align, or all is about equally far, it comes
+// close to 0.8, n grows without bound and the warp fades into none, where the paper's trapezoid changes its shape at
+// once. With a z_f of its own, as lispsm has it, delta and lambda would change apart, and n with their difference,
+// several times as fast.
 #include "fit/view_slope.h"
 
 #include <limits>
@@ -29,9 +31,10 @@ constexpr double kFocusLine = 1.0 - 2.0 * kFocusShare; // xi
 Warp fitTsm(const FitInput& input)
 {
     const ViewSlope slope = slopeOfView(input);
-    const double focus = std::pow(slope.low, 1.0 - kFocusShare) * std::pow(slope.high, kFocusShare);
-    const double delta = (focus - slope.low) / slope.slope;
     const double lambda = slope.length;
+    const double base = slope.low + slope.slope * lambda;
+    const double focus = std::pow(slope.low, 1.0 - kFocusShare) * std::pow(base, kFocusShare);
+    const double delta = (focus - slope.low) / slope.slope;
     const double rest = lambda - 2.0 * delta - lambda * kFocusLine;
     const double n = rest > 0.0 ? lambda * delta * (1.0 + kFocusLine) / rest : std::numeric_limits<double>::infinity();
     Warp warp = warpAlong(input, slope, n);
