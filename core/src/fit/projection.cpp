@@ -23,6 +23,12 @@ double usableBorder(double border_texels, std::uint32_t map_size)
     return std::min(border_texels, 0.25 * static_cast<double>(map_size));
 }
 
+double borderShare(double border_texels, std::uint32_t map_size)
+{
+    const double border = usableBorder(border_texels, map_size);
+    return border / (static_cast<double>(map_size) - 2.0 * border);
+}
+
 double strongestWarp(double border_texels, std::uint32_t map_size)
 {
     // Numbers in single precision are good for more, but no picture is: a texel would be a million times as long as
@@ -30,8 +36,7 @@ double strongestWarp(double border_texels, std::uint32_t map_size)
     constexpr double kStrongest = 1000.0;
     // With r the border's share of the rest, 1/w falls from 1 to 1/W over the rest, and by (1 - 1/W) r beyond it:
     // to 1/(2 W) where (W - 1) r = 1/2.
-    const double border = usableBorder(border_texels, map_size);
-    const double share = border / (static_cast<double>(map_size) - 2.0 * border);
+    const double share = borderShare(border_texels, map_size);
     return share > 0.0 ? std::min(kStrongest, 1.0 + 0.5 / share) : kStrongest;
 }
 
@@ -76,6 +81,18 @@ FitReport reportOf(const Warp& warp, const MapFrame& frame, std::span<const glm:
         report.coarsest_texel = glm::max(report.coarsest_texel, texel);
     }
     return report;
+}
+
+double borderReach(const Warp& warp, const FitReport& report, double border_texels, std::uint32_t map_size)
+{
+    const double texels = usableBorder(border_texels, map_size) + 1.0;
+    const glm::dvec2 texel = report.coarsest_texel;
+    if (!warp.warped())
+        return texels * std::max(texel.x, texel.y);
+    // A step dy from w leads to w', 1/w' = 1/w - dy/n, and as far as w'/w steps of its first size. So much 1/w falls
+    // over the border of the far side at most, as strongestWarp() has it. Sheared texels may have both sides one way.
+    const double fallen = (report.strength - 1.0) * borderShare(border_texels + 1.0, map_size);
+    return texels * (texel.x + texel.y) / (1.0 - std::min(fallen, 0.75));
 }
 
 glm::dmat4 clipFromWorld(const LightSpace& space, const Warp& warp, const MapFrame& frame, double near_m, double far_m)

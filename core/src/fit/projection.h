@@ -11,6 +11,9 @@ namespace gnomon {
 /// The border that a map of this size can afford, so that at least half of it is left.
 [[nodiscard]] double usableBorder(double border_texels, std::uint32_t map_size);
 
+/// The border's share of what it leaves of a map's side.
+[[nodiscard]] double borderShare(double border_texels, std::uint32_t map_size);
+
 /// The strongest warp that such a map can bear, > 1 and at most 1000. On the far side the border goes on toward the
 /// vanishing line; a texel at its end shall be no more than twice as wide as the widest inside.
 [[nodiscard]] double strongestWarp(double border_texels, std::uint32_t map_size);
@@ -34,6 +37,11 @@ struct MapFrame {
 /// Longest side of any texel in the outline, as LightRect has it: what its corner at the greatest w has, shear
 /// included.
 [[nodiscard]] FitReport reportOf(const Warp& warp, const MapFrame& frame, std::span<const glm::dvec2> outline);
+
+/// How far from a point of the outline a filter's reads may be, as LightRect has it, if they stay within the border,
+/// and one texel for what is drawn across it.
+[[nodiscard]] double borderReach(const Warp& warp, const FitReport& report, double border_texels,
+                                 std::uint32_t map_size);
 
 /// z in [0, w] where depth, by space.depth_ws from space.origin_ws, is from near to far and w is at least 1.
 [[nodiscard]] glm::dmat4 clipFromWorld(const LightSpace& space, const Warp& warp, const MapFrame& frame, double near_m,
