@@ -18,6 +18,12 @@ namespace gnomon::lab {
 [[nodiscard]] CountedPixels countPixels(const Subject& subject, const truth::Surfaces& surfaces,
                                         const host::Picture& picture);
 
+/// `options` as techniques are judged by: of the truth's size, with shadows, and without anti-aliasing, for the truth
+/// looks through the middle of each pixel only.
+[[nodiscard]] host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2 size_px);
+/// Holds the mask that `renderer`, made with judgedOptions(), drew last against the truth of the same subject.
+[[nodiscard]] Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::Traced& truth,
+                               const host::RenderOptions& options, bool with_perception = true);
 /// Draws the subject with one technique, at the truth's size and without anti-aliasing whatever `options` say, and
 /// holds its mask against the truth. `with_perception`: ssim and flip too, which take longer than all else.
 [[nodiscard]] Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,

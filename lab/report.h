@@ -32,6 +32,14 @@ namespace gnomon::lab {
 /// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
 
+/// Pictures of one frame among several.
+struct ReportFrame {
+    std::string name; // "frame 30"
+    std::string truth_file;
+    std::string mask_file;
+    std::string error_file;
+    std::string class_file;
+};
 /// A page without script or anything from elsewhere, which a browser shows from the folder it lies in. A picture whose
 /// file has no name is left out.
 struct ReportTechnique {
@@ -39,7 +47,8 @@ struct ReportTechnique {
     std::string mask_file; // paths relative to the page, with /
     std::string error_file;
     std::string class_file;
-    std::string density_file; // may be an earlier technique's: then the page points there
+    std::string density_file;        // may be an earlier technique's: then the page points there
+    std::vector<ReportFrame> frames; // of a path: shown in their order, instead of the files above
 };
 struct ReportPlot {
     std::string file; // likewise

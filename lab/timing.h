@@ -76,7 +76,8 @@ struct Timed {
     Plan plan;         // of the last frame; without shadows: empty
     AtlasSize atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
-    double baseline_ms = 0.0; // median frame without shadows among the turns that these samples took
+    double mean_texels_rendered = 0.0; // Counters::texels_rendered over the samples: less where maps are kept
+    double baseline_ms = 0.0;          // median frame without shadows among the turns that these samples took
 };
 struct TimingResult {
     Timed baseline; // the same frame with no shadows: the samples of all groups
@@ -98,11 +99,30 @@ inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
 /// How many contestants take turns together, group after group, in their order.
 [[nodiscard]] std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants, std::size_t lights);
 
+/// Bytes of every image and buffer of a renderer.
+[[nodiscard]] std::uint64_t totalBytes(const host::Renderer& renderer);
+/// What one technique needs beyond the frame without shadows, by purpose.
+[[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
+                                                                             const host::Renderer& baseline);
+/// Of the whole frame, ms; 0 without samples.
+[[nodiscard]] double medianFrame(const Timed& timed);
+
+/// Takes the frame of the last sample into Timed::mean_texels_rendered.
+void addTexels(Timed& timed, const Counters& frame);
+
+/// What is drawn in a round, counted from 0, warming up included. Asked for in order, once for each round of a group;
+/// holds until the next is asked for. Rounds differ in time, camera and lights only, not in how many lights there are.
+using SubjectAt = std::function<const Subject&(std::uint32_t round)>;
+
 /// Draws every contestant of a group and the frame without shadows (the first contestant's options otherwise) once in
 /// turn, again and again, in the order of turnsOf(), so that none always follows the same one; the frame without
 /// shadows has place 0. Then the next of timingGroups(), with a frame without shadows of its own. `step` is called
 /// after every frame drawn and may throw to stop; it may be empty. Precondition: one contestant at least.
 [[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
+                                      const std::vector<Contestant>& contestants, const TimingOptions& options,
+                                      const std::function<void()>& step);
+/// The same with something else to draw in each round: frames of a path. Every group begins with round 0.
+[[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const SubjectAt& subject_at,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);
 /// How often timeInTurn() calls `step`.

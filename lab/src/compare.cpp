@@ -47,29 +47,40 @@ Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::
     return scoreMask({*subject.state, camera, judgedLight(subject)}, truth, picture.object_ids, mask, with_perception);
 }
 
-Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
-                     const host::RenderOptions& options, bool with_perception)
+host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2 size_px)
 {
-    assert(subject.scene != nullptr && subject.state != nullptr && subject.light < subject.lights.size());
-    const glm::uvec2 size_px = sizeOf(truth.surfaces);
-    host::RenderOptions wish = options;
-    wish.width = size_px.x;
-    wish.height = size_px.y;
-    wish.anti_aliasing = host::AntiAliasing::none; // the truth looks through the middle of each pixel only
-    wish.shadows = true;
-    host::Renderer renderer(gpu, *subject.scene, *subject.state, wish);
-    renderer.draw(*subject.state, subject.eye, subject.lights);
+    host::RenderOptions judged = options;
+    judged.width = size_px.x;
+    judged.height = size_px.y;
+    judged.anti_aliasing = host::AntiAliasing::none;
+    judged.shadows = true;
+    return judged;
+}
+
+Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::Traced& truth,
+                 const host::RenderOptions& options, bool with_perception)
+{
     const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
     Score score = scoreMask(subject, truth, picture, picture.masks[subject.light], with_perception);
 
     const Plan& plan = renderer.plan();
-    const Camera camera = cameraOf(subject, size_px);
-    const double reach_texels = vulkan::filterReachTexels(wish.filter);
+    const Camera camera = cameraOf(subject, sizeOf(truth.surfaces));
+    const double reach_texels = vulkan::filterReachTexels(options.filter);
     score.outcome = plan.lights[subject.light].outcome;
     score.atlas = plan.atlas;
     score.density = texelDensity(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
     score.fit_efficiency = fitEfficiency(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
     return score;
+}
+
+Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
+                     const host::RenderOptions& options, bool with_perception)
+{
+    assert(subject.scene != nullptr && subject.state != nullptr && subject.light < subject.lights.size());
+    const host::RenderOptions wish = judgedOptions(options, sizeOf(truth.surfaces));
+    host::Renderer renderer(gpu, *subject.scene, *subject.state, wish);
+    renderer.draw(*subject.state, subject.eye, subject.lights);
+    return scoreDrawn(renderer, subject, truth, wish, with_perception);
 }
 
 } // namespace gnomon::lab

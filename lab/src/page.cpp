@@ -19,6 +19,7 @@ body { margin: 0 auto; padding: 1.5rem clamp(0.75rem, 3vw, 2.5rem) 4rem; max-wid
   color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
 h1 { margin: 0.5rem 0 1.5rem; font-size: 1.75rem; line-height: 1.2; }
 h2 { margin: 3rem 0 0.75rem; font-size: 1.25rem; }
+h3 { margin: 1.5rem 0 0.75rem; font-size: 1rem; color: var(--faint); }
 .overview h2 { margin-top: 0; }
 h1, h2, dd, td, th, figcaption { overflow-wrap: anywhere; }
 a { color: var(--link); }
@@ -200,12 +201,34 @@ void addDensity(std::string& page, const Report& report, std::size_t number)
               kDensity);
 }
 
+// Truth and technique side by side, frame after frame.
+void addFrames(std::string& page, const ReportTechnique& technique)
+{
+    for (const ReportFrame& frame : technique.frames) {
+        page += "<h3>" + escapeHtml(frame.name) + "</h3>\n<div class=\"pictures\">\n";
+        const std::string where = technique.name + ", " + frame.name;
+        addFigure(page, frame.truth_file, "The ray-traced mask in grey, " + frame.name,
+                  "The truth: white is lit, black is in shadow.");
+        addFigure(page, frame.mask_file, "Mask of " + where + " in grey", "Mask: white is lit, black is in shadow.");
+        addFigure(page, frame.error_file, "Signed error of " + where + " in false colour",
+                  "Error: blue where the mask is darker than the truth, orange where it is brighter.");
+        addFigure(page, frame.class_file, "Classes of the error of " + where + " in colour over the grey truth",
+                  "Where the error comes from, over the truth.");
+        page += "</div>\n";
+    }
+}
+
 void addTechnique(std::string& page, const Report& report, std::size_t number)
 {
     const ReportTechnique& technique = report.techniques[number];
     const std::string id = sectionId(number);
-    page += "<section aria-labelledby=\"" + id + "\">\n<h2 id=\"" + id + "\">" + escapeHtml(technique.name) +
-            "</h2>\n<div class=\"pictures\">\n";
+    page += "<section aria-labelledby=\"" + id + "\">\n<h2 id=\"" + id + "\">" + escapeHtml(technique.name) + "</h2>\n";
+    if (!technique.frames.empty()) {
+        addFrames(page, technique);
+        page += "</section>\n";
+        return;
+    }
+    page += "<div class=\"pictures\">\n";
     addFigure(page, report.truth_file, "The ray-traced mask in grey",
               "The truth again, to look from one to the other.");
     addFigure(page, technique.mask_file, "Mask of " + technique.name + " in grey",

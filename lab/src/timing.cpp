@@ -15,32 +15,6 @@
 namespace gnomon::lab {
 namespace {
 
-std::uint64_t totalBytes(const host::Renderer& renderer)
-{
-    std::uint64_t total = 0;
-    for (const vulkan::MemoryUse& use : renderer.memory()) {
-        total += use.bytes;
-    }
-    return total;
-}
-
-/// What one technique needs beyond the frame without shadows, by purpose.
-std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
-                                                               const host::Renderer& baseline)
-{
-    std::vector<std::pair<std::string, std::uint64_t>> added;
-    for (const vulkan::MemoryUse& use : technique.memory()) {
-        std::uint64_t before = 0;
-        for (const vulkan::MemoryUse& other : baseline.memory()) {
-            before += std::string_view(other.purpose) == use.purpose ? other.bytes : 0;
-        }
-        if (use.bytes > before) {
-            added.emplace_back(use.purpose, use.bytes - before);
-        }
-    }
-    return added;
-}
-
 struct Turn {
     host::RenderOptions options;
     std::unique_ptr<host::Renderer> renderer;
@@ -74,19 +48,11 @@ std::uint64_t weightOf(const vulkan::FilterOptions& filter)
     return std::max<std::uint64_t>(1, (map + made_from + 3) / 4);
 }
 
-double medianFrame(const Timed& timed)
-{
-    std::vector<double> frames;
-    for (const host::FrameTimes& sample : timed.samples) {
-        frames.push_back(sample.frame_ms);
-    }
-    return spreadOf(std::move(frames)).median;
-}
-
-void drawInTurn(std::vector<Turn>& turns, const Subject& subject, const TimingOptions& options,
+void drawInTurn(std::vector<Turn>& turns, const SubjectAt& subject_at, const TimingOptions& options,
                 const std::function<void()>& step)
 {
     for (std::uint32_t round = 0; round < options.warmup + options.repetitions; ++round) {
+        const Subject& subject = subject_at(round);
         for (const std::size_t place : turnsOf(round, turns.size())) {
             Turn& turn = turns[place];
             const host::FrameTimes times = turn.renderer->draw(*subject.state, subject.eye, subject.lights);
@@ -95,17 +61,23 @@ void drawInTurn(std::vector<Turn>& turns, const Subject& subject, const TimingOp
             }
             if (round >= options.warmup) {
                 turn.timed.samples.push_back(times);
+                addTexels(turn.timed, countersOf(times, turn.renderer->plan(), !turn.options.reuse_maps));
             }
         }
     }
 }
 
 /// Adds what was timed to `result`; the images are gone afterwards.
-void timeGroup(host::Gpu& gpu, const Subject& subject, std::span<const Contestant> contestants,
+void timeGroup(host::Gpu& gpu, const SubjectAt& subject_at, std::span<const Contestant> contestants,
                const TimingOptions& options, const std::function<void()>& step, TimingResult& result)
 {
-    std::vector<Turn> turns = makeTurns(gpu, subject, contestants, options);
-    drawInTurn(turns, subject, options, step);
+    const Subject* subject = nullptr; // of the round that is on
+    const SubjectAt remembering = [&](std::uint32_t round) -> const Subject& {
+        subject = &subject_at(round);
+        return *subject;
+    };
+    std::vector<Turn> turns = makeTurns(gpu, remembering(0), contestants, options);
+    drawInTurn(turns, remembering, options, step);
     const double baseline_ms = medianFrame(turns.front().timed);
     for (Turn& turn : turns) {
         Timed& timed = turn.timed;
@@ -118,7 +90,7 @@ void timeGroup(host::Gpu& gpu, const Subject& subject, std::span<const Contestan
     }
     result.baseline_bytes = totalBytes(*turns.front().renderer);
     for (Turn& turn : turns) { // after all memory was counted, because reading back takes some
-        turn.timed.counters.bytes_minimum = leastBytes(*turn.renderer, subject, turn.options);
+        turn.timed.counters.bytes_minimum = leastBytes(*turn.renderer, *subject, turn.options);
     }
     Timed& baseline = turns.front().timed;
     baseline.samples.insert(baseline.samples.begin(), std::make_move_iterator(result.baseline.samples.begin()),
@@ -130,6 +102,46 @@ void timeGroup(host::Gpu& gpu, const Subject& subject, std::span<const Contestan
 }
 
 } // namespace
+
+std::uint64_t totalBytes(const host::Renderer& renderer)
+{
+    std::uint64_t total = 0;
+    for (const vulkan::MemoryUse& use : renderer.memory()) {
+        total += use.bytes;
+    }
+    return total;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
+                                                               const host::Renderer& baseline)
+{
+    std::vector<std::pair<std::string, std::uint64_t>> added;
+    for (const vulkan::MemoryUse& use : technique.memory()) {
+        std::uint64_t before = 0;
+        for (const vulkan::MemoryUse& other : baseline.memory()) {
+            before += std::string_view(other.purpose) == use.purpose ? other.bytes : 0;
+        }
+        if (use.bytes > before) {
+            added.emplace_back(use.purpose, use.bytes - before);
+        }
+    }
+    return added;
+}
+
+double medianFrame(const Timed& timed)
+{
+    std::vector<double> frames;
+    for (const host::FrameTimes& sample : timed.samples) {
+        frames.push_back(sample.frame_ms);
+    }
+    return spreadOf(std::move(frames)).median;
+}
+
+void addTexels(Timed& timed, const Counters& frame)
+{
+    const auto count = static_cast<double>(timed.samples.size()); // the frame's is among them
+    timed.mean_texels_rendered += (static_cast<double>(frame.texels_rendered) - timed.mean_texels_rendered) / count;
+}
 
 StageTimes stagesOf(const host::FrameTimes& times)
 {
@@ -207,11 +219,21 @@ std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants
 TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject, const std::vector<Contestant>& contestants,
                         const TimingOptions& options, const std::function<void()>& step)
 {
-    assert(subject.scene != nullptr && subject.state != nullptr && !contestants.empty() && options.repetitions > 0);
+    const SubjectAt always = [&](std::uint32_t /*round*/) -> const Subject& {
+        return subject;
+    };
+    return timeInTurn(gpu, always, contestants, options, step);
+}
+
+TimingResult timeInTurn(host::Gpu& gpu, const SubjectAt& subject_at, const std::vector<Contestant>& contestants,
+                        const TimingOptions& options, const std::function<void()>& step)
+{
+    const std::size_t lights = subject_at(0).lights.size();
+    assert(!contestants.empty() && options.repetitions > 0);
     TimingResult result;
     std::span<const Contestant> rest = contestants;
-    for (const std::size_t count : timingGroups(contestants, subject.lights.size())) {
-        timeGroup(gpu, subject, rest.first(count), options, step, result);
+    for (const std::size_t count : timingGroups(contestants, lights)) {
+        timeGroup(gpu, subject_at, rest.first(count), options, step, result);
         rest = rest.subspan(count);
     }
     return result;

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/path_run.h"
+
+#include "lab/traffic.h"
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace gnomon::lab {
+namespace {
+
+/// What a frame leaves for the next.
+struct Before {
+    Camera camera;
+    truth::Surfaces surfaces;
+    Counted counted;
+};
+
+struct Walker {
+    host::RenderOptions options;
+    std::unique_ptr<host::Renderer> renderer;
+    PathScore score;
+    StabilityMeter meter;
+    Timed timed;
+    std::vector<ShownFrame> shown;
+};
+
+ShownFrame shownOf(Score& score)
+{
+    ShownFrame shown;
+    shown.classes = score.classification
+                        ? std::move(score.classification->classes)
+                        : ImageOf<ErrorClass>(score.mask.width, score.mask.height, 1, ErrorClass::left_out);
+    shown.mask = std::move(score.mask);
+    shown.counted = std::move(score.pixels.counted);
+    return shown;
+}
+
+} // namespace
+
+struct PathRun::Impl {
+    std::vector<Walker> walkers; // the first draws without shadows
+    glm::uvec2 size_px{0};
+    std::uint32_t frames = 0;
+    std::optional<Before> before;
+    double squared_noise = 0.0;
+    std::uint64_t noisy_frames = 0;
+    std::uint64_t baseline_bytes = 0;
+
+    void draw(const Subject& subject);
+    void score(Walker& walker, const Subject& subject, const truth::Traced& truth, bool show,
+               std::optional<Reprojection>& onto_before, Counted& counted) const;
+};
+
+PathRun::PathRun(host::Gpu& gpu, const Subject& first, glm::uvec2 size_px, const std::vector<Contestant>& contestants)
+    : impl_(std::make_unique<Impl>())
+{
+    assert(!contestants.empty());
+    impl_->size_px = size_px;
+    impl_->walkers.resize(contestants.size() + 1);
+    for (std::size_t i = 0; i < impl_->walkers.size(); ++i) {
+        Walker& walker = impl_->walkers[i];
+        walker.options = judgedOptions(contestants[i == 0 ? 0 : i - 1].options, size_px);
+        walker.options.shadows = i != 0;
+        walker.renderer = std::make_unique<host::Renderer>(gpu, *first.scene, *first.state, walker.options);
+    }
+}
+
+PathRun::~PathRun() = default;
+
+void PathRun::Impl::draw(const Subject& subject)
+{
+    for (const std::size_t place : turnsOf(frames, walkers.size())) {
+        Walker& walker = walkers[place];
+        const host::FrameTimes times = walker.renderer->draw(*subject.state, subject.eye, subject.lights);
+        if (frames == 1) {
+            walker.timed = {.added_memory = std::move(walker.timed.added_memory)}; // it made pipelines and room
+        }
+        walker.timed.samples.push_back(times);
+        addTexels(walker.timed, countersOf(times, walker.renderer->plan(), !walker.options.reuse_maps));
+    }
+    if (frames == 0) { // before anything is read back, which takes memory
+        baseline_bytes = totalBytes(*walkers.front().renderer);
+        for (Walker& walker : walkers) {
+            walker.timed.added_memory = addedMemory(*walker.renderer, *walkers.front().renderer);
+        }
+    }
+}
+
+void PathRun::Impl::score(Walker& walker, const Subject& subject, const truth::Traced& truth, bool show,
+                          std::optional<Reprojection>& onto_before, Counted& counted) const
+{
+    Score score = scoreDrawn(*walker.renderer, subject, truth, walker.options);
+    if (counted.values.empty()) { // all renderers see the same objects
+        counted = score.pixels.counted;
+        if (before) {
+            const Camera camera = host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
+            onto_before.emplace(SeenFrame{camera, truth.surfaces, counted},
+                                SeenFrame{before->camera, before->surfaces, before->counted});
+        }
+    }
+    walker.meter.add(score.mask, truth.visibility.visibility, onto_before ? &*onto_before : nullptr);
+    walker.score.add(score);
+    if (show) {
+        walker.shown.push_back(shownOf(score));
+    }
+}
+
+void PathRun::add(const Subject& subject, truth::Traced truth, bool show, const std::function<void()>& step)
+{
+    assert(subject.light == 0 && subject.lights.size() == 1);
+    impl_->draw(subject);
+    std::optional<Reprojection> onto_before;
+    Counted counted;
+    for (std::size_t i = 1; i < impl_->walkers.size(); ++i) {
+        impl_->score(impl_->walkers[i], subject, truth, show, onto_before, counted);
+        if (step) {
+            step();
+        }
+    }
+    if (const auto noise = truthNoise(truth.visibility, counted)) {
+        impl_->squared_noise += *noise * *noise;
+        ++impl_->noisy_frames;
+    }
+    const glm::uvec2 size_px = impl_->size_px;
+    impl_->before = Before{host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws),
+                           std::move(truth.surfaces), std::move(counted)};
+    ++impl_->frames;
+}
+
+std::optional<double> PathRun::noise() const
+{
+    return impl_->noisy_frames == 0
+               ? std::nullopt
+               : std::optional(std::sqrt(impl_->squared_noise / static_cast<double>(impl_->noisy_frames)));
+}
+
+PathRun::Result PathRun::finish(const Subject& last)
+{
+    assert(impl_->frames != 0);
+    Result result;
+    result.baseline_bytes = impl_->baseline_bytes;
+    const double baseline_ms = medianFrame(impl_->walkers.front().timed);
+    for (Walker& walker : impl_->walkers) {
+        Timed& timed = walker.timed;
+        timed.plan = walker.renderer->plan();
+        timed.atlas = timed.plan.atlas;
+        timed.counters = countersOf(timed.samples.back(), timed.plan, !walker.options.reuse_maps);
+        timed.counters.filter = walker.renderer->filterCost();
+        timed.counters.bytes_minimum = leastBytes(*walker.renderer, last, walker.options);
+        timed.baseline_ms = baseline_ms;
+    }
+    result.baseline = std::move(impl_->walkers.front().timed);
+    for (std::size_t i = 1; i < impl_->walkers.size(); ++i) {
+        Walker& walker = impl_->walkers[i];
+        PathTechnique technique;
+        technique.score = walker.score.mean();
+        technique.stability = walker.meter.stability();
+        technique.rmse = walker.score.rmse();
+        technique.steps = walker.meter.steps();
+        technique.timed = std::move(walker.timed);
+        technique.shown = std::move(walker.shown);
+        result.techniques.push_back(std::move(technique));
+    }
+    return result;
+}
+
+} // namespace gnomon::lab
