@@ -8,14 +8,17 @@ usage: measure_filters.py [--tables LIST] [--only NAMES] [--filters NAMES] [--si
 GNOMON is the program, SHARED the folder that holds scenes/. The tables, of which --tables picks some:
 
 bytes     each scene and filter at equal map bytes: sides of maps are chosen so that maps take what PCF's take
-time      the same at equal time: sides of maps are chosen so that frames take what PCF's take, within 10 %; where
-          even the smallest map is slower, it is that one
-bleeding  light bleeding of the averaging filters, maps of equal bytes and equal blur, against both truths, and as a
-          share of vsm's. lvsm has two layers, by Lloyd relaxation and by hand; by hand is the best of nine splits
+time      the same at equal time: sides of maps are chosen so that frames take what PCF's take, by straight lines
+          between frames with maps of four sides; where even the smallest map is slower, it is that one
+bleeding  light bleeding of the averaging filters, maps of equal bytes and blurs of as many texels, against both truths:
+          vsm's, and that of others as a share of it. lvsm has two layers, by Lloyd relaxation and by hand, which is
+          the best of nine splits; 4 and 8 layers have vsm's texels and so two and four times its bytes. pcf 7x7 of
+          as many texels is there to tell apart what is no bleeding: edges put wrong by more than the class `edge` takes
 
 --only and --filters name what to run, comma-separated: a scene whose name has one of the words, filters by label. A row
 that is marked with (-) is nowhere better than PCF. A scene that is not there is named on stderr and left out, and the
-exit status is then 1. Frame times are ratios to the frame without shadows of the same run.
+exit status is then 1. Classes are mean squared errors in millionths; they add up to rmse squared. Frame times are
+ratios to the frame without shadows of the same run; with --repetitions 1, which is no measurement, times are left out.
 """
 
 import argparse
@@ -33,22 +36,26 @@ VIEWS = [
     ("rts, unit", "rts", ["--camera", "unit"], False),
     ("rts, map", "rts", ["--camera", "map"], False),
     ("kenney_city", "scenes/kenney_city/kenney_city.gltf",
-     ["--eye", "3,3.2,6.5", "--target", "2.5,0.3,1.5", "--fov", "45", "--sun", "0.5826,-0.766,-0.2717"], False),
+     ["--eye", "3,3.2,6.5", "--target", "2.5,0.3,1.5", "--fov", "45", "--sun", "0.5826,-0.766,-0.2717"], True),
     ("truck_town", "scenes/truck_town/truck_town.gltf",
      ["--eye", "0,22,45", "--target", "2,8,5", "--fov", "50", "--sun", "0.4967,-0.819,0.2868"], False),
     ("spotlit, stage", "spotlit", ["--camera", "stage", "--light-size", "0.2"], False),
-    # Sails and yards over the deck.
-    ("dutch_ship, deck", "scenes/dutch_ship/dutch_ship_medium_1k.gltf",
-     ["--eye=-9,13,8", "--target", "1,3,0", "--fov", "45", "--sun=-0.2,-1,0.3"], True),
-    # A bridge over a cutting, trees over houses.
-    ("truck_town, bridge", "scenes/truck_town/truck_town.gltf",
-     ["--eye", "40,18,10", "--target", "14,4,8", "--fov", "50", "--sun", "0.8,-0.6,0.1"], True),
-    # Clouds over trees and a mountain.
+    # Clouds over a meadow, trees and the foot of a mountain.
     ("terrain, clouds", "scenes/terrain_lowpoly/terrain.glb",
-     ["--eye", "2,9,12", "--target=-1,0,2", "--fov", "45", "--sun=-0.1,-1,0.2"], True),
-    # Leaves and eaves over a porch.
+     ["--eye", "2,9,12", "--target=-1,0,2", "--fov", "45", "--sun=-0.4,-1,0.5"], True),
+    # A roof and a tree over the garden.
+    ("house_leaves, garden", "scenes/house_leaves/house.glb",
+     ["--eye", "0.35,0.35,0.4", "--target", "0.03,0.05,0", "--fov", "45", "--sun", "0.6,-1,0.3"], True),
+    # Leaves and eaves at all heights over a porch.
     ("house_leaves, porch", "scenes/house_leaves/house.glb",
      ["--eye", "0.1,0.25,0.4", "--target=-0.02,0.05,0", "--fov", "45", "--sun", "0.3,-1,-0.3"], True),
+    # Sails, yards and ropes at all heights over the deck.
+    ("dutch_ship, deck", "scenes/dutch_ship/dutch_ship_medium_1k.gltf",
+     ["--eye=-9,13,8", "--target", "1,3,0", "--fov", "45", "--sun=-0.2,-1,0.3"], True),
+    # Arches over rails, walls and stairs.
+    ("zdm2, arches", "scenes/zdm2/zdm2.glb",
+     ["--override-material", "diffuse", "--eye", "45,30,25", "--target", "20,5,-15", "--fov", "40",
+      "--sun=-0.5,-0.8,-0.6"], True),
 ]
 # Label and technique. The first is what all others are held against.
 FILTERS = [
@@ -61,7 +68,15 @@ FILTERS = [
     ("evsm2", "evsm+map-format=rg32f"),
     ("msm", "msm+map-format=rgba16"),
 ]
-BLEEDING = ["vsm", "lvsm", "evsm4", "evsm2", "msm"]
+# Those of the table of bleeding. The first is what others are a share of.
+LAYERED = "lvsm+map-format=rgba16+lvsm.layers="
+BLEEDING = [
+    ("vsm", "vsm+map-format=rg32f"),
+    ("lvsm by Lloyd", f"{LAYERED}2+lvsm.placement=lloyd"),
+    ("evsm4", "evsm+map-format=rgba32f"),
+    ("evsm2", "evsm+map-format=rg32f"),
+    ("msm", "msm+map-format=rgba16"),
+]
 SPLITS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
 CLASSES = ["edge", "acne", "detached", "bleeding"]
 SMALLEST_MAP, LARGEST_MAP = 128, 8192
@@ -80,7 +95,7 @@ class Runner:
         return json.loads(done.stdout)
 
     def compare(self, scene, view, techniques, truth, repetitions):
-        """Results in the order of `techniques`; `truth` is "hard" or "area"."""
+        """The whole result, its techniques best first; `truth` is "hard" or "area"."""
         if truth == "hard" and "--light-size" in view:  # means something to area truth only
             at = view.index("--light-size")
             view = view[:at] + view[at + 2:]
@@ -88,20 +103,15 @@ class Runner:
                      "--warmup", "1" if repetitions > 1 else "0"]
         if truth == "area":
             arguments += ["--samples", self.options.samples]
-        whole = self.run("compare", scene, view, arguments)
-        # They come best first; what was asked for is told by the settings, which hold all of them.
-        by_name = {}
-        for result in whole["results"]:
-            by_name.setdefault(result["technique"], result)
-        return whole, by_name
+        return self.run("compare", scene, view, arguments)
 
     def frames(self, scene, view, techniques):
-        """Median frames of techniques that take turns in one process."""
+        """Median frames of techniques that take turns in one process, in their order."""
         drop = ["--light-size", "--sun-angle", "--light"]
         view = [o for i, o in enumerate(view) if o not in drop and (i == 0 or view[i - 1] not in drop)]
         whole = self.run("bench", scene, view, ["--techniques", ",".join(techniques), "--repetitions",
                                                 str(max(3, self.options.repetitions)), "--warmup", "1"])
-        return [result["time_ms"]["frame"] for result in whole["results"]]
+        return [result["frame_ratio"] for result in in_order(whole, techniques)]
 
 
 def sized(technique, side):
@@ -112,7 +122,7 @@ def even(side):
     return int(min(max(2 * round(side / 2), SMALLEST_MAP), LARGEST_MAP))
 
 
-def in_order(whole, by_name, techniques, options):
+def in_order(whole, techniques):
     """The results of `techniques`, which a result names in its own shortened way: one by one by what they ask for."""
     left = list(whole["results"])
     found = []
@@ -141,8 +151,8 @@ def number(value):
 
 def bytes_per_square(runner, techniques):
     """Bytes of the map, mip levels included, per square of its side. Does not depend on the scene."""
-    whole, by_name = runner.compare("planes", ["--light", "sun"], [sized(t, 512) for t in techniques], "hard", 1)
-    results = in_order(whole, by_name, [sized(t, 512) for t in techniques], runner.options)
+    asked = [sized(t, 512) for t in techniques]
+    results = in_order(runner.compare("planes", ["--light", "sun"], asked, "hard", 1), asked)
     return [result["map"]["bytes"] / 512.0 ** 2 for result in results]
 
 
@@ -151,91 +161,96 @@ def sides_of_equal_bytes(runner, techniques):
     return [even(runner.options.map_size * math.sqrt(per_square[0] / b)) for b in per_square]
 
 
-def side_of_equal_time(runner, scene, view, reference, technique, start):
-    """A side at which `technique` takes what `reference` takes within 10 %; halving on the logarithm of the side."""
-    low, high, side = math.log2(SMALLEST_MAP), math.log2(LARGEST_MAP), start
-    for _ in range(7):
-        pcf, own = runner.frames(scene, view, [sized(reference, runner.options.map_size), sized(technique, side)])
-        if abs(own / pcf - 1.0) <= 0.1 or high - low < 0.1:
-            break
-        if own > pcf:
-            high = math.log2(side)
-        else:
-            low = math.log2(side)
-        side = even(2.0 ** (0.5 * (low + high)))
-        if side == start and high == low:
-            break
-    return side
+def sides_of_equal_time(runner, scene, view, techniques):
+    """Sides at which frames should take what the first technique's take."""
+    largest = runner.options.map_size
+    probes = sorted({even(largest * factor) for factor in [0.0, 0.5, 1.0, 1.5]})
+    asked = [sized(t, side) for t in techniques[1:] for side in probes]
+    pcf, *frames = runner.frames(scene, view, [sized(techniques[0], largest), *asked])
+    rows = [frames[i:i + len(probes)] for i in range(0, len(frames), len(probes))]
+    return [largest] + [side_where(pcf, probes, row) for row in rows]
+
+
+def side_where(wanted, sides, frames):
+    """Frames grow with a map's texels: the largest side whose frame is `wanted`, linear in the side's square."""
+    for i in range(len(sides) - 1, 0, -1):
+        if frames[i - 1] <= wanted < frames[i]:
+            part = (wanted - frames[i - 1]) / (frames[i] - frames[i - 1])
+            return even(math.sqrt((1.0 - part) * sides[i - 1] ** 2 + part * sides[i] ** 2))
+    return sides[-1] if frames[-1] <= wanted else sides[0]
 
 
 def cell(value, digits=4):
     return "–" if value is None else f"{value:.{digits}f}"
 
 
-def numbers_of(result):
+def numbers_of(result, timed):
     """All that can be better or worse, the smaller the better."""
     error = result["error"]
-    return [error["rmse"], error["flip"], *(error[name] for name in CLASSES), result["frame_ratio"],
-            result["map"]["bytes"]]
+    return [error["rmse"], error["flip"], *(error[name] for name in CLASSES), result["map"]["bytes"],
+            *([result["frame_ratio"]] if timed else [])]
 
 
-def nowhere_better(result, reference):
-    tolerances = [1.0] * 6 + [0.9, 0.97]  # equal time and equal bytes are no win
+def nowhere_better(result, reference, timed):
+    tolerances = [1.0] * 6 + [0.97, 0.9]  # equal bytes and equal time are no win
     return all(own is None or other is None or own >= other * t
-               for own, other, t in zip(numbers_of(result), numbers_of(reference), tolerances))
+               for own, other, t in zip(numbers_of(result, timed), numbers_of(reference, timed), tolerances))
 
 
-def filter_rows(results, labels, sides):
-    lines = ["| filter | map | MiB | all MiB | rmse | flip | edge | acne | detached | bleeding | maps ms | filter ms | "
-             "mask ms | frame ratio |", "|---|" + "---|" * 13]
+def filter_rows(results, labels, sides, timed):
+    times = ["maps ms", "filter ms", "mask ms", "frame ratio"] if timed else []
+    columns = ["filter", "map", "MiB", "all MiB", "rmse", "flip", *CLASSES, *times]
+    lines = [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
     for result, label, side in zip(results, labels, sides):
         error, time = result["error"], result["time_ms"]
-        mark = " (-)" if result is not results[0] and nowhere_better(result, results[0]) else ""
-        classes = " | ".join(cell(error[name], 6) for name in CLASSES)
-        lines.append(
-            f"| {label}{mark} | {side} | {result['map']['bytes'] / 2 ** 20:.1f} | {result['memory_bytes'] / 2 ** 20:.1f} | "
-            f"{cell(error['rmse'])} | {cell(error['flip'], 3)} | {classes} | {cell(time['maps'], 1)} | "
-            f"{cell(time['filter'], 1)} | {cell(time['mask'], 1)} | {cell(result['frame_ratio'], 2)} |")
+        mark = " (-)" if result is not results[0] and nowhere_better(result, results[0], timed) else ""
+        cells = [f"{label}{mark}", str(side), cell(result["map"]["bytes"] / 2 ** 20, 1),
+                 cell(result["memory_bytes"] / 2 ** 20, 1), cell(error["rmse"]), cell(error["flip"], 3),
+                 *(cell(1e6 * error[name], 1 if error[name] < 1e-5 else 0) for name in CLASSES)]
+        if timed:
+            cells += [*(cell(time[stage], 1) for stage in ["maps", "filter", "mask"]), cell(result["frame_ratio"], 2)]
+        lines.append(f"| {' | '.join(cells)} |")
     return lines
 
 
 def filters_table(runner, view, labels, equal):
     name, scene, options, _ = view
     techniques = [dict(FILTERS)[label] for label in labels]
-    sides = sides_of_equal_bytes(runner, techniques)
-    if equal == "time":
-        sides = [runner.options.map_size] + [
-            side_of_equal_time(runner, scene, options, techniques[0], technique, side)
-            for technique, side in zip(techniques[1:], sides[1:])]
+    sides = (sides_of_equal_bytes(runner, techniques) if equal == "bytes" else
+             sides_of_equal_time(runner, scene, options, techniques))
     asked = [sized(t, s) for t, s in zip(techniques, sides)]
-    whole, by_name = runner.compare(scene, options, asked, "area", runner.options.repetitions)
-    results = in_order(whole, by_name, asked, runner.options)
+    whole = runner.compare(scene, options, asked, "area", runner.options.repetitions)
+    results = in_order(whole, asked)
     title = [f"### {name}, equal {equal}", "", f"{whole['pixels']['counted']} pixels count; the truth's own noise is "
              f"{whole['truth']['standard_error']:.4f}.", ""]
-    return "\n".join(title + filter_rows(results, labels, sides)) + "\n"
+    return "\n".join(title + filter_rows(results, labels, sides, runner.options.repetitions > 1)) + "\n"
 
 
-def bleeding_table(runner, views, labels):
-    techniques = [dict(FILTERS)[label] for label in labels]
-    sides = sides_of_equal_bytes(runner, [FILTERS[0][1], *techniques])[1:]
-    side_of = dict(zip(labels, sides))
-    hand = f"{dict(FILTERS)['lvsm']}+lvsm.layers=2"
-    lines = ["### Bleeding", "", "| scene | truth | " + " | ".join(labels) + " | lvsm by hand | split | "
-             "lvsm / vsm | by hand / vsm |", "|---|---|" + "---|" * (len(labels) + 4)]
+def bleeding_table(runner, views):
+    """Everything is run with the blur's compute shaders, which spares the trial of which are faster."""
+    sides = sides_of_equal_bytes(runner, [FILTERS[0][1], *(technique for _, technique in BLEEDING)])[1:]
+    own = [sized(technique, side) for (_, technique), side in zip(BLEEDING, sides)]
+    side = sides[0]
+    more = [sized(f"{LAYERED}{layers}+lvsm.placement=lloyd", side) for layers in [4, 8]]
+    by_hand = [sized(f"{LAYERED}2+lvsm.splits={split}", side) for split in SPLITS]
+    floor = [sized("pcf+pcf.kernel=7x7", side)]
+    asked = own + more + floor + by_hand
+    labels = [f"{label} {s}" for (label, _), s in zip(BLEEDING[1:], sides[1:])]
+    labels = [labels[0], f"lvsm by hand {side}", "split", *labels[1:], f"lvsm 4 layers {side}", f"8 layers {side}",
+              f"pcf 7x7 {side}"]
+    lines = ["### Bleeding", "", f"| scene | truth | vsm {side} | " + " | ".join(labels) + " |",
+             "|---|---|" + "---|" * (len(labels) + 1)]
     for name, scene, options, _ in views:
         for truth in ["area", "hard"]:
-            asked = [sized(t, s) for t, s in zip(techniques, sides)]
-            splits = [sized(f"{hand}+lvsm.splits={split}", side_of["lvsm"]) for split in SPLITS]
-            whole, by_name = runner.compare(scene, options, asked, truth, 1)
-            own = [r["error"]["bleeding"] for r in in_order(whole, by_name, asked, runner.options)]
-            whole, by_name = runner.compare(scene, options, splits, truth, 1)
-            by_hand = [r["error"]["bleeding"] for r in in_order(whole, by_name, splits, runner.options)]
-            best = min(by_hand)
-            vsm = own[labels.index("vsm")]
-            share = lambda value: "–" if not vsm else f"{100.0 * value / vsm:.0f} %"
-            lines.append(f"| {name} | {truth} | " + " | ".join(f"{value:.2e}" for value in own) +
-                         f" | {best:.2e} | {SPLITS[by_hand.index(best)]} | {share(own[labels.index('lvsm')])} | "
-                         f"{share(best)} |")
+            whole = runner.compare(scene, options + ["--set", "blur.path=compute"], asked, truth, 1)
+            value = [r["error"]["bleeding"] for r in in_order(whole, asked)]
+            vsm, split_values = value[0], value[-len(SPLITS):]
+            best = min(split_values)
+            share = [f"{100.0 * v / vsm:.0f} %" if vsm else "–" for v in value]
+            best_share = f"{100.0 * best / vsm:.0f} %" if vsm else "–"
+            cells = [share[1], best_share, f"{SPLITS[split_values.index(best)]}", *share[2:len(own) + 3]]
+            lines.append(f"| {name} | {truth} | {vsm:.2e} | " + " | ".join(cells) + " |")
+            print(lines[-1], file=sys.stderr, flush=True)
     return "\n".join(lines) + "\n"
 
 
@@ -278,7 +293,7 @@ def main() -> int:
         for view in views:
             print(filters_table(runner, view, labels, equal), flush=True)
     if "bleeding" in tables:
-        print(bleeding_table(runner, [v for v in views if v[3]], BLEEDING), flush=True)
+        print(bleeding_table(runner, [v for v in views if v[3]]), flush=True)
     return 1 if missing else 0
 
 
