@@ -22,6 +22,7 @@ ratios to the frame without shadows of the same run; with --repetitions 1, which
 """
 
 import argparse
+import functools
 import json
 import math
 import subprocess
@@ -149,15 +150,16 @@ def number(value):
         return value
 
 
+@functools.cache
 def bytes_per_square(runner, techniques):
-    """Bytes of the map, mip levels included, per square of its side. Does not depend on the scene."""
+    """Bytes of the map, mip levels included, per square of its side. Does not depend on the scene, so one run does."""
     asked = [sized(t, 512) for t in techniques]
     results = in_order(runner.compare("planes", ["--light", "sun"], asked, "hard", 1), asked)
     return [result["map"]["bytes"] / 512.0 ** 2 for result in results]
 
 
 def sides_of_equal_bytes(runner, techniques):
-    per_square = bytes_per_square(runner, techniques)
+    per_square = bytes_per_square(runner, tuple(techniques))
     return [even(runner.options.map_size * math.sqrt(per_square[0] / b)) for b in per_square]
 
 
