@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera_view.h"
 
+#include "motion/steps.h"
+
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -87,6 +89,25 @@ void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::
     if (perspective)
         near_m = std::max(near_m, 0.0);
     far_m = std::max(far_m, near_m);
+}
+
+void CameraView::boundDepths(const Camera& camera, double max_distance_m)
+{
+    const Frustum frustum = frustumFromClip(camera.clip_from_world);
+    const auto depthOfPlane = [&](const Plane& plane) {
+        const double along = glm::dot(plane.normal, forward_ws);
+        return along == 0.0 ? std::numeric_limits<double>::infinity() : -plane.distance(eye_ws) / along;
+    };
+    const Plane& first = frustum.planes[camera.reversed_z ? 5 : 4];
+    const Plane& last = frustum.planes[camera.reversed_z ? 4 : 5];
+    double farthest_m = 0.0;
+    for (int i = 0; i < 8; ++i)
+        farthest_m = std::max(farthest_m, glm::distance(glm::dvec3(scene_ws.corner(i)), eye_ws));
+    near_m = depthOfPlane(first);
+    far_m = std::min(depthOfPlane(last), steppedRatio(1.0, std::max(farthest_m, 1.0)).high);
+    if (max_distance_m > 0.0)
+        far_m = std::min(far_m, max_distance_m);
+    far_m = std::max(far_m, near_m + pad_m);
 }
 
 void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std::uint32_t>& receivers)

@@ -7,7 +7,6 @@
 #include "depth_tilt.h"
 #include "fit/projection.h"
 #include "motion/motion.h"
-#include "motion/steps.h"
 #include "partition/partition.h"
 #include "region.h"
 
@@ -43,16 +42,6 @@ bool sameSize(const AtlasSize& a, const AtlasSize& b)
         last_m = options.ends_m[i];
     }
     return true;
-}
-
-/// So that where slices end does not crawl with the camera.
-void stepDepths(CameraView& view)
-{
-    const double far_m = std::max(view.far_m, view.near_m + 1e-3);
-    const double nearest_m = std::max(view.near_m, 1e-3 * far_m); // has a logarithm, when perspective
-    const SteppedRange stepped = view.perspective ? steppedRatio(nearest_m, far_m) : steppedRange(view.near_m, far_m);
-    view.near_m = stepped.low;
-    view.far_m = stepped.high;
 }
 
 constexpr std::string_view kUnwarped =
@@ -160,11 +149,11 @@ void Planner::Impl::look(const Frame& frame, Plan& plan)
     plan.fade_end_m = options.max_distance_m;
     plan.fade_begin_m = options.max_distance_m * (1.0 - options.fade);
     const bool steady = motion != nullptr && motion->steady;
-    if (view.outcome.kind == OutcomeKind::ok && !plan.receivers.empty() &&
-        (steady || partitionMeasures(options.technique.partition))) {
-        view.measureDepths(*frame.objects, plan.receivers);
+    if (view.outcome.kind == OutcomeKind::ok && !plan.receivers.empty()) {
         if (steady)
-            stepDepths(view);
+            view.boundDepths(frame.camera, options.max_distance_m);
+        else if (partitionMeasures(options.technique.partition))
+            view.measureDepths(*frame.objects, plan.receivers);
     }
     all_receivers.clear();
     for (std::uint32_t i = 0; steady && i < frame.objects->size(); ++i)
@@ -244,7 +233,7 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
     const CasterReach reach{
         motion->steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region.rect(),
-        (border_texels + 1.0) * made.texel_m, farthestCaster(region, space, motion->steady), motion->steady};
+        borderReach(warp, made.fit, border_texels, options.map_size), farthestCaster(region, space, motion->steady), motion->steady};
     const Outcome found = region.gatherCasters(input, reach, plan.casters);
     if (found.kind != OutcomeKind::ok)
         return found;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where cascades end, that together they serve all that is seen, and that each of them has it in its map.
+#include "partition/cascades.h"
+#include "worlds.h"
+
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+using test::Random;
+
+TEST(PracticalSplit, IsTheMeanOfBothRulesByLambda)
+{
+    // F. Zhang et al. 2006, eq. 3 to 5, for 1 .. 81 in four: 3, 9, 27 by the logarithm, 21, 41, 61 evenly.
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 1.0, 1, 4), 3.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 1.0, 3, 4), 27.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 0.0, 2, 4), 41.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 0.5, 1, 4), 12.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 0.75, 2, 4), 0.75 * 9.0 + 0.25 * 41.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 0.75, 0, 4), 1.0, 1e-12);
+    EXPECT_NEAR(practicalSplit(1.0, 81.0, 0.75, 4, 4), 81.0, 1e-12);
+}
+
+struct Ground {
+    ObjectSet set;
+    std::vector<Light> lights{test::sun({0.3, -1.0, 0.2})};
+    Frame frame;
+
+    Ground()
+    {
+        set.add(test::boxAt({0, -0.5, 0}, {200, 0.5, 200}), {true, true, false});
+        for (int z = -180; z <= 180; z += 20)
+            for (int x = -180; x <= 180; x += 20)
+                set.add(test::boxAt({x, 2, z}, {1, 2, 1}), {true, true, false});
+        frame.camera = test::perspectiveCamera({1.0, 1.7, 150.0}, {0.0, 1.0, 0.0}, 0.9);
+        frame.lights = lights;
+        frame.objects = &set;
+    }
+    Plan plan(PlanOptions options) const { return Planner(options).plan(frame); }
+};
+
+PlanOptions cascades(std::uint32_t count)
+{
+    PlanOptions options;
+    options.technique.partition = Partition::cascades;
+    options.cascades.count = count;
+    options.map_size = 1024;
+    return options;
+}
+
+TEST(Cascades, ShareTheViewWithOverlapsOnly)
+{
+    const Ground ground;
+    const Plan plan = ground.plan(cascades(4));
+    ASSERT_EQ(plan.views.size(), 4U);
+    EXPECT_EQ(plan.atlas.layers, 4U);
+    for (std::size_t i = 0; i + 1 < plan.views.size(); ++i) {
+        const ViewSlice& here = plan.views[i].slice;
+        const ViewSlice& next = plan.views[i + 1].slice;
+        EXPECT_GT(here.end_m, 0.0);
+        EXPECT_GT(next.blend_m, 0.0);
+        EXPECT_NEAR(next.begin_m + next.blend_m, here.end_m, 1e-9 * here.end_m);
+        EXPECT_LT(plan.views[i].texel_m, plan.views[i + 1].texel_m);
+    }
+    EXPECT_FALSE(std::isfinite(plan.views.front().slice.begin_m));
+    EXPECT_FALSE(std::isfinite(plan.views.back().slice.end_m));
+}
+
+TEST(Cascades, EndWhereTheyAreToldTo)
+{
+    PlanOptions options = cascades(3);
+    options.cascades.ends_m = {10.0, 40.0};
+    options.cascades.blend = 0.0;
+    const Plan plan = Ground().plan(options);
+    ASSERT_EQ(plan.views.size(), 3U);
+    EXPECT_EQ(plan.views[0].slice.end_m, 10.0);
+    EXPECT_EQ(plan.views[1].slice.begin_m, 10.0);
+    EXPECT_EQ(plan.views[1].slice.end_m, 40.0);
+    EXPECT_EQ(plan.views[2].slice.begin_m, 40.0);
+}
+
+TEST(Cascades, OneIsAsGoodAsNone)
+{
+    const Ground ground;
+    PlanOptions single;
+    single.map_size = 1024;
+    const Plan one = ground.plan(cascades(1));
+    const Plan none = ground.plan(single);
+    ASSERT_EQ(one.views.size(), 1U);
+    EXPECT_EQ(one.views[0].clip_from_world, none.views[0].clip_from_world);
+    EXPECT_FALSE(one.views[0].slice.bounded());
+}
+
+TEST(Cascades, OfAnOrthographicCameraAreEven)
+{
+    Ground ground;
+    ground.frame.camera = test::orthographicCamera({0, 60, 100}, {0, 0, 0}, 60.0);
+    PlanOptions options = cascades(3);
+    options.cascades.blend = 0.0;
+    const Plan plan = ground.plan(options);
+    ASSERT_EQ(plan.views.size(), 3U);
+    const double first = plan.views[0].slice.end_m;
+    const double second = plan.views[1].slice.end_m;
+    // Lengths of the second and, by the even rule, of the first: what is seen begins at 2 first - second.
+    double nearest = 1e9;
+    Random random(3);
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec3 p = random.inBox({-200, 0, -200}, {200, 0, 200});
+        const glm::dvec4 c = ground.frame.camera.clip_from_world * glm::dvec4(p, 1.0);
+        if (std::abs(c.x) < 1.0 && std::abs(c.y) < 1.0 && c.z > 0.0 && c.z < 1.0)
+            nearest = std::min(nearest, glm::dot(plan.views[1].slice.axis, glm::dvec4(p, 1.0)));
+    }
+    EXPECT_NEAR(2.0 * first - second, nearest, 0.1 * (second - first));
+}
+
+/// Whoever looks wherever: what is seen and lit is in the map of every view whose slice holds it, and in one at least.
+TEST(Cascades, HoldWhatTheyServe)
+{
+    int checked = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(seed);
+        Ground ground;
+        ground.lights = {test::sun(glm::normalize(random.direction() - glm::dvec3(0, 1.2, 0))),
+                         test::spot({0, 40, 0}, {0, -1, 0}, 0.9)};
+        ground.frame.lights = ground.lights;
+        const glm::dvec3 eye = random.inBox({-150, 0.5, -150}, {150, 30, 150});
+        ground.frame.camera =
+            test::perspectiveCamera(eye, random.inBox({-150, 0, -150}, {150, 5, 150}), random.uniform(0.2, 2.5));
+        PlanOptions options = cascades(1 + random.below(kMaxCascades));
+        options.technique.motion = random.below(2) == 0 ? Motion::free : Motion::snap;
+        options.cascades.lambda = random.uniform();
+        options.cascades.blend = random.uniform(0.0, 0.5);
+        options.border_texels = 4.0;
+        const Plan plan = ground.plan(options);
+        for (int sample = 0; sample < 200; ++sample) {
+            const glm::dvec3 p = random.inBox({-200, 0, -200}, {200, 0, 200});
+            const glm::dvec4 seen = ground.frame.camera.clip_from_world * glm::dvec4(p, 1.0);
+            const double slack = 1e-6 * seen.w;
+            if (!(seen.w > 0.0 && std::abs(seen.x) < seen.w - slack && std::abs(seen.y) < seen.w - slack &&
+                  seen.z > slack && seen.z < seen.w - slack))
+                continue;
+            for (const LightPlan& light : plan.lights) {
+                const bool spot = &light != plan.lights.data();
+                if (spot && glm::length(glm::dvec2(p.x, p.z)) > 0.99 * 40.0 * std::tan(0.9))
+                    continue;
+                int served = 0;
+                for (std::uint32_t v = 0; v < light.view_count; ++v) {
+                    const View& view = plan.views[light.first_view + v];
+                    if (!view.slice.holds(p))
+                        continue;
+                    ++served;
+                    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+                    const double edge = 1.0 - 2.0 * 4.0 / options.map_size + 1e-6;
+                    ASSERT_LE(std::max(std::abs(c.x), std::abs(c.y)), c.w * edge);
+                    ASSERT_LE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
+                    ASSERT_GE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 0.0);
+                }
+                if (light.view_count == options.cascades.count) { // none is left out for want of casters
+                    ASSERT_GE(served, 1);
+                    ASSERT_LE(served, 2);
+                    ++checked;
+                }
+            }
+        }
+    }
+    EXPECT_GT(checked, 5000);
+}
+
+} // namespace
+} // namespace gnomon
