@@ -231,9 +231,10 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     made.texel_xy_m = made.fit.coarsest_texel;
     made.texel_m = std::max(made.texel_xy_m.x, made.texel_xy_m.y);
     const std::uint32_t first_caster = static_cast<std::uint32_t>(plan.casters.size());
-    const CasterReach reach{
-        motion->steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region.rect(),
-        borderReach(warp, made.fit, border_texels, options.map_size), farthestCaster(region, space, motion->steady), motion->steady};
+    const CasterReach reach{motion->steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half}
+                                           : region.rect(),
+                            borderReach(warp, made.fit, border_texels, options.map_size),
+                            farthestCaster(region, space, motion->steady), motion->steady};
     const Outcome found = region.gatherCasters(input, reach, plan.casters);
     if (found.kind != OutcomeKind::ok)
         return found;
