@@ -36,11 +36,13 @@ struct Eye {
 struct ShadedLight {
     std::string name;
     Light caster;                        // gnomon/frame.h
-    glm::vec3 colour{1.0F};              // linear, times intensity: lux (directional) or candela
+    glm::vec3 colour{1.0F};              // linear, times intensity at full strength: lux (directional) or candela
+    glm::vec3 strength{1.0F};            // what it gives now, as a share of that; the exposure is chosen for all of it
     double inner_half_angle_rad = 0.0;   // spot
     glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
     std::uint32_t cookie = scene::kNone; // image of the scene
 };
+/// A light of strength 0 casts no shadow, so that nobody draws a map for it.
 [[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
 
 /// `fxaa` smooths edges of the finished picture; `ssaa4` draws and shades four samples a pixel (twice the size on each

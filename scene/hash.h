@@ -60,10 +60,11 @@ private:
 
 /// Of everything in a scene that a picture, a mask or a truth of it can depend on: geometry, places, materials,
 /// textures, images, skins, animations, lights, cameras, environment. Not of names; not of notices. A procedural
-/// world's animator cannot be hashed: see stateHash().
+/// world's animators cannot be hashed: see stateHash().
 [[nodiscard]] Hash128 sceneHash(const Scene& scene);
 
-/// Of what a state adds to its scene: where objects are now, deformed vertices, flags.
+/// Of what a state adds to its scene for a mask or a truth: where objects and lights are now, deformed vertices, flags.
+/// Not of how bright lights and sky are.
 [[nodiscard]] Hash128 stateHash(const State& state);
 
 } // namespace gnomon::scene

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -216,6 +217,11 @@ struct Scene {
     /// Built-in worlds move their nodes here: sets transforms of `nodes` for a time in seconds. Must be a pure
     /// function of the time (frames may be drawn in any order). Null for files.
     std::function<void(double time_s, std::vector<Node>& nodes)> procedural;
+    /// Built-in worlds change their lights' strength and their sky here, as pure functions of the time as well.
+    /// `strengths` has one per light, each 1 when it is called: what the light gives now for each colour channel, as a
+    /// share of Light::colour * intensity. `environment` is Scene::environment when it is called. Null where neither
+    /// changes.
+    std::function<void(double time_s, std::span<glm::vec3> strengths, Environment& environment)> daylight;
     std::vector<std::string> notices; // what was read but has no effect, a sentence each
 };
 

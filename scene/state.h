@@ -40,6 +40,7 @@ struct PlacedLight {
     glm::vec3 position_ws{0.0F};
     glm::vec3 direction_ws{0.0F, -1.0F, 0.0F}; // unit, the way the light travels
     glm::vec3 up_ws{0.0F, 0.0F, 1.0F};         // unit, perpendicular to direction: orients a cookie
+    glm::vec3 strength{1.0F}; // >= 0: what it gives now, as a share of the light's colour * intensity; 0: it is out
 };
 
 struct PlacedCamera {
@@ -57,14 +58,16 @@ struct State {
     std::vector<DeformedPrimitive> deformed;
     std::vector<PlacedLight> lights;
     std::vector<PlacedCamera> cameras;
-    Aabb bounds_ws; // of all objects
+    Environment environment; // sky and ambient now
+    Aabb bounds_ws;          // of all objects
 
     // What `advance` visits, in ascending order, and room to work in; made by `evaluate`.
     std::vector<std::uint32_t> dynamic_nodes;
     std::vector<std::uint32_t> dynamic_objects;
     std::vector<std::uint32_t> light_and_camera_nodes;
     std::vector<glm::mat4> joint_matrices;
-    Aabb static_bounds_ws; // of the objects that never move
+    std::vector<glm::vec3> light_strengths; // one per light of the scene
+    Aabb static_bounds_ws;                  // of the objects that never move
 };
 
 /// Builds the objects of `scene` and evaluates it at `time_s`. `animation` names the animation to play; empty plays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A gradient from zenith over horizon to ground, with the sun in it.
+// A gradient from zenith over horizon to ground, with the sun in it, and the moon where there is one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
@@ -13,12 +13,15 @@ void main()
     // Haze: what is below the horizon takes on the ground's colour slowly and never wholly.
     sky = mix(sky, frame.ground.rgb, 0.65 * smoothstep(0.0, 0.8, -d.y));
     sky *= 0.75; // as a backdrop it would outshine what it lights, whose colours are mostly dark
-    if (frame.counts.x > 0 && frame.lights[0].place.w < 0.5) {
-        float c = dot(d, frame.lights[0].place.xyz);
+    for (uint i = 0; i < min(frame.counts.x, 2u); ++i) {
+        if (frame.lights[i].place.w > 0.5) {
+            continue;
+        }
+        float c = dot(d, frame.lights[i].place.xyz);
         // Cosine of a disc twice the sun's, and a halo.
         float disc = smoothstep(0.99985, 0.99992, c);
         float halo = 0.25 * pow(max(c, 0.0), 400.0) + 0.12 * pow(max(c, 0.0), 24.0);
-        sky += frame.lights[0].colour.rgb * (disc * 4.0 + halo);
+        sky += frame.lights[i].colour.rgb * (disc * 4.0 + halo);
     }
     out_light = vec4(sky, 1.0);
 }

@@ -145,10 +145,10 @@ void Renderer::Impl::writeFrameData(const scene::State& state, const std::vector
     for (const ShadedLight& light : lights) {
         cookie_layers.push_back(light.cookie == scene::kNone ? -1 : textures.cookieLayer(light.cookie));
     }
-    const double exposure = exposureOf(lights, state.bounds_ws, scene.environment);
+    const double exposure = exposureOf(lights, state.bounds_ws, state.environment);
     auto& data = *static_cast<FrameData*>(frame_buffer.mapped);
     fillFrameData(data, sight, targets.drawn.width, targets.drawn.height, lights, cookie_layers, exposure,
-                  scene.environment, has_mask && !lights.empty());
+                  state.environment, has_mask && !lights.empty());
     for (std::size_t i = 0; plan != nullptr && i < lights.size(); ++i) {
         data.lights[i].right.w = static_cast<float>(plan->lights[i].mask_layer * 4 + plan->lights[i].mask_channel);
     }

@@ -49,9 +49,9 @@ struct Sight {
 /// Reversed z, y down, about the eye.
 [[nodiscard]] glm::dmat4 clipFromEye(const Sight& sight);
 
-/// What brings the brightest light to the range that the tone curve is made for; multiplies all light that the scene's
-/// lights give. Sky, hemisphere light and emission are given relative to that and are only scaled by
-/// Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
+/// What brings the brightest light, at its full strength, to the range that the tone curve is made for; multiplies all
+/// light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only
+/// scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
 [[nodiscard]] double exposureOf(std::span<const ShadedLight> lights, const Aabb& scene_bounds_ws,
                                 const scene::Environment& environment);
 

@@ -39,8 +39,9 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
         light.caster.range_m = source.range_m;
         light.caster.angular_diameter_rad = source.angular_diameter_rad;
         light.caster.radius_m = source.radius_m;
-        light.caster.casts_shadow = source.casts_shadow;
+        light.caster.casts_shadow = source.casts_shadow && placed.strength != glm::vec3(0.0F);
         light.colour = source.colour * source.intensity;
+        light.strength = placed.strength;
         light.inner_half_angle_rad = source.inner_cone_rad;
         light.up_ws = placed.up_ws;
         light.cookie = source.cookie;

@@ -199,7 +199,7 @@ private:
 
     void add(const PlacedLight& placed)
     {
-        const auto& [light, position_ws, direction_ws, up_ws] = placed;
+        const auto& [light, position_ws, direction_ws, up_ws, strength] = placed;
         addEach(light, position_ws, direction_ws, up_ws);
     }
 
@@ -216,9 +216,9 @@ private:
 
 Hash128 sceneHash(const Scene& scene)
 {
-    // `procedural` is code; what it does to a moment is in the state.
+    // `procedural` and `daylight` are code; what they do to a moment is in the state.
     const auto& [name, images, textures, materials, meshes, nodes, skins, animations, cameras, lights, views,
-                 environment, procedural, notices] = scene;
+                 environment, procedural, daylight, notices] = scene;
     Hasher hasher;
     Walk(hasher).addEach(images, textures, materials, meshes, nodes, skins, animations, cameras, lights, views,
                          environment);
@@ -228,9 +228,10 @@ Hash128 sceneHash(const Scene& scene)
 Hash128 stateHash(const State& state)
 {
     // The time is left out: a world that stands still is the same at every moment. The nodes have been used up for
-    // what is hashed. What `advance` keeps for itself says nothing of this moment.
-    const auto& [time_s, nodes, world_from_node, objects, deformed, lights, cameras, bounds_ws, dynamic_nodes,
-                 dynamic_objects, light_and_camera_nodes, joint_matrices, static_bounds_ws] = state;
+    // what is hashed. What `advance` keeps for itself says nothing of this moment. How bright lights and sky are
+    // changes no visibility, which is what a state is hashed for.
+    const auto& [time_s, nodes, world_from_node, objects, deformed, lights, cameras, sky, bounds_ws, dynamic_nodes,
+                 dynamic_objects, light_and_camera_nodes, joint_matrices, light_strengths, static_bounds_ws] = state;
     Hasher hasher;
     Walk(hasher).addEach(world_from_node, objects, deformed, lights, cameras, bounds_ws);
     return hasher.value();

@@ -106,7 +106,7 @@ void placeLightsAndCameras(State& state)
         const Node& node = state.nodes[index];
         const Placement p = placementOf(state.world_from_node[index]);
         if (node.light != kNone) {
-            state.lights[light++] = {node.light, p.position, p.forward, p.up};
+            state.lights[light++] = {node.light, p.position, p.forward, p.up, state.light_strengths[node.light]};
         }
         if (node.camera != kNone) {
             state.cameras[camera++] = {node.camera, p.position, p.forward, p.up};
@@ -122,6 +122,11 @@ void applyTime(const Scene& scene, const Animation* animation, double time_s, St
     }
     if (scene.procedural) {
         scene.procedural(time_s, state.nodes);
+    }
+    state.environment = scene.environment;
+    if (scene.daylight) {
+        std::fill(state.light_strengths.begin(), state.light_strengths.end(), glm::vec3(1.0F));
+        scene.daylight(time_s, state.light_strengths, state.environment);
     }
 }
 
@@ -201,6 +206,7 @@ State build(const Scene& scene)
         most_joints = std::max(most_joints, skin.joints.size());
     }
     state.joint_matrices.resize(most_joints);
+    state.light_strengths.resize(scene.lights.size(), glm::vec3(1.0F));
     return state;
 }
 
