@@ -13,9 +13,11 @@ namespace gnomon::scene {
 
 namespace {
 
-constexpr std::array<World, 4> kWorlds{{
+constexpr std::array<World, 5> kWorlds{{
     {"rts", "a strategy game's map: 400 walking units, a camp, groves, floating debris, one sun (Marinescu 2011)",
      &makeRts},
+    {"sundial", "a meadow with trees, fences and a house under a sun and a moon on their courses (Fortier 2010)",
+     &makeSundial},
     {"spotlit", "sculpture on a stage under three spot lights with cookies (Shastry 2005)", &makeSpotlit},
     {"canopies", "three roofs over each other, where averaged maps let light through; closed-form answers",
      &makeCanopies},
