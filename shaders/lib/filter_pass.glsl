@@ -13,9 +13,8 @@ layout(constant_id = 2) const int kLayers = 2;
 layout(constant_id = 3) const float kExponent = 1.0;
 layout(constant_id = 4) const float kExponentNegative = 1.0;
 layout(constant_id = 5) const float kMomentBias = 0.0;
-layout(constant_id = 6) const int kSamples = 1;
-layout(constant_id = 7) const int kRadius = 1;
-layout(constant_id = 8) const int kAxis = 0;
+layout(constant_id = 6) const int kRadius = 1;
+layout(constant_id = 7) const int kAxis = 0;
 
 layout(push_constant) uniform Place
 {

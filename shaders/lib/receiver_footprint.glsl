@@ -6,6 +6,7 @@
 #ifndef GNOMON_RECEIVER_FOOTPRINT_GLSL
 #define GNOMON_RECEIVER_FOOTPRINT_GLSL
 #include "../shared/bias.h"
+#include "../shared/footprint.h"
 GN_BEGIN
 
 // How a receiver's homogeneous point (p, 1) changes: to the next pixel on the right and below at the same value of the
@@ -21,8 +22,6 @@ struct PixelSteps {
 GN_CONST real kFarthestNeighbour = real(16.0);
 // Sine of the angle between ray and plane below which the plane counts as no steeper.
 GN_CONST real kEdgeOn = real(0.0001);
-// No map is wider, so a longer footprint says no more.
-GN_CONST real kLongestFootprint = real(16384.0);
 
 // The columns of the matrix that takes (x, y, depth, 1) in normalised device coordinates to homogeneous points, given
 // as rows; `w` is that of the receiver's point by this matrix, and `pixel` the size of one in x and y.

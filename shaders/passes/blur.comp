@@ -6,8 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/filter_pass.glsl"
 
-const int kOutputs = 8;
-layout(local_size_x = 32, local_size_y = 4) in; // across the direction, along it
+layout(local_size_x = 32, local_size_y = 4) in; // across the direction, along it: kBlockTexels both ways
 
 vec4 sourceAt(ivec2 texel)
 {
@@ -24,30 +23,30 @@ void store(ivec2 texel, vec4 value)
 
 void copy(ivec2 first, ivec2 axis)
 {
-    for (int i = 0; i < kOutputs; ++i) {
+    for (int i = 0; i < kBlurOutputs; ++i) {
         store(first + i * axis, sourceAt(first + i * axis));
     }
 }
 
 void blurValues(ivec2 first, ivec2 axis)
 {
-    vec4 total[kOutputs];
-    float weight[kOutputs]; // of the texel that was just read, for each output
-    for (int o = 0; o < kOutputs; ++o) {
+    vec4 total[kBlurOutputs];
+    float weight[kBlurOutputs]; // of the texel that was just read, for each output
+    for (int o = 0; o < kBlurOutputs; ++o) {
         total[o] = vec4(0.0);
         weight[o] = 0.0;
     }
-    for (int i = -kRadius; i < kOutputs + kRadius; ++i) {
-        for (int o = kOutputs - 1; o > 0; --o) {
+    for (int i = -kRadius; i < kBlurOutputs + kRadius; ++i) {
+        for (int o = kBlurOutputs - 1; o > 0; --o) {
             weight[o] = weight[o - 1];
         }
         weight[0] = kernel.weight[abs(i)].x;
         vec4 value = sourceAt(first + i * axis);
-        for (int o = 0; o < kOutputs; ++o) {
+        for (int o = 0; o < kBlurOutputs; ++o) {
             total[o] += value * weight[o];
         }
     }
-    for (int o = 0; o < kOutputs; ++o) {
+    for (int o = 0; o < kBlurOutputs; ++o) {
         store(first + o * axis, total[o]);
     }
 }
@@ -55,7 +54,7 @@ void blurValues(ivec2 first, ivec2 axis)
 void blurLogarithms(ivec2 first, ivec2 axis)
 {
     vec4 k = averageExponents(kFilter, momentRule());
-    for (int o = 0; o < kOutputs; ++o) {
+    for (int o = 0; o < kBlurOutputs; ++o) {
         MomentSum sum = startAverage(sourceAt(first + (o - kRadius) * axis), kernel.weight[kRadius].x, true);
         for (int i = 1 - kRadius; i <= kRadius; ++i) {
             sum = addToAverage(sum, sourceAt(first + (o + i) * axis), kernel.weight[abs(i)].x, k, true);
@@ -71,7 +70,7 @@ void main()
     ivec2 axis = ivec2(1 - kAxis, kAxis); // choosing one of two vectors by a constant is wrong in Mesa 22.3
     ivec2 across = ivec2(1) - axis;
     ivec2 first = block * kBlockTexels + across * int(gl_LocalInvocationID.x) +
-                  axis * kOutputs * int(gl_LocalInvocationID.y);
+                  axis * kBlurOutputs * int(gl_LocalInvocationID.y);
     if ((work & (kAxis == 0 ? kBlurX : kBlurY)) != 0u) {
         if (averagesLogs()) {
             blurLogarithms(first, axis);

@@ -11,8 +11,9 @@
 #include "portability.h"
 GN_BEGIN
 
-// Beyond any map, and its fourth power is still a float. An edge-on surface asks for infinitely many texels a pixel.
-GN_CONST real kWidestFootprint = real(100000.0); // texels
+// An edge-on surface asks for infinitely many texels a pixel. No map is wider than this, so a longer footprint says no
+// more; and its fourth power is still a float.
+GN_CONST real kLongestFootprint = real(16384.0); // texels
 GN_CONST int kMostReads = 16;
 
 // Reads i = 0 .. reads - 1 are at step * (i + 0.5 - reads / 2) from the middle, each of them at `level`.
@@ -25,7 +26,7 @@ struct FootprintReads {
 // Finite; what is not a number is as wide as can be.
 GN_FN real boundedTexels(real t)
 {
-    return t >= -kWidestFootprint ? min(t, kWidestFootprint) : -kWidestFootprint;
+    return t >= -kLongestFootprint ? min(t, kLongestFootprint) : -kLongestFootprint;
 }
 GN_FN real2 boundedFootprint(real2 t)
 {

@@ -22,7 +22,8 @@ struct MomentRule {
     real exponent_negative;   // evsm: c-
     real moment_bias;         // msm
     real min_variance;        // of d', absolute
-    real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds
+    real min_variance_texels; // of d', as the square of so many texel depths; the larger one holds. msm: of the blur,
+                              // its standard deviation in texels, for what a slope spreads
     real rounding;            // evsm, warp of c+: share of a second moment that rounding may take
     real rounding_negative;   // evsm, warp of c-: the same
     real linstep;

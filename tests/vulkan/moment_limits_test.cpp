@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where filterable maps end: the largest exponents that a format holds, and maps that hold, which cost nothing.
 #include "moment_bench.h"
+#include "moment_numbers.h"
+
+#include <gnomon/vulkan/null_driver.h>
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::test {
@@ -28,6 +32,67 @@ TEST(LargestExponent, isTheLargestThatTheFormatHoldsButForRoomForSums)
         const double stored = esm ? c : 2.0 * c;
         EXPECT_TRUE(fits(format, std::exp(stored))) << nameOf(format) << ", " << c;
         EXPECT_FALSE(fits(format, std::exp(stored * 1.06))) << nameOf(format) << ", " << c;
+    }
+}
+
+// An exponent is one of depths 0 to 1, whatever is stored.
+TEST(MomentExponents, meanTheSameOfRemappedDepths)
+{
+    for (const Filter which : {Filter::esm, Filter::evsm}) {
+        for (const bool given : {false, true}) {
+            vulkan::FilterOptions filter = momentFilter(which, filterTraits(which)->formats.front());
+            if (given) {
+                filter.moments.esm_exponent = 30.0F;
+                filter.moments.evsm_positive = 30.0F;
+                filter.moments.evsm_negative = 3.0F;
+            }
+            const MomentNumbers plain = momentNumbers(filter);
+            filter.moments.remap = true;
+            const MomentNumbers remapped = momentNumbers(filter);
+            EXPECT_EQ(2.0 * remapped.exponent, plain.exponent); // of a coordinate that is twice as long
+            EXPECT_EQ(2.0 * remapped.exponent_negative, plain.exponent_negative);
+        }
+    }
+}
+
+// A tile's level exists where its edges lie on the level's grid, and no map has more than its tiles can use.
+TEST(MipLevels, areThoseThatATileCanHave)
+{
+    vulkan::FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+    filter.moments.sampling = MapSampling::trilinear;
+    const std::pair<std::uint32_t, std::uint32_t> cases[] = {{1, 1},    {2, 2},    {767, 1},  {768, 8}, {770, 2},
+                                                             {1000, 4}, {1024, 8}, {1025, 1}, {64, 7}};
+    for (const auto& [side, levels] : cases) {
+        EXPECT_EQ(levelsOf(filter, {side, side, 1}), levels) << side;
+        EXPECT_EQ(coarsestOf({0, 0, 0, side, side}, levelsOf(filter, {side, side, 1})), levels - 1) << side;
+    }
+    EXPECT_EQ(levelsOf(filter, {1024, 514, 1}), 2U) << "the side with fewer decides";
+    filter.moments.sampling = MapSampling::bilinear;
+    EXPECT_EQ(levelsOf(filter, {1024, 1024, 1}), 1U);
+}
+
+TEST(MomentCounts, areMadeVisibleToTheHostLast)
+{
+    for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
+        using Kind = vulkan::NullEvent::Kind;
+        vulkan::NullDriver driver;
+        vulkan::ShadowRendererOptions options;
+        options.filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+        options.filter.moments.blur = BlurKind::gaussian;
+        options.filter.moments.blur_path = path;
+        vulkan::ShadowRenderer renderer(driver.view(), options);
+        const Plan plan = momentPlan(makeScene());
+        (void)renderer.prepare(plan, {8, 8});
+        renderer.recordMaps(driver.commands(), 0, Frame(), plan, [](const vulkan::MapPass&) {});
+        const auto events = driver.events();
+        const auto last_work = std::find_if(events.rbegin(), events.rend(), [](const vulkan::NullEvent& event) {
+            return event.kind == Kind::dispatch || event.kind == Kind::end_rendering;
+        });
+        ASSERT_NE(last_work, events.rend());
+        EXPECT_TRUE(std::any_of(events.rbegin(), last_work, [](const vulkan::NullEvent& event) {
+            return event.kind == Kind::memory_barrier && event.target_stages == VK_PIPELINE_STAGE_2_HOST_BIT &&
+                   event.target_access == VK_ACCESS_2_HOST_READ_BIT;
+        })) << nameOf(path);
     }
 }
 

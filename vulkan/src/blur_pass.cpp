@@ -11,8 +11,6 @@
 namespace gnomon::vulkan {
 namespace {
 
-constexpr std::uint32_t kOutputs = 8; // of a thread of blur.comp
-
 std::uint32_t texelBytes(VkFormat format)
 {
     switch (format) {
@@ -177,7 +175,7 @@ FilterCost BlurPass::cost(const shared::BlurCounts& counts) const
     std::uint64_t texels_read = cost.texels * kernel; // with a merged read for the two that it reads
     if (path_ == BlurPath::compute && !logarithms_) {
         // A thread's run of outputs shares its reads.
-        cost.taps = texels_read = cost.texels * (kOutputs + 2 * radius_) / kOutputs;
+        cost.taps = texels_read = cost.texels * (shared::kBlurOutputs + 2 * radius_) / shared::kBlurOutputs;
     } else if (logarithms_) {
         cost.taps = texels_read;
     } else {

@@ -7,7 +7,6 @@
 
 #include <gpu_structs.h>
 
-#include <gnomon/error.h>
 #include <gnomon/vulkan/blur_trial.h>
 
 #include <algorithm>
@@ -25,14 +24,8 @@ const MapStorage& storageOf(const Device& device, const FilterOptions& filter)
 {
     assert(isFilterable(filter.filter) && blurRadius(filter.moments) > 0);
     const MapStorage* storage = findMapStorage(filter.format);
-    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT |
-                                             VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
-                                             VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    if (storage == nullptr || (device.features(storage->colour) & kNeeded) != kNeeded) {
-        throw Error("try both ways to blur",
-                    "the device cannot blur maps of format " + std::string(nameOf(filter.format)),
-                    "choose another map format");
-    }
+    assert(storage != nullptr);
+    requireAveraging(device.features(storage->colour), filter.filter, filter.format, "try both ways to blur");
     return *storage;
 }
 

@@ -6,10 +6,16 @@
 
 #include <gnomon_spirv.h>
 
+#include <gpu_structs.h>
+
 #include <array>
 
 namespace gnomon::vulkan {
 namespace {
+
+// What options allow and what shaders have room for.
+static_assert(kMaxBlurRadius == shared::kMostBlurRadius && kMaxBlurRadius < shared::kBlockTexels);
+static_assert(kMaxDepthLayers == shared::kDepthLayers && kMaxDepthLayers == 2 * shared::kMostImageLayers);
 
 enum Binding : std::uint32_t { kSource, kTarget, kBlocks, kDepthLayers, kKernel, kCounts, kBindingCount };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -41,7 +47,6 @@ FilterConstants filterConstants(const FilterOptions& filter)
     constants.exponent = rule.exponent;
     constants.exponent_negative = rule.exponent_negative;
     constants.moment_bias = rule.moment_bias;
-    constants.samples = static_cast<std::int32_t>(filter.moments.samples);
     constants.radius = static_cast<std::int32_t>(blurRadius(filter.moments));
     return constants;
 }

@@ -17,7 +17,6 @@ struct FilterConstants {
     float exponent = 0.0F;
     float exponent_negative = 0.0F;
     float moment_bias = 0.0F;
-    std::int32_t samples = 1;
     std::int32_t radius = 0;
     std::int32_t axis = 0; // of the blur: 0 along x, 1 along y
 };

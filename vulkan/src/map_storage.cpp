@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_storage.h"
 
+#include <gnomon/error.h>
+
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 namespace gnomon::vulkan {
 namespace {
@@ -29,6 +32,28 @@ const MapStorage* findMapStorage(MapFormat format)
     const auto* found = std::find_if(std::begin(kStorages), std::end(kStorages),
                                      [&](const MapStorage& storage) { return storage.format == format; });
     return found != std::end(kStorages) ? found : nullptr;
+}
+
+void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what)
+{
+    struct Need {
+        VkFormatFeatureFlags feature;
+        const char* verb;
+    };
+    constexpr Need kNeeds[] = {{VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "write in shaders to"},
+                               {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "draw to"},
+                               {VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filter linearly"}};
+    for (const Need& need : kNeeds) {
+        if ((features & need.feature) == 0) {
+            // Of all formats here, Vulkan asks every device for all three of this one alone.
+            const bool is_usable = !refusal(filter, MapFormat::rgba16f);
+            throw Error(
+                what, std::string("the device cannot ") + need.verb + " maps of format " + std::string(nameOf(format)),
+                is_usable ? "choose map format rgba16f, which every device can do this with"
+                          : "choose another map format, or filter evsm with rgba16f, which every device can do "
+                            "this with");
+        }
+    }
 }
 
 } // namespace gnomon::vulkan

@@ -24,5 +24,8 @@ struct MapStorage {
 
 /// Null for a format that no pass of this version writes.
 [[nodiscard]] const MapStorage* findMapStorage(MapFormat format);
+/// Throws Error, `what` being what was tried, when images with these features cannot hold the filter's averages: they
+/// are written by compute shaders, drawn to by a blur of fragment shaders, and read between texels.
+void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what);
 
 } // namespace gnomon::vulkan

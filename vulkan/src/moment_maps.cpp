@@ -6,8 +6,6 @@
 #include "moment_rule_of.h"
 #include "timed.h"
 
-#include <gnomon/error.h>
-
 #include <algorithm>
 #include <cassert>
 
@@ -17,30 +15,10 @@ namespace {
 constexpr VkPipelineStageFlags2 kShaders =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 
-void checkFormat(const Device& device, const FilterOptions& filter, const MapStorage& storage)
-{
-    struct Need {
-        VkFormatFeatureFlags feature;
-        const char* verb;
-    };
-    constexpr Need kNeeds[] = {{VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "write in shaders to"},
-                               {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "draw to"},
-                               {VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filter linearly"}};
-    const VkFormatFeatureFlags have = device.features(storage.colour);
-    for (const Need& need : kNeeds) {
-        if ((have & need.feature) == 0) {
-            throw Error("create the shadow renderer",
-                        std::string("the device cannot ") + need.verb + " maps of format " +
-                            std::string(nameOf(filter.format)),
-                        "choose another map format; of 16 bits a channel, floating, every device has them");
-        }
-    }
-}
-
 /// Checks before anything is made.
 Device& checkedDevice(Device& device, const FilterOptions& filter, const MapStorage& storage)
 {
-    checkFormat(device, filter, storage);
+    requireAveraging(device.features(storage.colour), filter.filter, filter.format, "create the shadow renderer");
     return device;
 }
 
@@ -57,7 +35,7 @@ MomentMaps::MomentMaps(Device& device, const ShadowRendererOptions& options, con
     : device_(checkedDevice(device, options.filter, storage)), filter_(options.filter), storage_(storage),
       placer_(placer), slots_(options.frames_in_flight), counts_stride_(alignedCounts(device)),
       layers_per_map_(imageLayersPerMap(filter_.filter, filter_.moments)), layout_(device, options.pipeline_cache),
-      moments_(layout_, filterConstants(filter_)), mips_(layout_, filterConstants(filter_))
+      moments_(layout_, filter_), mips_(layout_, filterConstants(filter_))
 {
     images_.kernel =
         HostBuffer(device, sizeof(shared::BlurKernel), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "shadow filter buffers");
@@ -94,6 +72,7 @@ bool MomentMaps::fits(const Need& need) const
     };
     return ready_ && covers(images_.maps, need.atlas.width, need.atlas.height) &&
            images_.maps.info().layers >= need.atlas.layers * layers_per_map_ &&
+           images_.maps.info().levels >= mipLevels(filter_, need.atlas.width, need.atlas.height) &&
            (!blur_ || covers(images_.scratch, need.tile.width, need.tile.height)) &&
            images_.blocks.size() >= std::size_t{4} * groupsOf(need.tile.width, shared::kBlockTexels) *
                                         groupsOf(need.tile.height, shared::kBlockTexels);
@@ -248,10 +227,12 @@ void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan
 {
     assert(slot < slots_);
     counts(slot) = {}; // the GPU has finished with the slot
+    bool drawn = false;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         if (!plan.views[i].redraw && !redraw_all_) {
             continue;
         }
+        drawn = true;
         clearNewImages(commands);
         if (layout_of_maps_ != VK_IMAGE_LAYOUT_GENERAL) {
             toLayout(commands, VK_IMAGE_LAYOUT_GENERAL);
@@ -265,6 +246,15 @@ void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan
     }
     redraw_all_ = false;
     makeReadable(commands);
+    if (blur_ && drawn) {
+        // For cost().
+        MemoryBarrier barrier;
+        barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        barrier.source_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+        barrier.target_stages = VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.target_access = VK_ACCESS_2_HOST_READ_BIT;
+        recordBarrier(device_, commands, barrier);
+    }
 }
 
 void MomentMaps::recordDepth(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
@@ -314,7 +304,7 @@ void MomentMaps::recordFilter(VkCommandBuffer commands, std::uint32_t slot, cons
     step.first_layer = view.tile.layer * layers_per_map_;
     step.image_layers = layers_per_map_;
     step.depth_slot = placer_.slotOf(index);
-    step.near_over_far = view.orthographic ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
+    step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
     step.counts_offset = slot * counts_stride_;
 
     // The flags of the view before were read by both kinds of shaders.

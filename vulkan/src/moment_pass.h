@@ -8,7 +8,7 @@ namespace gnomon::vulkan {
 
 class MomentPass {
 public:
-    MomentPass(FilterLayout& layout, const FilterConstants& constants);
+    MomentPass(FilterLayout& layout, const FilterOptions& filter);
 
     static constexpr std::uint32_t kSets = 1;
     void makeSets(const MomentImages& images);

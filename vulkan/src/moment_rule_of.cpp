@@ -2,9 +2,12 @@
 #include "moment_rule_of.h"
 
 #include <moments.h>
+#include <moments_four.h>
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
+#include <cmath>
 
 namespace gnomon::vulkan {
 namespace {
@@ -46,6 +49,14 @@ void hideRounding(const FilterOptions& filter, shared::MomentRule& rule)
     rule.rounding_negative = share(rule.exponent_negative);
 }
 
+/// Standard deviation along one axis, texels: never more than that of a box of the same radius.
+float blurDeviation(const MomentOptions& options)
+{
+    const auto radius = static_cast<float>(blurRadius(options));
+    const float of_box = std::sqrt(radius * (radius + 1.0F) / 3.0F);
+    return options.blur == BlurKind::gaussian ? std::min(options.blur_sigma_texels, of_box) : of_box;
+}
+
 int flagsOf(const FilterOptions& filter)
 {
     const MomentOptions& o = filter.moments;
@@ -75,11 +86,14 @@ bool isFilterable(Filter filter)
 shared::MomentRule momentRuleOf(const FilterOptions& filter)
 {
     const MomentOptions& o = filter.moments;
-    const auto exponent = [&](const std::optional<float>& wish, bool negative) {
-        return wish.value_or(static_cast<float>(defaultExponent(filter.filter, filter.format, o, negative)));
-    };
     shared::MomentRule rule{};
     rule.flags = flagsOf(filter);
+    // Options speak of exponents of d', shaders of those of the coordinate that is stored: from -1 to 1 it spans e^(-c
+    // / 2) to e^(c / 2), which any format that holds 1 to e^c holds, too.
+    const auto exponent = [&](const std::optional<float>& wish, bool negative) {
+        return wish.value_or(static_cast<float>(defaultExponent(filter.filter, filter.format, o, negative))) /
+               shared::momentScale(rule.flags);
+    };
     rule.sampling = static_cast<int>(o.sampling);
     rule.layers = static_cast<int>(o.layers);
     rule.exponent = exponent(filter.filter == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
@@ -90,7 +104,9 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     // within a step of the mask in 99.9 % of distributions (tests/shaders/single_precision_float_test.cpp).
     const float bias16 = o.solver == MomentSolver::hausdorff ? 6e-5F : 3e-5F;
     rule.moment_bias = o.moment_bias.value_or(filter.format == MapFormat::rgba16 ? bias16 : 3e-6F);
-    if (o.min_variance) {
+    if (filter.filter == Filter::msm) {
+        rule.min_variance_texels = blurDeviation(o);
+    } else if (o.min_variance) {
         rule.min_variance = *o.min_variance;
     } else {
         rule.min_variance_texels = 0.5F;
@@ -103,14 +119,33 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     return rule;
 }
 
+float mapDepth(const FilterOptions& filter, std::span<const float> texel)
+{
+    assert(!texel.empty());
+    float t = texel[0];
+    if (!isFilterable(filter.filter)) {
+        return t;
+    }
+    const shared::MomentRule rule = momentRuleOf(filter);
+    const bool warped = filter.filter == Filter::esm || filter.filter == Filter::evsm;
+    if (warped && !shared::hasFlag(rule.flags, shared::kMomentLogSpace)) {
+        t = std::log(t) / rule.exponent;
+    } else if (shared::hasFlag(rule.flags, shared::kMomentQuantised)) {
+        assert(texel.size() == 4);
+        t = shared::momentsOfQuantised({texel[0], texel[1], texel[2], texel[3]}).x;
+    }
+    return shared::hasFlag(rule.flags, shared::kMomentRemap) ? 0.5F * (t + 1.0F) : t;
+}
+
 std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height)
 {
     const MapSampling sampling = filter.moments.sampling;
     if (!isFilterable(filter.filter) || sampling == MapSampling::nearest || sampling == MapSampling::bilinear) {
         return 1;
     }
-    const auto all = static_cast<std::uint32_t>(std::bit_width(std::max(std::min(width, height), 1U)));
-    return std::min(all, kMostLevels);
+    // As coarsestLevel(): a texel of a coarser level is an average of whole texels of the next finer one.
+    const auto halvings = static_cast<std::uint32_t>(std::countr_zero(width | height));
+    return std::min(halvings + 1, kMostLevels);
 }
 
 } // namespace gnomon::vulkan

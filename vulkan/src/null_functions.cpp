@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 
 namespace gnomon::vulkan {
 namespace {
@@ -236,13 +237,15 @@ VKAPI_ATTR void VKAPI_CALL resetQueries(VkDevice, VkQueryPool, std::uint32_t, st
 
 VKAPI_ATTR void VKAPI_CALL cmdBarrier(VkCommandBuffer commands, const VkDependencyInfo* info)
 {
-    for (std::uint32_t i = 0; i < info->imageMemoryBarrierCount; ++i) {
-        const VkImageMemoryBarrier2& barrier = info->pImageMemoryBarriers[i];
-        NullEvent event;
-        event.layer = barrier.subresourceRange.baseArrayLayer;
-        event.old_layout = barrier.oldLayout;
-        event.new_layout = barrier.newLayout;
-        log(driverOf(commands), event);
+    for (const auto& barrier : std::span(info->pImageMemoryBarriers, info->imageMemoryBarrierCount)) {
+        log(driverOf(commands), {.layer = barrier.subresourceRange.baseArrayLayer,
+                                 .old_layout = barrier.oldLayout,
+                                 .new_layout = barrier.newLayout});
+    }
+    for (const auto& barrier : std::span(info->pMemoryBarriers, info->memoryBarrierCount)) {
+        log(driverOf(commands), {.kind = NullEvent::Kind::memory_barrier,
+                                 .target_stages = barrier.dstStageMask,
+                                 .target_access = barrier.dstAccessMask});
     }
 }
 

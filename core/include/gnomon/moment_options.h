@@ -33,7 +33,9 @@ inline constexpr std::uint32_t kMaxDepthLayers = 8;
 
 struct MomentOptions {
     DepthMetricKind metric = DepthMetricKind::linear;
-    bool remap = false;        // store 2 d' - 1: a float's sign bit is precision too. Refused for unorm formats
+    /// Store 2 d' - 1: a float's sign bit is precision too. Refused for unorm formats. Without effect on msm, which
+    /// always stores -1 to 1. All other options keep their meaning.
+    bool remap = false;
     std::uint32_t samples = 4; // of the depth pass, 1 or 4; averaged as moments, never as depths
     BlurKind blur = BlurKind::gaussian;
     float blur_sigma_texels = 1.25F;      // gaussian; 0.3 .. 10
@@ -43,8 +45,8 @@ struct MomentOptions {
     std::uint32_t anisotropy = 8;                 // anisotropic: most reads a pixel, 2 .. 16
 
     // vsm, lvsm, evsm
-    /// Least variance, in squares of the depth metric, 0 .. 1. Nothing: what the format's rounding and half a texel of
-    /// depth on a slope ask for.
+    /// Least variance, in squares of the depth metric, of lvsm a layer's own, 0 .. 1. Nothing: what the format's
+    /// rounding and half a texel of depth on a slope ask for.
     std::optional<float> min_variance;
     bool derivative_variance = false; // adds 1/4 (ddx^2 + ddy^2) of depth to the second moment
     // all
@@ -55,16 +57,18 @@ struct MomentOptions {
     // lvsm
     std::uint32_t layers = 2; // 2 .. 8, two to a texel
     LayerPlacement placement = LayerPlacement::lloyd;
-    /// by_hand: where layers meet, ascending, in the depth metric, (0, 1); the first layers - 1 count.
+    /// by_hand: where layers meet, ascending, (0, 1), in the depths that the map stores (`metric`); the first layers -
+    /// 1 count.
     std::array<float, kMaxDepthLayers - 1> splits{};
     float layer_overlap = 0.05F; // of its own range, how far a layer reaches into its neighbours; 0 .. 0.5
 
     // esm, evsm
     /// Store logarithms, averaged as what they are logarithms of: any exponent fits any format.
     bool log_space = false;
-    std::optional<float> esm_exponent;  // c; nothing: defaultExponent()
+    /// Of depths 0 to 1. Above 0 and finite, at most largestExponent(); nothing: defaultExponent().
+    std::optional<float> esm_exponent;  // c
     std::optional<float> evsm_positive; // c+
-    std::optional<float> evsm_negative; // c-
+    std::optional<float> evsm_negative; // c-; of four channels
     // msm
     MomentSolver solver = MomentSolver::hamburger;
     /// How far moments are moved towards those of a known distribution, 0 .. 0.1: hides rounding, and lets a little

@@ -27,7 +27,8 @@ struct NullCounts {
 
 struct NullEvent {
     enum class Kind : std::uint8_t {
-        barrier,
+        barrier, // of an image
+        memory_barrier,
         begin_rendering,
         end_rendering,
         bind_pipeline,
@@ -44,6 +45,8 @@ struct NullEvent {
     VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
     VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
     std::uint32_t count = 0;                              // draw_indirect: commands; dispatch: groups
+    VkPipelineStageFlags2 target_stages = 0;              // memory_barrier
+    VkAccessFlags2 target_access = 0;                     // memory_barrier
 };
 
 struct NullLimits {

@@ -32,10 +32,21 @@ struct FilterOptions {
     MomentOptions moments; // vsm, lvsm, esm, evsm, msm
 };
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
-/// many texels away, along x and y each. What PlanOptions::border_texels should have room for.
+/// many texels away, along x and y each. What PlanOptions::border_texels should have room for. Of a filterable map it
+/// is of reads at the finest level: those of coarser levels, of anisotropic sampling and esm's of the receiver's
+/// neighbourhood are moved inside the tile where they would leave it, and need no room.
 [[nodiscard]] float filterReachTexels(const FilterOptions& filter);
-/// Mip levels of maps of this size: 1 unless the filter is filterable and its sampling reads coarser ones.
+/// Mip levels of maps of this size, 1 to 8: 1 unless the filter is filterable and its sampling reads coarser ones. A
+/// coarser texel is an average of four whole ones, so there are as many levels as both sides can be halved without a
+/// remainder, and one: an odd side has one level. A tile in a corner of its own has the levels on whose grid its edges
+/// lie.
 [[nodiscard]] std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height);
+
+/// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
+/// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential
+/// is the mean of exponentials, of lvsm the mean in its first layer's own metric. `texel`: the channels of the format,
+/// in their order. What holds no such number gives one that is not in [0, 1], or none.
+[[nodiscard]] float mapDepth(const FilterOptions& filter, std::span<const float> texel);
 
 struct ShadowRendererOptions {
     FilterOptions filter;
@@ -62,7 +73,9 @@ struct MapPass {
     const Plan* plan = nullptr;
     const View* view = nullptr;
     std::uint32_t view_index = 0;
-    std::span<const std::uint32_t> casters; // object handles
+    /// Object handles: all that must be drawn. Of a filterable map these are receivers, too, whether or not they cast
+    /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
+    std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F};
     glm::vec4 metric_ws{0.0F}; // d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl
 };
@@ -97,15 +110,17 @@ struct MemoryUse {
 struct FilterCost {
     std::uint64_t texels = 0; // blurred, over both passes
     /// Reads of images for that, radius r. By compute, a run of eight texels shares them: texels (8 + 2 r) / 8. By
-    /// fragment shaders, the middle, and two texels at a time: texels (1 + 2 ceil(r / 2)). In log space by either:
-    /// texels (2 r + 1). And one for each texel that is copied for the second pass to read.
+    /// fragment shaders, the middle, and two texels at a time: texels (1 + 2 ceil(r / 2)), but for one texel of 16,
+    /// which lie at blocks' edges and read 2 r + 1 texels one by one. In log space by either: texels (2 r + 1). And one
+    /// for each texel that is copied for the second pass to read.
     std::uint64_t taps = 0;
     std::uint64_t bytes_moved = 0;   // read from and written to images by the blur; a filtered read is of its texels
     std::uint64_t bytes_minimum = 0; // each texel that needs it read once and written once in each pass
     BlurPath path = BlurPath::compute;
 };
 
-/// One layer of depth of an lvsm map, in the view's depth metric.
+/// One layer of depth of an lvsm map, in the depths that the map stores: the view's depth metric, or with
+/// DepthMetricKind::z_over_w that of a perspective projection.
 struct DepthLayer {
     float near = 0.0F; // what it spans, overlaps included: d'' = (d' - near) / (far - near)
     float far = 1.0F;
@@ -122,9 +137,10 @@ public:
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;
 
-    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, then everything
-    /// that was recorded earlier must have finished on the GPU, and views that the plan would reuse are drawn again.
-    /// Throws Error for sizes beyond the device's limits or memory.
+    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, and then views that
+    /// the plan would reuse are drawn again. It frees what it replaces at once: before a call with a larger atlas or
+    /// tile, another screen, or more views or lights than any before, everything that was recorded must have finished
+    /// on the GPU. Throws Error for sizes beyond the device's limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in
@@ -141,7 +157,8 @@ public:
     [[nodiscard]] ImageRef mask() const; // R8 for one light, else RGBA8, one layer per four lights
     [[nodiscard]] ImageRef maps() const;
     [[nodiscard]] std::span<const MemoryUse> memory() const;
-    /// Of the last recordMaps() that was given this slot, once the GPU has finished it.
+    /// Of the last recordMaps() that was given this slot, once the GPU has finished it. What that counted is made
+    /// visible to the host by recordMaps().
     [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
     /// lvsm: the layers of a view of the last plan, nearest first, once the GPU has finished recordMaps(); else empty.
     [[nodiscard]] std::vector<DepthLayer> depthLayers(std::uint32_t view) const;
