@@ -94,25 +94,29 @@ FilterInput filterInput()
     return f;
 }
 
-// `index` is a constant at every call. A light's first view is views[index], so that it too is at a constant place.
+// `index` is a constant at every call. A light's first view is views[index], so that it too is at a constant place. Views
+// are in the order in which they fade over into each other.
 float lightVisibility(int index, PixelSteps steps, vec3 p, vec3 n)
 {
     GpuLight light = mask.lights[index];
     BiasRule bias = biasOf(mask.bias, mask.bias_more);
     bias.automatic = kAutomaticBias ? 1.0 : 0.0;
     float v = 1.0;
-    bool found = viewContains(mask.views[index], p);
+    float depth = dot(mask.view_axis.xyz, p);
+    bool found = viewContains(mask.views[index], p, depth);
     if (found) {
         v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), steps, p, n);
     }
     if (kManyViews) {
-        for (uint i = light.views.x; i < light.views.x + light.views.y && !found; ++i) {
-            found = viewContains(mask.views[i], p);
-            if (found) {
-                v = viewVisibility(kFilter, mask.views[i], bias, filterInput(), steps, p, n);
+        for (uint i = light.views.x; i < light.views.x + light.views.y; ++i) {
+            float share = found ? viewShare(mask.views[i], depth) : 1.0;
+            if (share > 0.0 && viewContains(mask.views[i], p, depth)) {
+                v = mix(v, viewVisibility(kFilter, mask.views[i], bias, filterInput(), steps, p, n), share);
+                found = true;
             }
         }
     }
+    v = fadedVisibility(mask.fade, v, length(p));
     return light.views.z == 0 ? 1.0 : (facesLight(light, p, n) ? v : 0.0);
 }
 

@@ -81,9 +81,13 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
 // gnomon::MapSampling::trilinear; it and what comes after it choose a mip level by the receiver's footprint.
 GN_CONST int kFirstSamplingOfLevels = 2;
 
-// Is a point in this view, so far from its tile's edge that no tap leaves the tile?
-GN_FN bool viewContains(GpuView view, real3 p)
+// Does this view serve a point at this depth of the camera (dot(GpuMaskLayer::view_axis, p)), and is the point in the
+// map, so far from its tile's edge that no tap leaves the tile?
+GN_FN bool viewContains(GpuView view, real3 p, real depth)
 {
+    if (depth < real(view.slice.x) || depth > real(view.slice.y)) {
+        return false;
+    }
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
     real w = real(1.0);
 #else
@@ -93,6 +97,18 @@ GN_FN bool viewContains(GpuView view, real3 p)
     real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;
     return w > real(0.0) && x >= tile.x && y >= tile.y && x <= tile.z && y <= tile.w;
+}
+
+// What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
+GN_FN real viewShare(GpuView view, real depth)
+{
+    return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0));
+}
+
+// Visibility at a distance from the eye: shadows fade away before the distance to which they are drawn.
+GN_FN real fadedVisibility(GN_VEC4 fade, real v, real distance)
+{
+    return mix(v, real(1.0), clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0)));
 }
 
 // Never outside [0, 1]; what is not a number is lit.

@@ -35,6 +35,7 @@ struct GpuView {
     GN_VEC4 plane_w;
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more;  // x: slot of its depth layers (lvsm), y: coarsest mip level that it may read, z: near / far
+    GN_VEC4 slice; // depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend
 };
 
 // The layers of depth of one view's lvsm map, ascending; beyond the last, begins is 2. In the view's depth metric.
@@ -52,6 +53,8 @@ struct GpuMaskLayer {
     GN_VEC4 eye_y;
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;
+    GN_VEC4 view_axis;                    // xyz: unit, along the camera's view: depth is the dot product with it
+    GN_VEC4 fade;                         // distance from the eye: x: where shadows begin to fade, y: one over the way
     GN_VEC4 screen;                       // xy: size in pixels, zw: one over it
     GN_VEC4 atlas;                        // xy: one over its size in texels; z: the depth of the background (0 or 1)
     GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
@@ -67,8 +70,8 @@ struct GpuMaskLayer {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 176 && sizeof(GpuLight) == 32 && sizeof(GpuDepthLayers) == 128 &&
-              sizeof(GpuMaskLayer) == 208 + 32 * 16 + 4 * 32 + 64 * 176);
+static_assert(sizeof(GpuView) == 192 && sizeof(GpuLight) == 32 && sizeof(GpuDepthLayers) == 128 &&
+              sizeof(GpuMaskLayer) == 240 + 32 * 16 + 4 * 32 + 64 * 192);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -193,6 +193,7 @@ TEST_F(LayersOfDepth, followWhatIsStoredUnderASpot)
     filter.moments.metric = DepthMetricKind::z_over_w;
     View view = viewOf(kWhole);
     view.orthographic = false;
+    view.parallel = false;
     view.metric.near_m = 5.0;
     view.metric.far_m = 100.0;
     Placed placed(filter);

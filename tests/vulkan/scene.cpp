@@ -199,6 +199,7 @@ View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile 
             glm::perspectiveRH_ZO(2.0 * light.outer_half_angle_rad, 1.0, view.metric.near_m, view.metric.far_m);
         view.texel_m = 2.0 * std::tan(light.outer_half_angle_rad) / tile.width;
         view.orthographic = false;
+        view.parallel = false;
         view.clamp_near = false;
     }
     clip_from_view[1][1] = -clip_from_view[1][1];

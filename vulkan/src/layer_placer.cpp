@@ -40,7 +40,7 @@ int depthFlags(const FilterOptions& filter)
 
 float nearOverFar(const View& view, const DepthMetric& metric)
 {
-    return view.orthographic ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
+    return view.parallel ? 1.0F : static_cast<float>(metric.near_m / metric.far_m);
 }
 
 /// What takes depths of one metric to those of a view's, in the middle of what the view holds: the two may measure

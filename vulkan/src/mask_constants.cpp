@@ -47,6 +47,11 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
     gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
     gpu.whole = glm::dvec4(x0, y0, x0 + tile.width, y0 + tile.height);
+    const ViewSlice& slice = view.slice;
+    // A shader need not know infinities.
+    constexpr double kEndless = 1e30;
+    gpu.slice = glm::dvec4(std::max(slice.begin_m, -kEndless), std::min(slice.end_m, kEndless),
+                           slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
     return gpu;
 }
 
@@ -160,6 +165,15 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     out.eye_y = glm::row(eye_from_ndc, 1);
     out.eye_z = glm::row(eye_from_ndc, 2);
     out.eye_w = glm::row(eye_from_ndc, 3);
+    out.view_axis = glm::vec4(0.0F);
+    for (const View& view : plan.views) {
+        if (view.slice.bounded()) { // all of them along the one camera's view
+            out.view_axis = glm::vec4(glm::vec3(view.slice.axis), 0.0F);
+        }
+    }
+    const double fade_m = plan.fade_end_m - plan.fade_begin_m;
+    out.fade = plan.fade_end_m > 0.0 ? glm::vec4(plan.fade_begin_m, 1.0 / std::max(fade_m, 1e-3), 0.0F, 0.0F)
+                                     : glm::vec4(0.0F);
     const glm::vec2 size(around.screen.width, around.screen.height);
     out.screen = {size, 1.0F / size};
     fillFilter(around.filter, around.quantum, out);
@@ -168,7 +182,7 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     const auto viewOf = [&](std::uint32_t index) {
         const View& view = plan.views[index];
         shared::GpuView gpu = gpuView(view, world_from_eye, margin);
-        const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
+        const double near_over_far = view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m;
         gpu.more =
             glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
         return gpu;
