@@ -23,6 +23,7 @@ inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has
 
 void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
 void addTechniqueRows(std::vector<Setting>& table); // the six choices and what belongs to them
+void addPlanRows(std::vector<Setting>& table);      // how far shadows reach, how the view is divided
 void addMomentRows(std::vector<Setting>& table);    // the filterable maps
 void addRunRows(std::vector<Setting>& table);       // truth, time, run, result
 

@@ -11,6 +11,7 @@ std::span<const Setting> settingTable()
         std::vector<Setting> made;
         addSceneRows(made);
         addTechniqueRows(made);
+        addPlanRows(made);
         addMomentRows(made);
         addRunRows(made);
         return made;

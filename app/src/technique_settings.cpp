@@ -124,12 +124,6 @@ const std::vector<Setting>& rows()
         {.key = "pcf.sigma", .group = Group::technique, .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4,
          .doc = "of a Gaussian kernel; else its width / 4", .own_option = false, .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7",
          .apply = [](Settings& s, const Value& v) { s.filter.gaussian_sigma_texels = static_cast<float>(v.real); }},
-        {.key = "max-distance", .group = Group::technique, .type = real, .form = "M", .unit = "m", .default_text = "0", .min = 0, .max = kFarthest,
-         .doc = "receivers farther from the eye get no shadow; 0: no limit", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { s.plan.max_distance_m = v.real; }},
-        {.key = "border", .group = Group::technique, .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64,
-         .doc = "room around the fitted map; else what the kernel needs", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { s.plan.border_texels = v.real; s.border_given = true; }},
         // clang-format on
     };
     return table;
