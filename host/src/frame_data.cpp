@@ -40,7 +40,8 @@ void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, dou
     const float type = directional ? 0.0F : (caster.type == LightType::spot ? 1.0F : 2.0F);
     out.place = glm::vec4(glm::vec3(directional ? towards : place), type);
     const double inverse_range = caster.range_m > 0.0 ? 1.0 / caster.range_m : 0.0;
-    out.colour = glm::vec4(glm::vec3(glm::dvec3(light.colour * light.strength) * scale), static_cast<float>(inverse_range));
+    out.colour =
+        glm::vec4(glm::vec3(glm::dvec3(light.colour * light.strength) * scale), static_cast<float>(inverse_range));
     out.axis = glm::vec4(glm::vec3(caster.direction_ws), static_cast<float>(cookie_layer));
     // KHR_lights_punctual: (cos a - cos outer) / (cos inner - cos outer), clamped, squared.
     const double cos_outer = std::cos(caster.outer_half_angle_rad);

@@ -208,7 +208,7 @@ void addBuilt(Scene& scene, const SundialPalette& palette, const Meadow& meadow)
     put("barrels", makeBarrels(palette.common), fromHouse({-5.4F, 3.8F}), 0.6F);
     put("cart", makeCart(palette.common), {17.0F, -15.5F}, 2.2F);
     put("hay/0", makeHay(palette.common), {24.0F, -10.0F}, 0.0F);
-    put("hay/1", makeHay(palette.common), {28.5F, -13.5F}, 0.9F);
+    put("hay/1", makeHay(palette.common), {20.5F, -6.0F}, 0.9F);
 
     const auto fence = [&](const char* name, Mesh mesh) {
         addNode(scene, name, addMesh(scene, std::move(mesh)), {});
@@ -287,7 +287,7 @@ void addViews(Scene& scene, const Meadow& meadow)
     };
     const glm::vec2 gate = fromHouse({1.5F, 6.0F});
     scene.views = {
-        {.name = "meadow", .eye = eye({3.2F, 17.5F}, 2.3F), .target = {-2.6F, 1.5F, -4.0F}, .fov_y_rad = 0.72F},
+        {.name = "meadow", .eye = eye({7.0F, 15.8F}, 2.3F), .target = {-3.0F, 1.5F, -4.5F}, .fov_y_rad = 0.72F},
         {.name = "long", .eye = eye({3.0F, 72.0F}, 1.7F), .target = {-1.0F, 1.6F, 0.0F}, .fov_y_rad = 0.75F},
         {.name = "porch", .eye = eye(fromHouse({8.8F, 16.0F}), 1.7F), .target = eye(gate, 2.2F), .fov_y_rad = 0.80F},
         {.name = "overhead", .eye = {6.0F, 78.0F, 44.0F}, .target = {-3.0F, 0.0F, -1.0F}, .fov_y_rad = 0.72F},
