@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -43,7 +44,9 @@ void addLeaves(Part& leaves, Rng& rng, const Cloud& cloud, const glm::vec3& midd
         const float turn = 2.3999632F * static_cast<float>(i) + rng.range(-0.4F, 0.4F); // the golden angle
         const float r = std::sqrt(1.0F - y * y);
         const glm::vec3 out(r * std::cos(turn), y, r * std::sin(turn));
-        const glm::vec3 place = cloud.centre + out * cloud.radii * rng.range(0.55F, 0.98F);
+        // Deep enough that none hangs in the air by itself; at the top, where few are, deeper.
+        const glm::vec3 place =
+            cloud.centre + out * cloud.radii * (rng.range(0.50F, 0.90F) - 0.22F * std::max(y, 0.0F));
         const glm::vec3 facing = glm::normalize(out + glm::vec3(0, 0.35F, 0) + rng.direction() * 0.6F);
         const glm::vec3 normal =
             glm::normalize(out * 0.6F + glm::normalize(place - middle) * 0.7F + glm::vec3(0, 0.2F, 0));
@@ -95,7 +98,7 @@ Mesh makeOak(const SundialPalette& palette, std::uint32_t variant, bool near)
     Rng rng(90, variant);
     MeshMaker maker;
     std::array<Cloud, 9> clouds{};
-    clouds[0] = {{rng.range(-0.4F, 0.4F), 7.2F, rng.range(-0.4F, 0.4F)}, {2.5F, 1.8F, 2.5F}, near ? 44 : 14};
+    clouds[0] = {{rng.range(-0.4F, 0.4F), 7.2F, rng.range(-0.4F, 0.4F)}, {2.5F, 1.8F, 2.5F}, near ? 44 : 16};
     clouds[1] = {{0.0F, 5.0F, 0.0F}, {2.4F, 1.6F, 2.4F}, near ? 26 : 10};
     for (std::size_t i = 2; i < clouds.size(); ++i) {
         const float a =
@@ -111,7 +114,7 @@ Mesh makeOak(const SundialPalette& palette, std::uint32_t variant, bool near)
     const glm::vec4 high = rgb(variant == 0 ? 0x8CA84C : 0xA3AE54);
     Part& leaves = maker.with(palette.common.leaves);
     for (const Cloud& cloud : clouds) {
-        addLeaves(leaves, rng, cloud, {0, 5.0F, 0}, low, high, near ? 0.60F : 1.05F);
+        addLeaves(leaves, rng, cloud, {0, 5.0F, 0}, low, high, near ? 0.60F : 1.0F);
     }
     return maker.take((near ? "oak " : "far oak ") + std::to_string(variant));
 }
