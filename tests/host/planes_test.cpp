@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A box's hard shadow on the ground of `planes`, against geometry: where the picture and the exact answer differ, the
-// exact edge is at most one map texel away.
+// exact edge is at most one map texel away. Whatever the fit, the partition and the motion; and what fades with
+// distance does so as told.
 #include "host/renderer.h"
 #include "scene/state.h"
 #include "scene/worlds.h"
@@ -73,8 +74,23 @@ struct Tally {
     int wrong = 0;
 };
 
+/// The light's views that serve a point: two where one fades over into the next.
+std::vector<const View*> viewsAt(const Plan& plan, const LightPlan& light, const glm::dvec3& p)
+{
+    std::vector<const View*> found;
+    for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
+        const View& view = plan.views[i];
+        const glm::dvec2 texel = texelOf(view, p);
+        if (view.slice.holds(p) && std::min(texel.x, texel.y) >= 2.0 && texel.x <= view.tile.width - 2.0 &&
+            texel.y <= view.tile.height - 2.0) {
+            found.push_back(&view);
+        }
+    }
+    return found;
+}
+
 // Tells how the mask of light `index` compares with geometry on the ground.
-Tally tallyGround(const Picture& picture, const glm::dmat4& world_from_clip, const View& view, const Light& light,
+Tally tallyGround(const Picture& picture, const glm::dmat4& world_from_clip, const Plan& plan, const Light& light,
                   std::size_t index)
 {
     Tally tally;
@@ -88,9 +104,8 @@ Tally tallyGround(const Picture& picture, const glm::dmat4& world_from_clip, con
             if (depth == 0.0 || std::abs(p.y - double{PlanesWorld::ground_y}) > 1e-3) {
                 continue;
             }
-            const glm::dvec2 texel = texelOf(view, p);
-            if (std::min(texel.x, texel.y) < 2.0 || texel.x > view.tile.width - 2.0 ||
-                texel.y > view.tile.height - 2.0) {
+            const std::vector<const View*> views = viewsAt(plan, plan.lights[index], p);
+            if (views.empty()) {
                 continue; // outside the cone: no map there
             }
             const float v = *mask.pixel(x, y);
@@ -98,14 +113,28 @@ Tally tallyGround(const Picture& picture, const glm::dmat4& world_from_clip, con
             (said == 1U ? tally.lit : tally.shadowed)++;
             const bool agrees = (said == 2U) == shadowedExactly(light, p);
             if (!agrees) {
-                ((answersWithinOneTexel(view, light, p) & said) != 0U ? tally.beside_the_edge : tally.wrong)++;
+                const bool beside = std::any_of(views.begin(), views.end(), [&](const View* view) {
+                    return (answersWithinOneTexel(*view, light, p) & said) != 0U;
+                });
+                (beside ? tally.beside_the_edge : tally.wrong)++;
             }
         }
     }
     return tally;
 }
 
-class PlanesEdge : public testing::TestWithParam<std::uint32_t> {};
+struct EdgeCase {
+    const char* name;
+    std::uint32_t map_size;
+    Technique technique;
+    std::uint32_t views; // of each light: slices that hold something
+};
+std::ostream& operator<<(std::ostream& out, const EdgeCase& edge)
+{
+    return out << edge.name;
+}
+
+class PlanesEdge : public testing::TestWithParam<EdgeCase> {};
 
 TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
 {
@@ -115,11 +144,16 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     RenderOptions options;
     options.width = 480;
     options.height = 360;
-    options.plan.map_size = GetParam();
+    options.plan.map_size = GetParam().map_size;
     options.filter.filter = Filter::hard;
+    options.plan.technique = GetParam().technique;
     options.plan.technique.filter = Filter::hard;
     Gpu gpu({.gpu = "software", .validate = true});
-    const Eye eye{.position_ws = {1.0, 14.0, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
+    const bool plain = GetParam().technique.fit == Fit::uniform && GetParam().views == 1;
+    // From above, as strategy games have it; or at a slant, so that warps and slices have something to do.
+    const Eye above{.position_ws = {1.0, 14.0, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
+    const Eye aslant{.position_ws = {1.5, 4.5, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
+    const Eye eye = plain ? above : aslant;
     Renderer renderer(gpu, scene, state, options);
     renderer.draw(state, eye, lights);
     const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
@@ -129,9 +163,11 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     for (std::size_t i = 0; i < lights.size(); ++i) {
         SCOPED_TRACE(lights[i].name);
         const LightPlan& plan = renderer.plan().lights[i];
-        ASSERT_EQ(plan.view_count, 1U);
+        ASSERT_EQ(plan.view_count, GetParam().views);
         const View& view = renderer.plan().views[plan.first_view];
-        const Tally tally = tallyGround(picture, world_from_clip, view, lights[i].caster, i);
+        const bool warps = GetParam().technique.fit != Fit::uniform && GetParam().technique.motion == Motion::free;
+        EXPECT_EQ(view.fit.strength > 1.0, warps) << plan.outcome.reason;
+        const Tally tally = tallyGround(picture, world_from_clip, renderer.plan(), lights[i].caster, i);
         EXPECT_GT(tally.lit, 10000);
         EXPECT_GT(tally.shadowed, 1000);
         EXPECT_EQ(tally.wrong, 0);
@@ -140,8 +176,49 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
-INSTANTIATE_TEST_SUITE_P(MapSizes, PlanesEdge, testing::Values(128U, 256U, 1024U),
-                         [](const auto& size) { return "map_" + std::to_string(size.param); });
+constexpr Technique of(Fit fit, Partition partition = Partition::single, Motion motion = Motion::free)
+{
+    return {.partition = partition, .fit = fit, .motion = motion};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PlanesEdge,
+    testing::Values(EdgeCase{"map_128", 128, {}, 1}, EdgeCase{"map_256", 256, {}, 1}, EdgeCase{"map_1024", 1024, {}, 1},
+                    EdgeCase{"lispsm", 256, of(Fit::lispsm), 1}, EdgeCase{"tsm", 256, of(Fit::tsm), 1},
+                    EdgeCase{"lispsm_simple", 256, of(Fit::lispsm_simple), 1}, EdgeCase{"psm", 256, of(Fit::psm), 1},
+                    EdgeCase{"cascades", 128, of(Fit::uniform, Partition::cascades), 4},
+                    EdgeCase{"cascades_tsm", 128, of(Fit::tsm, Partition::cascades), 4},
+                    EdgeCase{"snap", 256, of(Fit::uniform, Partition::single, Motion::snap), 1},
+                    EdgeCase{"cascades_snap", 128, of(Fit::uniform, Partition::cascades, Motion::snap), 3}),
+    [](const auto& edge) { return edge.param.name; });
+
+// In the middle of the box's shadow, as the eye draws back: dark, then (d - begin) / (end - begin), then lit.
+TEST(Fade, IsLinearInTheDistanceFromTheEye)
+{
+    const scene::Scene scene = scene::makePlanes(1);
+    const scene::State state = scene::evaluate(scene, 0.0);
+    std::vector<ShadedLight> lights = lightsOf(scene, state);
+    lights.resize(1);
+    RenderOptions options;
+    options.width = 33;
+    options.height = 33;
+    options.plan.map_size = 256;
+    options.plan.max_distance_m = 20.0;
+    options.plan.fade = 0.25;
+    Gpu gpu({.gpu = "software", .validate = true});
+    Renderer renderer(gpu, scene, state, options);
+    const glm::vec3 middle = (PlanesWorld::box_min + PlanesWorld::box_max) * 0.5F;
+    const glm::dvec3 target = PlanesWorld::projectAlongSun({middle.x, PlanesWorld::box_min.y, middle.z});
+    for (const double distance : {8.0, 14.9, 16.0, 17.5, 19.0, 20.1, 30.0}) {
+        const glm::dvec3 eye = target + glm::dvec3(0.6, 0.64, 0.48) * distance;
+        renderer.draw(state, {.position_ws = glm::vec3(eye), .target_ws = glm::vec3(target), .fov_y_rad = 0.01},
+                      lights);
+        const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = false});
+        const double expected = std::clamp((distance - 15.0) / 5.0, 0.0, 1.0);
+        EXPECT_NEAR(*picture.masks[0].pixel(16, 16), expected, 1.5 / 255.0) << distance << " m";
+    }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
 
 } // namespace
 } // namespace gnomon::host::test

@@ -81,9 +81,12 @@ inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& poi
     return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
 }
 
-/// Does the mask take this view for a receiver there?
-inline bool insideTile(const View& view, const glm::dvec2& texel, double reach_texels)
+/// Does the mask take this view for a receiver at a point, whose place in the map is `texel`?
+inline bool serves(const View& view, const glm::dvec3& point_ws, const glm::dvec2& texel, double reach_texels)
 {
+    if (!view.slice.holds(point_ws)) {
+        return false;
+    }
     const double margin = tileMarginTexels(reach_texels);
     return texel.x >= margin && texel.y >= margin && texel.x <= view.tile.width - margin &&
            texel.y <= view.tile.height - margin;

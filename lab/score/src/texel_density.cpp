@@ -20,7 +20,7 @@ std::optional<double> densityIn(const PixelRays& rays, const View& view, glm::dv
                                 double reach_texels)
 {
     const auto here = texelOf(view, surface.point_ws);
-    if (!here || !insideTile(view, *here, reach_texels)) {
+    if (!here || !serves(view, surface.point_ws, *here, reach_texels)) {
         return std::nullopt;
     }
     constexpr double kStep = 0.25; // pixels; smaller than a pixel, so that a grazing plane's horizon stays away

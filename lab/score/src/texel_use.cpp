@@ -87,11 +87,14 @@ TexelUse texelUse(const Sight& seen, const Counted& counted, const Plan& plan, s
     for (std::uint32_t y = 0; y < counted.height; ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
             const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(x, y) : std::nullopt;
+            // The mask pass reads the first view that has the pixel, and one that fades over into it.
+            bool found = false;
             for (std::size_t v = 0; surface && v < views.size(); ++v) {
                 const auto texel = texelOf(views[v], surface->point_ws);
-                if (texel && insideTile(views[v], *texel, reach_texels)) {
+                const bool counts = !found || views[v].slice.blend_m > 0.0;
+                if (counts && texel && serves(views[v], surface->point_ws, *texel, reach_texels)) {
                     read[v].add(*texel, reach_texels);
-                    break; // the mask pass reads the first view that has the pixel
+                    found = true;
                 }
             }
         }
