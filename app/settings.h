@@ -92,6 +92,8 @@ struct Settings {
     std::optional<FrameRange> frames;
     double fps = 0.0;
     std::string animation;
+    std::string path; // a name or a file; empty: none
+    double path_speed = 1.0;
     // run
     std::uint64_t seed = 0;
     std::string gpu;
@@ -169,8 +171,6 @@ struct Setting {
 [[nodiscard]] const Setting* findSetting(std::string_view key);
 /// What one types for it: "--size", "--set pcf.taps".
 [[nodiscard]] std::string spelled(const Setting& setting);
-/// Why a setting that belongs to the program is not in this version; nothing for any other key.
-[[nodiscard]] std::optional<std::string_view> missingSetting(std::string_view key);
 
 /// All defaults applied.
 [[nodiscard]] Settings defaultSettings();

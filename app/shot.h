@@ -2,11 +2,13 @@
 // What a run looks at: the scene, the lights and the camera, put together from the file and the settings.
 #pragma once
 
+#include "app/scripted_path.h"
 #include "app/settings.h"
 #include "host/renderer.h"
 #include "scene/model.h"
 #include "scene/state.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,15 +20,20 @@ struct Shot {
     scene::State state;
     std::string camera; // name of the view, or how it was chosen
     host::Eye eye;
+    bool has_target = true; // eye.target_ws is a place of its own, not only a direction
     std::vector<host::ShadedLight> lights;
+    std::optional<ScriptedPath> path; // --path
+    std::uint64_t moves = 0;          // how often it was moved
     std::vector<std::string> notices; // sentences for people, on stderr
 };
 
 /// Loads the scene, applies what the settings change in it and evaluates it at --time (or at the first of --frames).
-/// Throws UsageError for a camera that is not there and for lights of the command line that the technique refuses.
+/// Throws UsageError for a camera that is not there, for lights of the command line that the technique refuses and for
+/// a path that cannot be; Error for a path's file.
 [[nodiscard]] Shot makeShot(const Settings& settings);
-/// Moves everything to a frame of --frames; camera and lights of the scene follow.
+/// Moves everything to a frame of --frames; camera and lights of the scene follow, and then the path.
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
+/// The scene's time at a frame, if no path says otherwise.
 [[nodiscard]] double timeOf(const Settings& settings, std::uint32_t frame);
 
 /// The light that --light names, by its own name or its node's, else the first. Throws UsageError for one that is not

@@ -35,7 +35,7 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
     return contestants;
 }
 
-/// What the maps give to the picture, which is the same for every technique.
+/// What the maps of the last frame give to the picture, which is the same for every technique.
 void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, BenchResult& result)
 {
     host::RenderOptions options = renderOptions(settings);
@@ -53,14 +53,32 @@ void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, Benc
     }
 }
 
-BenchResult measure(host::Gpu& gpu, const Shot& shot, const Settings& settings, const std::vector<Settings>& techniques)
+/// Of a path every frame is drawn once; the first warms up, unless there is but one.
+lab::TimingOptions timingOptions(const Settings& settings)
 {
-    const lab::TimingOptions options{
-        .repetitions = settings.repetitions, .warmup = settings.warmup, .reuse_maps = true};
-    const lab::Subject subject = subjectOf(shot);
+    lab::TimingOptions options{.repetitions = settings.repetitions, .warmup = settings.warmup, .reuse_maps = true};
+    if (!settings.path.empty()) {
+        const std::uint32_t frames = settings.frames->last - settings.frames->first + 1;
+        options.warmup = frames > 1 ? 1 : 0;
+        options.repetitions = frames - options.warmup;
+    }
+    return options;
+}
+
+BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques)
+{
+    const lab::TimingOptions options = timingOptions(settings);
+    lab::Subject subject = subjectOf(shot);
     const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
     Progress progress("timing", lab::timingSteps(subject, contestants, options));
-    lab::TimingResult timing = lab::timeInTurn(gpu, subject, contestants, options, [&] {
+    const lab::SubjectAt subject_at = [&](std::uint32_t round) -> const lab::Subject& {
+        if (!settings.path.empty()) {
+            moveShot(shot, settings, settings.frames->first + round);
+            subject = subjectOf(shot);
+        }
+        return subject;
+    };
+    lab::TimingResult timing = lab::timeInTurn(gpu, subject_at, contestants, options, [&] {
         requireSilence(gpu);
         progress.step();
     });
@@ -75,6 +93,9 @@ BenchResult measure(host::Gpu& gpu, const Shot& shot, const Settings& settings, 
         result.techniques.push_back(std::move(benched));
     }
     measureFit(gpu, shot, settings, result);
+    if (!settings.path.empty()) {
+        moveShot(shot, settings, settings.frames->first); // whose camera and lights the result tells
+    }
     return result;
 }
 
@@ -87,7 +108,7 @@ int runBench(const Settings& asked)
         requireWritable(settings.json);
     }
     std::vector<Settings> techniques = contestants(settings);
-    const Shot shot = makeShot(settings);
+    Shot shot = makeShot(settings);
     const auto gpu = openGpu(settings);
     settleBlurPaths(*gpu, settings, techniques);
     for (const std::string& text : shot.notices) {

@@ -52,6 +52,7 @@ Json techniqueJson(const BenchedTechnique& technique)
     json["frame_ratio"] = frameRatioJson(technique.redrawn);
     addTimes(json, "static_", technique.reused.samples);
     json["static_frame_ratio"] = frameRatioJson(technique.reused);
+    json["static_mean_texels_rendered"] = numberJson(technique.reused.mean_texels_rendered);
     addMemory(json, technique.redrawn.added_memory);
     json["texel_density"] = densityJson(technique.density);
     json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
@@ -75,6 +76,9 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     for (const host::ShadedLight& light : shot.lights) {
         json["lights"].push_back(lightJson(light));
     }
+    if (!settings.path.empty()) {
+        json["path"] = pathJson(settings);
+    }
     json["settings"] = runJson(settings, scene_hash, kBench);
     Json baseline;
     addTimes(baseline, "", result.baseline.samples);
@@ -86,6 +90,7 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
         json["results"].push_back(techniqueJson(technique));
     }
     json["units"] = sharedUnitsJson();
+    json["units"]["static_mean_texels_rendered"] = "texels per frame, maps that still hold kept";
     json["units"]["static_frame_ratio"] = "median frame with maps that still hold kept / median frame without shadows";
     return json;
 }
@@ -96,11 +101,13 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
     for (const BenchedTechnique& technique : result.techniques) {
         width = std::max(width, describeTechnique(technique.settings).size());
     }
-    std::string text =
-        fmt::format("{}, camera {}, {}x{}, map {}, on {} ({})\nmedian milliseconds of {} frames; static: "
-                    "maps that still hold are kept\n\n{:<{}}",
-                    settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, settings.plan.map_size,
-                    result.device, result.driver, settings.repetitions, "technique", width);
+    const std::string path =
+        settings.path.empty() ? "" : fmt::format(" along {} from {}", settings.path, settings.frames->first);
+    std::string text = fmt::format(
+        "{}, camera {}, {}x{}, map {}, on {} ({})\nmedian milliseconds of {} frames{}; static: "
+        "maps that still hold are kept\n\n{:<{}}",
+        settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, settings.plan.map_size, result.device,
+        result.driver, result.techniques.front().redrawn.samples.size(), path, "technique", width);
     for (const Stage& stage : stages()) {
         text += fmt::format("{:>9}", stage.name);
     }

@@ -49,11 +49,6 @@ std::string_view aliasOf(std::string_view key)
 [[noreturn]] void refuseOption(const Subcommand& subcommand, const std::string& argument)
 {
     const std::string name = argument.substr(0, argument.find('='));
-    if (name.starts_with("--")) {
-        if (const auto sentence = missingSetting(std::string_view(name).substr(2))) {
-            throw UsageError(fmt::format("{}: {}", name, *sentence));
-        }
-    }
     std::vector<std::string> options{"--help"};
     if ((subcommand.bit & kFrames) != 0) {
         options.insert(options.end(), {"--set", "--preset"});

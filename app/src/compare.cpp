@@ -4,6 +4,7 @@
 #include "app/visual.h"
 #include "compare_folder.h"
 #include "compare_json.h"
+#include "compare_path.h"
 #include "compare_text.h"
 #include "contestants.h"
 #include "interrupt.h"
@@ -50,6 +51,17 @@ void requireCaster(const host::ShadedLight& light, const std::vector<Settings>& 
                 "choose another with --light");
 }
 
+/// A path that moves nothing but the sun is about the sun.
+void requireJudgedSun(const Shot& shot, const Settings& settings)
+{
+    const bool sun_alone = shot.path && shot.path->movesSun() && !shot.path->movesCamera();
+    const std::size_t light = lightIndex(shot, settings);
+    if (sun_alone && light != shot.path->sun) {
+        throw UsageError(fmt::format("--path {} moves light {} and not {}, which --light asks for", settings.path,
+                                     shot.lights[shot.path->sun].name, shot.lights[light].name));
+    }
+}
+
 void requireMapFits(const host::Gpu& gpu, const Settings& technique)
 {
     const VkPhysicalDeviceLimits& limits = gpu.properties().limits;
@@ -76,7 +88,7 @@ void requireMapsFit(const host::Gpu& gpu, const std::vector<Settings>& technique
 /// One run: what it is about, and what is done between two frames.
 class Comparison {
 public:
-    Comparison(const Settings& settings, const Shot& shot, host::Gpu& gpu, std::vector<std::string> report_files)
+    Comparison(const Settings& settings, Shot& shot, host::Gpu& gpu, std::vector<std::string> report_files)
         : settings_(settings), shot_(shot), gpu_(gpu)
     {
         result_.report_files = std::move(report_files);
@@ -87,6 +99,7 @@ public:
 
     void trace() { result_.judged = judge(shot_, settings_); }
     void scoreAll(const std::vector<Settings>& techniques);
+    void walk(const std::vector<Settings>& techniques);
     void timeAll();
     void matchAll();
     void sweep(const SweepPlan& plan);
@@ -100,12 +113,13 @@ private:
         requireSilence(gpu_);
         progress.step();
     }
+    void putBestFirst();
     void noteOutcomes();
     void notePixels();
     void noteSize();
 
     const Settings& settings_;
-    const Shot& shot_;
+    Shot& shot_;
     host::Gpu& gpu_;
     CompareResult result_;
 };
@@ -135,6 +149,19 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
         result_.techniques.push_back(std::move(compared));
         step(progress);
     }
+    putBestFirst();
+}
+
+/// Along --path.
+void Comparison::walk(const std::vector<Settings>& techniques)
+{
+    Progress progress("comparing", pathSteps(settings_, techniques));
+    comparePath(gpu_, shot_, settings_, techniques, result_, [&] { step(progress); });
+    putBestFirst();
+}
+
+void Comparison::putBestFirst()
+{
     const auto rmse = [](const ComparedTechnique& technique) {
         const bool known = technique.score.error && std::isfinite(technique.score.error->rmse);
         return known ? technique.score.error->rmse : std::numeric_limits<double>::infinity();
@@ -272,6 +299,10 @@ void Comparison::note()
     notePixels();
     noteOutcomes();
     noteSize();
+    if (result_.path) {
+        const std::vector<std::string> notes = pathNotes(result_);
+        result_.notes.insert(result_.notes.end(), notes.begin(), notes.end());
+    }
     if (result_.sweep) {
         const SweepPlan& plan = result_.sweep->plan;
         result_.notes.insert(result_.notes.end(), plan.left_out.begin(), plan.left_out.end());
@@ -280,7 +311,7 @@ void Comparison::note()
                 fmt::format("{} ends the automatic bias: where the sweep sets one part, the others are 0", plan.key));
         }
     }
-    if (!result_.report_files.empty()) {
+    if (!result_.report_files.empty() && !result_.path) {
         forgetSharedFiles(result_);
     }
 }
@@ -325,11 +356,13 @@ int runCompare(const Settings& asked)
     std::unique_ptr<ReportFolder> folder;
     std::vector<std::string> files;
     if (!settings.report.empty()) {
-        files = reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value());
+        files = settings.path.empty() ? reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value())
+                                      : pathReportFiles(techniques.size(), *settings.frames);
         folder = std::make_unique<ReportFolder>(settings.report, files);
     }
-    const Shot shot = makeShot(firstOf(sweep, settings));
-    const host::ShadedLight& light = shot.lights[lightIndex(shot, settings)];
+    Shot shot = makeShot(firstOf(sweep, settings));
+    const host::ShadedLight light = shot.lights[lightIndex(shot, settings)];
+    requireJudgedSun(shot, settings);
     requireSizedLights(firstOf(sweep, settings), {&light, 1});
     requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
@@ -341,10 +374,13 @@ int runCompare(const Settings& asked)
     const Settings first = firstOf(sweep, settings);
     std::for_each(shot.notices.begin(), shot.notices.end(), notice);
     Comparison comparison(first, shot, *gpu, std::move(files));
-    comparison.trace();
-    if (sweep) {
+    if (!settings.path.empty()) {
+        comparison.walk(techniques);
+    } else if (sweep) {
+        comparison.trace();
         comparison.sweep(*sweep);
     } else {
+        comparison.trace();
         comparison.scoreAll(techniques);
         comparison.timeAll();
         if (settings.equal_error) {

@@ -2,6 +2,7 @@
 #include "compare_folder.h"
 
 #include "app/visual.h"
+#include "compare_path.h"
 #include "compare_text.h"
 #include "result_json.h"
 
@@ -13,9 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <system_error>
@@ -25,31 +24,6 @@ namespace gnomon::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kPage = "index.html";
-constexpr const char* kResult = "result.json";
-constexpr const char* kTruth = "truth.png";
-constexpr const char* kPlot = "sweep.svg";
-constexpr std::array<std::string_view, 4> kFixed{kPage, kResult, kTruth, kPlot};
-constexpr std::array<std::string_view, 5> kNumbered{"mask.png", "error.png", "classes.png", "density.png", "sweep.svg"};
-
-std::string numbered(std::size_t index, std::string_view what)
-{
-    return fmt::format("{:02}_{}", index + 1, what);
-}
-
-/// Whether a report could have it: a list from a file is not taken at its word.
-bool isReportFile(const std::string& name)
-{
-    if (std::find(kFixed.begin(), kFixed.end(), name) != kFixed.end()) {
-        return true;
-    }
-    const std::size_t digits = std::min(name.find('_'), name.size());
-    return digits >= 2 && digits < name.size() &&
-           std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(digits),
-                       [](unsigned char c) { return std::isdigit(c) != 0; }) &&
-           std::find(kNumbered.begin(), kNumbered.end(), name.substr(digits + 1)) != kNumbered.end();
-}
 
 bool contains(const std::vector<std::string>& names, const std::string& name)
 {
@@ -97,12 +71,18 @@ std::vector<std::pair<std::string, std::string>> facts(const CompareResult& resu
         made.emplace_back("shown", fmt::format("scene, camera, light and the truth's picture at {}",
                                                placeText(result.sweep->plan, 0)));
     }
-    made.insert(made.end(), {{"size", fmt::format("{} x {} pixels", settings.size_px.x, settings.size_px.y)},
-                             {"truth", truthText(result)},
-                             {"pixels", countedText(result)},
-                             {"device", fmt::format("{} ({})", result.device, result.driver)},
-                             {"version", GNOMON_VERSION},
-                             {"result", fmt::format("{}: every number, and the settings to repeat it", kResult)}});
+    if (result.path) {
+        made.emplace_back("path", fmt::format("{}, frames {} to {}, {} per second; camera and light are of the first",
+                                              result.path->name, result.path->frames.first, result.path->frames.last,
+                                              settings.fps));
+    }
+    made.insert(made.end(),
+                {{"size", fmt::format("{} x {} pixels", settings.size_px.x, settings.size_px.y)},
+                 {"truth", truthText(result)},
+                 {"pixels", countedText(result)},
+                 {"device", fmt::format("{} ({})", result.device, result.driver)},
+                 {"version", GNOMON_VERSION},
+                 {"result", fmt::format("{}: every number, and the settings to repeat it", kReportResult)}});
     return made;
 }
 
@@ -130,19 +110,58 @@ void writeTechnique(ReportFolder& folder, const CompareResult& result, std::size
     page.techniques.push_back(shown);
 }
 
+/// First, middle and last frame of every technique, and curves over all frames.
+void writePath(ReportFolder& folder, const CompareResult& result, const Settings& settings, lab::Report& page,
+               const std::function<void()>& step)
+{
+    const PathResult& path = *result.path;
+    const std::vector<std::string_view> moments = momentsOf(path.shown.size());
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        folder.write(pictureOf("truth", moments[k]), maskAs16Bit(path.truths[k]));
+    }
+    folder.write(kReportError, lab::plotSvg(pathErrorPlot(result, settings.scene)));
+    page.plots.push_back({kReportError, "Error of every technique over the frames."});
+    if (path.frames.first != path.frames.last) {
+        folder.write(kReportChange, lab::plotSvg(pathChangePlot(result, settings.scene)));
+        page.plots.push_back({kReportChange,
+                              "How much the error of every technique changes from one frame to the next, "
+                              "at the same points: level is steady, peaks are pops."});
+    }
+    for (std::size_t i = 0; i < result.techniques.size(); ++i) {
+        const ComparedTechnique& technique = result.techniques[i];
+        lab::ReportTechnique shown;
+        shown.name = technique.name;
+        for (std::size_t k = 0; k < moments.size(); ++k) {
+            const lab::ShownFrame& frame = technique.path->shown[k];
+            lab::ReportFrame pictures;
+            pictures.name = fmt::format("frame {}", path.shown[k]);
+            pictures.truth_file = pictureOf("truth", moments[k]);
+            pictures.mask_file = numbered(i, pictureOf("mask", moments[k]));
+            pictures.error_file = numbered(i, pictureOf("error", moments[k]));
+            pictures.class_file = numbered(i, pictureOf("classes", moments[k]));
+            folder.write(pictures.mask_file, maskAs16Bit(frame.mask));
+            folder.write(pictures.error_file, lab::errorPicture(frame.mask, path.truths[k], frame.counted));
+            folder.write(pictures.class_file, lab::classPicture(frame.classes, frame.mask, path.truths[k]));
+            shown.frames.push_back(std::move(pictures));
+        }
+        page.techniques.push_back(std::move(shown));
+        step();
+    }
+}
+
 void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& settings, lab::Report& page,
                 const std::function<void()>& step)
 {
     const std::string& key = sweep.plan.key;
     page.table_caption = fmt::format("Every technique over {}.", key);
     if (sweep.plan.lines.size() == 1) {
-        folder.write(kPlot, lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
-        page.plots.push_back({kPlot, fmt::format("Error over {}, and where it comes from.", key)});
+        folder.write(kReportSweep, lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
+        page.plots.push_back({kReportSweep, fmt::format("Error over {}, and where it comes from.", key)});
         step();
         return;
     }
-    folder.write(kPlot, lab::plotSvg(sweepPlot(sweep, settings.scene)));
-    page.plots.push_back({kPlot, fmt::format("Error of every technique over {}.", key)});
+    folder.write(kReportSweep, lab::plotSvg(sweepPlot(sweep, settings.scene)));
+    page.plots.push_back({kReportSweep, fmt::format("Error of every technique over {}.", key)});
     for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {
         const std::string file = numbered(i, "sweep.svg");
         folder.write(file, lab::plotSvg(sweepClassPlot(sweep, i, settings.scene)));
@@ -153,25 +172,6 @@ void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& 
 }
 
 } // namespace
-
-std::vector<std::string> reportFiles(std::size_t shown, bool sweep)
-{
-    std::vector<std::string> files{kTruth};
-    if (sweep) {
-        files.emplace_back(kPlot);
-    }
-    for (std::size_t i = 0; i < shown; ++i) {
-        for (const std::string_view what : kNumbered) {
-            // The plot of a sweep's only line is the sweep's.
-            if ((what == kPlot) == sweep && !(sweep && shown == 1)) {
-                files.push_back(numbered(i, what));
-            }
-        }
-    }
-    files.emplace_back(kPage);
-    files.emplace_back(kResult);
-    return files;
-}
 
 std::size_t densityShownBy(const CompareResult& result, std::size_t technique)
 {
@@ -200,7 +200,7 @@ ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
         if (!fs::is_directory(path_)) {
             throw Error(what, "it is not a folder", "name another, or remove it");
         }
-        earlier_ = filesOfReport(path_ / kResult);
+        earlier_ = filesOfReport(path_ / kReportResult);
         requireNoForeignFile(what);
     } else if (!fs::is_directory(path_.parent_path())) {
         throw Error(what, "there is no folder " + path_.parent_path().string());
@@ -301,12 +301,18 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
 {
     lab::Report page;
     page.title = fmt::format("Shadows of {} against ray-traced truth", settings.scene);
-    page.truth_file = kTruth;
+    page.truth_file = kReportTruth;
     page.facts = facts(result, shot, settings);
     page.notes = result.notes;
-    folder.write(page.truth_file, maskAs16Bit(result.judged.truth.visibility.visibility));
+    if (!result.path) {
+        folder.write(page.truth_file, maskAs16Bit(result.judged.truth.visibility.visibility));
+    }
     TextTable table;
-    if (result.sweep) {
+    if (result.path) {
+        table = compareTable(result, false);
+        page.table_caption = "Best first; means over the frames.";
+        writePath(folder, result, settings, page, step);
+    } else if (result.sweep) {
         table = sweepTable(*result.sweep);
         writeSweep(folder, *result.sweep, settings, page, step);
     } else {
@@ -319,8 +325,8 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
     page.columns = table.columns;
     page.column_meanings = meaningsOf(table);
     page.rows = table.rows;
-    folder.write(kResult, json);
-    folder.write(kPage, lab::reportPage(page));
+    folder.write(kReportResult, json);
+    folder.write(kReportPage, lab::reportPage(page));
     folder.keep();
 }
 

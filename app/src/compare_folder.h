@@ -4,6 +4,7 @@
 
 #include "compare_result.h"
 #include "image/image.h"
+#include "report_names.h"
 
 #include <filesystem>
 #include <functional>
@@ -12,9 +13,6 @@
 #include <vector>
 
 namespace gnomon::app {
-
-/// Names of a report's files, the page and result.json last. `shown`: techniques, or lines of a sweep.
-[[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown, bool sweep);
 
 /// Techniques that render the same map have the same picture of texel density, which is written once: the place of the
 /// first of them.

@@ -85,13 +85,53 @@ Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_er
             {"from_cache", truth.from_cache}};
 }
 
-Json techniqueJson(const ComparedTechnique& technique)
+Json stabilityJson(const TechniqueOnPath& path, const lab::Score& score)
+{
+    const auto number = [&](double lab::Stability::*member) {
+        return path.stability ? numberJson((*path.stability).*member) : Json(nullptr);
+    };
+    // The truth's sun is where it is at every frame, so the error is that of a sun which a technique lets lag behind.
+    return {{"shimmer", number(&lab::Stability::shimmer)},
+            {"pop", number(&lab::Stability::pop)},
+            {"lag", score.error ? numberJson(score.error->rmse) : Json(nullptr)}};
+}
+
+/// Lists as long as the frames.
+Json overFramesJson(const TechniqueOnPath& path)
+{
+    Json rmse = Json::array();
+    for (const std::optional<double>& one : path.rmse) {
+        rmse.push_back(numberJson(one));
+    }
+    Json change = Json::array({nullptr}); // the first frame has none before it
+    for (const lab::StabilityMeter::Step& step : path.steps) {
+        change.push_back(step.matched == 0 ? Json(nullptr) : numberJson(step.mean_abs));
+    }
+    return {{"rmse", rmse}, {"mean_abs_change", change}};
+}
+
+/// Of the first frame to which a step leads.
+Json popFrameJson(const PathResult& path, const TechniqueOnPath& technique)
+{
+    const bool popped = technique.stability && technique.stability->pop > 0.0;
+    return popped ? Json(path.frames.first + technique.stability->pop_frame) : Json(nullptr);
+}
+
+Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathResult>& path)
 {
     const lab::Score& score = technique.score;
     Json json{{"technique", technique.name},
               {"choices", choicesJson(technique.settings.plan.technique)},
               {"map", mapJson(score.atlas, technique.settings.filter)},
               {"error", errorJson(score)}};
+    if (path && path->frames.first != path->frames.last) {
+        json["stability"] = stabilityJson(*technique.path, score);
+        json["pop_frame"] = popFrameJson(*path, *technique.path);
+    }
+    if (path) {
+        json["over_frames"] = overFramesJson(*technique.path);
+        json["mean_texels_rendered"] = numberJson(technique.timed.mean_texels_rendered);
+    }
     addTimes(json, "", technique.timed.samples);
     json["frame_ratio"] = frameRatioJson(technique.timed);
     if (technique.equal_error) {
@@ -130,6 +170,8 @@ Json unitsJson()
     units["equal_error_shadow_ratio"] = "the same of what the two frames take beyond the frame without shadows";
     units["standard_error"] = "visibility, root mean square over the counted pixels";
     units["truth.samples"] = "rays per pixel";
+    units["stability"] = "visibility: root mean square, largest mean of a frame, rmse";
+    units["over_frames"] = "visibility; rmse, and mean change of the error since the frame before";
     units["texel_density.pixels"] = "pixels that see a surface: counted and in one of the light's maps, and all others";
     return units;
 }
@@ -149,9 +191,12 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
               {"eye", eyeJson(shot.eye)},
               {"light_source", lightJson(result.light())},
               {"truth", truthJson(result.judged.facts, result.standard_error)}};
+    if (result.path) {
+        json["path"] = pathJson(settings);
+    }
     json["results"] = Json::array();
     for (const ComparedTechnique& technique : result.techniques) {
-        json["results"].push_back(techniqueJson(technique));
+        json["results"].push_back(techniqueJson(technique, result.path));
     }
     json["pixels"] = pixelsJson(result.pixels);
     if (result.sweep) {

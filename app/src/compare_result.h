@@ -6,8 +6,10 @@
 #include "compare_judged.h"
 #include "equal_error.h"
 #include "lab/compare.h"
+#include "lab/path_run.h"
 #include "sweep.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,12 +22,29 @@ namespace gnomon::app {
     return truth.point_like ? truth::Kind::hard : truth.kind;
 }
 
+/// One technique along --path.
+struct TechniqueOnPath {
+    std::optional<lab::Stability> stability;
+    std::vector<std::optional<double>> rmse;      // by frame; absent where no pixel counts
+    std::vector<lab::StabilityMeter::Step> steps; // by frame, from the second on
+    std::vector<lab::ShownFrame> shown;           // of PathResult::shown; none without a report
+};
+
+/// What all techniques have in common along --path.
+struct PathResult {
+    std::string name; // or file
+    FrameRange frames;
+    std::vector<std::uint32_t> shown; // first, middle and last frame
+    std::vector<ImageF> truths;       // of those; none without a report
+};
+
 struct ComparedTechnique {
     Settings settings;
     std::string name;
     lab::Score score;
     lab::Timed timed;
     std::optional<EqualError> equal_error;
+    std::optional<TechniqueOnPath> path; // then `score` is of all its frames
 };
 
 struct CompareResult {
@@ -39,6 +58,7 @@ struct CompareResult {
     std::uint64_t baseline_bytes = 0;
     std::vector<ComparedTechnique> techniques; // best first
     std::optional<SweepResult> sweep;          // then there are no techniques
+    std::optional<PathResult> path;            // then `judged` is of its first frame and has no truth
     std::vector<std::string> notes;            // sentences: what kept a number from being there
     std::vector<std::string> report_files;     // in the report's folder; empty: no report
 

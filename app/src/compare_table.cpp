@@ -105,6 +105,8 @@ std::string_view meaningOfColumn(std::string_view column)
         {"rmse", "root of the mean squared error of the mask, whose values go from 0 to 1; 0 is best"},
         {"mae", "mean absolute error of the mask; 0 is best"},
         {"bias", "mean error: below 0 the shadows are too dark or too large, above 0 too light; 0 is best"},
+        {"shimmer", "root of the mean squared change of the error from frame to frame, at the same points; 0 is best"},
+        {"pop", "the largest mean change of the error from one frame to the next; 0 is best"},
         {"edge%", "share of the squared error at the rims of shadows: stairs, a penumbra of the wrong width"},
         {"acne%", "share of the squared error on lit surfaces that shadow themselves"},
         {"detached%", "share of the squared error in light between an object and its shadow"},

@@ -80,6 +80,9 @@ TextTable compareTable(const CompareResult& result, bool short_names)
     const std::vector<std::string> errors = errorColumns();
     table.columns.insert(table.columns.end(), errors.begin(), errors.end());
     table.columns.insert(table.columns.end(), {"ssim", "flip", "ratio", "ms", "MiB"});
+    if (result.path) {
+        table.columns.insert(table.columns.begin() + 2, {"shimmer", "pop"});
+    }
     if (equal) {
         table.columns.emplace_back("equal");
     }
@@ -87,6 +90,11 @@ TextTable compareTable(const CompareResult& result, bool short_names)
         const lab::Score& score = technique.score;
         std::vector<std::string> row{withoutParts(withoutParts(technique.name, common), path)};
         addErrorCells(row, score.error, score.classification ? score.classification->errors : lab::ClassErrors{});
+        if (technique.path) {
+            const auto& stability = technique.path->stability;
+            row.insert(row.begin() + 2, {cell(stability ? std::optional(stability->shimmer) : std::nullopt, 4),
+                                         cell(stability ? std::optional(stability->pop) : std::nullopt, 4)});
+        }
         row.push_back(cell(score.ssim, 3));
         row.push_back(cell(score.flip, 3));
         const double ratio = lab::frameRatio(technique.timed);
@@ -125,9 +133,14 @@ std::string truthText(const CompareResult& result)
     } else if (truth.kind == truth::Kind::area) {
         text += ", for the light has no area";
     }
-    return fmt::format("{}; {}", text,
+    return fmt::format("{}{}; {}", text, result.path ? ", at every frame" : "",
                        truth.from_cache ? raysText(truth.rays) + " (from the cache)"
                                         : tracedText(truth.rays, truth.seconds));
+}
+
+std::string pathText(const PathResult& path)
+{
+    return fmt::format("path:   {}, frames {} to {}", path.name, path.frames.first, path.frames.last);
 }
 
 std::string countedText(const CompareResult& result)
@@ -193,14 +206,20 @@ std::string compareText(const CompareResult& result, const Shot& shot, const Set
     if (result.sweep) {
         return text + "\n" + fittedTableText(sweepTable(*result.sweep));
     }
-    if (const std::string common = commonParts(namesOf(result)); !common.empty()) {
+    const std::string common = commonParts(namesOf(result));
+    if (!common.empty()) {
         text += fmt::format("all with {}\n", common);
     }
-    if (const std::string path = commonBlurPath(namesOf(result)); !path.empty()) {
+    if (const std::string path = commonBlurPath(namesOf(result));
+        !path.empty() && common.find(path) == std::string::npos) {
         text += fmt::format("blurred with {}\n", path);
     }
+    if (result.path) {
+        text += pathText(*result.path) + "; errors are means over them\n";
+    }
     text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({:.2f} ms){}\n\n",
-                        settings.repetitions, frameMedian(result.baseline.samples),
+                        result.path ? result.techniques.front().timed.samples.size() : settings.repetitions,
+                        frameMedian(result.baseline.samples),
                         hasEqualError(result) ? ",\nequal: to the cheapest PCF that errs no more" : "");
     text += fittedTableText(compareTable(result, true));
     return text + (hasEqualError(result) ? equalErrorText(result) : "");

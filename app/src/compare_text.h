@@ -13,6 +13,8 @@ namespace gnomon::app {
 [[nodiscard]] TextTable compareTable(const CompareResult& result, bool short_names);
 /// "area, 64 rays per pixel, standard error 0.0041; 2.1 million rays in 3.2 s (0.7 million/s)".
 [[nodiscard]] std::string truthText(const CompareResult& result);
+/// "path:   orbit, frames 0 to 59".
+[[nodiscard]] std::string pathText(const PathResult& path);
 /// pixelsText() of the result, or where a sweep's numbers are.
 [[nodiscard]] std::string countedText(const CompareResult& result);
 /// "12000 counted; left out: 300 background, 20 facing away".

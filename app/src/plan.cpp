@@ -74,7 +74,7 @@ const Plan& planFrames(Shot& shot, const Settings& settings, ObjectSet& objects,
         const std::vector<Light> lights = castersOf(shot);
         Frame frame;
         frame.index = index;
-        frame.time_s = timeOf(settings, index);
+        frame.time_s = shot.state.time_s;
         frame.camera = host::cameraOf(shot.eye, settings.size_px.x, settings.size_px.y, shot.state.bounds_ws);
         frame.size_px = settings.size_px;
         frame.lights = lights;

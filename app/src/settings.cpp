@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/settings.h"
 
+#include "app/scripted_path.h"
 #include "contestants.h"
 #include "setting_values.h"
 
@@ -10,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace gnomon::app {
@@ -112,23 +112,6 @@ std::string spelled(const Setting& setting)
     return fmt::format("{}{}", setting.own_option ? "--" : "--set ", setting.key);
 }
 
-std::optional<std::string_view> missingSetting(std::string_view key)
-{
-    struct Missing {
-        std::string_view key;
-        std::string_view sentence;
-    };
-    static constexpr std::array kMissing{
-        Missing{"path", "scripted cameras and suns are not in this version"},
-    };
-    for (const Missing& missing : kMissing) {
-        if (missing.key == key) {
-            return missing.sentence;
-        }
-    }
-    return std::nullopt;
-}
-
 const Setting* findSetting(std::string_view key)
 {
     for (const Setting& setting : settingTable()) {
@@ -178,9 +161,6 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 {
     const Setting* setting = findSetting(key);
     if (setting == nullptr) {
-        if (const auto sentence = missingSetting(key)) {
-            throw UsageError(fmt::format("{}: {}", key, *sentence));
-        }
         std::vector<std::string_view> keys;
         for (const Setting& row : settingTable()) {
             keys.push_back(row.key);
@@ -229,6 +209,7 @@ void validateSettings(const Settings& settings)
     if (settings.frames && settings.frames->first > settings.frames->last) {
         throw UsageError(fmt::format("--frames: {}-{} runs backwards", settings.frames->first, settings.frames->last));
     }
+    validatePath(settings);
     if (settings.mask && settings.given.contains("aa") && settings.anti_aliasing == host::AntiAliasing::fxaa) {
         throw UsageError("--aa: fxaa has an effect only on a picture, not with --mask");
     }

@@ -230,15 +230,90 @@ double timeOf(const Settings& settings, std::uint32_t frame)
     return settings.frames ? settings.time_s + static_cast<double>(frame) / settings.fps : settings.time_s;
 }
 
+namespace {
+
+/// A path may say what time it is.
+double momentOf(const Shot& shot, const Settings& settings, std::uint32_t frame)
+{
+    const double s = pathSeconds(settings, frame);
+    if (shot.path && !shot.path->keys.time_s.empty()) {
+        return shot.path->keys.time_s.at(s).x;
+    }
+    if (shot.path && shot.path->scene_moves_sun) {
+        return timeOf(settings, settings.frames->first) + s;
+    }
+    return timeOf(settings, frame);
+}
+
+/// How far the path's start is from what it looks at: where there is but a direction, from the point of it that is
+/// nearest to the middle of the scene.
+double focusOf(const Shot& shot)
+{
+    constexpr double kNearest = 0.01; // of the scene's diagonal
+    const glm::dvec3 look = shot.eye.target_ws - shot.eye.position_ws;
+    if (shot.has_target) {
+        return glm::length(look);
+    }
+    const glm::dvec3 to_middle = glm::dvec3(shot.state.bounds_ws.centre()) - shot.eye.position_ws;
+    return std::max(glm::dot(to_middle, glm::normalize(look)),
+                    kNearest * glm::length(glm::dvec3(shot.state.bounds_ws.extent())));
+}
+
+/// The shot is at the first frame.
+void startPath(Shot& shot, const Settings& settings)
+{
+    ScriptedPath& path = *shot.path;
+    path.start = shot.eye;
+    path.focus_m = focusOf(shot);
+    const Camera camera = host::cameraOf(shot.eye, 1, 1, shot.state.bounds_ws);
+    const glm::dmat4& m = camera.clip_from_world;
+    path.right_ws = glm::normalize(glm::dvec3(m[0][0], m[1][0], m[2][0]));
+    const glm::dvec3 forward = glm::normalize(shot.eye.target_ws - shot.eye.position_ws);
+    if (glm::length(glm::cross(forward, glm::normalize(shot.eye.up_ws))) < 1e-6) {
+        path.start.up_ws = glm::cross(path.right_ws, forward); // the picture's: turning about the line of sight is none
+    }
+    const bool from_scene = !settings.sun_ws && !settings.spot && !settings.point && !shot.scene.lights.empty();
+    path.scene_moves_sun = path.kind == PathKind::day && from_scene && lightsMove(shot.scene, shot.state, settings);
+    if (path.movesSun()) {
+        const auto sun = std::find_if(shot.lights.begin(), shot.lights.end(), [](const host::ShadedLight& light) {
+            return light.caster.type == LightType::directional;
+        });
+        if (sun == shot.lights.end()) {
+            throw UsageError(fmt::format("--path {} moves the sun, but there is no directional light", settings.path));
+        }
+        path.sun = static_cast<std::size_t>(sun - shot.lights.begin());
+        path.sun_ws = sun->caster.direction_ws;
+    }
+    requireCameras(path, settings);
+}
+
+/// Camera and sun as the path has them at a frame.
+void followPath(Shot& shot, const Settings& settings, std::uint32_t frame)
+{
+    const PathSpot spot = pathAt(*shot.path, pathSeconds(settings, frame));
+    if (shot.path->movesCamera()) {
+        shot.eye = spot.eye;
+    }
+    if (shot.path->movesSun()) {
+        host::ShadedLight& sun = shot.lights[shot.path->sun];
+        sun.caster.direction_ws = spot.sun_ws;
+        sun.up_ws = perpendicular(spot.sun_ws);
+    }
+}
+
+} // namespace
+
 Shot makeShot(const Settings& settings)
 {
     Shot shot;
+    shot.path = openPath(settings);
     shot.scene = scene::load(settings.scene, settings.seed, settings.limits);
     shot.notices = shot.scene.notices;
     if (settings.material_override == "diffuse") {
         overrideMaterials(shot.scene);
     }
-    const double time_s = timeOf(settings, settings.frames ? settings.frames->first : 0);
+    const std::uint32_t first = settings.frames ? settings.frames->first : 0;
+    const double time_s = momentOf(shot, settings, first);
     shot.state = scene::evaluate(shot.scene, time_s, settings.animation);
     if (shot.state.objects.empty() || shot.state.bounds_ws.empty()) {
         throw Error("drawing " + settings.scene, "the scene has nothing to draw");
@@ -249,6 +324,10 @@ Shot makeShot(const Settings& settings)
         shot.state = scene::evaluate(shot.scene, time_s, settings.animation);
     }
     placeLights(shot, settings);
+    if (shot.path) {
+        startPath(shot, settings);
+        followPath(shot, settings, first);
+    }
     noteLights(shot, settings);
     noteExtents(shot, settings);
     noteScene(shot, settings);
@@ -257,11 +336,15 @@ Shot makeShot(const Settings& settings)
 
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame)
 {
-    scene::advance(shot.scene, timeOf(settings, frame), shot.state, settings.animation);
+    ++shot.moves;
+    scene::advance(shot.scene, momentOf(shot, settings, frame), shot.state, settings.animation);
     if (shot.camera != "fitted") { // a fitted one would breathe with the scene
         placeEye(shot, settings);
     }
     placeLights(shot, settings);
+    if (shot.path) {
+        followPath(shot, settings, frame);
+    }
 }
 
 host::RenderOptions renderOptions(const Settings& settings)

@@ -41,6 +41,7 @@ void usePlaced(Shot& shot, const Settings& settings, const scene::PlacedCamera& 
     shot.eye.position_ws = placed.eye_ws;
     shot.eye.target_ws = glm::dvec3(placed.eye_ws) + glm::dvec3(placed.forward_ws);
     shot.eye.up_ws = placed.up_ws;
+    shot.has_target = false;
     shot.eye.fov_y_rad = fovRad(settings, static_cast<double>(camera.fov_y_rad));
     shot.eye.near_m = static_cast<double>(camera.near_m);
     shot.eye.far_m = static_cast<double>(camera.far_m);
@@ -130,6 +131,7 @@ host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect)
 
 void placeEye(Shot& shot, const Settings& settings)
 {
+    shot.has_target = true;
     if (settings.eye_ws) {
         shot.camera = "given";
         shot.eye = host::Eye{};

@@ -213,6 +213,14 @@ Json runJson(const Settings& settings, std::string_view scene_hash, std::uint32_
     return json;
 }
 
+Json pathJson(const Settings& settings)
+{
+    return {{"name", settings.path},
+            {"frames", {{"first", settings.frames->first}, {"last", settings.frames->last}}},
+            {"fps", numberJson(settings.fps)},
+            {"speed", numberJson(settings.path_speed)}};
+}
+
 Json eyeJson(const host::Eye& eye)
 {
     return {{"position_ws", vectorJson(eye.position_ws)},

@@ -63,6 +63,8 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 [[nodiscard]] Json repeatJson(const Settings& settings, std::uint32_t subcommand);
 /// Those that make the whole run again: with the scene, its hash and the list of techniques too.
 [[nodiscard]] Json runJson(const Settings& settings, std::string_view scene_hash, std::uint32_t subcommand);
+/// {"name", "frames": {"first", "last"}, "fps", "speed"}. Precondition: there is a --path.
+[[nodiscard]] Json pathJson(const Settings& settings);
 /// Where the picture is taken from, resolved; near_m and far_m are 0 where the scene's size decides.
 [[nodiscard]] Json eyeJson(const host::Eye& eye);
 /// The light, resolved: what has no meaning for its type is left out.

@@ -24,7 +24,7 @@ constexpr std::uint32_t kMaxSidePx = 16384; // as the cache of truths and the re
 } // namespace
 
 TruthMasks::TruthMasks(const Shot& shot, const Settings& settings)
-    : shot_(shot), settings_(settings), tracer_(shot, settings), time_s_(shot.state.time_s)
+    : shot_(shot), settings_(settings), tracer_(shot, settings), moves_(shot.moves)
 {
     if (std::max(settings.size_px.x, settings.size_px.y) > kMaxSidePx) {
         throw Error(fmt::format("tracing {}x{} pixels", settings.size_px.x, settings.size_px.y),
@@ -34,8 +34,8 @@ TruthMasks::TruthMasks(const Shot& shot, const Settings& settings)
 
 ImageF TruthMasks::take(std::size_t light)
 {
-    if (shot_.state.time_s != time_s_) {
-        time_s_ = shot_.state.time_s;
+    if (shot_.moves != moves_) {
+        moves_ = shot_.moves;
         tracer_.moved();
     }
     TruthRun run = tracer_.trace(light);

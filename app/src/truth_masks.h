@@ -35,7 +35,7 @@ private:
     const Shot& shot_;
     const Settings& settings_;
     TruthTracer tracer_;
-    double time_s_;
+    std::uint64_t moves_;    // Shot::moves at the last trace
     std::string light_name_; // when it was one light
     std::uint64_t traces_ = 0;
     std::uint64_t from_cache_ = 0;

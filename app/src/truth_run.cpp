@@ -89,7 +89,9 @@ TruthTracer::~TruthTracer() = default;
 
 void TruthTracer::moved()
 {
-    impl_->tracer.reset();
+    if (!impl_->shot.state.dynamic_objects.empty()) { // else only the camera did
+        impl_->tracer.reset();
+    }
     impl_->surfaces.reset();
 }
 

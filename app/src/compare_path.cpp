@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare_path.h"
+
+#include "app/visual.h"
+#include "truth_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace gnomon::app {
+namespace {
+
+std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques)
+{
+    std::vector<lab::Contestant> contestants;
+    for (const Settings& technique : techniques) {
+        contestants.push_back({describeTechnique(technique), renderOptions(technique)});
+    }
+    return contestants;
+}
+
+/// First, middle and last, each once.
+std::vector<std::uint32_t> shownFrames(const FrameRange& range)
+{
+    std::vector<std::uint32_t> frames{range.first, range.first + (range.last - range.first) / 2, range.last};
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+    return frames;
+}
+
+/// One walk of a group of techniques along the path.
+class Walk {
+public:
+    Walk(host::Gpu& gpu, Shot& shot, const Settings& settings, CompareResult& result, bool first)
+        : gpu_(gpu), shot_(shot), settings_(settings), result_(result), first_(first),
+          light_(lightIndex(shot, settings))
+    {
+    }
+
+    lab::PathRun::Result run(std::span<const lab::Contestant> contestants, const std::function<void()>& step)
+    {
+        const FrameRange range = *settings_.frames;
+        TruthTracer tracer(shot_, settings_);
+        std::optional<lab::PathRun> run;
+        for (std::uint32_t frame = range.first; frame <= range.last; ++frame) {
+            moveShot(shot_, settings_, frame);
+            tracer.moved();
+            TruthRun truth = tracer.trace(light_);
+            const lab::Subject subject = subjectNow();
+            if (!run) {
+                run.emplace(gpu_, subject, settings_.size_px,
+                            std::vector<lab::Contestant>(contestants.begin(), contestants.end()));
+            }
+            const std::vector<std::uint32_t>& shown = result_.path->shown;
+            const bool show = !settings_.report.empty() && std::find(shown.begin(), shown.end(), frame) != shown.end();
+            if (first_) {
+                note(truth, frame == range.first, show);
+            }
+            run->add(subject, std::move(truth.traced), show, step);
+        }
+        if (first_) {
+            result_.standard_error = run->noise();
+        }
+        return run->finish(subjectNow());
+    }
+
+private:
+    [[nodiscard]] lab::Subject subjectNow() const
+    {
+        return {&shot_.scene, &shot_.state, shot_.eye, {shot_.lights[light_]}, 0};
+    }
+
+    /// What the result says of the truths, from all of them.
+    void note(const TruthRun& truth, bool is_first, bool show)
+    {
+        const truth::Visibility& visibility = truth.traced.visibility;
+        TruthFacts& facts = result_.judged.facts;
+        if (is_first) {
+            result_.judged.subject = subjectNow();
+            facts = {.kind = visibility.kind,
+                     .samples = visibility.kind == truth::Kind::area ? settings_.samples : 1,
+                     .seed = settings_.seed,
+                     .from_cache = true,
+                     .point_like = isPointLike(shot_.lights[light_].caster)};
+        }
+        facts.rays += visibility.rays;
+        facts.seconds += visibility.seconds;
+        facts.from_cache = facts.from_cache && truth.from_cache;
+        if (show) {
+            result_.path->truths.push_back(visibility.visibility);
+        }
+    }
+
+    host::Gpu& gpu_;
+    Shot& shot_;
+    const Settings& settings_;
+    CompareResult& result_;
+    bool first_;
+    std::size_t light_;
+};
+
+lab::Plot framePlot(const CompareResult& result, const std::string& scene)
+{
+    lab::Plot plot;
+    plot.x_label = "frame";
+    for (std::uint32_t frame = result.path->frames.first; frame <= result.path->frames.last; ++frame) {
+        plot.x.push_back(static_cast<double>(frame));
+    }
+    plot.title = fmt::format("{} along {}", scene, result.path->name);
+    return plot;
+}
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+std::uint64_t pathSteps(const Settings& settings, const std::vector<Settings>& techniques)
+{
+    const std::uint64_t frames = std::uint64_t{settings.frames->last} - settings.frames->first + 1;
+    return frames * techniques.size();
+}
+
+void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques,
+                 CompareResult& result, const std::function<void()>& step)
+{
+    result.path.emplace();
+    result.path->name = settings.path;
+    result.path->frames = *settings.frames;
+    result.path->shown = shownFrames(*settings.frames);
+    const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
+    std::size_t next = 0;
+    for (const std::size_t count : lab::timingGroups(contestants, 1)) {
+        Walk walk(gpu, shot, settings, result, next == 0);
+        lab::PathRun::Result walked = walk.run(std::span(contestants).subspan(next, count), step);
+        for (std::size_t i = 0; i < count; ++i, ++next) {
+            lab::PathTechnique& one = walked.techniques[i];
+            ComparedTechnique compared;
+            compared.settings = techniques[next];
+            compared.name = contestants[next].name;
+            compared.score = std::move(one.score);
+            compared.timed = std::move(one.timed);
+            compared.path =
+                TechniqueOnPath{one.stability, std::move(one.rmse), std::move(one.steps), std::move(one.shown)};
+            result.techniques.push_back(std::move(compared));
+        }
+        result.baseline_bytes = walked.baseline_bytes;
+        std::vector<host::FrameTimes>& samples = result.baseline.samples;
+        samples.insert(samples.end(), walked.baseline.samples.begin(), walked.baseline.samples.end());
+    }
+    result.pixels = result.techniques.front().score.pixels.counts;
+    moveShot(shot, settings, settings.frames->first);
+}
+
+std::vector<std::string> pathNotes(const CompareResult& result)
+{
+    std::vector<std::string> notes;
+    if (result.path->frames.first == result.path->frames.last) {
+        notes.emplace_back("a path of one frame has no change from frame to frame, so there is no stability");
+        return notes;
+    }
+    const auto& first = *result.techniques.front().path;
+    if (!first.stability) {
+        notes.emplace_back("no pixel that counts is found in the frame before it, so there is no shimmer and no pop");
+    }
+    const auto empty = std::count(first.rmse.begin(), first.rmse.end(), std::nullopt);
+    if (empty != 0 && static_cast<std::size_t>(empty) != first.rmse.size()) {
+        notes.push_back(fmt::format("in {} of {} frames no pixel counts; the errors are means over the others", empty,
+                                    first.rmse.size()));
+    }
+    return notes;
+}
+
+lab::Plot pathErrorPlot(const CompareResult& result, const std::string& scene)
+{
+    lab::Plot plot = framePlot(result, scene);
+    plot.title = "Error: " + plot.title;
+    plot.y_label = "rmse";
+    for (const ComparedTechnique& technique : result.techniques) {
+        lab::PlotLine line{technique.name, {}};
+        for (const std::optional<double>& rmse : technique.path->rmse) {
+            line.values.push_back(rmse.value_or(kGap));
+        }
+        plot.lines.push_back(std::move(line));
+    }
+    return plot;
+}
+
+lab::Plot pathChangePlot(const CompareResult& result, const std::string& scene)
+{
+    lab::Plot plot = framePlot(result, scene);
+    plot.title = "Unsteadiness: " + plot.title;
+    plot.y_label = "mean |D|";
+    plot.x.erase(plot.x.begin()); // the first frame has none before it
+    for (const ComparedTechnique& technique : result.techniques) {
+        lab::PlotLine line{technique.name, {}};
+        for (const lab::StabilityMeter::Step& frame : technique.path->steps) {
+            line.values.push_back(frame.matched == 0 ? kGap : frame.mean_abs);
+        }
+        plot.lines.push_back(std::move(line));
+    }
+    return plot;
+}
+
+} // namespace gnomon::app

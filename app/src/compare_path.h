@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Comparing along a path: every technique and the truth at every frame.
+#pragma once
+
+#include "app/shot.h"
+#include "compare_result.h"
+#include "lab/plot.h"
+
+#include <functional>
+#include <vector>
+
+namespace gnomon::app {
+
+/// How often comparePath() calls `step`.
+[[nodiscard]] std::uint64_t pathSteps(const Settings& settings, const std::vector<Settings>& techniques);
+/// Moves `shot` over --frames, holds every technique against the truth of each, and fills `result`: techniques, best
+/// first, PathResult, and what is of the truth; the shot is back at the first frame afterwards, which
+/// CompareResult::judged is of. Techniques walk in lab::timingGroups(); each group meets the truths anew, through the
+/// cache. Pictures are kept for a report only. Throws as judge() does.
+void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques,
+                 CompareResult& result, const std::function<void()>& step);
+/// Sentences on what a path could not tell.
+[[nodiscard]] std::vector<std::string> pathNotes(const CompareResult& result);
+
+/// The rmse of every technique over the frames, and the mean change of its error from frame to frame.
+[[nodiscard]] lab::Plot pathErrorPlot(const CompareResult& result, const std::string& scene);
+[[nodiscard]] lab::Plot pathChangePlot(const CompareResult& result, const std::string& scene);
+
+} // namespace gnomon::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of a comparison's report are called.
+#pragma once
+
+#include "app/settings.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::app {
+
+inline constexpr const char* kReportPage = "index.html";
+inline constexpr const char* kReportResult = "result.json";
+inline constexpr const char* kReportTruth = "truth.png";
+inline constexpr const char* kReportSweep = "sweep.svg";
+inline constexpr const char* kReportError = "error.svg";   // of a path: over its frames
+inline constexpr const char* kReportChange = "change.svg"; // likewise
+
+/// Names of a report's files, the page and result.json last. `shown`: techniques, or lines of a sweep.
+[[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown, bool sweep);
+/// The same of a comparison along --path: pictures of the first, the middle and the last frame, and curves.
+[[nodiscard]] std::vector<std::string> pathReportFiles(std::size_t shown, const FrameRange& frames);
+/// Whether a report could have it: a list from a file is not taken at its word.
+[[nodiscard]] bool isReportFile(const std::string& name);
+
+/// "03_mask.png" of the technique in row 2.
+[[nodiscard]] std::string numbered(std::size_t index, std::string_view what);
+/// What the names of pictures end in, before ".png", for each of a path's shown frames.
+[[nodiscard]] std::vector<std::string_view> momentsOf(std::size_t shown_frames);
+/// "mask_last.png".
+[[nodiscard]] std::string pictureOf(std::string_view what, std::string_view moment);
+
+} // namespace gnomon::app
