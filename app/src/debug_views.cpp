@@ -86,8 +86,10 @@ Image8 layersPicture(const Drawn& drawn)
     }
     const MomentOptions& options = drawn.settings.filter.moments;
     lab::TintLegend legend;
-    legend.title = fmt::format("Layers of depth, placed {}",
-                               options.placement == LayerPlacement::by_hand ? "by hand" : nameOf(options.placement));
+    legend.title =
+        fmt::format("Layers of depth, placed {}", options.placement == LayerPlacement::by_hand ? "by hand"
+                                                  : options.placement == LayerPlacement::lloyd ? "by Lloyd relaxation"
+                                                                                               : "uniformly");
     legend.subtitle = "the layer a receiver reads; grey: no map here";
     for (std::uint32_t i = 0; i < options.layers; ++i) {
         const View& view = drawn.plan.views[light.first_view];
@@ -102,35 +104,38 @@ Image8 layersPicture(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
 }
 
-/// The first channel of the light's first map, as it is read: of lvsm its first layer, of others blurred if they blur.
+/// The depth that each texel of the light's first map stands for, as it is read: of lvsm its first layer, of others
+/// blurred if they blur.
 Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
     const vulkan::FilterOptions& filter = drawn.settings.filter;
     const Tile& tile = drawn.plan.views[drawn.plan.lights[drawn.light].first_view].tile;
     const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(filter.filter, filter.moments));
+    ImageF depths(tile.width, tile.height, 1);
     float least = std::numeric_limits<float>::infinity();
     float most = -least;
     for (std::uint32_t y = 0; y < tile.height; ++y) {
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float value = *map.pixel(tile.x + x, tile.y + y);
-            if (std::isfinite(value)) {
-                least = std::min(least, value);
-                most = std::max(most, value);
+            const float depth = vulkan::mapDepth(filter, {map.pixel(tile.x + x, tile.y + y), map.channels});
+            *depths.pixel(x, y) = depth;
+            if (std::isfinite(depth)) {
+                least = std::min(least, depth);
+                most = std::max(most, depth);
             }
         }
     }
     Image8 grey(tile.width, tile.height, 3);
     for (std::uint32_t y = 0; y < tile.height; ++y) {
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float value = *map.pixel(tile.x + x, tile.y + y);
-            // A map of one value alone is black; so is what is no number.
-            const float share = most > least && std::isfinite(value) ? (value - least) / (most - least) : 0.0F;
+            const float depth = *depths.pixel(x, y);
+            // A map of one depth alone is black; so is what is no number.
+            const float share = most > least && std::isfinite(depth) ? (depth - least) / (most - least) : 0.0F;
             std::fill_n(grey.pixel(x, y), 3, static_cast<std::uint8_t>(std::lround(share * 255.0F)));
         }
     }
     if (most >= least) {
-        notice(fmt::format("light {}: its map's first channel is {:.6g} where black and {:.6g} where white",
+        notice(fmt::format("light {}: its map's depth is {:.6g} where black and {:.6g} where white",
                            drawn.shot.lights[drawn.light].name, least, most));
     }
     return grey;

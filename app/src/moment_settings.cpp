@@ -78,6 +78,11 @@ bool hasVariance(const Settings& s)
 {
     return s.plan.technique.filter == Filter::vsm || isLvsm(s) || isEvsm(s);
 }
+/// Where it is not so always.
+bool canRemap(const Settings& s)
+{
+    return isFilterable(s) && !isMsm(s);
+}
 bool hasExponent(const Settings& s)
 {
     return isEsm(s) || isEvsm(s);
@@ -120,7 +125,7 @@ void addMapRows(std::vector<Setting>& table)
          .doc = "what depth is stored; z-over-w differs under spot lights alone", .own_option = false, .used = isFilterable, .used_when = kFilterable,
          .apply = [](Settings& s, const Value& v) { setNamed(s.filter.moments.metric, v, 2); }},
         {.key = "depth-remap", .group = Group::technique, .type = flag, .form = "0|1", .default_text = "0",
-         .doc = "depth in -1 to 1: a float's sign is precision too", .own_option = false, .used = isFilterable, .used_when = kFilterable,
+         .doc = "depth in -1 to 1: a float's sign is precision too", .own_option = false, .used = canRemap, .used_when = "filter vsm, lvsm, esm or evsm",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.remap = v.flag; }},
         // clang-format on
     };
@@ -163,7 +168,7 @@ void addOwnRows(std::vector<Setting>& table)
         {.key = "lvsm.placement", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "lloyd", .choices = [] { return enumNames<LayerPlacement>(3); },
          .doc = "hand: lvsm.splits; lloyd: where the map's depths gather", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applyPlacement},
         {.key = "lvsm.splits", .group = Group::technique, .type = numbers, .form = "D/D/...", .unit = "depth", .min = 0, .max = 1, .count = kMaxDepthLayers - 1, .min_count = 1, .between = '/',
-         .doc = "where layers meet, as 0.3/0.6: ascending, one less than layers; means placement hand", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applySplits},
+         .doc = "where layers meet, as 0.3/0.6: above 0, ascending, below 1, one less than layers; means placement hand", .own_option = false, .used = isLvsm, .used_when = "filter lvsm", .apply = applySplits},
         {.key = "lvsm.overlap", .group = Group::technique, .type = real, .form = "V", .unit = "of a layer", .default_text = "0.05", .min = 0, .max = 0.5,
          .doc = "how far a layer reaches into its neighbours", .own_option = false, .used = isLvsm, .used_when = "filter lvsm",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.layer_overlap = static_cast<float>(v.real); }},

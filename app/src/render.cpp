@@ -59,12 +59,12 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
-std::string sentence(const Settings& settings, const Shot& shot, const fs::path& path, const std::string& how,
-                     double seconds)
+std::string sentence(const Settings& settings, const Shot& shot, const fs::path& path, glm::uvec2 size_px,
+                     const std::string& how, double seconds)
 {
     const std::string what = settings.frames
                                  ? fmt::format("{} frames", settings.frames->last - settings.frames->first + 1)
-                                 : fmt::format("{}x{}", settings.size_px.x, settings.size_px.y);
+                                 : fmt::format("{}x{}", size_px.x, size_px.y);
     return fmt::format("{}: {} of {}, camera {}, {}, in {:.2f} s\n", path.string(), what, settings.scene, shot.camera,
                        how, seconds);
 }
@@ -85,8 +85,9 @@ void forEachFrame(Shot& shot, const Settings& settings, const Draw& draw)
     }
 }
 
-/// Returns how it was drawn.
-std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& target, std::size_t light)
+/// Returns how it was drawn. A debug view's picture has a size of its own.
+std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& target, std::size_t light,
+                          glm::uvec2& size_px)
 {
     const auto gpu = openGpu(settings);
     {
@@ -103,7 +104,9 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
                 noteOutcomes(shot, renderer.plan());
             }
             if (settings.debug != "none") {
-                writePng(target.frame(index), debugPicture(renderer, shot, settings, light));
+                const Image8 picture = debugPicture(renderer, shot, settings, light);
+                size_px = {picture.width, picture.height};
+                writePng(target.frame(index), picture);
             } else {
                 writePicture(target.frame(index), renderer, settings, light);
             }
@@ -168,11 +171,12 @@ int runRender(const Settings& settings)
     RenderTarget target(settings);
     Shot shot = makeShot(settings);
     const std::size_t light = lightIndex(shot, settings);
-    const std::string how = !settings.truth ? drawTechnique(shot, settings, target, light)
+    glm::uvec2 size_px = settings.size_px;
+    const std::string how = !settings.truth ? drawTechnique(shot, settings, target, light, size_px)
                             : settings.mask ? writeTruth(shot, settings, target, light)
                                             : drawTruth(shot, settings, target);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    writeStdout(sentence(settings, shot, target.path(), how, seconds.count()));
+    writeStdout(sentence(settings, shot, target.path(), size_px, how, seconds.count()));
     return 0;
 }
 

@@ -192,6 +192,27 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
     return value;
 }
 
+std::string textOf(const Setting& setting, const SettingValue& value, std::string_view text)
+{
+    switch (setting.type) {
+    case SettingType::flag:
+        return value.flag ? "1" : "0";
+    case SettingType::integer:
+        return fmt::format("{}", value.integer);
+    case SettingType::real:
+        return fmt::format("{}", value.real + 0.0); // no minus nothing
+    case SettingType::numbers: {
+        std::string numbers;
+        for (const double number : value.numbers) {
+            numbers += fmt::format("{}{}", numbers.empty() ? "" : std::string(1, setting.between), number + 0.0);
+        }
+        return numbers;
+    }
+    default:
+        return std::string(text);
+    }
+}
+
 std::string suggestion(std::string_view typed, const std::vector<std::string_view>& names)
 {
     std::string_view best;

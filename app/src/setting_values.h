@@ -14,5 +14,7 @@ namespace gnomon::app {
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 /// Throws UsageError.
 [[nodiscard]] SettingValue parseValue(const Setting& setting, std::string_view text);
+/// What such a value is kept and shown as: numbers and flags in one way, however they were typed.
+[[nodiscard]] std::string textOf(const Setting& setting, const SettingValue& value, std::string_view text);
 
 } // namespace gnomon::app

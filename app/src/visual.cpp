@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/visual.h"
 
+#include "contestants.h"
 #include "progress.h"
 
 #include <gnomon/error.h>
@@ -11,6 +12,26 @@
 #include <cmath>
 
 namespace gnomon::app {
+namespace {
+
+/// Where one pays for reads of coarser levels, and there are next to none.
+void noteLevels(const Settings& technique)
+{
+    constexpr std::uint32_t kFew = 3;
+    const std::uint32_t side = technique.plan.map_size;
+    const MapSampling sampling = technique.filter.moments.sampling;
+    const std::uint32_t levels = vulkan::mipLevels(technique.filter, side, side);
+    const FilterTraits* traits = filterTraits(technique.filter.filter);
+    if (levels < kFew && traits->filterable &&
+        (sampling == MapSampling::trilinear || sampling == MapSampling::anisotropic)) {
+        notice(
+            fmt::format("map-sampling {}: a map of {} texels has {} mip level{}, for only whole texels are averaged; a "
+                        "power of two has most",
+                        nameOf(sampling), side, levels, levels == 1 ? "" : "s"));
+    }
+}
+
+} // namespace
 
 std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
 {
@@ -31,6 +52,9 @@ std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
     }
     if (gpu->software() && settings.gpu.empty()) {
         notice(fmt::format("no GPU found, drawing with {}", gpu->properties().deviceName));
+    }
+    for (const Settings& technique : hasManyTechniques(settings) ? contestants(settings) : std::vector{settings}) {
+        noteLevels(technique);
     }
     return gpu;
 }

@@ -190,7 +190,7 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     if (traits == nullptr || !traits->filterable) {
         return std::nullopt;
     }
-    if (options.remap && isUnorm(format)) {
+    if (options.remap && isUnorm(format) && filter != Filter::msm) { // which has it in any case
         return std::string(nameOf(format)) + " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can";
     }
     if (auto reason = rangeRefusal(options)) {
