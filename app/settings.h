@@ -81,6 +81,7 @@ struct Settings {
     PlanOptions plan;
     vulkan::FilterOptions filter;
     bool format_given = false; // else the filter's own default
+    std::string format_preset; // the preset that gave it; empty: none did, or it was given again
     bool border_given = false; // else what the kernel needs
     std::uint32_t splits = 0;  // how many of filter.moments.splits were given
     // truth

@@ -114,6 +114,9 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
                 requireOnePlacement(settings, "lvsm.placement", typed(json["lvsm.placement"]));
             }
             applyEntry(settings, key, value, subcommand);
+            if (key == "map-format") {
+                settings.format_preset = name;
+            }
         } catch (const UsageError& error) {
             throw UsageError(fmt::format("preset {}: {}", name, error.what()));
         }

@@ -135,17 +135,23 @@ Settings defaultSettings()
 
 void applySetting(Settings& settings, const Setting& setting, std::string_view text)
 {
-    setting.apply(settings, parseValue(setting, text));
+    const SettingValue parsed = parseValue(setting, text);
+    setting.apply(settings, parsed);
     std::string& value = settings.values[std::string(setting.key)];
-    value = setting.repeatable && !value.empty() ? fmt::format("{}{}{}", value, setting.separator, text)
-                                                 : std::string(text);
+    const std::string said = textOf(setting, parsed, text);
+    value = setting.repeatable && !value.empty() ? fmt::format("{}{}{}", value, setting.separator, said) : said;
+    if (setting.key == "map-format") {
+        settings.format_preset.clear();
+    }
     if (setting.key == "bias") { // says all of it: parts given before no longer hold
         std::erase_if(settings.values, [](const auto& entry) { return entry.first.starts_with("bias."); });
         if (text != "auto" && text != "none") { // kept as its parts, so that there is one way to write it down
             value = "none";
             for (const std::string_view part : split(text, ',')) {
                 const std::size_t equals = part.find('=');
-                settings.values[fmt::format("bias.{}", part.substr(0, equals))] = part.substr(equals + 1);
+                const Setting& of_part = *findSetting(fmt::format("bias.{}", part.substr(0, equals)));
+                const std::string_view number = part.substr(equals + 1);
+                settings.values[std::string(of_part.key)] = textOf(of_part, parseValue(of_part, number), number);
             }
         }
     } else if (setting.key.starts_with("bias.") && settings.values["bias"] == "auto") {
@@ -244,8 +250,11 @@ void completeTechnique(Settings& settings)
         settings.filter.format = filterTraits(settings.filter.filter)->formats.front();
         settings.values["map-format"] = nameOf(settings.filter.format);
     } else if (const auto reason = refusal(settings.filter.filter, settings.filter.format)) {
-        throw UsageError(fmt::format("--map-format: {} cannot be had with filter {}: {}",
-                                     nameOf(settings.filter.format), nameOf(settings.filter.filter), *reason));
+        const std::string refused = fmt::format("{} cannot be had with filter {}: {}", nameOf(settings.filter.format),
+                                                nameOf(settings.filter.filter), *reason);
+        throw UsageError(settings.format_preset.empty() ? fmt::format("--map-format: {}", refused)
+                                                        : fmt::format("preset {}: map-format {}; add --map-format",
+                                                                      settings.format_preset, refused));
     }
     requireMoments(settings);
     if (!settings.border_given) {
