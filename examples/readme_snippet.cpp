@@ -40,7 +40,7 @@ int main()
     gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device; PCF, bias worked out by itself
     shadows.prepare(plan, screen);
     shadows.recordMaps(commands, 0, frame, plan, [&](const gnomon::vulkan::MapPass& pass) {
-        for (const std::uint32_t object : pass.casters) {
+        for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
             drawObject(pass.commands, object, pass.clip_from_world);
         }
     });
