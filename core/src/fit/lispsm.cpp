@@ -10,10 +10,12 @@
 //   n = (z_n + sqrt(z_n z_f)) / sin gamma.   (the paper's n_opt)
 // n grows without bound as view and light align: the warp fades into none at all, with nothing to switch.
 //
-// Departures: z_n and z_f are those of what is seen and lit, not the camera's planes, which may be at infinity. A light
-// with a place is warped in the plane of its tangents, where z over the light's depth takes the place of z and its
-// slope over the faces of what is seen that of the sine (view_slope.h); the paper asks for its post-perspective space,
-// which has the same plane. n is bounded below by what the map can bear (strongestWarp).
+// Departures: z_f is that of what is seen and lit, not the camera's far plane, which may be at infinity; z_n is that of
+// the near end of a plane across the rays through what is seen (view_slope.h), not the camera's near plane, where
+// nothing is as a rule and which asked for warps far too strong. A light with a place is warped in the plane of its
+// tangents, where z over the light's depth takes the place of z and its slope over the faces of what is seen that of
+// the sine (view_slope.h); the paper asks for its post-perspective space, which has the same plane. n is bounded below
+// by what the map can bear (strongestWarp).
 #include "fit/view_slope.h"
 
 namespace gnomon {

@@ -69,6 +69,37 @@ struct Moments {
     }
 };
 
+/// The value over the faces of the body as the light sees them, front and back.
+struct BodyValues {
+    Moments moments; // from `base` on
+    double least = kInfinity;
+    double most = 0.0;
+};
+/// `base` is near the body, so that nothing is lost far from the origin.
+BodyValues valuesOf(const FitInput& input, const glm::dvec3& base)
+{
+    BodyValues body;
+    const auto take = [&](const glm::dvec3& p_ws) {
+        const glm::dvec3 p = seenAt(input, p_ws) - base;
+        body.least = std::min(body.least, p.z);
+        body.most = std::max(body.most, p.z);
+        return p;
+    };
+    std::size_t first = 0;
+    for (const std::uint32_t count : input.face_sizes) {
+        const std::span face = input.body_ws.subspan(first, count);
+        first += count;
+        const glm::dvec3 a = take(face[0]);
+        glm::dvec3 b = take(face[1]);
+        for (std::size_t i = 2; i < face.size(); ++i) {
+            const glm::dvec3 c = take(face[i]);
+            body.moments.add(a, b, c);
+            b = c;
+        }
+    }
+    return body;
+}
+
 /// The extent of the outline along the slope.
 void measureOutline(const FitInput& input, ViewSlope& slope)
 {
@@ -80,6 +111,14 @@ void measureOutline(const FitInput& input, ViewSlope& slope)
         farthest = std::max(farthest, s);
     }
     slope.length = farthest - slope.nearest;
+}
+
+/// The value at the near end, on the plane of this slope that lies evenly through the body. Precondition: centred.
+void setNearEnd(const BodyValues& body, const glm::dvec3& base, ViewSlope& slope)
+{
+    const double centre = glm::dot(slope.along, glm::dvec2(base) + glm::dvec2(body.moments.sum));
+    const double at_nearest = body.moments.sum.z + slope.slope * (slope.nearest - centre);
+    slope.low = std::max({at_nearest, body.least, 0.0});
 }
 
 ViewSlope none(std::string_view reason)
@@ -101,16 +140,16 @@ ViewSlope slopeAcrossLight(const FitInput& input)
     slope.slope = glm::length(gradient);
     if (!(slope.slope > kLeastSine))
         return none(kDuel);
+    const glm::dvec3 base(input.outline.front(), 0.0);
+    BodyValues body = valuesOf(input, base);
+    if (!(body.moments.area > 0.0))
+        return none(kNothing);
+    body.moments.centre();
     slope.along = gradient / slope.slope;
-    slope.low = kInfinity;
-    for (const glm::dvec3& p_ws : input.body_ws) {
-        const double value = seenAt(input, p_ws).z;
-        slope.low = std::min(slope.low, value);
-        slope.high = std::max(slope.high, value);
-    }
-    slope.low = std::clamp(slope.low, 0.0, slope.high);
     slope.weak = slope.slope < kDuelSine ? kDuel : kFlat;
     measureOutline(input, slope);
+    setNearEnd(body, base, slope);
+    slope.high = std::max(body.most, slope.low);
     return slope;
 }
 
@@ -118,24 +157,9 @@ ViewSlope slopeOfBody(const FitInput& input)
 {
     if (!input.view.perspective)
         return none(kOrthographic);
-    // Near a point of the body itself, so that nothing is lost far from the origin.
     const glm::dvec3 base(input.outline.front(), 0.0);
-    Moments moments;
-    double least = kInfinity;
-    std::size_t first = 0;
-    for (const std::uint32_t count : input.face_sizes) {
-        const std::span face = input.body_ws.subspan(first, count);
-        first += count;
-        const glm::dvec3 a = seenAt(input, face[0]) - base;
-        glm::dvec3 b = seenAt(input, face[1]) - base;
-        least = std::min({least, a.z, b.z});
-        for (std::size_t i = 2; i < face.size(); ++i) {
-            const glm::dvec3 c = seenAt(input, face[i]) - base;
-            moments.add(a, b, c);
-            least = std::min(least, c.z);
-            b = c;
-        }
-    }
+    BodyValues body = valuesOf(input, base);
+    Moments& moments = body.moments;
     if (!(moments.area > 0.0))
         return none(kNothing);
     moments.centre();
@@ -156,9 +180,7 @@ ViewSlope slopeOfBody(const FitInput& input)
     slope.along = gradient / slope.slope;
     slope.weak = kFlat;
     measureOutline(input, slope);
-    const double centre = glm::dot(slope.along, glm::dvec2(base) + glm::dvec2(moments.sum));
-    const double at_nearest = moments.sum.z + slope.slope * (slope.nearest - centre);
-    slope.low = std::max({at_nearest, least, 0.0});
+    setNearEnd(body, base, slope);
     slope.high = slope.low + slope.slope * slope.length;
     return slope;
 }

@@ -13,12 +13,14 @@ namespace gnomon {
 struct ViewSlope {
     glm::dvec2 along{0.0, 1.0}; // unit; the way in which the value grows
     double slope = 0.0;         // by so much per step, >= 0; 0: nowhere, and `along` means nothing
-    double low = 0.0;           // the least value of what is seen, >= 0
-    double high = 0.0;          // and the greatest
-    double length = 0.0;        // of the outline, along `along`
-    double nearest = 0.0;       // least dot(along, q) of the outline
-    std::string_view weak;      // what to say when a warp by this slope is too weak to matter
-    Outcome outcome;            // fallback: there is nothing to go by, and the reason says why
+    double low = 0.0;      // at the near end of the outline, >= 0: on the plane of this slope that lies evenly through
+                           // what is seen. Not the least of all: the body has the viewer in it where a box of the
+                           // scene has, and would reach to the camera's near plane with nothing there to see
+    double high = 0.0;     // and at the far end
+    double length = 0.0;   // of the outline, along `along`
+    double nearest = 0.0;  // least dot(along, q) of the outline
+    std::string_view weak; // what to say when a warp by this slope is too weak to matter
+    Outcome outcome;       // fallback: there is nothing to go by, and the reason says why
 };
 
 /// On planes that lie across the rays. Directional lights: the slope is the sine of the angle between view and light,
