@@ -24,7 +24,7 @@ struct ViewSlope {
 };
 
 /// On planes that lie across the rays. Directional lights: the slope is the sine of the angle between view and light,
-/// and the value is the depth along the view of all that is seen.
+/// the value is the depth along the view, and `high` is the greatest of all that is seen.
 [[nodiscard]] ViewSlope slopeAcrossLight(const FitInput& input);
 
 /// Of what is seen itself: least squares over its faces, as the light sees them. `low` and `high` are at the ends of
