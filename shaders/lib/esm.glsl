@@ -28,30 +28,20 @@ GN_FN real esmCoordinate(real depth, FilterInput f)
     return momentCoordinate(receiverDepth(depth, f.moments.flags, f.near_over_far), f.moments.flags);
 }
 
-// The level that sampleMoments() reads.
-GN_FN real esmLevel(FilterInput f)
-{
-    if (f.moments.sampling == kSamplingNearest || f.moments.sampling == kSamplingBilinear) {
-        return real(0.0);
-    }
-    if (f.moments.sampling == kSamplingTrilinear) {
-        return footprintLevel(f.footprint_x, f.footprint_y, f.coarsest);
-    }
-    return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy).level;
-}
-
-// log x at `offset` texels from the receiver. Beyond the reach that its bias is made for, surfaces may bend.
+// log x at `offset` texels from the receiver, or where the tile ends on the way there. Beyond the reach that its bias is
+// made for, surfaces may bend.
 GN_FN real esmExcessAt(MapPoint point, FilterInput f, real2 offset, real level)
 {
-    real2 reference = referenceAt(point, offset);
+    real2 place = keepInside(point.texel + offset, level, f.tile);
+    real2 reference = referenceAt(point, place - point.texel);
     real bend = kRoughnessPerTexel * kRing * (exp2(level) - real(1.0)) * point.texel_depth;
     real t = esmCoordinate(reference.x / reference.y - bend, f);
-    return esmExcess(readMoments(point.texel + offset, level, f, f.layer).x, t, f.moments);
+    return esmExcess(mapMoments(place, level, f.layer).x, t, f.moments);
 }
 
 GN_FN real esmWithRing(MapPoint point, FilterInput f, real excess, real weight)
 {
-    real level = esmLevel(f);
+    real level = samplingLevel(f);
     real r = kRing * exp2(level);
     real4 ring = real4(esmExcessAt(point, f, real2(r, real(0.0)), level),
                        esmExcessAt(point, f, real2(-r, real(0.0)), level),
@@ -72,7 +62,8 @@ GN_FN real filterEsm(MapPoint point, FilterInput f)
     real excess = esmExcess(sampleMoments(point, f, f.layer).x, t, f.moments);
     real v = esmVisibility(excess);
     // What the bias of a lit receiver amounts to is no sign of anything: a texel's depth.
-    real allowed = esmExponents(f.moments).x * momentScale(f.moments.flags) * point.texel_depth;
+    real stretch = metricStretch(point.depth, f.moments.flags, f.near_over_far);
+    real allowed = esmExponents(f.moments).x * momentScale(f.moments.flags) * stretch * point.texel_depth;
     real surplus = excess - allowed;
     if (surplus > real(0.0)) {
         v = esmWithRing(point, f, excess, kRingWeight * (real(1.0) - exp(-surplus)));

@@ -8,12 +8,19 @@
 #include "moment_sampling.glsl"
 GN_BEGIN
 
+// Texels' slopes ask for a least variance that grows with the square of the exponent. So much of the warp at the receiver
+// is the most that a texel's depth counts for: beyond, an allowance of half of it would light deep shadow by more than
+// 1 %, and by everything at last; and slopes need it no more, for the kernel's own variance of them has grown likewise.
+GN_CONST real kMostWarpOfTexel = real(0.2);
+
 GN_FN real filterEvsm(MapPoint point, FilterInput f)
 {
     int flags = f.moments.flags;
     real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
     real4 stored = sampleMoments(point, f, f.layer);
-    real least = leastVariance(f.moments, point.texel_depth, metricStretch(point.depth, flags, f.near_over_far));
+    real c = max(evsmExponents(f.moments).x * momentScale(flags), real(1e-6));
+    real texel_depth = min(point.texel_depth * metricStretch(point.depth, flags, f.near_over_far), kMostWarpOfTexel / c);
+    real least = leastVariance(f.moments, texel_depth, real(1.0));
     return shapeVisibility(evsmVisibility(stored, t, least, f.moments), f.moments);
 }
 

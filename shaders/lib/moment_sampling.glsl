@@ -27,6 +27,16 @@ GN_FN real4 readMoments(real2 texel, real level, FilterInput f, real layer)
     return mapMoments(keepInside(texel, level, f.tile), level, layer);
 }
 
+// The level of each of sampleMoments()' reads.
+GN_FN real samplingLevel(FilterInput f)
+{
+    if (f.moments.sampling < kSamplingTrilinear)
+        return real(0.0);
+    if (f.moments.sampling == kSamplingTrilinear)
+        return footprintLevel(f.footprint_x, f.footprint_y, f.coarsest);
+    return footprintReads(f.footprint_x, f.footprint_y, f.coarsest, f.moments.anisotropy).level;
+}
+
 GN_FN real4 sampleMoments(MapPoint point, FilterInput f, real layer)
 {
     if (f.moments.sampling == kSamplingNearest)

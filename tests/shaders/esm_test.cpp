@@ -200,6 +200,41 @@ TEST(Esm, litSurfacesStayLit)
     }
 }
 
+// A read that would leave the tile is made at its edge, and compared with the receiver's plane there.
+TEST(Esm, readsAtTheTilesEdgeCompareWithThePlaneThere)
+{
+    const MomentRule rule = esmRule(80.0, 0);
+    const glm::dvec2 slope(0.006, 0.0);
+    const auto depth = [&](double x) {
+        return 0.6 + slope.x * (x - 48.0);
+    };
+    const std::vector<double> texels = test::sceneTexels([&](double x, double) { return stored(depth(x), rule); });
+    const test::MomentImage image = test::imageOf(texels);
+    test::map_moments = [&](glm::dvec2 texel, double level, double layer) {
+        return image.read(texel, level, layer);
+    };
+    MapPoint point = pointAt({0.6, 48.0}, depth(0.6) - kBias);
+    point.depth_slope = slope;
+    EXPECT_NEAR(esmExcessAt(point, inputOf(rule), {-kRing, 0.0}, 0.0), 80.0 * kBias, 1e-6);
+}
+
+// A receiver's bias of a texel's depth is more in z / w near the light, and still no sign of something behind it.
+TEST(Esm, biasUnderALightNearByIsNoSign)
+{
+    MapPoint point = pointAt({48.0, 48.0}, 0.1);
+    FilterInput f = inputOf(esmRule(80.0, kMomentZOverW));
+    f.near_over_far = 0.05;
+    const auto darkAround = [&](double behind) {
+        test::map_moments = [&, behind](glm::dvec2 texel, double, double) {
+            const double d = glm::length(texel - point.texel) < 1.0 ? point.depth + behind : 0.02;
+            return glm::dvec4(stored(momentDepth(d, kMomentZOverW, f.near_over_far), f.moments));
+        };
+        return filterEsm(point, f);
+    };
+    EXPECT_EQ(darkAround(0.9 * point.texel_depth), 1.0);
+    EXPECT_LT(darkAround(8.0 * point.texel_depth), 1.0) << "this is one";
+}
+
 TEST(Esm, hostileValuesStayInRange)
 {
     const double inf = std::numeric_limits<double>::infinity();

@@ -200,6 +200,40 @@ TEST(Evsm, eachWarpHasItsOwnShare)
     }
 }
 
+// What a slope is allowed grows with the square of the exponent: not until it lights whatever is in shadow, however
+// large an exponent logarithms make room for. Slopes stay lit without.
+TEST(Evsm, noExponentLightsDeepShadowForTheSakeOfSlopes)
+{
+    MapPoint point{};
+    point.texel = {8.0, 8.0};
+    point.texel_depth = 1.0 / 400.0;
+    for (const int flags : {int(kMomentLogSpace), kMomentLogSpace | kMomentFourChannels,
+                            kMomentLogSpace | kMomentFourChannels | kMomentRemap}) {
+        for (const double c : {40.0, 200.0, 1000.0, 10000.0}) {
+            FilterInput f{};
+            f.moments = evsmRule(c, 5.0, flags);
+            f.moments.min_variance_texels = 0.5;
+            f.tile = {0.0, 0.0, 16.0, 16.0};
+            f.near_over_far = 1.0;
+            Distribution slope;
+            for (int i = -4; i <= 4; ++i) {
+                slope.depths.push_back(0.7 + 2.0 * point.texel_depth * i);
+                slope.weights.push_back(std::exp(-0.32 * i * i) / 3.1324);
+            }
+            const Distribution dark{{0.3}, {1.0}};
+            const auto read = [&](const Distribution& d, double receiver) {
+                test::map_moments = [&](glm::dvec2, double, double) {
+                    return averaged(d, f.moments);
+                };
+                point.depth = receiver;
+                return filterEvsm(point, f);
+            };
+            EXPECT_LT(read(dark, 0.7), 0.011) << flags << ' ' << c;
+            EXPECT_GT(read(slope, 0.7 - 0.2 * point.texel_depth), 0.98) << flags << ' ' << c;
+        }
+    }
+}
+
 TEST(Evsm, varianceOfATexelScalesWithTheSlopeOfTheWarp)
 {
     const double variance = 1e-6;
