@@ -254,6 +254,86 @@ TEST(Msm, defaultBiasKeepsAQuantisedPlaneLitAndASmallerOneDoesNot)
     }
 }
 
+// What a Gaussian blur and four samples leave of a plane, or of a plane below an occluder over part of the kernel.
+glm::dvec4 blurredPlane(double t, glm::dvec2 slope, double sigma, int flags, double occluder = 1.0,
+                        double covered = 0.0)
+{
+    const int radius = static_cast<int>(std::ceil(3.0 * sigma));
+    glm::dvec4 sum(0.0);
+    double weights = 0.0;
+    for (int j = -radius; j <= radius; ++j) {
+        for (int i = -radius; i <= radius; ++i) {
+            const double weight = std::exp(-0.5 * (i * i + j * j) / (sigma * sigma));
+            weights += weight;
+            for (int s = 0; s < 4; ++s) {
+                const glm::dvec2 at = glm::dvec2(i, j) + (glm::dvec2(s, s ^ 1) - 1.5) * 0.25;
+                sum += encoded(t + glm::dot(slope, at), flags) * (0.25 * weight);
+            }
+        }
+    }
+    return (1.0 - covered) * sum / weights + covered * encoded(occluder, flags);
+}
+
+// As bright as what is parallel to the map, however steep it is, and as dark where all of it is in shadow.
+TEST(Msm, slopesAreLitAndDarkAlike)
+{
+    double darkest_before = 1.0;
+    for (const int flags : {0, int(kMomentHausdorff), int(kMomentQuantised), kMomentQuantised | kMomentHausdorff}) {
+        for (const double sigma : {0.5, 1.25, 4.0}) {
+            for (const double steep : {0.0, 0.001, 0.004, 0.02}) { // d' per texel
+                FilterInput f{};
+                f.moments = msmRule(flags, (flags & kMomentQuantised) != 0 ? kBias16 : kBias32);
+                f.moments.min_variance_texels = sigma;
+                f.tile = {0.0, 0.0, 64.0, 64.0};
+                MapPoint point{};
+                point.texel = {32.0, 32.0};
+                point.depth = 0.6;
+                point.depth_slope = glm::dvec2(0.8, 0.6) * steep;
+                glm::dvec4 map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags);
+                test::map_moments = [&](glm::dvec2, double, double) {
+                    return map;
+                };
+                EXPECT_GT(filterMsm(point, f), 0.995) << flags << ' ' << sigma << ' ' << steep;
+                darkest_before = std::min(darkest_before, msmVisibility(map, 0.2, f.moments));
+                map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 1.0);
+                EXPECT_LT(filterMsm(point, f), 0.005) << flags << ' ' << sigma << ' ' << steep;
+                if (steep * sigma <= 0.005) { // half of it below an occluder
+                    map = blurredPlane(0.2, 2.0 * point.depth_slope, sigma, flags, -0.4, 0.5);
+                    EXPECT_NEAR(filterMsm(point, f), 0.5, 0.02) << flags << ' ' << sigma << ' ' << steep;
+                }
+            }
+        }
+    }
+    EXPECT_LT(darkest_before, 0.84) << "5/6 at the mean of a Gaussian";
+}
+
+// A read of a coarser level, or several along a line, spread a slope by what they are far apart.
+TEST(Msm, slopesAreLitAtCoarserLevelsToo)
+{
+    for (const int sampling : {kSamplingTrilinear, kSamplingTrilinear + 1}) {
+        FilterInput f{};
+        f.moments = msmRule(0, kBias32);
+        f.moments.sampling = sampling;
+        f.moments.anisotropy = 8.0;
+        f.moments.min_variance_texels = 1.25;
+        f.tile = {-1e4, -1e4, 1e4, 1e4};
+        f.coarsest = 6.0;
+        f.footprint_x = {16.0, 0.0};
+        f.footprint_y = {0.0, 4.0};
+        MapPoint point{};
+        point.depth = 0.6;
+        point.depth_slope = {0.008, 0.004};
+        test::map_moments = [&](glm::dvec2 texel, double level, double) {
+            const double side = std::exp2(level);
+            const double sigma = std::sqrt(1.25 * 1.25 + side * side / 12.0);
+            return blurredPlane(0.2 + 2.0 * glm::dot(point.depth_slope, texel), 2.0 * point.depth_slope, sigma, 0);
+        };
+        EXPECT_GT(filterMsm(point, f), 0.995) << sampling;
+        const double of_finest = std::sqrt(1.25 * 1.25 + 1.0 / 3.0) * 2.0 * glm::length(point.depth_slope);
+        EXPECT_LT(msmVisibility(sampleMoments(point, f, 0.0), 0.2 - of_finest, f.moments), 0.95) << sampling;
+    }
+}
+
 TEST(Msm, hostileValuesStayInRange)
 {
     const double inf = std::numeric_limits<double>::infinity();
