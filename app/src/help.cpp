@@ -31,8 +31,30 @@ std::string programHelp()
                   "`gnomon --version` the version. Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 }
 
+/// Two options that go together share a line.
+struct Pair {
+    std::string_view first;
+    std::string_view second;
+    std::string_view left;
+    std::string_view right; // with both defaults
+};
+constexpr Pair kPairs[] = {
+    {"frames", "fps", "--frames A-B --fps N", "frames A to B, N a second ({1}); frame F is at --time plus F / N"},
+    {"repetitions", "warmup", "--repetitions N --warmup N",
+     "timed frames of each technique ({0}), those before them ({1})"},
+};
+
 std::string optionLine(const Setting& setting)
 {
+    for (const Pair& pair : kPairs) {
+        if (setting.key == pair.first) {
+            return line(std::string(pair.left), fmt::format(fmt::runtime(pair.right), setting.default_text,
+                                                            findSetting(pair.second)->default_text));
+        }
+        if (setting.key == pair.second) {
+            return {};
+        }
+    }
     std::string left = fmt::format("--{}", setting.key);
     if (setting.key == "out") {
         left = "-o, --out";
