@@ -7,7 +7,8 @@
 // sides of their mean, with standard deviation s, it is 1 from mean - s on towards the light: there the polynomial whose
 // roots are the occluders has none before the receiver (k2 = (t^2 / s^2 - 1) / (kurtosis - 1) changes sign). So the
 // receiver is moved towards the light by the s that its own plane has in the kernel, which is nothing where the plane is
-// parallel to the map.
+// parallel to the map. Only where the kernel may hold nothing but that plane: its mean square distance from the receiver
+// is then s^2, and any occluder that matters makes it more; shadows on walls keep their place.
 #ifndef GNOMON_MSM_GLSL
 #define GNOMON_MSM_GLSL
 #include "../shared/moments.h"
@@ -34,12 +35,29 @@ GN_FN real planeDeviation(MapPoint point, FilterInput f)
     return sqrt(variance);
 }
 
+// Mean square distances from the receiver, in squares of the plane's deviation, from where on the kernel holds more than
+// the plane, and where it surely does.
+GN_CONST real kPlaneAlone = real(1.5);
+GN_CONST real kMoreThanPlane = real(4.0);
+
+// By how much a receiver at coordinate t moves towards the light. `deviation`: of its plane, in the same coordinate.
+GN_FN real msmAllowance(real4 b, real t, real deviation)
+{
+    real distance = b.y - real(2.0) * t * b.x + t * t; // E[(z - t)^2]
+    real s2 = max(deviation * deviation, real(1e-12));
+    real share = (kMoreThanPlane - distance / s2) / (kMoreThanPlane - kPlaneAlone);
+    return deviation * (share < real(1.0) ? max(share, real(0.0)) : real(1.0));
+}
+
 GN_FN real filterMsm(MapPoint point, FilterInput f)
 {
     int flags = f.moments.flags;
-    real d = point.depth - planeDeviation(point, f);
-    real t = momentCoordinate(receiverDepth(d, flags, f.near_over_far), flags);
-    return shapeVisibility(msmVisibility(sampleMoments(point, f, f.layer), t, f.moments), f.moments);
+    real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
+    real before = point.depth - planeDeviation(point, f);
+    real deviation = t - momentCoordinate(receiverDepth(before, flags, f.near_over_far), flags);
+    real4 stored = sampleMoments(point, f, f.layer);
+    real4 b = hasFlag(flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
+    return shapeVisibility(msmVisibility(stored, t - msmAllowance(b, t, deviation), f.moments), f.moments);
 }
 
 GN_END
