@@ -10,7 +10,7 @@ namespace {
 
 bool storesZOverW(const View& view, const MomentOptions& options)
 {
-    return options.metric == DepthMetricKind::z_over_w && !view.orthographic;
+    return options.metric == DepthMetricKind::z_over_w && !view.parallel;
 }
 
 } // namespace

@@ -78,9 +78,6 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     return rule;
 }
 
-// gnomon::MapSampling::trilinear; it and what comes after it choose a mip level by the receiver's footprint.
-GN_CONST int kFirstSamplingOfLevels = 2;
-
 // Does this view serve a point at this depth of the camera (dot(GpuMaskLayer::view_axis, p)), and is the point in the
 // map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p, real depth)
@@ -132,7 +129,8 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
     input_here.footprint_y = real2(real(0.0));
     MapRows rows = rowsOf(view);
     MapPoint point = projectReceiver(rows, rule, p, n);
-    if (f.moments.sampling >= kFirstSamplingOfLevels) {
+    // It and what comes after it choose a mip level by the receiver's footprint.
+    if (f.moments.sampling >= kSamplingTrilinear) {
         input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
         input_here.footprint_y = footprintOf(rows, point.texel, point.w, p, n, steps.below, steps.along);
     }
