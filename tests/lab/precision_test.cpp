@@ -74,9 +74,9 @@ struct Combination {
 
 class Bench {
 public:
-    explicit Bench(const Combination& combination)
+    explicit Bench(const Combination& combination, std::uint32_t map_size = 128)
         : scene_(makeStep()), gpu_({.gpu = "software", .validate = true}),
-          options_(filterOptions(combination.filter, combination.format, 128))
+          options_(filterOptions(combination.filter, combination.format, map_size))
     {
         options_.width = kSide_px;
         options_.height = kSide_px;
@@ -177,10 +177,18 @@ TEST_P(Precision, OfHeightsIsLostByAHundredOverAHundredfoldRange)
     ASSERT_TRUE(std::isfinite(near_m));
     ASSERT_TRUE(std::isfinite(far_m));
     // Rounding is a share of the range. A quarter for the search, which ends within a twentieth, and for the half texel
-    // of depth that is taken off whatever the range. Where a format rounds so little that this is most of it, less than
-    // a hundred is lost, and never more.
-    EXPECT_GT(far_m / near_m, GetParam().rounding_is_most ? 75.0 : 1.0);
+    // of depth that is taken off whatever the range.
     EXPECT_LT(far_m / near_m, 125.0);
+    if (GetParam().rounding_is_most) {
+        EXPECT_GT(far_m / near_m, 75.0);
+        return;
+    }
+    // A format that rounds so little loses less than a hundred, because what is left of the step is as long as a share
+    // of a texel: of a map of half as large texels it is half as long.
+    const double by_range_m = (far_m - near_m) / 99.0; // what rounding takes of the nearer step
+    const double by_texel_m = near_m - by_range_m;
+    EXPECT_GT(by_texel_m, 0.0);
+    EXPECT_NEAR(Bench(GetParam(), 256).smallestStep_m(100.0F), 0.5 * by_texel_m + by_range_m, 0.1 * near_m);
 }
 
 constexpr std::array kCombinations{
