@@ -67,7 +67,7 @@ struct Planner::Impl {
     Region region;
     LayerAtlas atlas;
     std::vector<Slice> slices;
-    std::vector<std::uint32_t> all_receivers; // of the scene, where the motion is steady
+    std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
 
     void look(const Frame& frame, Plan& plan);
     Warp warpOf(const LightSpace& space) const;
@@ -156,7 +156,8 @@ void Planner::Impl::look(const Frame& frame, Plan& plan)
             view.measureDepths(*frame.objects, plan.receivers);
     }
     all_receivers.clear();
-    for (std::uint32_t i = 0; steady && i < frame.objects->size(); ++i)
+    const bool levels = steady && options.level_depth && filter != nullptr && filter->filterable;
+    for (std::uint32_t i = 0; levels && i < frame.objects->size(); ++i)
         if (frame.objects->flags(i).receives)
             all_receivers.push_back(i);
 }

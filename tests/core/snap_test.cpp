@@ -175,8 +175,6 @@ TEST(Snap, SaysThatItDropsAWarp)
     PlanOptions options = snapped();
     options.technique.fit = Fit::lispsm;
     meadow.look({0, 1.7, 0}, {0, -0.08, -1});
-    if (refusal(LightType::directional, options.technique))
-        GTEST_SKIP() << "no fit but uniform";
     const Plan plan = Planner(options).plan(meadow.frame);
     EXPECT_EQ(plan.lights.at(0).outcome.kind, OutcomeKind::fallback);
     EXPECT_TRUE(plan.views.at(0).orthographic);

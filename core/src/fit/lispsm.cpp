@@ -23,8 +23,7 @@ namespace gnomon {
 Warp fitLispsm(const FitInput& input)
 {
     const ViewSlope slope = slopeOfView(input);
-    const double n = (slope.low + std::sqrt(slope.low * slope.high)) / slope.slope;
-    Warp warp = warpAlong(input, slope, n);
+    Warp warp = warpAlong(input, slope, evenErrorDistance(slope));
     if (warp.warped())
         standOnViewer(warp, input);
     return warp;

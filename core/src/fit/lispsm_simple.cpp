@@ -16,8 +16,7 @@ namespace gnomon {
 Warp fitLispsmSimple(const FitInput& input)
 {
     const ViewSlope slope = slopeOfBody(input);
-    const double n = (slope.low + std::sqrt(slope.low * slope.high)) / slope.slope;
-    Warp warp = warpAlong(input, slope, n);
+    Warp warp = warpAlong(input, slope, evenErrorDistance(slope));
     if (warp.warped())
         standUpright(warp, input.outline);
     return warp;

@@ -4,6 +4,8 @@
 
 #include "fit/fit.h"
 
+#include <cmath>
+
 namespace gnomon {
 
 /// The plane across the light, with a value on it that says how small things are in the picture: the viewer's depth,
@@ -33,6 +35,13 @@ struct ViewSlope {
 
 /// slopeAcrossLight() where there is one axis of light, slopeOfBody() where there is not.
 [[nodiscard]] ViewSlope slopeOfView(const FitInput& input);
+
+/// How far the vanishing line lies behind the nearest point where both ends have the same error: n of LiSPSM (Wimmer et
+/// al. 2004). Infinite where there is no slope.
+[[nodiscard]] inline double evenErrorDistance(const ViewSlope& slope)
+{
+    return (slope.low + std::sqrt(slope.low * slope.high)) / slope.slope;
+}
 
 /// The warp along the slope with the vanishing line `n` behind the nearest point; infinite: no warp is wanted. What is
 /// too strong for the map is weakened; what is too weak to matter is a fallback.

@@ -72,4 +72,8 @@ private:
     glm::mat4 frame_{1.0F};
 };
 
+/// A square card around `centre` that faces `facing`, turned in its plane by `roll`.
+void leafCard(Part& part, const glm::vec3& centre, const glm::vec3& facing, float half, float roll,
+              const glm::vec3& normal);
+
 } // namespace gnomon::scene::worlds

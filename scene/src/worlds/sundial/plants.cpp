@@ -22,18 +22,6 @@ struct Cloud {
     int cards;
 };
 
-/// A square card around `centre` that faces `facing`, turned in its plane by `roll`.
-void leafCard(Part& part, const glm::vec3& centre, const glm::vec3& facing, float half, float roll,
-              const glm::vec3& normal)
-{
-    const glm::vec3 helper = std::abs(facing.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 right = glm::normalize(glm::cross(helper, facing));
-    const glm::vec3 up = glm::cross(facing, right);
-    const glm::vec3 u = (right * std::cos(roll) + up * std::sin(roll)) * half;
-    const glm::vec3 v = (up * std::cos(roll) - right * std::sin(roll)) * half;
-    part.card(centre - u - v, centre + u - v, centre + u + v, centre - u + v, normal);
-}
-
 /// Cards over a cloud's surface and, fewer, inside. They are lit as the whole crown is, rounded by their own cloud, so
 /// that light and shade lie in masses.
 void addLeaves(Part& leaves, Rng& rng, const Cloud& cloud, const glm::vec3& middle, const glm::vec4& low,
