@@ -65,7 +65,7 @@ void forEachCombination(const Visit& visit)
 std::vector<MapFormat> allFormats()
 {
     std::vector<MapFormat> formats;
-    for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::r16f); ++i) {
+    for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::rgba8); ++i) {
         formats.push_back(static_cast<MapFormat>(i));
     }
     return formats;

@@ -108,6 +108,7 @@ constexpr std::array kFormats{
     Named<MapFormat>{MapFormat::rg16f, "rg16f"},     Named<MapFormat>{MapFormat::rg32f, "rg32f"},
     Named<MapFormat>{MapFormat::rgba16, "rgba16"},   Named<MapFormat>{MapFormat::rgba16f, "rgba16f"},
     Named<MapFormat>{MapFormat::rgba32f, "rgba32f"}, Named<MapFormat>{MapFormat::r16f, "r16f"},
+    Named<MapFormat>{MapFormat::rgba8, "rgba8"},
 };
 
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.

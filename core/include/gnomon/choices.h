@@ -21,7 +21,7 @@ enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend,
 enum class PcfKernel : std::uint8_t { bilinear_2x2, gaussian_3x3, gaussian_5x5, gaussian_7x7, poisson, vogel };
 
 /// What a map texel is stored as. Which filter can use which is filterTraits().formats.
-enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f, r16f };
+enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f, r16f, rgba8 };
 
 /// One value each of the choices that a user makes (the light brings its own).
 struct Technique {

@@ -53,6 +53,19 @@ struct Tile {
     std::uint32_t height = 0;
 };
 
+/// Some of a tile's texels, counted from its first one. Width 0: none.
+struct TexelRect {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+
+    [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
+};
+
+/// Which half of a texel's bits holds a map: two may share one target (PlanOptions::paired_maps).
+enum class TexelPart : std::uint8_t { whole, first, second };
+
 /// How far from its tile's edge a receiver's place in the map must be, in texels, so that a filter which reads texels
 /// whose centres are up to `reach_texels` away (>= 0.5, along x and y each) reads none outside the tile: the centre of
 /// a texel at the edge is half a texel inside. The mask takes a view for a receiver that is so far inside its tile
@@ -96,6 +109,9 @@ struct FitReport {
     glm::dvec2 coarsest_texel{0.0}; // and most coarsely
 };
 
+/// Which of a stepping sun's two positions a view belongs to (SunSteps).
+enum class SunPosition : std::uint8_t { only, earlier, later };
+
 /// One map to draw: a frustum of one light.
 struct View {
     std::uint32_t light = 0;         // index into Frame::lights
@@ -107,9 +123,21 @@ struct View {
     /// warped map it is the longest of what is seen and lit.
     double texel_m = 0.0;
     Tile tile;
-    std::uint32_t first_caster = 0; // range of Plan::casters: what is drawn, see ObjectFlags::casts
+    TexelPart part = TexelPart::whole; // of the tile's texels
+    /// Range of Plan::casters: what is drawn, see ObjectFlags::casts. First those that stand still, then those that
+    /// move (ObjectFlags::dynamic), each ascending; without a kept layer, all ascending.
+    std::uint32_t first_caster = 0;
     std::uint32_t caster_count = 0;
-    bool redraw = true;         // false: the map of the last frame still holds
+    std::uint32_t still_count = 0; // how many of them stand still; of use with a kept layer only
+    bool redraw = true;            // false: the map of the last frame still holds, or nobody reads it in this frame
+    /// Layer of the images that hold maps of still casters alone (same size and place there as `tile`), from which the
+    /// map is restored before those that move are drawn over it. kNoIndex: the map is drawn all at once.
+    std::uint32_t kept_layer = kNoIndex;
+    bool redraw_kept = false; // draw the still casters into the kept layer first; then `dirty` is all of the tile
+    /// With a kept layer and `redraw`: what has to be restored and drawn over, because something that moves is there or
+    /// was when the map was drawn last.
+    TexelRect dirty;
+    SunPosition sun = SunPosition::only;
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
     ViewSlice slice;
@@ -120,12 +148,33 @@ struct View {
     glm::dvec3 light_place_ws{0.0};
 };
 
+/// Where a sun that moves in steps stands for its maps, and how what they say is joined: with v and u the visibilities
+/// by the earlier and the later position, v + (u - v) * weight, where at x (0: left edge of the picture, 1: right)
+///   a = band > 0 ? clamp((edge - x) / band, 0, 1) : share,  weight = smooth ? a^2 (3 - 2 a) : a.
+/// Based on: P. Fortier, "Shadow maps for moving light sources", IceFall Games, 2010.
+struct SunSteps {
+    bool stepping = false; // false: the light's own direction; nothing below counts
+    /// There are views of two positions (SunPosition); else of one alone, SunPosition::only.
+    bool paired = false;
+    glm::dvec3 earlier_ws{0.0, -1.0, 0.0}; // unit, the way light travels
+    glm::dvec3 later_ws{0.0, -1.0, 0.0};
+    double share = 0.0; // how far the sun itself has got from one to the other: 0 .. 1
+    bool smooth = true;
+    double band = 0.0; // width, share of the picture's; 0: the weight is the same all over
+    double edge = 0.0; // the band's right end
+    /// Maps by turns (step-alternate): this frame draws and reads those of `read` alone, and joins them with what the
+    /// frame before made of the other one.
+    bool alternate = false;
+    SunPosition read = SunPosition::earlier;
+};
+
 struct LightPlan {
-    std::uint32_t first_view = 0; // range of Plan::views
+    std::uint32_t first_view = 0; // range of Plan::views; of a paired light the earlier position's come first
     std::uint32_t view_count = 0;
     std::uint32_t mask_layer = 0;   // of the mask image
     std::uint32_t mask_channel = 0; // 0..3
     Outcome outcome;
+    SunSteps steps;
 };
 
 /// Size of the map image that all tiles are in.
@@ -140,9 +189,10 @@ struct Plan {
     Technique technique;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
-    std::vector<std::uint32_t> casters;   // object handles, ascending within a view
+    std::vector<std::uint32_t> casters;   // object handles, view after view
     std::vector<std::uint32_t> receivers; // object handles that the camera sees, ascending
     AtlasSize atlas;
+    std::uint32_t kept_layers = 0; // one past the largest View::kept_layer that any view of these lights may have
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
     /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. 0: nothing
     /// fades.

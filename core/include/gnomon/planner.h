@@ -28,6 +28,25 @@ struct CascadeOptions {
     [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
 };
 
+/// When a sun that moves in steps takes the next one.
+enum class StepBy : std::uint8_t { angle, time };
+
+/// How the step motions divide a sun's course.
+struct StepOptions {
+    StepBy by = StepBy::angle;
+    double angle_rad = 0.00872664626; // by angle: 0.5 degrees, about the sun's own width; 0.0001 .. 0.5
+    double interval_s = 2.0;          // by time: 0.01 .. 86400, of Frame::time_s
+    bool smooth = true;               // step-blend, -band, -alternate: the share as a cubic, else linear
+    double band = 0.25;               // step-band: its width, share of the picture's: 0.01 .. 1
+};
+
+/// Whether what stands still is drawn apart and kept, so that where something moves only that has to be drawn again.
+enum class KeepStill : std::uint8_t {
+    automatic, // where a motion holds a map for many frames under a moving sun: the step motions
+    never,
+    always,
+};
+
 struct PlanOptions {
     Technique technique;
     std::uint32_t map_size = 2048; // texels on a side of one map; 16 .. 16384
@@ -35,6 +54,10 @@ struct PlanOptions {
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
     CascadeOptions cascades;
+    StepOptions steps;
+    KeepStill keep_still = KeepStill::automatic;
+    /// The map format has two maps a texel: a light's two positions of a stepping sun share their tiles.
+    bool paired_maps = false;
     /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64.
     double border_texels = 4.0; // at most a quarter of map_size is used, so that half of the map is left
     /// Filterable maps under parallel light: measure depth from a plane that leans with what receives shadow, so that

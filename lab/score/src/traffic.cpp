@@ -44,6 +44,7 @@ std::uint32_t texelBytes(MapFormat format)
     case MapFormat::r32f:
     case MapFormat::rg16:
     case MapFormat::rg16f:
+    case MapFormat::rgba8:
         return 4;
     case MapFormat::rg32f:
     case MapFormat::rgba16:
