@@ -53,7 +53,12 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
         slice.half_angle_rad = input.light.outer_half_angle_rad;
         slice.depth.axis = axis;
         // The first and the last serve what lies before and behind all splits too: rounding, and explicit ends that
-        // leave something over.
+        // leave something over. But nothing is to be seen before the nearest receiver and behind the farthest: without
+        // these two planes the first body would begin at the eye, and a warp would spend its map on air.
+        if (i == 0)
+            slice.cut[slice.cut_count++] = depthPlane(view, view.near_m - view.pad_m, true);
+        if (i + 1 == count)
+            slice.cut[slice.cut_count++] = depthPlane(view, far_m + view.pad_m, false);
         if (i > 0) {
             slice.depth.blend_m = options.blend * (end(i) - (i > 1 ? end(i - 1) : near_m));
             slice.depth.blend_m = std::max(slice.depth.blend_m, 0.0);
