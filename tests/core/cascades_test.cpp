@@ -113,8 +113,8 @@ TEST(Cascades, TheFirstWarpIsRuledByWhatThereIsToSee)
     const Plan plan = ground.plan(options);
     ASSERT_EQ(plan.views.size(), 2U);
     const ViewSlice& first = plan.views[0].slice;
-    // LiSPSM gives both ends equal errors, w_f^2 / z_f = 1 / z_n; what stands on the ground widens the outline a little.
-    // Ruled by the air before the eye it would be 12.
+    // LiSPSM gives both ends equal errors, w_f^2 / z_f = 1 / z_n; what stands on the ground widens the outline a
+    // little. Ruled by the air before the eye it would be 12.
     EXPECT_LT(plan.views[0].fit.strength, 1.25 * std::sqrt(first.end_m / nearest_m));
     EXPECT_GT(plan.views[0].fit.strength, 1.0);
 }

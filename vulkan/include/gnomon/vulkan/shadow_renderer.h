@@ -73,8 +73,9 @@ struct MapPass {
     const Plan* plan = nullptr;
     const View* view = nullptr;
     std::uint32_t view_index = 0;
-    /// What the pipeline must write of the colour attachment; 0 for depth-only maps. All of it unless two maps share one
-    /// target (PlanOptions::paired_maps): then the two halves of a texel get the same value and a part of them is kept.
+    /// What the pipeline must write of the colour attachment; 0 for depth-only maps. All of it unless two maps share
+    /// one target (PlanOptions::paired_maps): then the two halves of a texel get the same value and a part of them is
+    /// kept.
     VkColorComponentFlags colour_mask = 0;
     /// Object handles: all that must be drawn; of a map that is kept in two parts those that stand still, or those that
     /// move. Of a filterable map these are receivers, too, whether or not they cast
