@@ -83,11 +83,11 @@ constexpr std::array kValues{
 
     ChoiceValue{kMotion, "free", number(Motion::free), true, "the map follows camera and sun exactly", kMarinescu},
     ChoiceValue{kMotion, "snap", number(Motion::snap), true, "the map moves by whole texels", kIceFall},
-    ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), false, "the sun steps, the shadows jump", kIceFall},
-    ChoiceValue{kMotion, "step-band", number(Motion::step_band), false, "each step sweeps over the screen in a band",
+    ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), true, "the sun steps, the shadows jump", kIceFall},
+    ChoiceValue{kMotion, "step-band", number(Motion::step_band), true, "each step sweeps over the screen in a band",
                 kIceFall},
-    ChoiceValue{kMotion, "step-blend", number(Motion::step_blend), false, "two steps blended over time", kIceFall},
-    ChoiceValue{kMotion, "step-alternate", number(Motion::step_alternate), false, "two steps drawn in alternate frames",
+    ChoiceValue{kMotion, "step-blend", number(Motion::step_blend), true, "two steps blended over time", kIceFall},
+    ChoiceValue{kMotion, "step-alternate", number(Motion::step_alternate), true, "two steps drawn in alternate frames",
                 kIceFall},
 };
 

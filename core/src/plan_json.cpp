@@ -64,6 +64,11 @@ public:
         begin(key);
         quote(string);
     }
+    void nothing(std::string_view key)
+    {
+        begin(key);
+        text_ += "null";
+    }
     void flag(std::string_view key, bool set)
     {
         begin(key);
@@ -129,6 +134,51 @@ void writeTechnique(Writer& json, const Technique& technique)
     json.closeLine('}');
 }
 
+std::string_view nameOf(SunPosition sun)
+{
+    switch (sun) {
+    case SunPosition::only:
+        return "only";
+    case SunPosition::earlier:
+        return "earlier";
+    case SunPosition::later:
+        return "later";
+    }
+    return "?";
+}
+
+std::string_view nameOf(TexelPart part)
+{
+    switch (part) {
+    case TexelPart::whole:
+        return "whole";
+    case TexelPart::first:
+        return "first";
+    case TexelPart::second:
+        return "second";
+    }
+    return "?";
+}
+
+void writeSteps(Writer& json, const SunSteps& steps)
+{
+    if (!steps.stepping) {
+        json.nothing("steps");
+        return;
+    }
+    json.openLine("steps", '{');
+    json.flag("paired", steps.paired);
+    json.vector("earlier_ws", steps.earlier_ws, 3);
+    json.vector("later_ws", steps.later_ws, 3);
+    json.value("share", steps.share);
+    json.flag("smooth", steps.smooth);
+    json.value("band", steps.band);
+    json.value("edge", steps.edge);
+    json.flag("alternate", steps.alternate);
+    json.value("read", nameOf(steps.read));
+    json.closeLine('}');
+}
+
 void writeLight(Writer& json, const LightPlan& light)
 {
     json.openLine({}, '{');
@@ -138,6 +188,27 @@ void writeLight(Writer& json, const LightPlan& light)
     json.value("view_count", light.view_count);
     json.value("mask_layer", light.mask_layer);
     json.value("mask_channel", light.mask_channel);
+    writeSteps(json, light.steps);
+    json.closeLine('}');
+}
+
+/// Where what stands still is kept, and what of the map is restored from there.
+void writeKept(Writer& json, const View& view)
+{
+    if (view.kept_layer == kNoIndex) {
+        json.nothing("kept");
+        return;
+    }
+    json.openLine("kept", '{');
+    json.value("layer", view.kept_layer);
+    json.flag("redraw", view.redraw_kept);
+    json.value("still_count", view.still_count);
+    json.openLine("dirty", '{');
+    json.value("x", view.dirty.x);
+    json.value("y", view.dirty.y);
+    json.value("width", view.dirty.width);
+    json.value("height", view.dirty.height);
+    json.closeLine('}');
     json.closeLine('}');
 }
 
@@ -152,7 +223,10 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.value("width", view.tile.width);
     json.value("height", view.tile.height);
     json.closeLine('}');
+    json.value("part", nameOf(view.part));
+    json.value("sun", nameOf(view.sun));
     json.flag("redraw", view.redraw);
+    writeKept(json, view);
     json.flag("orthographic", view.orthographic);
     json.flag("parallel", view.parallel);
     json.flag("clamp_near", view.clamp_near);
@@ -212,7 +286,9 @@ void writeObjects(Writer& json, const Plan& plan)
         json.openLine("casts_in_views", '[');
         for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
             const auto first = plan.casters.begin() + plan.views[i].first_caster;
-            if (std::binary_search(first, first + plan.views[i].caster_count, object))
+            const auto moving = first + (plan.views[i].kept_layer == kNoIndex ? 0 : plan.views[i].still_count);
+            if (std::binary_search(first, moving, object) ||
+                std::binary_search(moving, first + plan.views[i].caster_count, object))
                 json.value({}, i);
         }
         json.closeLine(']');
@@ -257,6 +333,7 @@ std::string toJson(const Plan& plan)
     json.value("height", plan.atlas.height);
     json.value("layers", plan.atlas.layers);
     json.closeLine('}');
+    json.value("kept_layers", plan.kept_layers);
     json.value("mask_layers", plan.mask_layers);
     json.openLine("fade", '{');
     json.value("begin_m", plan.fade_begin_m);

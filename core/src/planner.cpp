@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// One light after the other: is it fit to be planned, how is it divided, what matters to each slice, how is that put
-// into a map, and does the map of the last frame still hold.
+// One light after the other: is it fit to be planned, where does it stand, how is it divided, what matters to each
+// slice, how is that put into a map, and does what the map holds still do.
 #include "atlas/layers.h"
 #include "camera_view.h"
 #include "depth_range.h"
 #include "depth_tilt.h"
+#include "drawn_maps.h"
 #include "fit/projection.h"
 #include "motion/motion.h"
+#include "motion/sun_steps.h"
 #include "partition/partition.h"
 #include "region.h"
 
 #include <gnomon/planner.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace gnomon {
 namespace {
-
-bool sameTile(const Tile& a, const Tile& b)
-{
-    return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
-}
-
-bool sameSize(const AtlasSize& a, const AtlasSize& b)
-{
-    return a.width == b.width && a.height == b.height && a.layers == b.layers;
-}
 
 [[maybe_unused]] bool usable(const CascadeOptions& options)
 {
@@ -44,6 +37,25 @@ bool sameSize(const AtlasSize& a, const AtlasSize& b)
     return true;
 }
 
+[[maybe_unused]] bool usable(const StepOptions& options)
+{
+    return options.angle_rad >= 0.0001 && options.angle_rad <= 0.5 && options.interval_s >= 0.01 &&
+           options.interval_s <= 86400.0 && options.band >= 0.01 && options.band <= 1.0;
+}
+
+/// One position of a light, and where the maps of its slices go.
+struct Position {
+    std::uint32_t light = 0; // index into Frame::lights
+    Light at;                // the light, shining from there
+    SunPosition sun = SunPosition::only;
+    bool read = true; // in this frame
+    TexelPart part = TexelPart::whole;
+    std::uint32_t first_layer = 0;
+    std::uint32_t layer_step = 1; // from slice to slice
+    std::uint32_t first_kept = kNoIndex;
+    std::uint32_t kept_step = 1;
+};
+
 constexpr std::string_view kUnwarped =
     "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
 
@@ -57,11 +69,10 @@ struct Planner::Impl {
     const FilterTraits* filter = nullptr;
     double border_texels = 0.0;
 
-    std::array<Plan, 2> plans; // this one and the last
-    std::size_t current = 0;
-    bool have_last = false;
-    std::uint64_t last_version = 0;
-    std::uint64_t last_identity = 0;
+    Plan plan;
+    DrawnMaps drawn;
+    SunCourses suns;
+    std::uint64_t frames = 0; // planned so far: whose turn it is
 
     CameraView view;
     Region region;
@@ -69,7 +80,7 @@ struct Planner::Impl {
     std::vector<Slice> slices;
     std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
 
-    void look(const Frame& frame, Plan& plan);
+    void look(const Frame& frame);
     Warp warpOf(const LightSpace& space) const;
     Outcome check(const Light& light) const
     {
@@ -80,10 +91,23 @@ struct Planner::Impl {
         return checkLight(light);
     }
 
-    void planLight(const Frame& frame, std::uint32_t index, Plan& plan);
-    Outcome planView(const Frame& frame, std::uint32_t light, const Slice& slice, std::uint32_t layer, Plan& plan);
-    void decideRedraws(const Frame& frame, Plan& plan, const Plan& last) const;
-    bool stillHolds(const View& view, const Plan& plan, const Plan& last, const ObjectSet& objects) const;
+    bool pairs(const Light& light) const
+    {
+        return motion != nullptr && paired(motion->stepping) && light.type == LightType::directional;
+    }
+    bool keeps(const Light& light) const
+    {
+        const bool steps = motion->stepping != Stepping::none && light.type == LightType::directional;
+        return options.keep_still == KeepStill::always || (options.keep_still == KeepStill::automatic && steps);
+    }
+
+    void planLight(const Frame& frame, std::uint32_t index);
+    std::uint32_t followSun(const Frame& frame, const Light& light, SunSteps& steps);
+    std::optional<Position> takeRoom(const Light& light);
+    void planPositions(const Frame& frame, const Position& room, std::uint32_t earlier_slot, LightPlan& planned);
+    void planPosition(const Frame& frame, const Position& position, std::optional<Outcome>& best);
+    Outcome planView(const Frame& frame, const Position& position, std::uint32_t slice_index);
+    void decideRedraws(const Frame& frame);
 };
 
 Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
@@ -93,6 +117,7 @@ Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
     assert(options.border_texels >= 0.0 && options.border_texels <= 64.0);
     assert(options.fade >= 0.0 && options.fade <= 1.0);
     assert(usable(options.cascades));
+    assert(usable(options.steps));
     Impl& s = *impl_;
     s.options = options;
     s.partition = partitionFunction(options.technique.partition);
@@ -108,7 +133,7 @@ Planner& Planner::operator=(Planner&&) noexcept = default;
 
 void Planner::reset()
 {
-    impl_->have_last = false;
+    impl_->drawn.forget();
 }
 
 const PlanOptions& Planner::options() const
@@ -120,30 +145,28 @@ const Plan& Planner::plan(const Frame& frame)
 {
     assert(frame.objects != nullptr);
     Impl& s = *impl_;
-    const Plan& last = s.plans[s.current];
-    s.current = 1 - s.current;
-    Plan& plan = s.plans[s.current];
+    Plan& plan = s.plan;
     plan.frame = frame.index;
     plan.technique = s.options.technique;
     plan.lights.clear();
     plan.views.clear();
     plan.casters.clear();
+    plan.kept_layers = 0;
     plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
 
     s.atlas.begin(s.options.map_size, s.options.max_layers);
-    s.look(frame, plan);
+    s.suns.begin();
+    s.look(frame);
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
-        s.planLight(frame, light, plan);
+        s.planLight(frame, light);
+    s.suns.end();
+    ++s.frames;
     plan.atlas = s.atlas.size();
-    s.decideRedraws(frame, plan, last);
-
-    s.have_last = true;
-    s.last_version = frame.objects->version();
-    s.last_identity = frame.objects->identity();
+    s.decideRedraws(frame);
     return plan;
 }
 
-void Planner::Impl::look(const Frame& frame, Plan& plan)
+void Planner::Impl::look(const Frame& frame)
 {
     view.look(frame, options.max_distance_m, plan.receivers);
     plan.fade_end_m = options.max_distance_m;
@@ -173,45 +196,118 @@ Warp Planner::Impl::warpOf(const LightSpace& space) const
     return none;
 }
 
-void Planner::Impl::planLight(const Frame& frame, std::uint32_t index, Plan& plan)
+/// Where a sun stands for its maps; returns the slot of its earlier position.
+std::uint32_t Planner::Impl::followSun(const Frame& frame, const Light& light, SunSteps& steps)
 {
-    LightPlan light;
-    light.first_view = static_cast<std::uint32_t>(plan.views.size());
-    light.mask_layer = index / 4;
-    light.mask_channel = index % 4;
-    light.outcome = check(frame.lights[index]);
-    std::optional<std::uint32_t> first_layer;
-    if (light.outcome.kind == OutcomeKind::ok) {
-        slices.clear();
-        partition({frame.lights[index], view, options.cascades}, slices);
-        first_layer = atlas.take(static_cast<std::uint32_t>(slices.size()));
-        if (!first_layer)
-            light.outcome = {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
-        else if (view.outcome.kind != OutcomeKind::ok)
-            light.outcome = view.outcome;
-        else if (plan.receivers.empty())
-            light.outcome = {OutcomeKind::no_receiver, "the camera sees nothing that receives shadow"};
-    }
-    if (light.outcome.kind == OutcomeKind::ok) {
-        // A slice without receivers or casters needs no map; the light has one when any slice does.
-        Outcome best;
-        for (std::uint32_t i = 0; i < slices.size(); ++i) {
-            const Outcome outcome = planView(frame, index, slices[i], *first_layer + i, plan);
-            const bool more = i == 0 || (outcome.hasMap() && !best.hasMap()) ||
-                              (outcome.kind == OutcomeKind::fallback && best.kind == OutcomeKind::ok);
-            if (more)
-                best = outcome;
-        }
-        light.outcome = best;
-    }
-    light.view_count = static_cast<std::uint32_t>(plan.views.size()) - light.first_view;
-    plan.lights.push_back(light);
+    const bool stepping = motion != nullptr && motion->stepping != Stepping::none;
+    if (!stepping || light.type != LightType::directional || checkLight(light).kind != OutcomeKind::ok)
+        return 0;
+    const SunCourse& course = suns.follow(light, frame.time_s, motion->stepping, options.steps);
+    steps = course.steps();
+    // By turns of the slots, not of the positions: then after a step too the frame before has read the other one, or
+    // the one whose weight was next to nothing.
+    steps.read = (frames & 1) == course.earlierSlot() ? SunPosition::earlier : SunPosition::later;
+    return course.earlierSlot();
 }
 
-Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const Slice& slice, std::uint32_t layer,
-                                Plan& plan)
+/// Depends on the options and the light's type alone, so that tiles last. None when the atlas is full.
+std::optional<Position> Planner::Impl::takeRoom(const Light& light)
 {
-    LightSpace space = lightSpaceOf(frame.lights[light], slice.axis_ws, slice.half_angle_rad, view.scene_ws);
+    const auto count = static_cast<std::uint32_t>(slices.size());
+    Position room;
+    room.kept_step = pairs(light) ? 2 : 1;
+    room.layer_step = pairs(light) && !options.paired_maps ? 2 : 1;
+    room.part = options.paired_maps ? TexelPart::first : TexelPart::whole;
+    const std::optional<std::uint32_t> first_layer = atlas.take(count * room.layer_step);
+    if (!first_layer)
+        return std::nullopt;
+    room.first_layer = *first_layer;
+    const std::uint32_t kept = count * room.kept_step;
+    if (keeps(light) && kept <= options.max_layers - std::min(plan.kept_layers, options.max_layers)) {
+        room.first_kept = plan.kept_layers;
+        plan.kept_layers += kept;
+    }
+    return room;
+}
+
+void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
+{
+    const Light& light = frame.lights[index];
+    LightPlan planned;
+    planned.first_view = static_cast<std::uint32_t>(plan.views.size());
+    planned.mask_layer = index / 4;
+    planned.mask_channel = index % 4;
+    planned.outcome = check(light);
+    const std::uint32_t earlier_slot = followSun(frame, light, planned.steps);
+    std::optional<Position> room;
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        slices.clear();
+        partition({light, view, options.cascades}, slices);
+        room = takeRoom(light);
+        if (!room)
+            planned.outcome = {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
+        else if (view.outcome.kind != OutcomeKind::ok)
+            planned.outcome = view.outcome;
+        else if (plan.receivers.empty())
+            planned.outcome = {OutcomeKind::no_receiver, "the camera sees nothing that receives shadow"};
+    }
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        room->light = index;
+        room->at = light;
+        planPositions(frame, *room, earlier_slot, planned);
+    }
+    planned.view_count = static_cast<std::uint32_t>(plan.views.size()) - planned.first_view;
+    plan.lights.push_back(planned);
+}
+
+/// A position keeps its slot, that is its tiles or their part, for as long as the sun has it.
+void Planner::Impl::planPositions(const Frame& frame, const Position& room, std::uint32_t earlier_slot,
+                                  LightPlan& planned)
+{
+    const SunSteps& steps = planned.steps;
+    const bool pair = pairs(room.at);
+    std::optional<Outcome> best;
+    for (const bool later : {false, true}) {
+        if (later && !steps.paired)
+            break;
+        Position position = room;
+        if (steps.stepping)
+            position.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
+        if (steps.paired)
+            position.sun = later ? SunPosition::later : SunPosition::earlier;
+        position.read = !steps.alternate || position.sun == steps.read;
+        if (pair) {
+            const std::uint32_t slot = later ? 1 - earlier_slot : earlier_slot;
+            position.first_kept = room.first_kept == kNoIndex ? kNoIndex : room.first_kept + slot;
+            if (options.paired_maps)
+                position.part = slot == 0 ? TexelPart::first : TexelPart::second;
+            else
+                position.first_layer += slot;
+        }
+        planPosition(frame, position, best);
+    }
+    planned.outcome = *best;
+}
+
+/// A slice without receivers or casters needs no map; the light has one when any slice does.
+void Planner::Impl::planPosition(const Frame& frame, const Position& position, std::optional<Outcome>& best)
+{
+    slices.clear();
+    partition({position.at, view, options.cascades}, slices);
+    for (std::uint32_t i = 0; i < slices.size(); ++i) {
+        const Outcome outcome = planView(frame, position, i);
+        const bool more = !best || (outcome.hasMap() && !best->hasMap()) ||
+                          (outcome.kind == OutcomeKind::fallback && best->kind == OutcomeKind::ok);
+        if (more)
+            best = outcome;
+    }
+}
+
+Outcome Planner::Impl::planView(const Frame& frame, const Position& position, std::uint32_t slice_index)
+{
+    const Slice& slice = slices[slice_index];
+
+    LightSpace space = lightSpaceOf(position.at, slice.axis_ws, slice.half_angle_rad, view.scene_ws);
     if (options.level_depth && filter->filterable)
         space.depth_ws = levelDepth(space, *frame.objects, motion->steady ? all_receivers : plan.receivers);
     const RegionInput input{space, slice, view, *frame.objects, plan.receivers, filter->filterable};
@@ -225,7 +321,8 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
         motion->move(rect, {space, frame.camera, view, slice, least_size, options.map_size, border_texels});
 
     View made;
-    made.light = light;
+    made.light = position.light;
+    made.sun = position.sun;
     made.slice = slice.depth;
     made.parallel = !space.perspective;
     made.fit = reportOf(warp, shown, region.outline());
@@ -254,36 +351,26 @@ Outcome Planner::Impl::planView(const Frame& frame, std::uint32_t light, const S
     made.metric.far_m = range.far_m - place_m;
     const glm::dvec4 depth(space.depth_ws, -glm::dot(space.depth_ws, space.origin_ws) - range.near_m);
     made.metric.metric_ws = depth / (range.far_m - range.near_m);
-    made.tile = atlas.tile(layer);
+    made.tile = atlas.tile(position.first_layer + slice_index * position.layer_step);
+    made.part = position.part;
+    made.redraw = position.read;
+    if (position.first_kept != kNoIndex)
+        made.kept_layer = position.first_kept + slice_index * position.kept_step;
     made.first_caster = first_caster;
     made.caster_count = static_cast<std::uint32_t>(casters.size());
     plan.views.push_back(made);
     return warp.outcome;
 }
 
-void Planner::Impl::decideRedraws(const Frame& frame, Plan& plan, const Plan& last) const
+void Planner::Impl::decideRedraws(const Frame& frame)
 {
-    const bool comparable = have_last && last_identity == frame.objects->identity() && sameSize(plan.atlas, last.atlas);
-    for (View& made : plan.views)
-        made.redraw = !(comparable && stillHolds(made, plan, last, *frame.objects));
-}
-
-/// A tile's content depends on the view and its casters alone, so whose light it was last time does not matter.
-bool Planner::Impl::stillHolds(const View& made, const Plan& plan, const Plan& last, const ObjectSet& objects) const
-{
-    const auto same = [&](const View& old) {
-        return sameTile(old.tile, made.tile) && old.clip_from_world == made.clip_from_world &&
-               old.metric.metric_ws == made.metric.metric_ws && old.orthographic == made.orthographic &&
-               old.clamp_near == made.clamp_near && old.caster_count == made.caster_count;
-    };
-    const auto old = std::find_if(last.views.begin(), last.views.end(), same);
-    if (old == last.views.end())
-        return false;
-    const std::span<const std::uint64_t> changes = objects.allChanges();
-    const std::span now = std::span(plan.casters).subspan(made.first_caster, made.caster_count);
-    const std::span then = std::span(last.casters).subspan(old->first_caster, old->caster_count);
-    return std::equal(now.begin(), now.end(), then.begin()) &&
-           std::none_of(now.begin(), now.end(), [&](std::uint32_t c) { return changes[c] > last_version; });
+    drawn.begin(plan, *frame.objects);
+    for (View& made : plan.views) {
+        const std::uint32_t kept_layer = std::exchange(made.kept_layer, kNoIndex);
+        if (made.redraw) // it is read
+            drawn.decide(made, kept_layer, std::span(plan.casters).subspan(made.first_caster, made.caster_count),
+                         *frame.objects);
+    }
 }
 
 } // namespace gnomon

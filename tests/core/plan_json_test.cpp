@@ -18,9 +18,17 @@ Plan tinyPlan()
     plan.lights[1].first_view = 1;
     plan.lights[1].mask_channel = 1;
     plan.lights[1].outcome = {OutcomeKind::no_caster, "nothing \"casts\""};
+    SunSteps& steps = plan.lights[1].steps;
+    steps.stepping = true;
+    steps.paired = true;
+    steps.later_ws = {0.6, -0.8, 0.0};
+    steps.share = 0.25;
+    steps.band = 0.5;
+    steps.edge = 0.375;
     plan.atlas = {1024, 1024, 1};
+    plan.kept_layers = 2;
     plan.mask_layers = 1;
-    plan.casters = {1, 4};
+    plan.casters = {4, 1}; // what moves comes last
     plan.receivers = {0, 4};
     View view;
     view.clip_from_world[0][0] = 0.1;
@@ -36,7 +44,11 @@ Plan tinyPlan()
     view.light_place_ws = {1.0, 2.0, 3.0};
     view.tile = {0, 0, 0, 1024, 1024};
     view.caster_count = 2;
-    view.redraw = false;
+    view.part = TexelPart::second;
+    view.sun = SunPosition::later;
+    view.still_count = 1;
+    view.kept_layer = 1;
+    view.dirty = {3, 4, 5, 6};
     plan.views = {view};
     return plan;
 }
@@ -45,17 +57,21 @@ constexpr const char* kGolden = R"({
   "frame": 7,
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
   "atlas": {"width": 1024, "height": 1024, "layers": 1},
+  "kept_layers": 2,
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [
-    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0},
-    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1}
+    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "steps": null},
+    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}}
   ],
   "views": [
     {
       "light": 0,
       "tile": {"layer": 0, "x": 0, "y": 0, "width": 1024, "height": 1024},
-      "redraw": false,
+      "part": "second",
+      "sun": "later",
+      "redraw": true,
+      "kept": {"layer": 1, "redraw": false, "still_count": 1, "dirty": {"x": 3, "y": 4, "width": 5, "height": 6}},
       "orthographic": true,
       "parallel": true,
       "clamp_near": true,
@@ -71,7 +87,7 @@ constexpr const char* kGolden = R"({
         [0, 0, 0, 1]
       ],
       "metric": {"near_m": 2, "far_m": 5, "metric_ws": [0.3333333333333333, 0, -2.5e-07, null]},
-      "casters": [1, 4]
+      "casters": [4, 1]
     }
   ],
   "objects": [
@@ -85,6 +101,17 @@ constexpr const char* kGolden = R"({
 TEST(PlanJson, GoldenText)
 {
     EXPECT_EQ(toJson(tinyPlan()), kGolden);
+}
+
+TEST(PlanJson, WhatIsDrawnAllAtOnceHasNothingKept)
+{
+    Plan plan = tinyPlan();
+    plan.views[0].kept_layer = kNoIndex;
+    plan.casters = {1, 4}; // then all are ascending
+    const std::string text = toJson(plan);
+    EXPECT_NE(text.find("\"kept\": null"), std::string::npos);
+    EXPECT_NE(text.find("{\"object\": 1, \"seen\": false, \"casts_in_views\": [0]}"), std::string::npos);
+    EXPECT_NE(text.find("{\"object\": 4, \"seen\": true, \"casts_in_views\": [0]}"), std::string::npos);
 }
 
 TEST(PlanJson, DoesNotDependOnTheLocale)
@@ -102,6 +129,7 @@ TEST(PlanJson, EmptyPlan)
   "frame": 0,
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
   "atlas": {"width": 0, "height": 0, "layers": 0},
+  "kept_layers": 0,
   "mask_layers": 0,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [],

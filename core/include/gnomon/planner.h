@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a Frame to a Plan. Keeps the last plan (to know what may be reused) and its scratch memory, nothing else.
+// From a Frame to a Plan. Keeps records of what the maps hold (to know what may be reused), how far suns that move in
+// steps have got, and its scratch memory; nothing else.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -79,9 +80,10 @@ public:
     Planner& operator=(Planner&&) noexcept;
 
     /// The plan holds until the next call. Allocates nothing once warm (same counts as before). View::redraw takes for
-    /// granted that the last plan was drawn: call reset() when it was not, or when the map image was made anew.
+    /// granted that the last plans were drawn: call reset() when one was not, or when the map image or that of the kept
+    /// layers was made anew (but not for another Plan::atlas or Plan::kept_layers, which the planner sees itself).
     [[nodiscard]] const Plan& plan(const Frame& frame);
-    /// Forgets the last plan: every view of the next one says `redraw`.
+    /// Forgets what the maps hold: every view says `redraw` when it is read next. Suns go on in their steps.
     void reset();
     [[nodiscard]] const PlanOptions& options() const;
 

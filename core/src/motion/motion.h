@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fit/projection.h"
+#include "motion/sun_steps.h"
 #include "partition/partition.h"
 
 namespace gnomon {
@@ -25,6 +26,7 @@ struct MotionTraits {
     /// What a map shows and stores changes in steps alone: its rectangle is drawn whole, whoever is seen, with no warp,
     /// and its range of depth is a multiple of a power of two.
     bool steady;
+    Stepping stepping; // of a directional light; others stay where they are
 };
 /// Null for a motion that is not available.
 [[nodiscard]] const MotionTraits* motionTraits(Motion motion);

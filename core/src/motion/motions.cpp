@@ -5,8 +5,13 @@ namespace gnomon {
 namespace {
 
 constexpr MotionTraits kMotions[] = {
-    {Motion::free, moveFreely, false},
-    {Motion::snap, moveInTexels, true},
+    {Motion::free, moveFreely, false, Stepping::none},
+    {Motion::snap, moveInTexels, true, Stepping::none},
+    // From each of its positions a sun draws the map that `snap` does.
+    {Motion::step_jump, moveInTexels, true, Stepping::jump},
+    {Motion::step_band, moveInTexels, true, Stepping::band},
+    {Motion::step_blend, moveInTexels, true, Stepping::blend},
+    {Motion::step_alternate, moveInTexels, true, Stepping::alternate},
 };
 
 } // namespace
