@@ -253,9 +253,9 @@ TEST(SunStepsByAngle, OfASunThatJumpsBeginAnew)
     }
 }
 
-/// Straight on for a while, then a turn, of any angle. Of a turn across the way the share stands still for a quarter of a
-/// step and takes another one to its nearer end, which is half a step away at most: so the lag is less than a step, the
-/// moves of some frames included, where it had gone before the turn.
+/// Straight on for a while, then a turn, of any angle. Of a turn across the way the share stands still for a quarter of
+/// a step and takes another one to its nearer end, which is half a step away at most: so the lag is less than a step,
+/// the moves of some frames included, where it had gone before the turn.
 TEST(SunStepsByAngle, OfASunThatStrollsAreNeverSeen)
 {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -473,7 +473,8 @@ TEST(SunCourses, AreToldApartByKeyAndForgotten)
     lights[2].key = 9;
     for (int frame = 0; frame < 50; ++frame) {
         for (std::size_t i = 0; i < 3; ++i)
-            lights[i].direction_ws = overhead(static_cast<double>(i) + (0.05 + 0.01 * static_cast<double>(i)) * kStep * frame);
+            lights[i].direction_ws =
+                overhead(static_cast<double>(i) + (0.05 + 0.01 * static_cast<double>(i)) * kStep * frame);
         courses.begin();
         const std::array<std::size_t, 3> order =
             frame % 2 == 0 ? std::array<std::size_t, 3>{0, 1, 2} : std::array<std::size_t, 3>{2, 0, 1};
