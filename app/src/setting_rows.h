@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of the one setting table, by what they are about. settingTable() joins them in this order.
+// The rows of the one setting table, by what they are about, each in a file *_settings.cpp. settingTable() joins them
+// in this order.
 #pragma once
 
 #include "app/settings.h"
@@ -24,6 +25,7 @@ inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has
 void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
 void addTechniqueRows(std::vector<Setting>& table); // the six choices and what belongs to them
 void addPlanRows(std::vector<Setting>& table);      // how far shadows reach, how the view is divided
+void addStepRows(std::vector<Setting>& table);      // a sun that moves in steps, what is kept of a map
 void addMomentRows(std::vector<Setting>& table);    // the filterable maps
 void addRunRows(std::vector<Setting>& table);       // truth, time, run, result
 

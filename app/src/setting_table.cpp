@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The declaration of every option, joined from four files: scene_settings.cpp, technique_settings.cpp,
-// moment_settings.cpp and run_settings.cpp.
+// The declaration of every option, joined from the files that setting_rows.h names.
 #include "setting_rows.h"
 
 namespace gnomon::app {
@@ -12,6 +11,7 @@ std::span<const Setting> settingTable()
         addSceneRows(made);
         addTechniqueRows(made);
         addPlanRows(made);
+        addStepRows(made);
         addMomentRows(made);
         addRunRows(made);
         return made;

@@ -71,6 +71,13 @@ void requireMoments(const Settings& settings)
     }
 }
 
+/// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
+bool holdsTwoMaps(const vulkan::FilterOptions& filter)
+{
+    return !filterTraits(filter.filter)->filterable &&
+           (filter.format == MapFormat::rg16 || filter.format == MapFormat::rgba8);
+}
+
 /// Room around the fitted map for what the filter reads.
 double usualBorder(const vulkan::FilterOptions& filter)
 {
@@ -257,6 +264,7 @@ void completeTechnique(Settings& settings)
                                                                       settings.format_preset, refused));
     }
     requireMoments(settings);
+    settings.plan.paired_maps = holdsTwoMaps(settings.filter);
     if (!settings.border_given) {
         settings.plan.border_texels = usualBorder(settings.filter);
         settings.values["border"] = fmt::format("{}", settings.plan.border_texels);

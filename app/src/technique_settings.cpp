@@ -95,7 +95,7 @@ const std::vector<Setting>& rows()
          .doc = "how the map follows a moving camera or sun", .apply = [](Settings& s, const Value& v) { setChoice("motion", s.plan.technique.motion, v); }},
         {.key = "map-size", .group = Group::technique, .type = integer, .form = "N", .unit = "texels", .default_text = "2048", .min = 16, .max = 16384,
          .doc = "side of one map", .apply = [](Settings& s, const Value& v) { s.plan.map_size = static_cast<std::uint32_t>(v.integer); }},
-        {.key = "map-format", .group = Group::technique, .type = choice, .form = "FORMAT", .choices = [] { return enumNames<MapFormat>(10); },
+        {.key = "map-format", .group = Group::technique, .type = choice, .form = "FORMAT", .choices = [] { return enumNames<MapFormat>(11); },
          .doc = "what a texel is stored as; else the filter's own",
          .apply = [](Settings& s, const Value& v) { s.filter.format = *findMapFormat(v.text); s.format_given = true; }},
         {.key = "bias", .group = Group::technique, .type = text, .form = "BIAS", .default_text = "auto",

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of a sun that moves in steps, and what is kept of maps.
+#include "app/settings.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace gnomon::app {
+namespace {
+
+Settings with(std::initializer_list<std::pair<const char*, const char*>> values)
+{
+    Settings settings = defaultSettings();
+    for (const auto& [key, value] : values) {
+        applySetting(settings, key, value);
+    }
+    return settings;
+}
+
+TEST(StepSettings, DefaultsAreThePlannersOwn)
+{
+    const PlanOptions ours = defaultSettings().plan;
+    const PlanOptions usual;
+    EXPECT_EQ(ours.steps.by, usual.steps.by);
+    EXPECT_NEAR(ours.steps.angle_rad, usual.steps.angle_rad, 1e-9);
+    EXPECT_EQ(ours.steps.interval_s, usual.steps.interval_s);
+    EXPECT_EQ(ours.steps.smooth, usual.steps.smooth);
+    EXPECT_EQ(ours.steps.band, usual.steps.band);
+    EXPECT_EQ(ours.keep_still, usual.keep_still);
+    EXPECT_FALSE(ours.paired_maps);
+}
+
+TEST(StepSettings, BecomeThePlanners)
+{
+    const Settings settings = with({{"step.by", "time"},
+                                    {"step.angle", "2"},
+                                    {"step.interval", "0.5"},
+                                    {"step.fade", "linear"},
+                                    {"step.band", "0.5"},
+                                    {"keep-still", "always"}});
+    EXPECT_EQ(settings.plan.steps.by, StepBy::time);
+    EXPECT_DOUBLE_EQ(settings.plan.steps.angle_rad, glm::radians(2.0));
+    EXPECT_EQ(settings.plan.steps.interval_s, 0.5);
+    EXPECT_FALSE(settings.plan.steps.smooth);
+    EXPECT_EQ(settings.plan.steps.band, 0.5);
+    EXPECT_EQ(settings.plan.keep_still, KeepStill::always);
+    EXPECT_EQ(with({{"keep-still", "never"}}).plan.keep_still, KeepStill::never);
+    EXPECT_EQ(with({{"keep-still", "never"}, {"keep-still", "auto"}}).plan.keep_still, KeepStill::automatic);
+}
+
+TEST(StepSettings, AreWithinThePlannersRanges)
+{
+    for (const char* wrong : {"0", "0.009", "28.1", "nan", "-1"}) {
+        EXPECT_THROW((void)with({{"step.angle", wrong}}), UsageError) << wrong;
+    }
+    for (const char* wrong : {"0", "86401"}) {
+        EXPECT_THROW((void)with({{"step.interval", wrong}}), UsageError) << wrong;
+    }
+    for (const char* wrong : {"0", "1.01"}) {
+        EXPECT_THROW((void)with({{"step.band", wrong}}), UsageError) << wrong;
+    }
+    EXPECT_GE(with({{"step.angle", "0.01"}}).plan.steps.angle_rad, 0.0001);
+    EXPECT_LE(with({{"step.angle", "28"}}).plan.steps.angle_rad, 0.5);
+}
+
+/// What each motion asks of its options.
+TEST(StepSettings, AreOfUseWithTheirMotionAlone)
+{
+    const auto isUsed = [](const char* key, const char* motion, const char* by) {
+        const Settings settings = with({{"motion", motion}, {"step.by", by}});
+        return findSetting(key)->used(settings);
+    };
+    for (const char* key : {"step.by", "step.angle", "step.interval", "step.fade", "step.band"}) {
+        EXPECT_FALSE(isUsed(key, "free", "angle")) << key;
+        EXPECT_FALSE(isUsed(key, "snap", "time")) << key;
+    }
+    for (const char* motion : {"step-jump", "step-band", "step-blend", "step-alternate"}) {
+        const std::string name = motion;
+        EXPECT_TRUE(isUsed("step.by", motion, "angle"));
+        EXPECT_TRUE(isUsed("step.angle", motion, "angle"));
+        EXPECT_FALSE(isUsed("step.angle", motion, "time"));
+        EXPECT_TRUE(isUsed("step.interval", motion, "time"));
+        EXPECT_FALSE(isUsed("step.interval", motion, "angle"));
+        EXPECT_EQ(isUsed("step.fade", motion, "angle"), name != "step-jump");
+        EXPECT_EQ(isUsed("step.band", motion, "angle"), name == "step-band");
+    }
+    EXPECT_EQ(findSetting("keep-still")->used, nullptr);
+}
+
+/// Two moments of a filterable map in such a texel are one map.
+TEST(StepSettings, TwoMapsShareATexelOfAFormatOfTwo)
+{
+    EXPECT_FALSE(parseTechnique(defaultSettings(), "pcf").plan.paired_maps);
+    EXPECT_FALSE(parseTechnique(defaultSettings(), "vsm+map-format=rg16").plan.paired_maps);
+    EXPECT_FALSE(parseTechnique(defaultSettings(), "hard+map-format=r32f").plan.paired_maps);
+}
+
+} // namespace
+} // namespace gnomon::app
