@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// `--path` in a world whose sun moves by itself, and techniques that keep something from frame to frame under the
+// validation layer.
+#include "folder.h"
+#include "process.h"
+
+#include "image/image_io.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+
+test::Ran inFolder(const test::Folder& folder, const std::vector<std::string>& arguments)
+{
+    return test::gnomon(arguments,
+                        {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}}});
+}
+
+json planOf(const test::Folder& folder, const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments{"plan", "sundial", "--map-size", "128", "--json=-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::Ran ran = inFolder(folder, arguments);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return json::parse(ran.out, nullptr, false);
+}
+
+/// In `sundial` the sun's own course is the path's: a minute of the day is a second, and the speed is on top of that.
+TEST(PathOfTheDay, IsTheSundialsOwn)
+{
+    const test::Folder folder;
+    const std::vector<std::string> day{"--path", "day", "--set", "path.speed=60", "--fps", "1"};
+    const auto direction = [](const json& plan) {
+        return plan["lights"].at(0)["direction_ws"].get<std::vector<double>>();
+    };
+    std::vector<std::string> first = day;
+    first.insert(first.end(), {"--frames", "0-0"});
+    std::vector<std::string> fourth = day;
+    fourth.insert(fourth.end(), {"--frames", "0-3"});
+    const std::vector<double> start = direction(planOf(folder, first));
+    const std::vector<double> later = direction(planOf(folder, fourth));
+    EXPECT_EQ(start, direction(planOf(folder, {"--time", "0"})));
+    EXPECT_EQ(later, direction(planOf(folder, {"--time", "180"})));
+    // 180 s of a day of 1440 s turn the sun by 45 degrees about an axis, which seen from the sky is no more than that.
+    const double cosine = start[0] * later[0] + start[1] * later[1] + start[2] * later[2];
+    EXPECT_LT(cosine, std::cos(0.3));
+    EXPECT_GT(cosine, std::cos(0.7855));
+}
+
+TEST(PathOfTheDay, ItsFramesAreTheMomentsOfTheDay)
+{
+    const test::Folder folder;
+    const std::vector<std::string> small{"--camera", "meadow", "--size", "160x90", "--map-size", "128", "--mask"};
+    const auto draw = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), small.begin(), small.end());
+        const test::Ran ran = inFolder(folder, arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+    };
+    draw(
+        {"render", "sundial", "--path", "day", "--set", "path.speed=60", "--fps", "1", "--frames", "0-1", "-o", "day"});
+    draw({"render", "sundial", "--time", "60", "-o", "still.png"});
+    const std::string second = test::slurp(folder / "day/frame_0001.png");
+    EXPECT_EQ(second, test::slurp(folder / "still.png"));
+    EXPECT_NE(second, test::slurp(folder / "day/frame_0000.png"));
+}
+
+TEST(PathOfTheDay, IsMeasured)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"compare", "sundial", "--camera", "meadow", "--size", "96x54", "--map-size",
+                                            "256", "--techniques", "hard,pcf", "--truth", "hard", "--path", "day",
+                                            "--frames", "0-3", "--json=-"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json result = json::parse(ran.out);
+    EXPECT_EQ(result["path"]["name"], "day");
+    ASSERT_EQ(result["results"].size(), 2U);
+    for (const json& one : result["results"]) {
+        EXPECT_GT(one["stability"]["shimmer"].get<double>(), 0.0);
+        EXPECT_EQ(one["over_frames"]["rmse"].size(), 4U);
+    }
+}
+
+/// What a technique keeps from frame to frame is handed from one to the next without a message of the layer.
+class ValidPath : public testing::TestWithParam<const char*> {};
+
+TEST_P(ValidPath, IsSilent)
+{
+    const test::Folder folder;
+    for (const char* path : {"orbit", "day"}) {
+        const test::Ran ran =
+            inFolder(folder, {"bench", "planes", "--camera", "side", "--size", "96x54", "--map-size", "128",
+                              "--techniques", GetParam(), "--path", path, "--frames", "0-3", "--validate"});
+        EXPECT_EQ(ran.status, 0) << path << ": " << ran.err;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(PathProgram, ValidPath, testing::Values("pcf+cascades+snap", "vsm+tsm"),
+                         [](const auto& technique) {
+                             std::string name = technique.param;
+                             std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
+                             return name;
+                         });
+
+} // namespace
+} // namespace gnomon
