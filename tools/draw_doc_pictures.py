@@ -4,8 +4,8 @@
 
 usage: draw_doc_pictures.py [--check] [--only TEXT] [--jobs N] GNOMON FOLDER
 
-Every command `build/gnomon render ... -o docs/images/NAME` of a .md file, in a code block or between backticks, is run
-with the program GNOMON and writes FOLDER/NAME; docs/images itself may be FOLDER. --only takes the pictures whose names
+Every command `build/gnomon render ... -o docs/images/NAME` or `build/gnomon plan ... --draw docs/images/NAME` of a .md
+file, in a code block or between backticks, is run with the program GNOMON and writes FOLDER/NAME; docs/images itself may be FOLDER. --only takes the pictures whose names
 hold TEXT, --jobs draws N at a time (default 1).
 
 --check then compares each with docs/images, byte for byte, and says which differ and by how much. Pictures are those of
@@ -25,8 +25,9 @@ from pathlib import Path
 
 from sources import project_files, project_root
 
-COMMAND = re.compile(r"build/gnomon render [^`\n]*-o docs/images/[^`\s]+")
-SHOWN = re.compile(r"images/([\w.-]+\.(?:png|exr))")
+COMMAND = re.compile(r"build/gnomon (?:render [^`\n]*-o|plan [^`\n]*--draw) docs/images/[^`\s]+")
+SHOWN = re.compile(r"images/([\w.-]+\.(?:png|exr|svg))")
+TARGET = {"render": "-o", "plan": "--draw"}  # the option that names the picture
 IMAGES = Path("docs/images")
 
 
@@ -35,7 +36,7 @@ def documents(root: Path) -> list[tuple[Path, str]]:
 
 
 def commands_of(texts: list[tuple[Path, str]]) -> tuple[dict[str, list[str]], list[str]]:
-    """The arguments after the program for each picture, without -o, and what is wrong with the commands."""
+    """The arguments after the program for each picture, -o or --draw last, and what is wrong with the commands."""
     commands: dict[str, list[str]] = {}
     faults = []
     for file, text in texts:
@@ -45,12 +46,13 @@ def commands_of(texts: list[tuple[Path, str]]) -> tuple[dict[str, list[str]], li
             except ValueError as error:
                 faults.append(f"{file}: {error}: {line}")
                 continue
-            at = words.index("-o")
+            option = TARGET[words[1]]
+            at = words.index(option)
             name = Path(words[at + 1]).name
             if words[at + 1] != (IMAGES / name).as_posix() or at + 2 != len(words):
-                faults.append(f"{file}: -o {IMAGES.as_posix()}/NAME is not its end: {line}")
+                faults.append(f"{file}: {option} {IMAGES.as_posix()}/NAME is not its end: {line}")
                 continue
-            arguments = words[1:at]
+            arguments = words[1:at + 1]
             if commands.setdefault(name, arguments) != arguments:
                 faults.append(f"{file}: another command draws {name} already: {shlex.join(commands[name])}")
     return commands, faults
@@ -58,7 +60,7 @@ def commands_of(texts: list[tuple[Path, str]]) -> tuple[dict[str, list[str]], li
 
 def draw(gnomon: Path, root: Path, folder: Path, name: str, arguments: list[str]) -> str | None:
     """Draws one picture; what went wrong, or None."""
-    run = subprocess.run([gnomon, *arguments, "-o", folder / name], cwd=root, capture_output=True, text=True, check=False)
+    run = subprocess.run([gnomon, *arguments, folder / name], cwd=root, capture_output=True, text=True, check=False)
     if run.returncode == 0:
         return None
     # The program's own sentence comes last, after what it says of the device.
@@ -72,6 +74,8 @@ def difference(gnomon: Path, drawn: Path, kept: Path) -> str | None:
         return f"{kept.name}: not in {IMAGES.as_posix()}"
     if drawn.read_bytes() == kept.read_bytes():
         return None
+    if drawn.suffix == ".svg":
+        return f"{kept.name}: differs"
     run = subprocess.run([gnomon, "metrics", drawn, kept], capture_output=True, text=True, check=False)
     lines = (run.stdout if run.returncode == 0 else run.stderr).strip().splitlines()
     return f"{kept.name}: differs: {lines[-1] if lines else 'metrics said nothing'}"
@@ -97,7 +101,7 @@ def main() -> int:
 
     texts = documents(root)
     commands, faults = commands_of(texts)
-    shown = {name for _, text in texts for name in SHOWN.findall(re.sub(r"-o docs/images/\S+", "", text))}
+    shown = {name for _, text in texts for name in SHOWN.findall(re.sub(r"(?:-o|--draw) docs/images/\S+", "", text))}
     faults += [f"{name}: drawn, but no document shows it" for name in sorted(commands.keys() - shown)]
     wanted = sorted(name for name in commands if options.only in name)
     if not wanted:
@@ -114,8 +118,10 @@ def main() -> int:
 
     for fault in faults:
         print(fault, file=sys.stderr)
-    kept = {file.name for file in (root / IMAGES).iterdir() if file.suffix in (".png", ".exr")}
+    kept = {file.name for file in (root / IMAGES).iterdir()}
     for name in sorted(kept | shown):
+        if name.endswith(".svg") and name not in commands:
+            continue  # drawn by hand, or taken from a report
         if name not in commands:
             print(f"notice: {name}: no document names the command that draws it")
         if name not in shown:

@@ -27,7 +27,7 @@ PROGRAM = """#!/bin/sh
 case "$*" in
     metrics*) echo "rmse 0.5";;
     *--bad*) echo "gnomon: no GPU found" >&2; echo "gnomon: --bad is unknown" >&2; exit 2;;
-    *) for last; do :; done; echo "$*" | sed 's/ -o .*//' > "$last";;
+    *) for last; do :; done; echo "$*" | sed 's/ \\(-o\\|--draw\\) .*//' > "$last";;
 esac
 """
 FAULTS = [
@@ -64,6 +64,16 @@ class Pictures(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("1 drawn, 0 faults", result.stdout)
         self.assertNotIn("notice", result.stdout)
+
+    def test_plans_are_drawn_too(self):
+        page = "![s](images/s.svg)\n`build/gnomon plan rts --fit tsm --draw docs/images/s.svg`\n"
+        tree = {**TREE, "docs/plan.md": page, "docs/images/s.svg": "plan rts --fit tsm\n"}
+        result = run(tree, "--check")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 drawn, 0 faults", result.stdout)
+        result = run({**tree, "docs/images/s.svg": "plan rts --fit psm\n"}, "--check")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("s.svg: differs", result.stderr)
 
     def test_without_check_nothing_is_compared(self):
         result = run({**TREE, KEPT: "another"})
