@@ -109,6 +109,7 @@ struct Settings {
     std::vector<std::string> techniques;
     std::uint32_t repetitions = 0;
     std::uint32_t warmup = 0;
+    std::string draw;   // plan: the SVG file that shows a light's maps; empty: none
     std::string report; // compare: folder for pictures and a page; empty: none
     bool equal_error = false;
     std::optional<Sweep> sweep;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "debug_views.h"
 
+#include "debug_drawn.h"
 #include "lab/tint.h"
 #include "layer_depths.h"
 #include "progress.h"
@@ -17,16 +18,6 @@
 
 namespace gnomon::app {
 namespace {
-
-/// What a view of this kind is made of.
-struct Drawn {
-    const host::Picture& picture;
-    const Plan& plan;
-    host::Renderer& renderer;
-    const Shot& shot;
-    const Settings& settings;
-    std::size_t light;
-};
 
 /// The first of a light's views that has a point, or kNoIndex.
 std::uint32_t viewOf(const Plan& plan, const LightPlan& light, const glm::dvec3& point_ws)
@@ -65,15 +56,6 @@ ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::
         }
     }
     return kinds;
-}
-
-void requireMap(const Drawn& drawn, std::string_view what)
-{
-    const Outcome& outcome = drawn.plan.lights[drawn.light].outcome;
-    if (!outcome.hasMap()) {
-        throw Error(fmt::format("showing the {} of light {}", what, drawn.shot.lights[drawn.light].name),
-                    std::string(outcome.reason));
-    }
 }
 
 Image8 layersPicture(const Drawn& drawn)
@@ -147,10 +129,24 @@ struct DebugView {
     std::string_view used_when;
     Image8 (*paint)(const Drawn&);
 };
+bool always(const Settings&)
+{
+    return true;
+}
+
+bool steps(const Settings& s)
+{
+    const Motion motion = s.plan.technique.motion;
+    return motion != Motion::free && motion != Motion::snap;
+}
+
 constexpr std::array kViews{
+    DebugView{"density", always, "a technique that has a map", densityView},
     DebugView{"layers", [](const Settings& s) { return s.filter.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
-    DebugView{"map", [](const Settings&) { return true; }, "a technique that has a map", mapPicture},
+    DebugView{"map", always, "a technique that has a map", mapPicture},
+    DebugView{"steps", steps, "a motion that steps", stepsView},
+    DebugView{"views", always, "a technique that has a map", viewsView},
 };
 
 const DebugView* findView(std::string_view name)

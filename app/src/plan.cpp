@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon plan`: the plan of a frame as JSON. Uses core alone, so it needs no GPU and says the same on every machine;
-// but for lvsm's layers of depth where they follow what is drawn (lloyd): those are drawn and read back.
+// `gnomon plan`: the plan of a frame as JSON, or a light's maps as a picture. Uses core alone, so it needs no GPU and
+// says the same on every machine; but for lvsm's layers of depth where they follow what is drawn (lloyd): those are
+// drawn and read back.
 #include "app/shot.h"
 #include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
 #include "subcommands.h"
+
+#include "lab/plan_picture.h"
 
 #include <gnomon/object_set.h>
 #include <gnomon/planner.h>
@@ -60,32 +63,82 @@ Json objectsJson(const Shot& shot, const ObjectSet& objects)
     return list;
 }
 
-/// The last frame's plan; the ones before it decide what is redrawn.
-const Plan& planFrames(Shot& shot, const Settings& settings, ObjectSet& objects, Planner& planner, PlanLayers& layers)
-{
-    const FrameRange range = settings.frames.value_or(FrameRange{});
-    host::fillObjectSet(shot.state, objects);
-    Progress progress("planning", range.last - range.first + 1);
-    for (std::uint32_t index = range.first;; ++index) {
-        if (index != range.first) {
-            moveShot(shot, settings, index);
-            host::fillObjectSet(shot.state, objects);
-        }
-        const std::vector<Light> lights = castersOf(shot);
-        Frame frame;
-        frame.index = index;
-        frame.time_s = shot.state.time_s;
-        frame.camera = host::cameraOf(shot.eye, settings.size_px.x, settings.size_px.y, shot.state.bounds_ws);
-        frame.size_px = settings.size_px;
-        frame.lights = lights;
-        frame.objects = &objects;
-        const Plan& plan = planner.plan(frame);
-        layers.follow(shot);
-        progress.step();
-        if (index == range.last) {
-            return plan;
+/// Frames and their plans, one after the other; the ones before it decide what is redrawn in a frame.
+class PlannedFrames {
+public:
+    PlannedFrames(Shot& shot, const Settings& settings) : shot_(shot), settings_(settings), planner_(settings.plan)
+    {
+        host::fillObjectSet(shot.state, objects_);
+    }
+    void planAll(PlanLayers& layers)
+    {
+        const FrameRange range = settings_.frames.value_or(FrameRange{});
+        Progress progress("planning", range.last - range.first + 1);
+        for (std::uint32_t index = range.first;; ++index) {
+            if (index != range.first) {
+                moveShot(shot_, settings_, index);
+                host::fillObjectSet(shot_.state, objects_);
+            }
+            planOne(index);
+            layers.follow(shot_);
+            progress.step();
+            if (index == range.last) {
+                return;
+            }
         }
     }
+    /// The last ones.
+    [[nodiscard]] const Frame& frame() const { return frame_; }
+    [[nodiscard]] const Plan& plan() const { return *plan_; }
+    [[nodiscard]] const ObjectSet& objects() const { return objects_; }
+
+private:
+    void planOne(std::uint32_t index)
+    {
+        lights_ = castersOf(shot_);
+        frame_.index = index;
+        frame_.time_s = shot_.state.time_s;
+        frame_.camera = host::cameraOf(shot_.eye, settings_.size_px.x, settings_.size_px.y, shot_.state.bounds_ws);
+        frame_.size_px = settings_.size_px;
+        frame_.lights = lights_;
+        frame_.objects = &objects_;
+        plan_ = &planner_.plan(frame_);
+    }
+
+    Shot& shot_;
+    const Settings& settings_;
+    ObjectSet objects_;
+    Planner planner_;
+    std::vector<Light> lights_;
+    Frame frame_;
+    const Plan* plan_ = nullptr;
+};
+
+/// The maps of the light that --light names.
+void drawPlan(const Settings& settings, const Shot& shot, const PlannedFrames& planned)
+{
+    const std::size_t light = lightIndex(shot, settings);
+    const host::ShadedLight& shaded = shot.lights[light];
+    const Plan& plan = planned.plan();
+    const LightPlan& light_plan = plan.lights[light];
+    lab::PlanCaption caption;
+    caption.title = fmt::format("Light {} of {}: {}", shaded.name, settings.scene, describeTechnique(settings));
+    caption.subtitle = fmt::format("{} light, camera {}, {}x{} pixels", nameOf(shaded.caster.type), shot.camera,
+                                   settings.size_px.x, settings.size_px.y);
+    if (settings.frames) {
+        caption.subtitle += fmt::format(", frame {}", plan.frame);
+    }
+    if (light_plan.steps.paired) {
+        caption.subtitle += fmt::format("; the sun's earlier position, {:.0f} % of the way to the later one gone",
+                                        100.0 * light_plan.steps.share);
+    }
+    const std::string svg = lab::planSvg(planned.frame(), plan, static_cast<std::uint32_t>(light), caption);
+    writeResult(settings.draw, svg);
+    if (!settings.json.empty()) {
+        return; // what is on standard output is JSON alone
+    }
+    writeStdout(fmt::format("{}: the maps of light {} of {}, {}\n", settings.draw, shaded.name, settings.scene,
+                            describeTechnique(settings)));
 }
 
 } // namespace
@@ -96,10 +149,16 @@ int runPlan(const Settings& settings)
     for (const std::string& text : shot.notices) {
         notice(text);
     }
-    ObjectSet objects;
-    Planner planner(settings.plan);
     PlanLayers layers(settings, shot);
-    const Plan& plan = planFrames(shot, settings, objects, planner, layers);
+    PlannedFrames planned(shot, settings);
+    planned.planAll(layers);
+    if (!settings.draw.empty()) {
+        drawPlan(settings, shot, planned);
+        if (settings.json.empty()) {
+            return 0;
+        }
+    }
+    const Plan& plan = planned.plan();
     Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"camera", shot.camera}};
     json["settings"] = settingsJson(settings, kPlan);
     json.update(Json::parse(toJson(plan)));
@@ -107,7 +166,7 @@ int runPlan(const Settings& settings)
     for (std::size_t i = 0; i < shot.lights.size() && i < json["lights"].size(); ++i) {
         describeLight(shot.lights[i], json["lights"][i]);
     }
-    json["objects"] = objectsJson(shot, objects);
+    json["objects"] = objectsJson(shot, planned.objects());
     writeResult(settings.json, json.dump(2) + "\n");
     return 0;
 }

@@ -110,7 +110,7 @@ bool draws(const Settings& s)
 }
 bool judgesALight(const Settings& s)
 {
-    return s.mask || s.debug != "none" || s.subcommand == kCompare;
+    return s.mask || s.debug != "none" || s.subcommand == kCompare || !s.draw.empty();
 }
 
 void applySamples(Settings& s, const Value& v)
@@ -168,6 +168,14 @@ double sweepEnd(std::string_view text, const Setting& setting, std::string_view 
         refuseSweep(text, fmt::format("values by equal factors are above 0, which \"{}\" is not", end));
     }
     return *number;
+}
+
+void applyDraw(Settings& s, const Value& v)
+{
+    if (!v.text.ends_with(".svg")) {
+        throw UsageError(fmt::format("--draw: \"{}\" does not end in .svg, which is what it is written as", v.text));
+    }
+    s.draw = v.text;
 }
 
 /// KEY=FROM:TO:STEPS[:log]
@@ -240,9 +248,11 @@ const std::vector<Setting>& rows()
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
-         .doc = "tint by lvsm's layers, or show the map in grey", .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
-        {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kCompare,
-         .used = judgesALight, .used_when = "--mask or --debug, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+         .doc = "instead: density, layers, map, steps or views", .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
+        {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kPlan | kCompare,
+         .used = judgesALight, .used_when = "--mask, --debug or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
+        {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
+         .subcommands = kPlan, .apply = applyDraw},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,

@@ -4,6 +4,7 @@
 
 #include "lab/metrics/error_classes.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace gnomon::lab {
@@ -40,6 +41,9 @@ inline constexpr double kDensityOctaves = 4.0;
 
 /// The full colour of a class of error; kFaintLight for `correct`, kLeftOut for `left_out`.
 [[nodiscard]] Colour classColour(ErrorClass error_class);
+
+/// Of the kind k, from 0; they come again after kMostTints (lab/tint.h).
+[[nodiscard]] Colour tintColour(std::size_t kind);
 
 /// Mixed as light; share_of_b in [0, 1].
 [[nodiscard]] Colour mixLight(Colour a, Colour b, double share_of_b);

@@ -43,20 +43,16 @@ Colour tinted(Colour tint, double light)
     return {channel(tint.red), channel(tint.green), channel(tint.blue)};
 }
 
-} // namespace
-
-Image8 tintedPicture(const Image8& picture, const ImageOf<std::uint8_t>& kinds, const TintLegend& legend)
+/// `colour_of` takes a pixel's place and its luminance.
+template <typename ColourOf>
+Image8 paint(const Image8& picture, const TintLegend& legend, const ColourOf& colour_of)
 {
-    assert(picture.channels == 3 && kinds.channels == 1);
-    assert(picture.width == kinds.width && picture.height == kinds.height);
+    assert(picture.channels == 3);
     assert(legend.kinds.size() <= kMostTints);
     Image8 result(picture.width, picture.height, 3);
     for (std::uint32_t y = 0; y < picture.height; ++y) {
         for (std::uint32_t x = 0; x < picture.width; ++x) {
-            const double light = luminance(picture.pixel(x, y));
-            const std::uint8_t kind = *kinds.pixel(x, y);
-            const std::uint8_t grey = encodeSrgb(light);
-            setPixel(result, x, y, kind == 0 ? Colour{grey, grey, grey} : tinted(kTints[kind - 1U], light));
+            setPixel(result, x, y, colour_of(x, y, luminance(picture.pixel(x, y))));
         }
     }
     Legend shown;
@@ -66,6 +62,45 @@ Image8 tintedPicture(const Image8& picture, const ImageOf<std::uint8_t>& kinds, 
         shown.swatches.push_back({tinted(kTints[i], 0.0), kTints[i], legend.kinds[i]});
     }
     return addLegend(result, shown);
+}
+
+Colour greyOf(double light)
+{
+    const std::uint8_t grey = encodeSrgb(light);
+    return {grey, grey, grey};
+}
+
+} // namespace
+
+Colour tintColour(std::size_t kind)
+{
+    return kTints[kind % kTints.size()];
+}
+
+Image8 tintedPicture(const Image8& picture, const ImageOf<std::uint8_t>& kinds, const TintLegend& legend)
+{
+    assert(kinds.channels == 1 && picture.width == kinds.width && picture.height == kinds.height);
+    return paint(picture, legend, [&](std::uint32_t x, std::uint32_t y, double light) {
+        const std::uint8_t kind = *kinds.pixel(x, y);
+        return kind == 0 ? greyOf(light) : tinted(kTints[kind - 1U], light);
+    });
+}
+
+Image8 tintedPicture(const Image8& picture, const ImageF& shares, const TintLegend& legend)
+{
+    assert(shares.channels >= legend.kinds.size());
+    assert(picture.width == shares.width && picture.height == shares.height);
+    return paint(picture, legend, [&](std::uint32_t x, std::uint32_t y, double light) {
+        Colour colour = greyOf(light);
+        double sum = 0.0;
+        // One kind after the other, each for its share of what there is so far.
+        for (std::size_t i = legend.kinds.size(); i > 0; --i) {
+            const double share = shares.pixel(x, y)[i - 1];
+            sum += share;
+            colour = share > 0.0 ? mixLight(colour, tinted(kTints[i - 1], light), share / sum) : colour;
+        }
+        return sum < 1.0 ? mixLight(greyOf(light), colour, sum) : colour;
+    });
 }
 
 } // namespace gnomon::lab

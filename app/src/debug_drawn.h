@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the views of `--debug` are made of, and those of them that colour receivers by what the plan has for them.
+#pragma once
+
+#include "app/shot.h"
+
+#include <string_view>
+
+namespace gnomon::app {
+
+/// A frame as it was drawn.
+struct Drawn {
+    const host::Picture& picture; // colour and geometry
+    const Plan& plan;
+    host::Renderer& renderer;
+    const Shot& shot;
+    const Settings& settings;
+    std::size_t light;
+};
+
+/// Throws Error when the light has no map, of which `what` could be shown.
+void requireMap(const Drawn& drawn, std::string_view what);
+
+/// Shadow texels per pixel.
+[[nodiscard]] Image8 densityView(const Drawn& drawn);
+/// Which of the light's maps serves a pixel; of a stepping sun, whichever of its positions the map is of.
+[[nodiscard]] Image8 viewsView(const Drawn& drawn);
+/// What the two positions of a stepping sun count for.
+[[nodiscard]] Image8 stepsView(const Drawn& drawn);
+
+} // namespace gnomon::app

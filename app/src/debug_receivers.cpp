@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "debug_drawn.h"
+
+#include "lab/report.h"
+#include "lab/score/view_shares.h"
+#include "lab/texel_density.h"
+#include "lab/tint.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::app {
+namespace {
+
+Camera cameraOf(const Drawn& drawn)
+{
+    const ImageF& depth = drawn.picture.depth;
+    return host::cameraOf(drawn.shot.eye, depth.width, depth.height, drawn.shot.state.bounds_ws);
+}
+
+double reachOf(const Drawn& drawn)
+{
+    return static_cast<double>(vulkan::filterReachTexels(drawn.settings.filter));
+}
+
+ImageF sharesOf(const Drawn& drawn)
+{
+    const Camera camera = cameraOf(drawn);
+    return lab::viewShares({camera, drawn.picture.depth, drawn.picture.normals}, drawn.plan,
+                           static_cast<std::uint32_t>(drawn.light), reachOf(drawn));
+}
+
+const LightPlan& lightOf(const Drawn& drawn)
+{
+    return drawn.plan.lights[drawn.light];
+}
+
+/// The kind of each of a light's views, from 0: a slice is of one kind, for whichever of the sun's positions it is.
+std::vector<std::uint32_t> kindsOf(std::span<const View> views)
+{
+    std::vector<std::uint32_t> kinds;
+    std::uint32_t count = 0;
+    for (const View& view : views) {
+        const auto twin = std::find_if(views.begin(), views.end(), [&](const View& other) {
+            return view.sun == SunPosition::later && other.sun == SunPosition::earlier &&
+                   other.slice.begin_m == view.slice.begin_m && other.slice.end_m == view.slice.end_m;
+        });
+        kinds.push_back(twin == views.end() ? count++ : kinds[static_cast<std::size_t>(twin - views.begin())]);
+    }
+    return kinds;
+}
+
+std::string nameOfView(const View& view, std::uint32_t index)
+{
+    std::string name = fmt::format("map {}: ", index);
+    if (std::isfinite(view.slice.begin_m)) {
+        name += fmt::format("from {:.1f} ", view.slice.begin_m);
+    }
+    if (std::isfinite(view.slice.end_m)) {
+        name += fmt::format("to {:.1f} ", view.slice.end_m);
+    }
+    return fmt::format("{}{}texel {:.3g} m{}", name, view.slice.bounded() ? "m, " : "", view.texel_m,
+                       view.parallel ? "" : " at 1 m");
+}
+
+} // namespace
+
+void requireMap(const Drawn& drawn, std::string_view what)
+{
+    const Outcome& outcome = lightOf(drawn).outcome;
+    if (!outcome.hasMap()) {
+        throw Error(fmt::format("showing the {} of light {}", what, drawn.shot.lights[drawn.light].name),
+                    std::string(outcome.reason));
+    }
+}
+
+Image8 densityView(const Drawn& drawn)
+{
+    requireMap(drawn, "density");
+    const Camera camera = cameraOf(drawn);
+    const lab::Counted facing = lab::facingPixels(drawn.picture, camera, drawn.shot.lights[drawn.light].caster);
+    return lab::densityPicture(lab::texelDensity(drawn.picture, facing, camera, drawn.plan,
+                                                 static_cast<std::uint32_t>(drawn.light), reachOf(drawn))
+                                   .map);
+}
+
+Image8 viewsView(const Drawn& drawn)
+{
+    requireMap(drawn, "views");
+    const LightPlan& light = lightOf(drawn);
+    const std::span<const View> views = std::span(drawn.plan.views).subspan(light.first_view, light.view_count);
+    const std::vector<std::uint32_t> kinds = kindsOf(views);
+    const std::uint32_t most = *std::max_element(kinds.begin(), kinds.end());
+    const ImageF shares = sharesOf(drawn);
+    ImageF joined(shares.width, shares.height, std::min<std::uint32_t>(most + 1, lab::kMostTints));
+    lab::TintLegend legend;
+    legend.title = "Which map a pixel is shadowed from";
+    legend.subtitle = "mixed where two are; grey: no map here";
+    for (std::size_t i = 0; i < views.size() && legend.kinds.size() < joined.channels; ++i) {
+        if (kinds[i] == legend.kinds.size()) {
+            legend.kinds.push_back(nameOfView(views[i], kinds[i]));
+        }
+    }
+    for (std::uint32_t y = 0; y < shares.height; ++y) {
+        for (std::uint32_t x = 0; x < shares.width; ++x) {
+            for (std::size_t i = 0; i < views.size(); ++i) {
+                joined.pixel(x, y)[kinds[i] % joined.channels] += shares.pixel(x, y)[i];
+            }
+        }
+    }
+    return lab::tintedPicture(drawn.picture.colour, joined, legend);
+}
+
+Image8 stepsView(const Drawn& drawn)
+{
+    requireMap(drawn, "steps");
+    const LightPlan& light = lightOf(drawn);
+    const ImageF shares = sharesOf(drawn);
+    ImageF positions(shares.width, shares.height, 2);
+    for (std::uint32_t y = 0; y < shares.height; ++y) {
+        for (std::uint32_t x = 0; x < shares.width; ++x) {
+            for (std::uint32_t i = 0; i < light.view_count; ++i) {
+                const bool later = drawn.plan.views[light.first_view + i].sun == SunPosition::later;
+                positions.pixel(x, y)[later ? 1 : 0] += shares.pixel(x, y)[i];
+            }
+        }
+    }
+    lab::TintLegend legend;
+    legend.title = "Which of the sun's two positions shadows";
+    legend.subtitle = fmt::format("{:.0f} % of the way gone; grey: no map here", 100.0 * light.steps.share);
+    legend.kinds = {"the earlier", "the later"};
+    return lab::tintedPicture(drawn.picture.colour, positions, legend);
+}
+
+} // namespace gnomon::app

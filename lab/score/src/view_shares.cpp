@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/score/view_shares.h"
+
+#include "pixel_rays.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gnomon::lab {
+namespace {
+
+/// Of the views from `first` to `end`, in the order in which they fade over into each other; `weight` is shared out.
+void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double reach_texels, double weight,
+              float* shares)
+{
+    bool found = false;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const View& view = views[i];
+        const auto texel = texelOf(view, point_ws);
+        if (!texel || !serves(view, point_ws, *texel, reach_texels)) {
+            continue;
+        }
+        // The first that serves the point counts for all of it, and each after it for what has faded over so far.
+        double share = 1.0;
+        if (found) {
+            const double depth_m = glm::dot(view.slice.axis, glm::dvec4(point_ws, 1.0));
+            share = view.slice.blend_m > 0.0 ? std::clamp((depth_m - view.slice.begin_m) / view.slice.blend_m, 0.0, 1.0)
+                                             : 0.0;
+        }
+        for (std::size_t before = 0; before < i; ++before) {
+            shares[before] *= static_cast<float>(1.0 - share);
+        }
+        shares[i] = static_cast<float>(share * weight);
+        found = true;
+    }
+}
+
+} // namespace
+
+double laterWeight(const SunSteps& steps, double x)
+{
+    assert(steps.paired);
+    const double a = steps.band > 0.0 ? std::clamp((steps.edge - x) / steps.band, 0.0, 1.0) : steps.share;
+    return steps.smooth ? a * a * (3.0 - 2.0 * a) : a;
+}
+
+ImageF viewShares(const Sight& seen, const Plan& plan, std::uint32_t light, double reach_texels)
+{
+    assert(light < plan.lights.size());
+    const PixelRays rays(seen);
+    const std::span<const View> views = viewsOf(plan, light);
+    const SunSteps& steps = plan.lights[light].steps;
+    const auto later = std::find_if(views.begin(), views.end(),
+                                    [&](const View& view) { return steps.paired && view.sun == SunPosition::later; });
+    const auto earlier_count = static_cast<std::size_t>(later - views.begin());
+    ImageF shares(seen.depth.width, seen.depth.height, std::max<std::uint32_t>(1, std::uint32_t(views.size())));
+    for (std::uint32_t y = 0; y < shares.height; ++y) {
+        for (std::uint32_t x = 0; x < shares.width; ++x) {
+            const auto surface = rays.surfaceAt(x, y);
+            if (!surface) {
+                continue;
+            }
+            const double weight = steps.paired ? laterWeight(steps, (x + 0.5) / shares.width) : 0.0;
+            float* const here = shares.pixel(x, y);
+            shareOut(views.first(earlier_count), surface->point_ws, reach_texels, 1.0 - weight, here);
+            shareOut(views.subspan(earlier_count), surface->point_ws, reach_texels, weight, here + earlier_count);
+        }
+    }
+    return shares;
+}
+
+} // namespace gnomon::lab

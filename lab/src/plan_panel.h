@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panels of planSvg(): the plane across a light, and its maps.
+#pragma once
+
+#include "plan_shapes.h"
+
+#include <cstdint>
+#include <string>
+
+namespace gnomon::lab {
+
+struct PixelRect {
+    double x = 0.0;
+    double y = 0.0;
+    double width = 0.0;
+    double height = 0.0;
+};
+
+struct PlanObject {
+    Polygon shape;
+    bool casts = false;
+    bool drawn = false; // in one of the maps
+    bool seen = false;  // by the camera, and receives
+};
+struct PlanMap {
+    std::uint32_t view = 0; // index into Plan::views
+    glm::dmat3 from_plane{1.0};
+    Polygon seen;
+    std::vector<std::uint32_t> casters;
+};
+/// All that is drawn, in the plane across the light.
+struct PlanScene {
+    LightPlane plane;
+    std::vector<PlanObject> objects; // by handle
+    std::vector<PlanMap> maps;
+    std::optional<glm::dvec2> eye; // nothing: behind the light
+    Polygon sight;                 // points of the camera's line of sight, from the eye on; open
+};
+
+/// Precondition of both: a map at least.
+[[nodiscard]] std::string drawAcross(const PlanScene& scene, const PixelRect& rect);
+[[nodiscard]] std::string drawInMap(const PlanScene& scene, std::size_t map, const PixelRect& rect);
+
+/// "#rrggbb" of map i.
+[[nodiscard]] std::string mapColour(std::size_t i);
+
+} // namespace gnomon::lab

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shapes of a frame and its plan in the plane across a light: for pictures of plans.
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon::lab {
+
+/// Corners in order; empty: nothing to draw.
+using Polygon = std::vector<glm::dvec2>;
+
+/// The plane across a light's rays as the light sees it: a point of it is a ray. Metres under parallel light; else
+/// metres at 1 m distance from the light (tangents).
+struct LightPlane {
+    glm::dvec3 origin_ws{0.0}; // where (0, 0) is; the light's place when `perspective`
+    glm::dvec3 x_ws{1.0, 0.0, 0.0};
+    glm::dvec3 y_ws{0.0, 0.0, -1.0}; // as near as can be to the way the camera looks
+    glm::dvec3 forward_ws{0.0, -1.0, 0.0};
+    bool perspective = false;
+
+    /// Nothing for what is not in front of a light with a place.
+    [[nodiscard]] std::optional<glm::dvec2> project(const glm::dvec3& p_ws) const;
+};
+/// Of the light that `view` is a map of.
+[[nodiscard]] LightPlane lightPlaneOf(const View& view, const Light& light, const Camera& camera);
+
+/// The unit vector along which the camera looks.
+[[nodiscard]] glm::dvec3 forwardOf(const Camera& camera);
+
+/// Takes (x, y, 1) of the plane to clip space's x, y and w.
+[[nodiscard]] glm::dmat3 mapFromPlane(const LightPlane& plane, const View& view);
+/// The map's point at clip space (x, y), as a point of the plane.
+[[nodiscard]] glm::dvec2 planePoint(const glm::dmat3& map_from_plane, double x, double y);
+
+/// What is in front of the light of a convex body, as the light sees it: convex, counter-clockwise.
+[[nodiscard]] Polygon shadowOf(const LightPlane& plane, ConvexBody body);
+
+/// Around what the camera sees of the boxes of the plan's receivers, within a view's slice and the light's reach, as
+/// the light sees it: convex, counter-clockwise. It has to be in the map.
+[[nodiscard]] Polygon seenFrom(const LightPlane& plane, const Frame& frame, const Plan& plan, const View& view);
+
+/// The part of a convex polygon that `window_from_plane` takes to |x|, |y| <= `half` with w > 0, in the window.
+[[nodiscard]] Polygon inWindow(std::span<const glm::dvec2> polygon, const glm::dmat3& window_from_plane, double half);
+
+} // namespace gnomon::lab

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon plan --draw`, and the pictures of `--debug` that colour receivers by what the plan has for them.
+#include "folder.h"
+#include "process.h"
+
+#include "image/image_io.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+using std::filesystem::exists;
+
+test::Ran inFolder(const test::Folder& folder, const std::vector<std::string>& arguments, bool driver = true)
+{
+    test::How how;
+    how.folder = folder.path();
+    if (!driver) {
+        how.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}};
+    }
+    return test::gnomon(arguments, how);
+}
+
+TEST(PlanDraw, WritesAPictureWithoutADriver)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(
+        folder, {"plan", "sundial", "--camera", "long", "--partition", "cascades", "--draw", "maps.svg"}, false);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("maps.svg: the maps of light sun of sundial, pcf+cascades"), std::string::npos) << ran.out;
+    const std::string svg = test::slurp(folder / "maps.svg");
+    EXPECT_TRUE(svg.starts_with("<svg "));
+    EXPECT_TRUE(svg.ends_with("</svg>\n"));
+    EXPECT_NE(svg.find("Light sun of sundial: pcf+cascades"), std::string::npos);
+    EXPECT_NE(svg.find("Map 3: 2048 x 2048 texels"), std::string::npos);
+}
+
+TEST(PlanDraw, GoesWithJson)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        inFolder(folder, {"plan", "planes", "--light", "spot", "--draw", "maps.svg", "--json=-"}, false);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_TRUE(json::parse(ran.out, nullptr, false).is_object());
+    EXPECT_NE(test::slurp(folder / "maps.svg").find("Light spot of planes"), std::string::npos);
+}
+
+TEST(PlanDraw, IsRefusedWhereItMakesNoSense)
+{
+    const test::Folder folder;
+    const auto refuses = [&](const std::vector<std::string>& arguments, const char* part) {
+        const test::Ran ran = inFolder(folder, arguments);
+        EXPECT_EQ(ran.status, 2);
+        EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
+        EXPECT_TRUE(folder.names().empty());
+    };
+    refuses({"plan", "planes", "--draw", "maps.png"}, "does not end in .svg");
+    refuses({"plan", "planes", "--light", "sun"}, "--light has an effect only with");
+    refuses({"plan", "planes", "--draw", "a.svg", "--light", "moon"}, "moon");
+    refuses({"render", "planes", "--draw", "maps.svg"}, "--draw is not an option of render");
+}
+
+constexpr std::uint32_t kWidth = 320;
+constexpr std::uint32_t kHeight = 180;
+
+ImageF drawn(const test::Folder& folder, std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.end(), {"--size", "320x180", "--validate", "--out", "view.png"});
+    const test::Ran ran = inFolder(folder, arguments);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.status == 0 ? readImage(folder / "view.png") : ImageF(kWidth, kHeight, 3);
+}
+
+bool isGrey(const float* rgb)
+{
+    return std::max({rgb[0], rgb[1], rgb[2]}) - std::min({rgb[0], rgb[1], rgb[2]}) < 0.02F;
+}
+
+/// A pixel's hue as the first two kinds have it: orange, or blue.
+bool isOrange(const float* rgb)
+{
+    return rgb[0] > rgb[2] + 0.05F;
+}
+bool isBlue(const float* rgb)
+{
+    return rgb[2] > rgb[0] + 0.05F;
+}
+
+TEST(DebugViews, ColourEachCascade)
+{
+    const test::Folder folder;
+    const ImageF view = drawn(folder, {"render", "planes", "--camera", "side", "--debug", "views", "--partition",
+                                       "cascades", "--set", "cascades.ends=10", "--set", "cascades.blend=0"});
+    EXPECT_GT(view.height, kHeight); // the legend
+    std::size_t orange = 0;
+    std::size_t blue = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            orange += isOrange(view.pixel(x, y)) ? 1 : 0;
+            blue += isBlue(view.pixel(x, y)) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(orange, 1000U);
+    EXPECT_GT(blue, 1000U);
+    // A single map has one colour.
+    const ImageF single = drawn(folder, {"render", "planes", "--camera", "side", "--debug", "views"});
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            EXPECT_FALSE(isBlue(single.pixel(x, y)) && !isGrey(single.pixel(x, y)));
+        }
+    }
+}
+
+TEST(DebugViews, DensityGrowsWithTheMap)
+{
+    const test::Folder folder;
+    const auto brightness = [&](const char* size) {
+        const ImageF view =
+            drawn(folder, {"render", "planes", "--camera", "top", "--debug", "density", "--map-size", size});
+        double green = 0.0; // viridis grows greener all along
+        for (std::uint32_t y = 0; y < kHeight; ++y) {
+            for (std::uint32_t x = 0; x < kWidth; ++x) {
+                green += static_cast<double>(view.pixel(x, y)[1]);
+            }
+        }
+        return green;
+    };
+    const double coarse = brightness("64");
+    EXPECT_GT(brightness("512"), 1.5 * coarse);
+}
+
+TEST(DebugViews, AreRefusedWhereThereIsNothingToShow)
+{
+    const test::Folder folder;
+    const test::Ran steps = inFolder(folder, {"render", "planes", "--debug", "steps"});
+    EXPECT_EQ(steps.status, 2);
+    EXPECT_NE(steps.err.find("a motion that steps"), std::string::npos) << steps.err;
+    for (const char* view : {"density", "views"}) {
+        const test::Ran sky =
+            inFolder(folder, {"render", "planes", "--debug", view, "--eye", "0,5,0", "--target", "0,50,1"});
+        EXPECT_EQ(sky.status, 1);
+        EXPECT_NE(sky.err.find("showing the "), std::string::npos) << sky.err;
+        EXPECT_FALSE(exists(folder / "gnomon.png"));
+    }
+}
+
+} // namespace
+} // namespace gnomon
