@@ -12,10 +12,10 @@
 //
 // Departures: z_f is that of what is seen and lit, not the camera's far plane, which may be at infinity; z_n is that of
 // the near end of a plane across the rays through what is seen (view_slope.h), not the camera's near plane, where
-// nothing is as a rule and which asked for warps far too strong. A light with a place is warped in the plane of its
-// tangents, where z over the light's depth takes the place of z and its slope over the faces of what is seen that of
-// the sine (view_slope.h); the paper asks for its post-perspective space, which has the same plane. n is bounded below
-// by what the map can bear (strongestWarp).
+// nothing is as a rule and which asked for warps far too strong, and no less than a share of z_f for the same reason
+// (kLeastShare). A light with a place is warped in the plane of its tangents, where z over the light's depth takes the
+// place of z and its slope over the faces of what is seen that of the sine (view_slope.h); the paper asks for its
+// post-perspective space, which has the same plane. n is bounded below by what the map can bear (strongestWarp).
 #include "fit/view_slope.h"
 
 namespace gnomon {
