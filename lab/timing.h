@@ -44,7 +44,7 @@ struct StageTimes {
 
 /// Work that does not depend on the machine, of one frame.
 struct Counters {
-    std::uint64_t texels_rendered = 0; // of all tiles that were drawn
+    std::uint64_t texels_rendered = 0; // of all tiles that were drawn, and of kept layers
     std::uint64_t vertex_invocations = 0;
     std::uint64_t primitives = 0;
     std::uint64_t fragment_invocations = 0;

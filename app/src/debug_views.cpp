@@ -7,6 +7,7 @@
 #include "progress.h"
 
 #include <gnomon/error.h>
+#include <gnomon/plan_views.h>
 
 #include <fmt/format.h>
 
@@ -19,13 +20,13 @@
 namespace gnomon::app {
 namespace {
 
-/// The first of a light's views that has a point, or kNoIndex.
-std::uint32_t viewOf(const Plan& plan, const LightPlan& light, const glm::dvec3& point_ws)
+/// The first of a light's views that has a point, or kNoIndex; of a sun between two positions, of the stronger one's.
+std::uint32_t viewOf(const Plan& plan, std::uint32_t light, const glm::dvec3& point_ws)
 {
-    for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
-        const glm::dvec4 clip = plan.views[i].clip_from_world * glm::dvec4(point_ws, 1.0);
+    for (const View& view : viewsOf(plan, light, strongerPosition(plan.lights[light].steps))) {
+        const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
         if (clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w) {
-            return i;
+            return static_cast<std::uint32_t>(&view - plan.views.data());
         }
     }
     return kNoIndex;
@@ -48,7 +49,7 @@ ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::
                                  *depth.pixel(x, y), 1.0);
             const glm::dvec4 place = world_from_clip * ndc;
             const glm::dvec3 point_ws = glm::dvec3(place) / place.w;
-            const std::uint32_t view = viewOf(drawn.plan, light, point_ws);
+            const std::uint32_t view = viewOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), point_ws);
             if (view != kNoIndex) {
                 const double d = storedDepth(drawn.plan.views[view], drawn.settings.filter.moments, point_ws);
                 *kinds.pixel(x, y) = static_cast<std::uint8_t>(1 + layerOf(layers[view - light.first_view], d));

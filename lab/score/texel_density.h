@@ -33,12 +33,13 @@ struct TexelDensity {
 /// Shadow texels per screen pixel along the texel grid's worse axis, at each counted pixel of `seen`, for the light
 /// `light` of `plan`. Zeros when no pixel counts. `reach_texels` (>= 0.5): how far the filter reads, along x and y
 /// each; a pixel so near to a tile's edge that it would read beyond it (tileMarginTexels()) is not in that map, because
-/// the mask does not take it from there.
+/// the mask does not take it from there. Of a sun between two positions (SunSteps) the stronger one's maps count.
 [[nodiscard]] TexelDensity texelDensity(const Sight& seen, const Counted& counted, const Plan& plan,
                                         std::uint32_t light, double reach_texels);
 
 /// Of one light's maps. A pixel reads every texel whose centre lies within `reach_texels` (along x and y) of the place
-/// where it is projected, from the first view that has it. Of a disc that is the square around it.
+/// where it is projected, from the first view that has it. Of a disc that is the square around it. Of a sun between two
+/// positions (SunSteps) it reads the maps of both, beside a band of one; by turns those of one alone.
 struct TexelUse {
     std::uint64_t read = 0; // by one counted pixel at least
     std::uint64_t held = 0; // by the tiles of the light

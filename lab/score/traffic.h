@@ -16,6 +16,10 @@ namespace gnomon::lab {
 /// Of one texel of a map, colour or depth as the filter reads it.
 [[nodiscard]] std::uint32_t texelBytes(MapFormat format);
 
+/// Texels of a view's map and of its kept layer that a frame renders; where a map is restored from a kept layer, what
+/// is drawn over. `redraws_all`: whatever they hold.
+[[nodiscard]] std::uint64_t texelsRendered(const View& view, bool redraws_all);
+
 /// What leastBytes() needs to know of a frame besides plan and picture.
 struct TrafficOptions {
     MapFormat format = MapFormat::d32f;
@@ -37,7 +41,8 @@ inline constexpr std::uint64_t kObjectIdBytes = 4; // R32_UINT
 /// part; nor does anything of the host's. A texel of a filterable map is written in every image layer and in the mip
 /// levels above it that its tile has, and read in one; the depths that it is made of and what its blur moves in between
 /// do not count, for they could stay on the chip: the blur has a minimum of its own (FilterCost). With several samples
-/// to a pixel, the texels are those that the pixels' own places read. 0 where the plan has no lights. `lights` are
+/// to a pixel, the texels are those that the pixels' own places read. What a map is restored from is not read here: the
+/// still casters could be drawn again. 0 where the plan has no lights. `lights` are
 /// those of the plan's frame.
 [[nodiscard]] std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
                                        const TrafficOptions& options);

@@ -2,6 +2,7 @@
 #include "lab/timing.h"
 
 #include "lab/metrics/quantile.h"
+#include "lab/score/traffic.h"
 #include "lab/traffic.h"
 
 #include <algorithm>
@@ -165,9 +166,7 @@ Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraw
 {
     Counters counters;
     for (const View& view : plan.views) {
-        if (view.redraw || redraws_all) {
-            counters.texels_rendered += std::uint64_t{view.tile.width} * view.tile.height;
-        }
+        counters.texels_rendered += texelsRendered(view, redraws_all);
     }
     for (const vulkan::PassRecord& pass : times.passes) {
         counters.vertex_invocations += pass.vertex_invocations;

@@ -59,5 +59,48 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     }
 }
 
+/// The sun goes to and fro, things move, and what stands still is kept.
+TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
+{
+    test::Random random(21);
+    ObjectSet set;
+    set.add({{-200, -3, -200}, {200, 5, 200}});
+    std::vector<glm::dvec3> homes;
+    for (int i = 0; i < 400; ++i) {
+        homes.push_back(random.inBox({-150, 0, -150}, {150, 30, 150}));
+        set.add(test::boxAt(homes.back(), glm::dvec3(1.0)), {true, true, i % 4 == 0});
+    }
+    std::vector<Light> lights{test::sun({0.4, -1, 0.3}), test::spot({0, 40, 0}, {0.2, -1, 0}, 0.9)};
+    Frame frame;
+    frame.lights = lights;
+    frame.objects = &set;
+    frame.camera = test::perspectiveCamera({150, 60, 0}, {0, 0, 0}, 1.0);
+    for (const Motion motion : {Motion::step_jump, Motion::step_band, Motion::step_blend, Motion::step_alternate}) {
+        PlanOptions options;
+        options.technique.motion = motion;
+        options.keep_still = KeepStill::always;
+        Planner planner(options);
+        int drawn = 0;
+        const auto play = [&](int step) {
+            const double turn = 6.283185307179586 * step / 60.0;
+            for (std::uint32_t i = 0; i < homes.size(); i += 4) {
+                const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
+                set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
+            }
+            lights[0].direction_ws = glm::normalize(glm::dvec3(0.4 + 0.02 * std::sin(turn), -1.0, 0.3));
+            for (const View& view : planner.plan(frame).views)
+                drawn += view.redraw_kept ? 1 : 0;
+        };
+        for (int step = 0; step < 600; ++step)
+            play(step % 60);
+        drawn = 0;
+        const std::uint64_t before = test::heapAllocations();
+        for (int step = 0; step < 120; ++step)
+            play(step % 60);
+        EXPECT_EQ(test::heapAllocations(), before) << nameOf(motion);
+        EXPECT_GT(drawn, 4);
+    }
+}
+
 } // namespace
 } // namespace gnomon

@@ -284,5 +284,47 @@ TEST(DrawnMaps, AreAsIfDrawnAnewInEveryFrame)
     EXPECT_GT(pairs, 5000);
 }
 
+/// Every point of a box, where it was and where it is, is drawn within `dirty`, a texel away from its edge at least;
+/// but at the tile's edge.
+TEST(Dirty, CoversWhereAMoverWasAndIs)
+{
+    Random random(21);
+    int inside = 0;
+    for (int round = 0; round < 3000; ++round) {
+        View view;
+        view.tile = {0, 0, 0, 64, 48};
+        const bool perspective = round % 2 == 1;
+        const glm::dvec3 eye = random.inBox(glm::dvec3(-20), glm::dvec3(20));
+        view.clip_from_world = (perspective ? test::perspectiveCamera(eye, glm::dvec3(0.0), 1.0)
+                                            : test::orthographicCamera(eye, glm::dvec3(0.0), 15.0))
+                                   .clip_from_world;
+        const glm::dvec3 half = random.inBox(glm::dvec3(0.0), glm::dvec3(3.0));
+        const Aabb box = test::boxAt(random.inBox(glm::dvec3(-25), glm::dvec3(25)), half);
+        const TexelRect rect = texelsOf(view, box);
+        ASSERT_LE(rect.x + rect.width, 64U);
+        ASSERT_LE(rect.y + rect.height, 48U);
+        for (int sample = 0; sample < 20; ++sample) {
+            const glm::dvec3 p = random.inBox(glm::dvec3(box.min), glm::dvec3(box.max));
+            const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+            if (c.w <= 0.0 || std::abs(c.x) >= c.w || std::abs(c.y) >= c.w)
+                continue;
+            ++inside;
+            const glm::dvec2 at = (glm::dvec2(c) / c.w * 0.5 + 0.5) * glm::dvec2(64.0, 48.0);
+            ASSERT_FALSE(rect.empty());
+            ASSERT_LE(rect.x, std::max(at.x - 1.0, 0.0));
+            ASSERT_LE(rect.y, std::max(at.y - 1.0, 0.0));
+            ASSERT_GE(rect.x + rect.width, std::min(at.x + 1.0, 64.0));
+            ASSERT_GE(rect.y + rect.height, std::min(at.y + 1.0, 48.0));
+        }
+    }
+    EXPECT_GT(inside, 10000);
+    EXPECT_EQ(merge({1, 2, 3, 4}, {}).width, 3U);
+    const TexelRect both = merge({1, 2, 3, 4}, {10, 1, 2, 2});
+    EXPECT_EQ(both.x, 1U);
+    EXPECT_EQ(both.y, 1U);
+    EXPECT_EQ(both.width, 11U);
+    EXPECT_EQ(both.height, 5U);
+}
+
 } // namespace
 } // namespace gnomon

@@ -3,6 +3,7 @@
 // with points and rays, and with the camera's matrix itself; it uses no plane, no body and no tree.
 #include "worlds.h"
 
+#include <gnomon/plan_views.h>
 #include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
@@ -194,7 +195,7 @@ void checkCasters(const Scene& scene, const Light& light, const Plan& plan, cons
         ASSERT_NE(planned.outcome.kind, OutcomeKind::no_caster);
         const View& view = plan.views[planned.first_view];
         const auto first = plan.casters.begin() + view.first_caster;
-        ASSERT_TRUE(std::binary_search(first, first + view.caster_count, object));
+        ASSERT_NE(std::find(first, first + view.caster_count, object), first + view.caster_count);
         // A fit that turns a ray round puts the caster where it shades nothing.
         const glm::dvec4 c = view.clip_from_world * glm::dvec4(p + toward * leave, 1.0);
         ASSERT_GT(c.w, 0.0);
@@ -235,6 +236,58 @@ void checkPlan(const Scene& scene, const Plan& plan, Random& random, Tally& tall
             ASSERT_NO_FATAL_FAILURE(checkCasters(scene, scene.lights[i], plan, light, p, tally));
         }
     }
+}
+
+/// From each position of a sun that moves in steps the maps are right, for a light that shines from there.
+TEST(PlanPropertiesOfSteps, HoldForEachPosition)
+{
+    Tally tally;
+    int pairs = 0;
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Scene scene = randomScene(seed, Fit::uniform);
+        scene.options.technique.motion = static_cast<Motion>(2 + seed % 4);
+        scene.options.paired_maps = seed % 3 == 0;
+        Planner planner(scene.options);
+        Frame frame;
+        frame.camera = scene.camera;
+        frame.objects = &scene.set;
+        Random random(seed + 1000000);
+        glm::dvec3 aside = glm::cross(scene.lights[0].direction_ws, glm::dvec3(0.3, 0.5, 0.8));
+        for (int step = 0; step < 3; ++step) {
+            scene.lights[0].direction_ws = glm::normalize(scene.lights[0].direction_ws + aside * 0.002);
+            frame.lights = scene.lights;
+            const Plan& plan = planner.plan(frame);
+            for (const bool later : {false, true}) {
+                // As a plan of one sun alone, whose only views are those of this position.
+                const SunSteps& steps = plan.lights[0].steps;
+                if ((later && !steps.paired) || !plan.lights[0].outcome.hasMap())
+                    continue;
+                const SunPosition sun = !steps.paired ? SunPosition::only
+                                        : later       ? SunPosition::later
+                                                      : SunPosition::earlier;
+                const std::span<const View> views = viewsOf(plan, 0, sun);
+                if (views.empty())
+                    continue; // nothing casts from there
+                Plan one = plan;
+                one.lights.resize(1);
+                one.lights[0].first_view = static_cast<std::uint32_t>(views.data() - plan.views.data());
+                Scene at = {.set = {},
+                            .camera = scene.camera,
+                            .lights = {scene.lights[0]},
+                            .options = scene.options,
+                            .size_m = scene.size_m};
+                for (std::uint32_t object = 0; object < scene.set.size(); ++object)
+                    at.set.add(scene.set.bounds(object), scene.set.flags(object));
+                at.lights[0].direction_ws = later ? steps.later_ws : steps.earlier_ws;
+                pairs += later ? 1 : 0;
+                ASSERT_NO_FATAL_FAILURE(checkPlan(at, one, random, tally));
+            }
+        }
+    }
+    EXPECT_GT(pairs, 300);
+    EXPECT_GT(tally.seen, 5000);
+    EXPECT_GT(tally.blocked, 3000);
 }
 
 class PlanProperties : public testing::TestWithParam<Fit> {};

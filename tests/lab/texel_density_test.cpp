@@ -187,6 +187,50 @@ TEST(FitEfficiency, WhatTheMaskDoesNotTakeFromAMapIsNotInIt)
     EXPECT_NEAR(*both.map.pixel(0, 1), 0.5, 1e-4);
 }
 
+/// A sun between two positions, whose maps have one texel and two to a pixel.
+TEST(FitEfficiency, OfTwoPositionsTakesThoseThatAreRead)
+{
+    const Above above(1.0);
+    const Sight seen{above.camera, above.picture.depth, above.picture.normals};
+    Plan plan = planOf(0.0, 0.0, {1.0, 1.0}, 64, 64);
+    plan.views.push_back(planOf(0.0, 0.0, {0.5, 0.5}, 128, 128).views[0]);
+    for (View& view : plan.views) { // off the texels' edges
+        view.clip_from_world[3] += glm::dvec4(0.3 / view.tile.width, 0.3 / view.tile.width, 0.0, 0.0);
+    }
+    plan.views[0].sun = SunPosition::earlier;
+    plan.views[1].sun = SunPosition::later;
+    plan.lights[0].view_count = 2;
+    SunSteps& steps = plan.lights[0].steps;
+    steps.stepping = true;
+    steps.paired = true;
+    constexpr std::uint64_t kPixels = kSide_px * kSide_px;
+    const auto read = [&] {
+        return texelUse(seen, above.all, plan, 0, 0.5).read;
+    };
+    const auto density = [&] {
+        return texelDensity(seen, above.all, plan, 0, 0.5).p50;
+    };
+    steps.share = 0.3;
+    EXPECT_EQ(read(), 2 * kPixels);
+    EXPECT_EQ(texelUse(seen, above.all, plan, 0, 0.5).held, 64U * 64U + 128U * 128U);
+    EXPECT_NEAR(density(), 1.0, 1e-4);
+    steps.share = 0.7;
+    EXPECT_NEAR(density(), 2.0, 1e-4);
+    steps.share = 0.0;
+    EXPECT_EQ(read(), kPixels);
+    steps.band = 0.25; // in the middle of the picture
+    steps.edge = 0.625;
+    steps.share = 0.5;
+    EXPECT_EQ(read(), kPixels + kPixels / 4);
+    steps.band = 0.0;
+    steps.alternate = true;
+    steps.read = SunPosition::later;
+    EXPECT_EQ(read(), kPixels);
+    EXPECT_NEAR(density(), 2.0, 1e-4);
+    steps.read = SunPosition::earlier;
+    EXPECT_NEAR(density(), 1.0, 1e-4);
+}
+
 TEST(FitEfficiency, OfAFilterFollowsItsReach)
 {
     vulkan::FilterOptions filter;
@@ -228,6 +272,15 @@ TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (drawn + 4 * pixels) + pixels * 9);
     options.redraws_all = false;
     EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * 4 * pixels + pixels * 9);
+    // Of one that is restored and drawn over in part, only that part, and what is kept if that is drawn too.
+    plan.views[0].redraw = true;
+    plan.views[0].kept_layer = 0;
+    plan.views[0].dirty = {0, 0, 4, 5};
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (20 + 4 * pixels) + pixels * 9);
+    plan.views[0].redraw_kept = true;
+    EXPECT_EQ(leastBytes(seen, lights, plan, options), 2 * (20 + drawn + 4 * pixels) + pixels * 9);
+    plan.views[0].kept_layer = kNoIndex;
+    plan.views[0].redraw = false;
     // Who turns away from the light reads nothing, and neither does a light without a map; the mask is written.
     lights[0].direction_ws = {0.0, 1.0, 0.0};
     EXPECT_EQ(leastBytes(seen, lights, plan, options), pixels * 9);

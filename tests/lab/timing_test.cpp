@@ -66,6 +66,13 @@ TEST(Stages, SumThePassesOfTheirName)
     plan.views[1].redraw = false;
     EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 200U);
     EXPECT_EQ(countersOf(times, plan, true).texels_rendered, 1100U);
+    plan.views[0].kept_layer = 0; // restored, and a corner drawn over
+    plan.views[0].dirty = {5, 5, 3, 4};
+    EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 12U);
+    EXPECT_EQ(countersOf(times, plan, true).texels_rendered, 2U * 200U + 900U);
+    plan.views[0].redraw_kept = true;
+    plan.views[0].dirty = {0, 0, 10, 20};
+    EXPECT_EQ(countersOf(times, plan, false).texels_rendered, 2U * 200U);
     EXPECT_EQ(countersOf(times, plan, true).draws, 8U);
     EXPECT_EQ(countersOf(times, plan, true).vertex_invocations, 400U);
     EXPECT_EQ(countersOf(times, plan, true).passes, 4U);

@@ -5,6 +5,8 @@
 #include "lab/metrics/same_shape.h"
 #include "pixel_rays.h"
 
+#include <gnomon/plan_views.h>
+
 #include <glm/mat2x2.hpp>
 
 #include <algorithm>
@@ -57,7 +59,7 @@ TexelDensity texelDensity(const Sight& seen, const Counted& counted, const Plan&
     assert(areMasksOfOneSize(counted, seen.depth) && seen.normals.channels == 3);
     assert(light < plan.lights.size());
     const PixelRays rays(seen);
-    const std::span<const View> views = viewsOf(plan, light);
+    const std::span<const View> views = viewsOf(plan, light, strongerPosition(plan.lights[light].steps));
     TexelDensity result;
     result.map = ImageF(counted.width, counted.height, 1);
     std::vector<double> densities;

@@ -2,7 +2,10 @@
 #include "lab/score/texel_density.h"
 
 #include "lab/metrics/same_shape.h"
+#include "lab/score/view_shares.h"
 #include "pixel_rays.h"
+
+#include <gnomon/plan_views.h>
 
 #include <algorithm>
 #include <bit>
@@ -70,37 +73,68 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-} // namespace
-
-TexelUse texelUse(const Sight& seen, const Counted& counted, const Plan& plan, std::uint32_t light, double reach_texels)
+/// Does the mask read this position's maps at `x` of the picture, 0 .. 1? Where a position's weight is nothing it need
+/// not.
+bool isRead(const SunSteps& steps, SunPosition sun, double x)
 {
-    assert(areMasksOfOneSize(counted, seen.depth) && seen.normals.channels == 3);
-    assert(light < plan.lights.size());
-    const std::span<const View> views = viewsOf(plan, light);
+    if (steps.alternate) {
+        return sun == steps.read;
+    }
+    if (!steps.paired) {
+        return true;
+    }
+    const double later = laterWeight(steps, x);
+    return sun == SunPosition::later ? later > 0.0 : later < 1.0;
+}
+
+/// By pixels in the columns that `reads` says.
+template <class Reads>
+std::uint64_t texelsRead(const Sight& seen, const Counted& counted, std::span<const View> views, double reach_texels,
+                         const Reads& reads)
+{
     const PixelRays rays(seen);
     std::vector<ReadTexels> read;
-    TexelUse use;
     for (const View& view : views) {
         read.emplace_back(view.tile);
-        use.held += std::uint64_t{view.tile.width} * view.tile.height;
     }
-    for (std::uint32_t y = 0; y < counted.height; ++y) {
+    for (std::uint32_t y = 0; y < counted.height && !views.empty(); ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
-            const auto surface = *counted.pixel(x, y) != 0 ? rays.surfaceAt(x, y) : std::nullopt;
+            const bool counts = *counted.pixel(x, y) != 0 && reads(x);
+            const auto surface = counts ? rays.surfaceAt(x, y) : std::nullopt;
             // The mask pass reads the first view that has the pixel, and one that fades over into it.
             bool found = false;
             for (std::size_t v = 0; surface && v < views.size(); ++v) {
                 const auto texel = texelOf(views[v], surface->point_ws);
-                const bool counts = !found || views[v].slice.blend_m > 0.0;
-                if (counts && texel && serves(views[v], surface->point_ws, *texel, reach_texels)) {
+                const bool serving = !found || views[v].slice.blend_m > 0.0;
+                if (serving && texel && serves(views[v], surface->point_ws, *texel, reach_texels)) {
                     read[v].add(*texel, reach_texels);
                     found = true;
                 }
             }
         }
     }
-    for (const ReadTexels& texels : read) {
-        use.read += texels.count();
+    std::uint64_t texels = 0;
+    for (const ReadTexels& tile : read) {
+        texels += tile.count();
+    }
+    return texels;
+}
+
+} // namespace
+
+TexelUse texelUse(const Sight& seen, const Counted& counted, const Plan& plan, std::uint32_t light, double reach_texels)
+{
+    assert(areMasksOfOneSize(counted, seen.depth) && seen.normals.channels == 3);
+    assert(light < plan.lights.size());
+    const SunSteps& steps = plan.lights[light].steps;
+    TexelUse use;
+    for (const SunPosition sun : {SunPosition::only, SunPosition::earlier, SunPosition::later}) {
+        const std::span<const View> views = viewsOf(plan, light, sun);
+        for (const View& view : views) {
+            use.held += std::uint64_t{view.tile.width} * view.tile.height;
+        }
+        use.read += texelsRead(seen, counted, views, reach_texels,
+                               [&](std::uint32_t x) { return isRead(steps, sun, (x + 0.5) / counted.width); });
     }
     return use;
 }

@@ -21,7 +21,8 @@ std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
 {
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
-        texels += view.redraw || options.redraws_all ? texelsOf(view.tile, options.mip_levels) : 0;
+        const bool whole = options.redraws_all || (view.redraw && view.kept_layer == kNoIndex);
+        texels += whole ? texelsOf(view.tile, options.mip_levels) : texelsRendered(view, false);
     }
     return texels * options.image_layers;
 }
@@ -33,6 +34,16 @@ std::uint64_t maskBytes(const Plan& plan)
 }
 
 } // namespace
+
+std::uint64_t texelsRendered(const View& view, bool redraws_all)
+{
+    const std::uint64_t all = std::uint64_t{view.tile.width} * view.tile.height;
+    if (view.kept_layer == kNoIndex) {
+        return view.redraw || redraws_all ? all : 0;
+    }
+    const std::uint64_t dirty = std::uint64_t{view.dirty.width} * view.dirty.height;
+    return (view.redraw_kept || redraws_all ? all : 0) + (redraws_all ? all : dirty);
+}
 
 std::uint32_t texelBytes(MapFormat format)
 {

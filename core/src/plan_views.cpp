@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/plan_views.h>
+
+#include <algorithm>
+
+namespace gnomon {
+
+SunPosition strongerPosition(const SunSteps& steps)
+{
+    if (!steps.paired)
+        return SunPosition::only;
+    if (steps.alternate)
+        return steps.read;
+    return steps.share > 0.5 ? SunPosition::later : SunPosition::earlier;
+}
+
+std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition sun)
+{
+    const LightPlan& planned = plan.lights[light];
+    if (!planned.outcome.hasMap())
+        return {};
+    const std::span<const View> all = std::span(plan.views).subspan(planned.first_view, planned.view_count);
+    const auto first = std::ranges::find(all, sun, &View::sun);
+    const auto end = std::find_if(first, all.end(), [&](const View& view) { return view.sun != sun; });
+    return {first, end};
+}
+
+} // namespace gnomon
