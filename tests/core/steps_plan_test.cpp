@@ -107,24 +107,28 @@ TEST(StepsPlan, DrawStillCastersOnceForEachPosition)
 
 TEST(StepsPlan, DrawNothingWhereNothingMoves)
 {
-    Village village;
-    village.set.remove(village.mover);
-    Planner planner(stepped(Motion::step_blend));
-    int drawn = 0;
-    int steps = 0;
-    glm::dvec3 last(0.0);
-    for (double angle = -0.2; angle < 0.2; angle += 0.043 * kStep) {
-        village.shine(angle);
-        const Plan& plan = planner.plan(village.frame);
-        for (const View& view : plan.views) {
-            drawn += view.redraw ? 1 : 0;
-            EXPECT_EQ(view.kept_layer, kNoIndex); // at once
+    for (const bool paired_maps : {false, true}) {
+        Village village;
+        village.set.remove(village.mover);
+        PlanOptions options = stepped(Motion::step_blend);
+        options.paired_maps = paired_maps;
+        Planner planner(options);
+        int drawn = 0;
+        int steps = 0;
+        glm::dvec3 last(0.0);
+        for (double angle = -0.2; angle < 0.2; angle += 0.043 * kStep) {
+            village.shine(angle);
+            const Plan& plan = planner.plan(village.frame);
+            for (const View& view : plan.views) {
+                drawn += view.redraw ? 1 : 0;
+                EXPECT_EQ(view.kept_layer, kNoIndex); // at once
+            }
+            steps += plan.lights[0].steps.later_ws != last ? 1 : 0;
+            last = plan.lights[0].steps.later_ws;
         }
-        steps += plan.lights[0].steps.later_ws != last ? 1 : 0;
-        last = plan.lights[0].steps.later_ws;
+        EXPECT_EQ(drawn, steps);
+        EXPECT_GT(steps, 40);
     }
-    EXPECT_EQ(drawn, steps);
-    EXPECT_GT(steps, 40);
 }
 
 /// A position's tile, part and kept layer last as long as it does, and the earlier position's views come first.

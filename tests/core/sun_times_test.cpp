@@ -13,8 +13,8 @@ using namespace test;
 TEST(SunStepsByTime, TakeAStepInEachInterval)
 {
     SunCourse course;
-    constexpr double kFrame_s = 1.0 / 60.0;
-    constexpr double kSpeed = 0.004; // radians a second
+    constexpr double kFrame_s = 0.017; // does not divide the interval
+    constexpr double kSpeed = 0.004;   // radians a second
     int steps = 0;
     double began_s = 0.0;
     for (int frame = 0; frame < 3000; ++frame) {
@@ -37,7 +37,7 @@ TEST(SunStepsByTime, TakeAStepInEachInterval)
             EXPECT_NEAR(angleBetween(mean(now), overhead(at)), 0.0, 1e-7);
         }
     }
-    EXPECT_EQ(steps, 24);
+    EXPECT_EQ(steps, 25);
 }
 
 TEST(SunStepsByTime, OfASunThatStopsEndWhereItStands)
@@ -64,6 +64,21 @@ TEST(SunStepsByTime, OfASunThatStopsEndWhereItStands)
     }
     EXPECT_FALSE(course.steps().paired);
     EXPECT_EQ(course.steps().earlier_ws, nudged);
+}
+
+/// A nudge at any time of the step is no speed: the next position is not thrown far ahead.
+TEST(SunStepsByTime, OfASunThatIsNudgedGoOn)
+{
+    for (int nudge = 100; nudge < 130; ++nudge) {
+        SunCourse course;
+        for (int frame = 0; frame < 200; ++frame) {
+            const glm::dvec3 sun = overhead(0.0005 * frame + (frame < nudge ? 0.0 : 0.008));
+            course.follow(sun, 0.1 * frame, Stepping::blend, byTime(2.0));
+            // As far as it goes in an interval, and the nudge.
+            EXPECT_LE(angleBetween(course.steps().later_ws, sun), 0.0005 * 20.0 + 0.008 + 1e-9)
+                << nudge << " " << frame;
+        }
+    }
 }
 
 TEST(SunStepsByTime, BeginAnewWhenTimeDoes)
