@@ -93,14 +93,15 @@ Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
     const vulkan::FilterOptions& filter = drawn.settings.filter;
-    const Tile& tile = drawn.plan.views[drawn.plan.lights[drawn.light].first_view].tile;
+    const View& view = drawn.plan.views[drawn.plan.lights[drawn.light].first_view];
+    const Tile& tile = view.tile;
     const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(filter.filter, filter.moments));
     ImageF depths(tile.width, tile.height, 1);
     float least = std::numeric_limits<float>::infinity();
     float most = -least;
     for (std::uint32_t y = 0; y < tile.height; ++y) {
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float depth = vulkan::mapDepth(filter, {map.pixel(tile.x + x, tile.y + y), map.channels});
+            const float depth = vulkan::mapDepth(filter, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
             *depths.pixel(x, y) = depth;
             if (std::isfinite(depth)) {
                 least = std::min(least, depth);

@@ -112,7 +112,8 @@ constexpr std::array kFormats{
 };
 
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
-constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
+// rg16 and rgba8: two maps a texel, each of 16 bits.
+constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rgba8};
 constexpr std::array kVsmFormats{MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f};
 constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f};
 constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
@@ -147,7 +148,8 @@ constexpr std::string_view formatReason(Filter filter)
         return "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or rgba32f; half floats "
                "round them too coarsely";
     default:
-        return "this filter compares one depth per texel; it stores d32f, r32f or d16";
+        return "this filter compares one depth per texel; it stores d32f, r32f or d16, or two maps a "
+               "texel: rg16 or rgba8";
     }
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // For caster shaders, ours and hosts': what a map's texel is to hold. In the vertex shader, write gl_Position =
-// clip_from_world * p and pass on casterMetric(); in the fragment shader of a map with a colour format write
-// casterStored() to it; of a depth-only map that says MapPassFormats::write_frag_depth, to gl_FragDepth; else nothing,
-// because the rasteriser's depth is the metric then.
+// clip_from_world * p and pass on casterMetric(). In the fragment shader of a map with a colour format write to it
+// casterTexel(), with kDepthBytes for R8G8B8A8_UNORM and kDepthAlone for all others; of a depth-only map that says
+// MapPassFormats::write_frag_depth, write casterStored() to gl_FragDepth; else nothing, because the rasteriser's depth
+// is the metric then.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"
+#include "../shared/paired_depth.h"
 GN_BEGIN
 
 // Affine in the point, so interpolation over a triangle is exact.
@@ -17,6 +19,13 @@ GN_FN real casterMetric(real3 p_ws, real4 metric_ws)
 GN_FN real casterStored(real metric)
 {
     return depthMetricStored(metric);
+}
+
+// Of a map with a colour format: in all its channels, so that a target that holds two maps needs nothing but the write
+// mask of MapPass::colour_mask.
+GN_FN real4 casterTexel(int holding, real metric)
+{
+    return pairedTexel(holding, casterStored(metric));
 }
 
 GN_END

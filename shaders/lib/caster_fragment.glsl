@@ -11,7 +11,8 @@
 #endif
 layout(location = 0) AT in float metric;
 #ifdef WRITE_COLOUR
-layout(location = 0) out float stored;
+layout(location = 0) out vec4 stored;
+layout(constant_id = 0) const int kHolding = kDepthAlone;
 #endif
 #ifdef MASKED
 layout(location = 1) AT in vec2 uv;
@@ -34,7 +35,7 @@ void main()
     }
 #endif
 #ifdef WRITE_COLOUR
-    stored = casterStored(metric);
+    stored = casterTexel(kHolding, metric);
 #endif
 #ifdef WRITE_DEPTH
     gl_FragDepth = casterStored(metric);

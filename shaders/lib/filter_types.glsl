@@ -4,8 +4,9 @@
 // The includer gives access to the map's texels beforehand, because GLSL and a test on the CPU have them in different
 // places. Texel (i, j) is centred on (i + 0.5, j + 0.5); a gather has the four texels that meet at a corner with integer
 // coordinates, in the order of textureGather: x: left low, y: right low, z: right high, w: left high, where "low" is the larger y.
-//   real mapTexel(real2 texel, real layer);    // texel: integer coordinates
-//   real4 mapGather(real2 corner, real layer); // corner: integer coordinates
+//   real mapTexel(real2 texel, real layer, real part);    // texel: integer coordinates
+//   real4 mapGather(real2 corner, real layer, real part); // corner: integer coordinates
+// `part`: which of the two maps that a texel may hold (shared/paired_depth.h).
 // And to the points of a disc filter's pattern, which are a table on the GPU (shared/discs.h):
 //   real2 discPoint(int i); // in the unit disc
 // And to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level, and
@@ -20,6 +21,7 @@ GN_BEGIN
 
 struct FilterInput {
     real layer;
+    real part;          // of a texel with two maps: 0: the first, 1: the second
     int kernel_width;   // 1, 3, 5, 7: separable; 0: disc
     int disc_taps;      // points of the disc
     real disc_radius;   // texels

@@ -10,7 +10,7 @@ GN_BEGIN
 GN_FN real filterHard(MapPoint point, FilterInput f)
 {
     real2 texel = floor(point.texel);
-    return compareTexel(point, texel + real2(real(0.5)) - point.texel, mapTexel(texel, f.layer));
+    return compareTexel(point, texel + real2(real(0.5)) - point.texel, mapTexel(texel, f.layer, f.part));
 }
 
 GN_END

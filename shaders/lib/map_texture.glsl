@@ -2,21 +2,43 @@
 // GLSL only. Texels of the maps from one array texture: define GNOMON_MAP_SET and GNOMON_MAP_BINDING, and
 // GNOMON_MAP_TEXEL_SIZE as an expression for (1 / width, 1 / height) of the atlas. For filterable maps the sampler must
 // be linear within and between mip levels and clamp to the edge; for all others its filter does not matter. For lvsm
-// define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth.
+// define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For formats of two maps a texel
+// (rg16 of hard and pcf, rgba8) define GNOMON_DEPTH_HOLDING: kDepthChannel or kDepthBytes of shared/paired_depth.h.
 #ifndef GNOMON_MAP_TEXTURE_GLSL
 #define GNOMON_MAP_TEXTURE_GLSL
 #include "../shared/gpu_structs.h"
+#include "../shared/paired_depth.h"
+#ifndef GNOMON_DEPTH_HOLDING
+#define GNOMON_DEPTH_HOLDING kDepthAlone
+#endif
 
 layout(set = GNOMON_MAP_SET, binding = GNOMON_MAP_BINDING) uniform sampler2DArray gnomon_maps;
 
-float mapTexel(vec2 texel, float layer)
+float mapTexel(vec2 texel, float layer, float part)
 {
-    return texelFetch(gnomon_maps, ivec3(texel, layer), 0).r;
+    return pairedDepth(GNOMON_DEPTH_HOLDING, texelFetch(gnomon_maps, ivec3(texel, layer), 0), part);
 }
 
-vec4 mapGather(vec2 corner, float layer)
+// A gather is of one channel, which must be a constant.
+vec4 mapGather(vec2 corner, float layer, float part)
 {
-    return textureGather(gnomon_maps, vec3(corner * GNOMON_MAP_TEXEL_SIZE, layer), 0);
+    vec3 at = vec3(corner * GNOMON_MAP_TEXEL_SIZE, layer);
+    vec4 first = textureGather(gnomon_maps, at, 0);
+    if (GNOMON_DEPTH_HOLDING == kDepthChannel) {
+        if (part > 0.5) {
+            return textureGather(gnomon_maps, at, 1);
+        }
+    }
+    if (GNOMON_DEPTH_HOLDING == kDepthBytes) {
+        vec4 low = textureGather(gnomon_maps, at, 1);
+        if (part > 0.5) {
+            first = textureGather(gnomon_maps, at, 2);
+            low = textureGather(gnomon_maps, at, 3);
+        }
+        return vec4(depthFromBytes(first.x, low.x), depthFromBytes(first.y, low.y), depthFromBytes(first.z, low.z),
+                    depthFromBytes(first.w, low.w));
+    }
+    return first;
 }
 
 vec4 mapMoments(vec2 texel, float level, float layer)

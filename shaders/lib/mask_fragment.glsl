@@ -2,6 +2,7 @@
 // GLSL only: body of the mask pass. Up to four lights of one layer of the mask, for the pixel's surface.
 #include "../shared/gpu_structs.h"
 #include "../shared/octahedral.h"
+#include "../shared/sun_steps.h"
 
 layout(constant_id = 0) const int kFilter = 1;      // gnomon::Filter
 layout(constant_id = 1) const int kKernelWidth = 3; // see FilterInput
@@ -14,6 +15,8 @@ layout(constant_id = 6) const bool kAutomaticBias = true;
 layout(constant_id = 7) const int kMomentFlags = 0;    // see MomentRule
 layout(constant_id = 8) const int kMomentSampling = 0; // gnomon::MapSampling
 layout(constant_id = 9) const int kMomentLayers = 2;   // of lvsm
+layout(constant_id = 10) const int kDepthHolding = 0;  // see shared/paired_depth.h
+layout(constant_id = 11) const int kSteps = 0;         // bit i: light i is seen from two positions
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
@@ -23,6 +26,7 @@ layout(set = 0, binding = 0, std140) uniform Constants
 #define GNOMON_MAP_BINDING 1
 #define GNOMON_LAYERS_BINDING 5
 #define GNOMON_MAP_TEXEL_SIZE mask.atlas.xy
+#define GNOMON_DEPTH_HOLDING kDepthHolding
 #include "map_texture.glsl"
 vec2 discPoint(int i)
 {
@@ -84,6 +88,7 @@ FilterInput filterInput()
 {
     FilterInput f;
     f.layer = 0.0;
+    f.part = 0.0;
     f.kernel_width = kKernelWidth;
     f.disc_taps = kDiscTaps;
     f.disc_radius = mask.disc.x;
@@ -94,27 +99,65 @@ FilterInput filterInput()
     return f;
 }
 
-// `index` is a constant at every call. A light's first view is views[index], so that it too is at a constant place. Views
-// are in the order in which they fade over into each other.
+// What the views of one position of a light say so far. They are in the order in which they fade over into each other.
+struct Seen {
+    float v;
+    bool found;
+};
+
+// `index` is a constant at every call, so that the first view, too, is at a constant place.
+Seen firstView(int index, float depth, BiasRule bias, PixelSteps steps, vec3 p, vec3 n)
+{
+    Seen seen = Seen(1.0, viewContains(mask.views[index], p, depth));
+    if (seen.found) {
+        seen.v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), steps, p, n);
+    }
+    return seen;
+}
+
+Seen furtherView(uint i, Seen seen, float depth, BiasRule bias, PixelSteps steps, vec3 p, vec3 n)
+{
+    float share = seen.found ? viewShare(mask.views[i], depth) : 1.0;
+    if (share > 0.0 && viewContains(mask.views[i], p, depth)) {
+        seen.v = mix(seen.v, viewVisibility(kFilter, mask.views[i], bias, filterInput(), steps, p, n), share);
+        seen.found = true;
+    }
+    return seen;
+}
+
+// `index` is a constant at every call.
 float lightVisibility(int index, PixelSteps steps, vec3 p, vec3 n)
 {
     GpuLight light = mask.lights[index];
     BiasRule bias = biasOf(mask.bias, mask.bias_more);
     bias.automatic = kAutomaticBias ? 1.0 : 0.0;
-    float v = 1.0;
+    const bool paired = (kSteps & (1 << index)) != 0;
     float depth = dot(mask.view_axis.xyz, p);
-    bool found = viewContains(mask.views[index], p, depth);
-    if (found) {
-        v = viewVisibility(kFilter, mask.views[index], bias, filterInput(), steps, p, n);
+    Seen seen = firstView(index, depth, bias, steps, p, n);
+    Seen later = Seen(1.0, false);
+    if (paired) {
+        later = firstView(kLightsPerLayer + index, depth, bias, steps, p, n);
     }
     if (kManyViews) {
-        for (uint i = light.views.x; i < light.views.x + light.views.y; ++i) {
-            float share = found ? viewShare(mask.views[i], depth) : 1.0;
-            if (share > 0.0 && viewContains(mask.views[i], p, depth)) {
-                v = mix(v, viewVisibility(kFilter, mask.views[i], bias, filterInput(), steps, p, n), share);
-                found = true;
+        uint middle = light.views.x + light.views.y;
+        uint end = middle + (paired ? light.views.w : 0);
+        for (uint i = light.views.x; i < end; ++i) {
+            if (paired && i == middle) { // what is done of the earlier position goes to `later` until the end
+                Seen earlier = seen;
+                seen = later;
+                later = earlier;
             }
+            seen = furtherView(i, seen, depth, bias, steps, p, n);
         }
+        if (paired && end > middle) {
+            Seen earlier = later;
+            later = seen;
+            seen = earlier;
+        }
+    }
+    float v = seen.v;
+    if (paired) {
+        v = steppedVisibility(v, later.v, stepWeight(mask.steps[index], gl_FragCoord.x * mask.screen.z));
     }
     v = fadedVisibility(mask.fade, v, length(p));
     return light.views.z == 0 ? 1.0 : (facesLight(light, p, n) ? v : 0.0);

@@ -121,6 +121,7 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
 {
     FilterInput input_here = f;
     input_here.layer = real(view.scale.z);
+    input_here.part = real(view.scale.w);
     input_here.slot = int(view.more.x);
     input_here.tile = real4(view.whole);
     input_here.coarsest = real(view.more.y);

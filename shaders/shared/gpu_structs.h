@@ -29,7 +29,7 @@ struct GpuView {
     GN_VEC4 w;
     GN_VEC4 metric;
     GN_VEC4 tile; // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
-    GN_VEC4 scale;   // x: texel_m, y: range_m, z: layer
+    GN_VEC4 scale;   // x: texel_m, y: range_m, z: layer, w: part of a texel with two maps (paired_depth.h): 0 or 1
     GN_VEC4 plane_x; // of an orthographic view, see MapRows
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
@@ -44,8 +44,10 @@ struct GpuDepthLayers {
 };
 
 struct GpuLight {
-    GN_VEC4 place;  // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
-    GN_UVEC4 views; // x: first and y: count of its further views; z: 0 when it has no map (then visibility is 1)
+    GN_VEC4 place; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+    // x: first and y: count of its further views; z: 0 when it has no map (then visibility is 1); w: where it is seen
+    // from two positions, the count of further views of the later one, which follow those of the earlier one
+    GN_UVEC4 views;
 };
 
 struct GpuMaskLayer {
@@ -66,12 +68,15 @@ struct GpuMaskLayer {
     GN_VEC4 moment_shape;                 // linstep, power, lighten
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
     GpuLight lights[kLightsPerLayer];
-    GpuView views[kViewsPerLayer]; // light i's first view is views[i]; further ones follow from kLightsPerLayer on
+    GN_VEC4 steps[kLightsPerLayer]; // of lights that are seen from two positions: sun_steps.h
+    // Light i's first view is views[i], and where a light of the layer is seen from two positions the first view of the
+    // later one is views[kLightsPerLayer + i]. Further ones follow from there on.
+    GpuView views[kViewsPerLayer];
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuView) == 192 && sizeof(GpuLight) == 32 && sizeof(GpuDepthLayers) == 128 &&
-              sizeof(GpuMaskLayer) == 240 + 32 * 16 + 4 * 32 + 64 * 192);
+              sizeof(GpuMaskLayer) == 240 + 32 * 16 + 4 * 32 + 4 * 16 + 64 * 192);
 } // namespace gnomon::shared
 #endif
 #endif

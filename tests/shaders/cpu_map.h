@@ -111,11 +111,11 @@ private:
 } // namespace gnomon::test
 
 GN_BEGIN
-inline real mapTexel(real2 at, real)
+inline real mapTexel(real2 at, real, real)
 {
     return test::map_texels(static_cast<int>(at.x), static_cast<int>(at.y));
 }
-inline real4 mapGather(real2 corner, real)
+inline real4 mapGather(real2 corner, real, real)
 {
     const int x = static_cast<int>(corner.x);
     const int y = static_cast<int>(corner.y);

@@ -48,7 +48,7 @@ protected:
         for (int k = 0; k < 4; ++k) {
             const glm::dvec2 texel = cell + glm::dvec2(k % 2, k / 2);
             const double weight = (k % 2 == 0 ? 1.0 - f.x : f.x) * (k / 2 == 0 ? 1.0 - f.y : f.y);
-            sum += weight * compareTexel(point, texel + 0.5 - point.texel, mapTexel(texel, 0.0));
+            sum += weight * compareTexel(point, texel + 0.5 - point.texel, mapTexel(texel, 0.0, 0.0));
         }
         return sum;
     }
@@ -114,7 +114,7 @@ TEST_F(Filters, hardReadsTheTexelThatTheReceiverIsIn)
         MapPoint point = randomPoint();
         point.depth_slope = glm::dvec2(0.0);
         point.w_slope = glm::dvec2(0.0);
-        const double stored = mapTexel(glm::floor(point.texel), 0.0);
+        const double stored = mapTexel(glm::floor(point.texel), 0.0, 0.0);
         EXPECT_EQ(filterHard(point, {}), stored >= point.depth ? 1.0 : 0.0);
     }
 }

@@ -16,11 +16,11 @@ inline std::function<glm::vec4(int i)> float_layers;
 } // namespace gnomon::test
 
 GN_BEGIN
-inline real mapTexel(real2, real)
+inline real mapTexel(real2, real, real)
 {
     return test::float_texel().x;
 }
-inline real4 mapGather(real2, real)
+inline real4 mapGather(real2, real, real)
 {
     return test::float_texel();
 }

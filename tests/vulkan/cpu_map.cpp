@@ -12,7 +12,7 @@ namespace {
 
 struct Layout {
     std::uint32_t channels;
-    enum class Kind { unorm16, half, single } kind;
+    enum class Kind { unorm8, unorm16, half, single } kind;
 };
 
 Layout layoutOf(VkFormat format)
@@ -20,6 +20,8 @@ Layout layoutOf(VkFormat format)
     switch (format) {
     case VK_FORMAT_D16_UNORM:
         return {1, Layout::Kind::unorm16};
+    case VK_FORMAT_R8G8B8A8_UNORM:
+        return {4, Layout::Kind::unorm8};
     case VK_FORMAT_R16G16_UNORM:
         return {2, Layout::Kind::unorm16};
     case VK_FORMAT_R16G16B16A16_UNORM:
@@ -86,7 +88,7 @@ glm::dvec4 sampleAt(const CpuMap& map, glm::dvec2 texel, double level)
 std::uint32_t texelBytes(VkFormat format)
 {
     const Layout layout = layoutOf(format);
-    return layout.channels * (layout.kind == Layout::Kind::single ? 4U : 2U);
+    return layout.channels * (layout.kind == Layout::Kind::single ? 4U : layout.kind == Layout::Kind::unorm8 ? 1U : 2U);
 }
 
 glm::vec4 decodeTexel(VkFormat format, const std::byte* bytes)
@@ -97,6 +99,10 @@ glm::vec4 decodeTexel(VkFormat format, const std::byte* bytes)
         float& channel = texel[static_cast<int>(i)];
         if (layout.kind == Layout::Kind::single) {
             std::memcpy(&channel, bytes + std::size_t{4} * i, 4);
+            continue;
+        }
+        if (layout.kind == Layout::Kind::unorm8) {
+            channel = static_cast<float>(std::to_integer<int>(bytes[i])) / 255.0F;
             continue;
         }
         std::uint16_t bits = 0;

@@ -58,10 +58,10 @@ vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
 
 namespace {
 
-vulkan::ShadowRendererOptions rendererOptions(MapFormat format)
+vulkan::ShadowRendererOptions rendererOptions(const vulkan::FilterOptions& filter)
 {
     vulkan::ShadowRendererOptions options;
-    options.filter.format = format;
+    options.filter = filter;
     options.frames_in_flight = 1;
     return options;
 }
@@ -76,10 +76,22 @@ vulkan::CasterDrawerOptions drawerOptions(const vulkan::ShadowRenderer& renderer
     return options;
 }
 
+vulkan::FilterOptions filterOf(MapFormat format)
+{
+    vulkan::FilterOptions filter;
+    filter.format = format;
+    return filter;
+}
+
 } // namespace
 
 Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
-    : renderer(gpu().view(), rendererOptions(format)), drawer(gpu().view(), drawerOptions(renderer, cull)),
+    : Bench(screen, filterOf(format), reversed_z, cull)
+{
+}
+
+Bench::Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z, bool cull)
+    : renderer(gpu().view(), rendererOptions(filter)), drawer(gpu().view(), drawerOptions(renderer, cull)),
       screen_(screen)
 {
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
@@ -124,6 +136,13 @@ void Bench::prepare()
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
     (void)renderer.prepare(plan, screen_);
+}
+
+void Bench::look(const glm::dvec3& eye, const glm::dvec3& target)
+{
+    frame.camera = makeCamera(eye, target, double(screen_.width) / screen_.height, frame.camera.reversed_z);
+    picture = tracePicture(scene, frame.camera, screen_);
+    inputs = uploadPicture(gpu(), picture);
 }
 
 void Bench::record(int frames, vulkan::Profiler* profiler)

@@ -21,6 +21,7 @@ void expectSilence(Gpu& gpu);
 class Bench {
 public:
     Bench(VkExtent2D screen, MapFormat format, bool reversed_z = true, bool cull = false);
+    Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z = true, bool cull = false);
 
     /// After changes to `scene`: makes plan, picture and mesh.
     void setLights(std::vector<Light> lights, const std::vector<Tile>& tiles, AtlasSize atlas);
@@ -29,6 +30,8 @@ public:
     /// Turns the ground's triangles over.
     void flipGround();
     void prepare();
+    /// From here on the camera sees the scene from there.
+    void look(const glm::dvec3& eye, const glm::dvec3& target);
     /// Records and runs this many frames, all in slot 0 and one command buffer each.
     void record(int frames, vulkan::Profiler* profiler = nullptr);
     [[nodiscard]] std::vector<float> readMap(std::uint32_t layer);

@@ -5,6 +5,7 @@
 #include "moment_numbers.h"
 
 #include <shared/discs.h>
+#include <shared/paired_depth.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,24 +22,25 @@ const CpuMap& mapOf(double layer)
 {
     return current_maps[static_cast<std::size_t>(layer)];
 }
-double texel(double layer, double x, double y)
+int current_holding = 0;
+double texel(double layer, double x, double y, double part)
 {
-    return texelAt(mapOf(layer), 0, x, y).x;
+    return shared::pairedDepth(current_holding, texelAt(mapOf(layer), 0, x, y), part);
 }
 } // namespace
 } // namespace gnomon::test
 
 GN_BEGIN
-inline real mapTexel(real2 at, real layer)
+inline real mapTexel(real2 at, real layer, real part)
 {
-    return test::texel(layer, at.x, at.y);
+    return test::texel(layer, at.x, at.y, part);
 }
-inline real4 mapGather(real2 corner, real layer)
+inline real4 mapGather(real2 corner, real layer, real part)
 {
     const real x = corner.x;
     const real y = corner.y;
-    return {test::texel(layer, x - 1, y), test::texel(layer, x, y), test::texel(layer, x, y - 1),
-            test::texel(layer, x - 1, y - 1)};
+    return {test::texel(layer, x - 1, y, part), test::texel(layer, x, y, part), test::texel(layer, x, y - 1, part),
+            test::texel(layer, x - 1, y - 1, part)};
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {
@@ -109,6 +111,7 @@ double quantumOf(MapFormat format)
     case MapFormat::d16:
     case MapFormat::rg16:
     case MapFormat::rgba16:
+    case MapFormat::rgba8:
         return 4e-6 + 1.5 / 65535.0;
     case MapFormat::r16f:
     case MapFormat::rg16f:
@@ -143,6 +146,16 @@ double biasReachOf(const vulkan::FilterOptions& options)
     const double of_blur =
         o.blur == BlurKind::gaussian ? std::min(double(o.blur_sigma_texels), radius) : radius / std::sqrt(3.0);
     return std::max(of_blur + 0.5, options.filter == Filter::esm ? 3.0 : 0.0);
+}
+
+int holdingOf(const vulkan::FilterOptions& options)
+{
+    if (isFilterable(options.filter)) {
+        return shared::kDepthAlone;
+    }
+    return options.format == MapFormat::rg16    ? shared::kDepthChannel
+           : options.format == MapFormat::rgba8 ? shared::kDepthBytes
+                                                : shared::kDepthAlone;
 }
 
 BiasRule ruleOf(const vulkan::FilterOptions& options)
@@ -184,6 +197,7 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const vulkan:
 {
     FilterInput input{};
     input.layer = view.tile.layer;
+    input.part = view.part == TexelPart::second ? 1.0 : 0.0;
     input.kernel_width = widthOf(options.pcf_kernel);
     input.disc_taps = int(options.disc_taps);
     input.disc_radius = options.disc_radius_texels;
@@ -231,6 +245,7 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
     current_nudge = scene.nudge;
     current_poisson = options.pcf_kernel == PcfKernel::poisson;
     current_taps = int(options.disc_taps);
+    current_holding = holdingOf(options);
     const Picture& picture = scene.picture;
     const Light& light = scene.lights[index];
     const View& view = scene.plan.views[scene.plan.lights[index].first_view];

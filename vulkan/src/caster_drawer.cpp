@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "caster_pipelines.h"
+#include "draw_view.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
 
@@ -101,11 +102,13 @@ void CasterDrawer::Impl::reserve(const Plan& plan)
     VkDeviceSize all_commands = 0;
     std::uint32_t most = 0;
     for (const View& view : plan.views) {
-        const auto list = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
-        const std::uint32_t count = batcher.instanceCount(list);
-        all_instances += count;
-        all_commands += std::min(count, batcher.maxCommands());
-        most = std::max(most, count);
+        // What stands still and what moves may be drawn apart.
+        for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
+            const std::uint32_t count = batcher.instanceCount(castersOf(plan, view, share));
+            all_instances += count;
+            all_commands += std::min(count, batcher.maxCommands());
+        }
+        most = std::max(most, batcher.instanceCount(castersOf(plan, view, CasterShare::all)));
     }
     const auto grow = [&](HostBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose) {
         if (buffer.size() < bytes) {
@@ -125,7 +128,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
     for (const View& view : plan.views) {
         for (const CasterBatch& batch : batches) {
             pipelines.ensure({!view.orthographic, batch.texture != VK_NULL_HANDLE, view.clamp_near,
-                              options.cull_back_faces && !batch.two_sided});
+                              options.cull_back_faces && !batch.two_sided, view.part});
         }
     }
 }
@@ -224,7 +227,7 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
 
     self.bound = VK_NULL_HANDLE;
     self.bindGeometry(pass.commands, self.instances_used);
-    const CasterPipelineKey key{!view.orthographic, false, view.clamp_near, false};
+    const CasterPipelineKey key{!view.orthographic, false, view.clamp_near, false, view.part};
     for (const BatchDraws& draws : lists.batches) {
         self.drawBatch(pass.commands, draws, key, self.commands_used);
     }

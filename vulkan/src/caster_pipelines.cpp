@@ -2,8 +2,10 @@
 #include "caster_pipelines.h"
 
 #include "graphics_pipeline.h"
+#include "map_storage.h"
 
 #include <gnomon_spirv.h>
+#include <paired_depth.h>
 
 namespace gnomon::vulkan {
 namespace {
@@ -96,6 +98,10 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
     const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
     ShaderModule fragment;
+    // The constant_id of caster_fragment.glsl.
+    const std::int32_t holding = formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes : shared::kDepthAlone;
+    const VkSpecializationMapEntry entry{0, 0, sizeof holding};
+    const VkSpecializationInfo specialisation{1, &entry, sizeof holding, &holding};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     stages[0].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
@@ -106,6 +112,9 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
         stages[1] = stages[0];
         stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[1].module = fragment.get();
+        if (formats.colour != VK_FORMAT_UNDEFINED) {
+            stages[1].pSpecializationInfo = &specialisation;
+        }
     }
     const VertexInput input = vertexInput(key);
 
@@ -115,6 +124,7 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
     state.bindings = std::span(input.bindings).first(input.binding_count);
     state.attributes = std::span(input.attributes).first(input.attribute_count);
     state.colour_format = formats.colour;
+    state.colour_mask = colourMaskOf(formats.colour, key.part);
     state.depth_format = formats.depth;
     state.samples = formats.samples;
     // The shader's inputs say so already (caster_fragment.glsl); Mesa 22.3 wants to hear it here.

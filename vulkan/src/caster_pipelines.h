@@ -16,9 +16,11 @@ struct CasterPipelineKey {
     bool masked = false;
     bool clamp = true; // casters before the near plane are clamped onto it
     bool cull = false;
+    TexelPart part = TexelPart::whole;
     [[nodiscard]] std::size_t index() const
     {
-        return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U);
+        return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) |
+               static_cast<std::size_t>(part) << 4;
     }
 };
 
@@ -52,7 +54,7 @@ private:
     CasterDrawerOptions options_;
     SetLayout set_layout_;
     PipelineLayout layout_;
-    std::array<Pipeline, 16> pipelines_;
+    std::array<Pipeline, 48> pipelines_;
 };
 
 } // namespace gnomon::vulkan

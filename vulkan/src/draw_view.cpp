@@ -31,19 +31,41 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
     device.beginLabel(commands, label);
 }
 
-void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share)
+{
+    assert(view.first_caster + view.caster_count <= plan.casters.size() && view.still_count <= view.caster_count);
+    const auto all = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    return share == CasterShare::all     ? all
+           : share == CasterShare::still ? all.first(view.still_count)
+                                         : all.subspan(view.still_count);
+}
+
+void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, CasterShare share,
+              VkColorComponentFlags colour_mask, const DrawCasters& draw)
 {
     const View& view = plan.views[index];
-    assert(view.first_caster + view.caster_count <= plan.casters.size());
     MapPass pass;
     pass.commands = commands;
     pass.plan = &plan;
     pass.view = &view;
     pass.view_index = index;
-    pass.casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    pass.colour_mask = colour_mask;
+    pass.casters = castersOf(plan, view, share);
     pass.clip_from_world = glm::mat4(view.clip_from_world);
     pass.metric_ws = glm::vec4(view.metric.metric_ws);
     draw(pass);
+}
+
+VkRect2D redrawnArea(const View& view, bool all)
+{
+    const VkRect2D tile = areaOf(view.tile);
+    if (all || view.redraw_kept) {
+        return tile;
+    }
+    const TexelRect& dirty = view.dirty;
+    assert(dirty.x + dirty.width <= view.tile.width && dirty.y + dirty.height <= view.tile.height);
+    return {{tile.offset.x + static_cast<std::int32_t>(dirty.x), tile.offset.y + static_cast<std::int32_t>(dirty.y)},
+            {dirty.width, dirty.height}};
 }
 
 } // namespace gnomon::vulkan

@@ -18,7 +18,13 @@ inline constexpr VkPipelineStageFlags2 kMapReaders =
 /// Viewport and scissor.
 void setViewport(const Device& device, VkCommandBuffer commands, const Tile& tile);
 void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
-/// Calls the host's callback. Rendering has begun.
-void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
+/// Which casters of a view.
+enum class CasterShare : std::uint8_t { all, still, moving };
+[[nodiscard]] std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share);
+/// Calls the host's callback for them. Rendering has begun.
+void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, CasterShare share,
+              VkColorComponentFlags colour_mask, const DrawCasters& draw);
+/// What of the map's tile is drawn again: all of it, or what View::dirty says of a map that is restored.
+[[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
 
 } // namespace gnomon::vulkan

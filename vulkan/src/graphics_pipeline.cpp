@@ -30,20 +30,23 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = depth.depthTestEnable;
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
-    VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask =
+    std::array<VkPipelineColorBlendAttachmentState, 2> attachments{};
+    attachments[0].colorWriteMask = state.colour_mask;
+    attachments[1].colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    const std::uint32_t colours = state.colour_format != VK_FORMAT_UNDEFINED ? 1U : 0U;
+    const std::array<VkFormat, 2> colour_formats{state.colour_format, state.second_format};
+    const std::uint32_t colours =
+        (state.colour_format != VK_FORMAT_UNDEFINED ? 1U : 0U) + (state.second_format != VK_FORMAT_UNDEFINED ? 1U : 0U);
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = colours;
-    blend.pAttachments = &attachment;
+    blend.pAttachments = attachments.data();
     const std::array<VkDynamicState, 2> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = colours;
-    rendering.pColorAttachmentFormats = &state.colour_format;
+    rendering.pColorAttachmentFormats = colour_formats.data();
     rendering.depthAttachmentFormat = state.depth_format;
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};

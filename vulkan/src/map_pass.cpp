@@ -4,53 +4,83 @@
 #include "draw_view.h"
 #include "timed.h"
 
-#include <gnomon/error.h>
-
 #include <algorithm>
 #include <cassert>
 
 namespace gnomon::vulkan {
 namespace {
 
-VkImageLayout attachmentLayout(const MapStorage& storage)
+bool isKept(const View& view)
 {
-    return storage.depthOnly() ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    return view.kept_layer != kNoIndex;
 }
-VkPipelineStageFlags2 attachmentStages(const MapStorage& storage)
+
+bool sharesTexels(const Plan& plan)
 {
-    return storage.depthOnly() ? kDepthStages : VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-}
-VkAccessFlags2 attachmentAccess(const MapStorage& storage)
-{
-    return storage.depthOnly() ? kDepthAccess : VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    return std::any_of(plan.views.begin(), plan.views.end(),
+                       [](const View& view) { return view.part != TexelPart::whole; });
 }
 
 } // namespace
+
+DepthMaps::DepthMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage)
+    : device_(device), storage_(storage), cache_(options.pipeline_cache)
+{
+}
+
+void DepthMaps::makeMaps(const AtlasSize& size)
+{
+    // Free the old images first, so that growing does not need room for both.
+    maps_ = {};
+    depth_ = {};
+    kept_colours_ = {};
+    kept_depths_ = {};
+    const VkExtent2D extent{size.width, size.height};
+    const VkImageUsageFlags attachment =
+        storage_.depthOnly() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    maps_ = LayeredTarget(device_, {storage_.mapFormat(), extent, size.layers,
+                                    attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                    storage_.aspect(), "shadow maps"});
+    if (!storage_.depthOnly()) {
+        depth_ = Image(device_, {storage_.depth, extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                 VK_IMAGE_ASPECT_DEPTH_BIT, "shadow map depth"});
+    }
+}
+
+void DepthMaps::makeKept(std::uint32_t layers)
+{
+    kept_colours_ = {};
+    kept_depths_ = {};
+    const VkExtent2D extent = maps_.image().info().extent;
+    kept_depths_ = LayeredTarget(device_, {storage_.depth, extent, layers,
+                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                           VK_IMAGE_ASPECT_DEPTH_BIT, "kept shadow maps"});
+    if (!storage_.depthOnly()) {
+        kept_colours_ = LayeredTarget(device_, {storage_.colour, extent, layers,
+                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                                VK_IMAGE_ASPECT_COLOR_BIT, "kept shadow maps"});
+    }
+    restorer_->setKept(kept_depths_.image().view(), kept_colours_.image().view());
+}
 
 bool DepthMaps::prepare(const Plan& plan)
 {
     const AtlasSize& atlas = plan.atlas;
     const AtlasSize need{std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
-    if (maps_ && maps_.info().extent.width >= need.width && maps_.info().extent.height >= need.height &&
-        maps_.info().layers >= need.layers) {
-        return false;
+    bool changed = false;
+    if (!maps_.covers({need.width, need.height}, need.layers)) {
+        makeMaps(need);
+        changed = true;
     }
-    // Free the old images first, so that growing does not need room for both.
-    maps_ = {};
-    depth_ = {};
-    const VkExtent2D extent{need.width, need.height};
-    const VkImageUsageFlags attachment =
-        storage_.depthOnly() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    maps_ = Image(device_, {storage_.mapFormat(), extent, need.layers,
-                            attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                            storage_.aspect(), "shadow maps"});
-    if (!storage_.depthOnly()) {
-        depth_ = Image(device_, {storage_.depth, extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                 VK_IMAGE_ASPECT_DEPTH_BIT, "shadow map depth"});
+    if (!restorer_ && (plan.kept_layers > 0 || sharesTexels(plan))) {
+        restorer_.emplace(device_, storage_, cache_);
     }
-    layouts_.assign(need.layers, VK_IMAGE_LAYOUT_UNDEFINED);
-    redraw_all_ = true;
-    return true;
+    if (plan.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, plan.kept_layers)) {
+        makeKept(plan.kept_layers);
+        changed = true;
+    }
+    redraw_all_ = redraw_all_ || changed;
+    return changed;
 }
 
 MapPassFormats DepthMaps::formats(bool orthographic) const
@@ -58,120 +88,134 @@ MapPassFormats DepthMaps::formats(bool orthographic) const
     return {storage_.colour, storage_.depth, VK_SAMPLE_COUNT_1_BIT, storage_.depthOnly() && !orthographic};
 }
 
-bool DepthMaps::layerIsDrawn(const Plan& plan, std::uint32_t layer) const
+DepthMaps::Target DepthMaps::mapTarget(const View& view) const
 {
-    return std::any_of(plan.views.begin(), plan.views.end(),
-                       [&](const View& view) { return view.tile.layer == layer && (view.redraw || redraw_all_); });
-}
-
-void DepthMaps::toAttachment(VkCommandBuffer commands, std::uint32_t layer)
-{
-    ImageBarrier barrier;
-    barrier.image = maps_.image();
-    barrier.aspect = storage_.aspect();
-    barrier.first_layer = layer;
-    barrier.old_layout = layouts_[layer];
-    barrier.new_layout = attachmentLayout(storage_);
-    barrier.source_stages = kMapReaders; // the last frame's reads come first; there is nothing to make visible
-    barrier.target_stages = attachmentStages(storage_);
-    barrier.target_access = attachmentAccess(storage_);
-    recordBarrier(device_, commands, barrier);
-    layouts_[layer] = barrier.new_layout;
-}
-
-void DepthMaps::toReadable(VkCommandBuffer commands, std::uint32_t layer)
-{
-    ImageBarrier barrier;
-    barrier.image = maps_.image();
-    barrier.aspect = storage_.aspect();
-    barrier.first_layer = layer;
-    barrier.old_layout = layouts_[layer];
-    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    if (layouts_[layer] != VK_IMAGE_LAYOUT_UNDEFINED) {
-        barrier.source_stages = attachmentStages(storage_);
-        barrier.source_access = storage_.depthOnly() ? VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT
-                                                     : VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    const VkRect2D area = isKept(view) ? redrawnArea(view, redraw_all_) : areaOf(view.tile);
+    const VkImageView layer = maps_.image().layer(view.tile.layer);
+    if (storage_.depthOnly()) {
+        return {VK_NULL_HANDLE, layer, true, true, area};
     }
-    barrier.target_stages = kMapReaders;
-    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    recordBarrier(device_, commands, barrier);
-    layouts_[layer] = barrier.new_layout;
+    return {layer, depth_.layer(0), view.part == TexelPart::whole, false, area};
 }
 
-void DepthMaps::makeReadable(VkCommandBuffer commands)
+DepthMaps::Target DepthMaps::keptTarget(const View& view) const
 {
-    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
-        if (layouts_[layer] != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
-            toReadable(commands, layer);
-        }
-    }
+    return {storage_.depthOnly() ? VkImageView{VK_NULL_HANDLE} : kept_colours_.image().layer(view.kept_layer),
+            kept_depths_.image().layer(view.kept_layer), true, true, areaOf(view.tile)};
 }
 
-void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile)
+void DepthMaps::beginRendering(VkCommandBuffer commands, const View& view, const Target& target)
 {
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    depth.imageView = storage_.depthOnly() ? maps_.layer(tile.layer) : depth_.layer(0);
+    depth.imageView = target.depth;
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    depth.storeOp = storage_.depthOnly() ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    depth.storeOp = target.keeps_depth ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
     depth.clearValue.depthStencil = {1.0F, 0};
 
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    colour.imageView = maps_.layer(tile.layer);
+    colour.imageView = target.colour;
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    colour.loadOp = target.clears_colour ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
 
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = areaOf(tile);
+    info.renderArea = target.area;
     info.layerCount = 1;
     info.colorAttachmentCount = storage_.depthOnly() ? 0U : 1U;
     info.pColorAttachments = storage_.depthOnly() ? nullptr : &colour;
     info.pDepthAttachment = &depth;
     device_.vk.CmdBeginRendering(commands, &info);
 
-    setViewport(device_, commands, tile);
+    setViewport(device_, commands, view.tile);
+    device_.vk.CmdSetScissor(commands, 0, 1, &target.area);
 }
 
-void DepthMaps::recordView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+// The views' maps in a colour format all use the one image of depths.
+void DepthMaps::waitForDepth(VkCommandBuffer commands)
 {
-    const Tile& tile = plan.views[index].tile;
-    assert(tile.x + tile.width <= maps_.info().extent.width && tile.y + tile.height <= maps_.info().extent.height);
-    beginViewLabel(device_, commands, plan, index);
-    if (!storage_.depthOnly()) {
-        ImageBarrier barrier;
-        barrier.image = depth_.image();
-        barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
-        barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-        barrier.source_stages = kDepthStages;
-        barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-        barrier.target_stages = kDepthStages;
-        barrier.target_access = kDepthAccess;
-        recordBarrier(device_, commands, barrier);
+    ImageBarrier barrier;
+    barrier.image = depth_.image();
+    barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
+    barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    barrier.source_stages = kDepthStages;
+    barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    barrier.target_stages = kDepthStages;
+    barrier.target_access = kDepthAccess;
+    recordBarrier(device_, commands, barrier);
+}
+
+void DepthMaps::drawKept(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
+{
+    const auto is_drawn = [&](const View& view) {
+        return isKept(view) && (view.redraw_kept || redraw_all_);
+    };
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        if (!is_drawn(view)) {
+            continue;
+        }
+        beginViewLabel(device_, commands, plan, i);
+        kept_depths_.toAttachment(commands, view.kept_layer);
+        if (kept_colours_) {
+            kept_colours_.toAttachment(commands, view.kept_layer);
+        }
+        beginRendering(commands, view, keptTarget(view));
+        drawView(commands, plan, i, CasterShare::still, colourMaskOf(storage_.colour, view.part), draw);
+        device_.vk.CmdEndRendering(commands);
+        kept_depths_.toReadable(commands, view.kept_layer);
+        if (kept_colours_) {
+            kept_colours_.toReadable(commands, view.kept_layer);
+        }
+        device_.endLabel(commands);
     }
-    beginRendering(commands, tile);
-    drawView(commands, plan, index, draw);
-    device_.vk.CmdEndRendering(commands);
-    device_.endLabel(commands);
+}
+
+void DepthMaps::drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
+{
+    const auto is_drawn = [&](const View& view) {
+        return redraw_all_ || (view.redraw && !(isKept(view) && !view.redraw_kept && view.dirty.empty()));
+    };
+    for (std::uint32_t layer = 0; layer < maps_.image().info().layers; ++layer) {
+        if (std::any_of(plan.views.begin(), plan.views.end(),
+                        [&](const View& view) { return is_drawn(view) && view.tile.layer == layer; })) {
+            maps_.toAttachment(commands, layer);
+        }
+    }
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        if (!is_drawn(view)) {
+            continue;
+        }
+        assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
+               view.tile.y + view.tile.height <= maps_.image().info().extent.height);
+        beginViewLabel(device_, commands, plan, i);
+        if (!storage_.depthOnly()) {
+            waitForDepth(commands);
+        }
+        if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
+            maps_.waitForDrawing(commands, view.tile.layer);
+        }
+        beginRendering(commands, view, mapTarget(view));
+        if (isKept(view)) {
+            restorer_->restore(commands, view.part, view.kept_layer);
+        } else if (view.part != TexelPart::whole) {
+            restorer_->clear(commands, view.part);
+        }
+        drawView(commands, plan, i, isKept(view) ? CasterShare::moving : CasterShare::all,
+                 colourMaskOf(storage_.colour, view.part), draw);
+        device_.vk.CmdEndRendering(commands);
+        device_.endLabel(commands);
+    }
 }
 
 void DepthMaps::record(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot, const Plan& plan,
                        const DrawCasters& draw, Profiler* profiler)
 {
     const Timed timed(profiler, commands, "shadow maps");
-    // Layers that keep some of their tiles must not lose them in the transition; so the old layout is named, not
-    // UNDEFINED.
-    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
-        if (layerIsDrawn(plan, layer)) {
-            toAttachment(commands, layer);
-        }
-    }
-    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        if (plan.views[i].redraw || redraw_all_) {
-            recordView(commands, plan, i, draw);
-        }
-    }
+    drawKept(commands, plan, draw);
+    drawMaps(commands, plan, draw);
     redraw_all_ = false;
     makeReadable(commands);
 }

@@ -1,37 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps that are drawn and then read as they are: an atlas of depths, in a depth format or a colour format.
+// Maps that are drawn and then read as they are: an atlas of depths, in a depth format or a colour format. A view with
+// a kept layer is drawn in two parts: what stands still into the kept layer, from which the map is restored where
+// something moves, and what moves over that.
 #pragma once
 
+#include "layered_target.h"
 #include "map_recorder.h"
+#include "map_restore.h"
 #include "map_storage.h"
+
+#include <optional>
 
 namespace gnomon::vulkan {
 
 class DepthMaps final : public MapRecorder {
 public:
-    DepthMaps(Device& device, const MapStorage& storage) : device_(device), storage_(storage) {}
+    DepthMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage);
 
     bool prepare(const Plan& plan) override;
     void forget() override { redraw_all_ = true; }
+    [[nodiscard]] bool redrawsAll() const override { return redraw_all_; }
     void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
                 Profiler* profiler) override;
-    void makeReadable(VkCommandBuffer commands) override;
-    [[nodiscard]] const Image& maps() const override { return maps_; }
+    void makeReadable(VkCommandBuffer commands) override { maps_.makeReadable(commands); }
+    [[nodiscard]] const Image& maps() const override { return maps_.image(); }
     [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
-    [[nodiscard]] bool layerIsDrawn(const Plan& plan, std::uint32_t layer) const;
-    void toAttachment(VkCommandBuffer commands, std::uint32_t layer);
-    void toReadable(VkCommandBuffer commands, std::uint32_t layer);
-    void recordView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw);
-    void beginRendering(VkCommandBuffer commands, const Tile& tile);
+    // Where a view is drawn to.
+    struct Target {
+        VkImageView colour = VK_NULL_HANDLE;
+        VkImageView depth = VK_NULL_HANDLE;
+        bool clears_colour = false; // all that was there
+        bool keeps_depth = false;   // it is needed after the pass
+        VkRect2D area{};
+    };
+
+    void makeMaps(const AtlasSize& size);
+    void makeKept(std::uint32_t layers);
+    void drawKept(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw);
+    void drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw);
+    void beginRendering(VkCommandBuffer commands, const View& view, const Target& target);
+    [[nodiscard]] Target mapTarget(const View& view) const;
+    [[nodiscard]] Target keptTarget(const View& view) const;
+    void waitForDepth(VkCommandBuffer commands);
 
     Device& device_;
     const MapStorage& storage_;
-    Image maps_;
+    VkPipelineCache cache_;
+    LayeredTarget maps_;
     Image depth_; // of a map in a colour format: decides which fragment wins, then is forgotten
-    std::vector<VkImageLayout> layouts_;
+    LayeredTarget kept_colours_;
+    LayeredTarget kept_depths_;
+    std::optional<MapRestorer> restorer_; // made when first needed
     bool redraw_all_ = true;
 };
 

@@ -18,6 +18,7 @@ public:
     virtual bool prepare(const Plan& plan) = 0;
     /// Every view is drawn at the next record(), whatever it says.
     virtual void forget() = 0;
+    [[nodiscard]] virtual bool redrawsAll() const = 0;
     virtual void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
                         Profiler* profiler) = 0;
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.

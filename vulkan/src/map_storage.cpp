@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_storage.h"
 
+#include "moment_rule_of.h"
+
 #include <gnomon/error.h>
+
+#include <paired_depth.h>
 
 #include <algorithm>
 #include <iterator>
@@ -23,6 +27,7 @@ constexpr MapStorage kStorages[] = {
     {MapFormat::rgba16f, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_D32_SFLOAT, 1.0F / 2048.0F},
     {MapFormat::rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT, kArithmetic},
     {MapFormat::r16f, VK_FORMAT_R16_SFLOAT, VK_FORMAT_D32_SFLOAT, 1.0F / 2048.0F},
+    {MapFormat::rgba8, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT, 1.5F / 65535.0F + kArithmetic},
 };
 
 } // namespace
@@ -32,6 +37,33 @@ const MapStorage* findMapStorage(MapFormat format)
     const auto* found = std::find_if(std::begin(kStorages), std::end(kStorages),
                                      [&](const MapStorage& storage) { return storage.format == format; });
     return found != std::end(kStorages) ? found : nullptr;
+}
+
+int depthHolding(Filter filter, MapFormat format)
+{
+    if (isFilterable(filter)) {
+        return shared::kDepthAlone;
+    }
+    return format == MapFormat::rg16    ? shared::kDepthChannel
+           : format == MapFormat::rgba8 ? shared::kDepthBytes
+                                        : shared::kDepthAlone;
+}
+
+VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part)
+{
+    constexpr VkColorComponentFlags kFirst = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT;
+    constexpr VkColorComponentFlags kSecond = VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    if (colour == VK_FORMAT_UNDEFINED) {
+        return 0;
+    }
+    const bool is_first = part == TexelPart::first;
+    if (part != TexelPart::whole && colour == VK_FORMAT_R16G16_UNORM) {
+        return is_first ? VK_COLOR_COMPONENT_R_BIT : VK_COLOR_COMPONENT_G_BIT;
+    }
+    if (part != TexelPart::whole && colour == VK_FORMAT_R8G8B8A8_UNORM) {
+        return is_first ? kFirst : kSecond;
+    }
+    return kFirst | kSecond;
 }
 
 void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what)

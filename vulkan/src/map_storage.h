@@ -2,7 +2,7 @@
 // How each MapFormat is stored. A new format is one line of the table in map_storage.cpp.
 #pragma once
 
-#include <gnomon/choices.h>
+#include <gnomon/plan.h>
 
 #include <vulkan/vulkan_core.h>
 
@@ -24,6 +24,12 @@ struct MapStorage {
 
 /// Null for a format that no pass of this version writes.
 [[nodiscard]] const MapStorage* findMapStorage(MapFormat format);
+/// How a texel of a map holds depths: a kDepth constant of shared/paired_depth.h. That of a filterable map holds other
+/// things: kDepthAlone.
+[[nodiscard]] int depthHolding(Filter filter, MapFormat format);
+/// What is written of a colour attachment for one part of its texels; 0 for no attachment. Of a format that holds one
+/// map a texel there is no part but the whole.
+[[nodiscard]] VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part);
 /// Throws Error, `what` being what was tried, when images with these features cannot hold the filter's averages: they
 /// are written by compute shaders, drawn to by a blur of fragment shaders, and read between texels.
 void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what);

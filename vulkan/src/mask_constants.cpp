@@ -16,12 +16,6 @@
 namespace gnomon::vulkan {
 namespace {
 
-// What the mask shows of a light's views; nothing for a light without a map.
-std::uint32_t shownViews(const LightPlan& light)
-{
-    return light.outcome.hasMap() ? light.view_count : 0U;
-}
-
 shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
 {
     const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
@@ -38,7 +32,8 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     gpu.w = w;
     gpu.metric = view.metric.metric_ws * world_from_eye; // a row vector
     gpu.tile = glm::dvec4(x0 + margin, y0 + margin, x0 + tile.width - margin, y0 + tile.height - margin);
-    gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer, 0.0);
+    gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer,
+                           view.part == TexelPart::second ? 1.0 : 0.0);
     const glm::dvec3 x = glm::dvec4(gpu.x);
     const glm::dvec3 y = glm::dvec4(gpu.y);
     const glm::dvec3 metric = glm::dvec4(gpu.metric);
@@ -138,7 +133,7 @@ float filterReachTexels(const FilterOptions& filter)
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;
 }
 
-MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer)
+MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer, const MaskRegion& region)
 {
     MaskLayerShape shape;
     for (const LightPlan& light : plan.lights) {
@@ -146,17 +141,78 @@ MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer)
             continue;
         }
         shape.lights = std::max(shape.lights, light.mask_channel + 1);
-        const std::uint32_t count = shownViews(light);
-        shape.further_views += count > 1 ? count - 1 : 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            shape.orthographic = shape.orthographic && plan.views[light.first_view + i].orthographic;
+        const ShownViews views = shownViews(plan, light, region.shown[light.mask_channel]);
+        shape.further_views += views.count > 1 ? views.count - 1 : 0;
+        shape.further_views += views.later_count > 1 ? views.later_count - 1 : 0;
+        shape.paired |= views.later_count > 0 ? 1U << light.mask_channel : 0U;
+        for (std::uint32_t i = 0; i < views.count; ++i) {
+            shape.orthographic = shape.orthographic && plan.views[views.first + i].orthographic;
+        }
+        for (std::uint32_t i = 0; i < views.later_count; ++i) {
+            shape.orthographic = shape.orthographic && plan.views[views.later_first + i].orthographic;
         }
     }
     return shape;
 }
 
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskSurroundings& around,
-                   shared::GpuMaskLayer& out)
+namespace {
+
+void fillViews(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
+               const MaskSurroundings& around, shared::GpuMaskLayer& out)
+{
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(around.filter)));
+    const auto viewOf = [&](std::uint32_t index) {
+        const View& view = plan.views[index];
+        shared::GpuView gpu = gpuView(view, world_from_eye, margin);
+        const double near_over_far = view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m;
+        gpu.more =
+            glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
+        return gpu;
+    };
+    const std::uint32_t firsts = firstViews(describeMaskLayer(plan, layer, region));
+    std::uint32_t further = firsts;
+    const auto addFurther = [&](std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t v = 1; v < count; ++v) {
+            assert(further < shared::kViewsPerLayer);
+            out.views[further++] = viewOf(first + v);
+        }
+        return count > 1 ? count - 1 : 0U;
+    };
+    for (shared::GpuLight& light : out.lights) {
+        light = {}; // no map
+    }
+    for (std::uint32_t i = 0; i < firsts; ++i) {
+        out.views[i] = {};
+    }
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        if (light.mask_layer != layer) {
+            continue;
+        }
+        const std::uint32_t channel = light.mask_channel;
+        assert(channel < shared::kLightsPerLayer);
+        const ShownViews views = shownViews(plan, light, region.shown[channel]);
+        if (views.count == 0) {
+            continue;
+        }
+        shared::GpuLight& gpu = out.lights[channel];
+        gpu = gpuLight(frame.lights[i], frame.camera.eye_ws);
+        gpu.views = {further, 0U, 1U, 0U};
+        out.steps[channel] = stepRule(light.steps);
+        out.views[channel] = viewOf(views.first);
+        gpu.views.y = addFurther(views.first, views.count);
+        if (views.later_count > 0) {
+            out.views[shared::kLightsPerLayer + channel] = viewOf(views.later_first);
+            gpu.views.w = addFurther(views.later_first, views.later_count);
+        }
+    }
+}
+
+} // namespace
+
+void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
+                   const MaskSurroundings& around, shared::GpuMaskLayer& out)
 {
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
@@ -178,38 +234,7 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     out.screen = {size, 1.0F / size};
     fillFilter(around.filter, around.quantum, out);
 
-    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(around.filter)));
-    const auto viewOf = [&](std::uint32_t index) {
-        const View& view = plan.views[index];
-        shared::GpuView gpu = gpuView(view, world_from_eye, margin);
-        const double near_over_far = view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m;
-        gpu.more =
-            glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
-        return gpu;
-    };
-    std::uint32_t further = shared::kLightsPerLayer;
-    for (shared::GpuLight& light : out.lights) {
-        light = {}; // no map
-    }
-    for (int i = 0; i < shared::kLightsPerLayer; ++i) {
-        out.views[i] = {};
-    }
-    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        const LightPlan& light = plan.lights[i];
-        const std::uint32_t count = shownViews(light);
-        if (light.mask_layer != layer || count == 0) {
-            continue;
-        }
-        assert(light.mask_channel < shared::kLightsPerLayer);
-        shared::GpuLight& gpu = out.lights[light.mask_channel];
-        gpu = gpuLight(frame.lights[i], camera.eye_ws);
-        gpu.views = {further, count - 1, 1U, 0U};
-        out.views[light.mask_channel] = viewOf(light.first_view);
-        for (std::uint32_t v = 1; v < count; ++v) {
-            assert(further < shared::kViewsPerLayer);
-            out.views[further++] = viewOf(light.first_view + v);
-        }
-    }
+    fillViews(frame, plan, layer, region, around, out);
     out.atlas = {1.0F / static_cast<float>(around.atlas.width), 1.0F / static_cast<float>(around.atlas.height),
                  camera.reversed_z ? 0.0F : 1.0F, 0.0F};
 }

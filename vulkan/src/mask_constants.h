@@ -4,6 +4,7 @@
 #pragma once
 
 #include "layer_placer.h"
+#include "mask_regions.h"
 
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -23,15 +24,21 @@ struct MaskSurroundings {
     std::uint32_t map_levels;  // mip levels of the maps
     const LayerPlacer& placer; // that the plan was prepared with
 };
-/// Fills one layer of the mask. Precondition: room for the further views (kViewsPerLayer - kLightsPerLayer).
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskSurroundings& around,
-                   shared::GpuMaskLayer& out);
-/// What the lights of one layer have in common: decides which pipeline draws it.
+/// What the lights of one layer have in common, in one of its regions: decides which pipeline draws it.
 struct MaskLayerShape {
     std::uint32_t lights = 0;        // channels in use
-    std::uint32_t further_views = 0; // beyond the first of each light
+    std::uint32_t further_views = 0; // beyond the first of each light and position
+    std::uint32_t paired = 0;        // bit i: the light of channel i is seen from two positions
     bool orthographic = true;        // every view is
 };
-[[nodiscard]] MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer);
+[[nodiscard]] MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer, const MaskRegion& region);
+/// How many places of GpuMaskLayer::views are for first views.
+[[nodiscard]] constexpr std::uint32_t firstViews(const MaskLayerShape& shape)
+{
+    return shape.paired != 0 ? 2U * shared::kLightsPerLayer : shared::kLightsPerLayer;
+}
+/// Fills one region of one layer of the mask. Precondition: room for the further views.
+void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
+                   const MaskSurroundings& around, shared::GpuMaskLayer& out);
 
 } // namespace gnomon::vulkan

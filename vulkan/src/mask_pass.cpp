@@ -19,6 +19,54 @@ constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_B
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 
+// To be drawn to. Every pixel is written.
+void toAttachment(const Device& device, VkCommandBuffer commands, const Image& image)
+{
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    barrier.source_stages = kReaders;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    recordBarrier(device, commands, barrier);
+}
+
+void toReadable(const Device& device, VkCommandBuffer commands, const Image& image)
+{
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    barrier.target_stages = kReaders;
+    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+    recordBarrier(device, commands, barrier);
+}
+
+// Whether the motion, which does not change from frame to frame, may part the screen.
+bool mayHaveBands(const Plan& plan)
+{
+    return plan.technique.motion == Motion::step_band ||
+           std::any_of(plan.lights.begin(), plan.lights.end(),
+                       [](const LightPlan& light) { return light.steps.band > 0.0; });
+}
+
+void checkViews(const Plan& plan, std::uint32_t layer)
+{
+    const MaskLayerShape shape = describeMaskLayer(plan, layer, MaskRegion{});
+    const std::uint32_t most = shared::kViewsPerLayer - firstViews(shape);
+    if (shape.further_views > most) {
+        throw Error("prepare the shadow mask",
+                    "four lights of one layer have " + std::to_string(shape.further_views) +
+                        " views beyond their first; " + std::to_string(most) + " are possible",
+                    "use fewer views a light");
+    }
+}
+
 VkFormat maskFormat(const Plan& plan)
 {
     return plan.lights.size() <= 1 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R8G8B8A8_UNORM;
@@ -40,48 +88,54 @@ MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& 
     makeSlots();
 }
 
+void MaskPassRecorder::makeConstants(std::uint32_t layers, std::uint32_t regions)
+{
+    regions_ = std::max(regions_, regions);
+    const VkDeviceSize bytes = constants_stride_ * layers * regions_;
+    for (Slot& slot : slots_) {
+        if (slot.constants.size() >= bytes) {
+            continue;
+        }
+        slot.constants = {};
+        slot.constants = HostBuffer(device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "constants");
+        const VkDescriptorBufferInfo buffer{slot.constants.buffer(), 0, sizeof(shared::GpuMaskLayer)};
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = slot.set;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+        write.pBufferInfo = &buffer;
+        device_.vk.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    }
+}
+
 bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
 {
     const std::uint32_t layers = std::max(plan.mask_layers, 1U);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const std::uint32_t views = describeMaskLayer(plan, layer).further_views;
-        constexpr std::uint32_t kMost = shared::kViewsPerLayer - shared::kLightsPerLayer;
-        if (views > kMost) {
-            throw Error("prepare the shadow mask",
-                        "four lights of one layer have " + std::to_string(views) + " views beyond their first; " +
-                            std::to_string(kMost) + " are possible",
-                        "use fewer views a light");
-        }
+        checkViews(plan, layer);
     }
+    makeConstants(layers, mayHaveBands(plan) ? MaskRegions::kMost : 1U);
     const VkFormat format = maskFormat(plan);
     const ImageInfo& have = mask_.info();
-    if (mask_ && have.format == format && have.layers >= layers && have.extent.width == screen.width &&
-        have.extent.height == screen.height) {
-        return false;
-    }
-    if (!mask_ || have.format != format) {
-        pipelines_ = {};
-    }
-    mask_ = {};
-    mask_ = Image(device_,
-                  {format, screen, layers,
-                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                   VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
-    for (Slot& slot : slots_) {
-        if (slot.constants.size() < constants_stride_ * layers) {
-            slot.constants = {};
-            slot.constants =
-                HostBuffer(device_, constants_stride_ * layers, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "constants");
-            const VkDescriptorBufferInfo buffer{slot.constants.buffer(), 0, sizeof(shared::GpuMaskLayer)};
-            VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-            write.dstSet = slot.set;
-            write.descriptorCount = 1;
-            write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
-            write.pBufferInfo = &buffer;
-            device_.vk.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    const bool fits = mask_ && have.format == format && have.layers >= layers && have.extent.width == screen.width &&
+                      have.extent.height == screen.height;
+    if (!fits) {
+        if (!mask_ || have.format != format) {
+            pipelines_ = {};
         }
+        mask_ = {};
+        mask_ = Image(device_, {format, screen, layers,
+                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
     }
-    return true;
+    if (plan.technique.motion == Motion::step_alternate || alternates(plan)) {
+        if (!alternate_) {
+            alternate_.emplace(device_, static_cast<std::uint32_t>(slots_.size()), options_.pipeline_cache);
+        }
+        alternate_->prepare(mask_.info(), plan.lights.size());
+    }
+    return !fits;
 }
 
 void MaskPassRecorder::forgetMaps()
@@ -92,41 +146,39 @@ void MaskPassRecorder::forgetMaps()
     }
 }
 
-void MaskPassRecorder::toAttachment(VkCommandBuffer commands)
+void MaskPassRecorder::recordRegion(const Job& job, std::uint32_t layer, const MaskRegion& region, std::uint32_t place)
 {
-    ImageBarrier barrier;
-    barrier.image = mask_.image();
-    barrier.layer_count = mask_.info().layers;
-    barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // every pixel is written
-    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    barrier.source_stages = kReaders;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
+    const MaskSurroundings around{options_.filter,        quantum_,  job.inputs.extent, job.maps.info().extent,
+                                  job.maps.info().levels, job.placer};
+    const VkDeviceSize offset = constants_stride_ * place;
+    auto* constants = static_cast<std::byte*>(job.slot.constants.data()) + offset;
+    fillMaskLayer(job.frame, job.plan, layer, region, around, *reinterpret_cast<shared::GpuMaskLayer*>(constants));
+    const MaskLayerShape shape = describeMaskLayer(job.plan, layer, region);
+    Variant variant;
+    variant.lights = std::max(shape.lights, 1U);
+    variant.many_views = shape.further_views > 0;
+    variant.orthographic = shape.orthographic;
+    variant.normals = job.inputs.normal != VK_NULL_HANDLE;
+    variant.ids = job.inputs.object_id != VK_NULL_HANDLE;
+    variant.paired = shape.paired;
+    const VkRect2D scissor{{static_cast<std::int32_t>(region.begin), 0},
+                           {region.end - region.begin, job.inputs.extent.height}};
+    device_.vk.CmdSetScissor(job.commands, 0, 1, &scissor);
+    device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
+    const auto dynamic_offset = static_cast<std::uint32_t>(offset);
+    device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &job.slot.set,
+                                     1, &dynamic_offset);
+    device_.vk.CmdDraw(job.commands, 3, 1, 0, 0);
 }
 
-void MaskPassRecorder::toReadable(VkCommandBuffer commands)
-{
-    ImageBarrier barrier;
-    barrier.image = mask_.image();
-    barrier.layer_count = mask_.info().layers;
-    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    barrier.target_stages = kReaders;
-    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
-    recordBarrier(device_, commands, barrier);
-}
-
-void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Slot& slot, std::uint32_t layer, VkPipeline pipeline)
+void MaskPassRecorder::recordLayer(const Job& job, const Image& target, std::uint32_t layer)
 {
     char label[32];
     std::snprintf(label, sizeof label, "mask layer %u", layer);
-    device_.beginLabel(commands, label);
-    const VkExtent2D extent = mask_.info().extent;
+    device_.beginLabel(job.commands, label);
+    const VkExtent2D extent = target.info().extent;
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    colour.imageView = mask_.layer(layer);
+    colour.imageView = target.layer(layer);
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     colour.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -135,18 +187,18 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Slot& slot, s
     info.layerCount = 1;
     info.colorAttachmentCount = 1;
     info.pColorAttachments = &colour;
-    device_.vk.CmdBeginRendering(commands, &info);
+    device_.vk.CmdBeginRendering(job.commands, &info);
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
-    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    device_.vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    const auto offset = static_cast<std::uint32_t>(constants_stride_ * layer);
-    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &slot.set, 1,
-                                     &offset);
-    device_.vk.CmdDraw(commands, 3, 1, 0, 0);
-    device_.vk.CmdEndRendering(commands);
-    device_.endLabel(commands);
+    device_.vk.CmdSetViewport(job.commands, 0, 1, &viewport);
+    std::uint32_t place = layer * regions_;
+    const MaskRegions regions = maskRegions(job.plan, layer, extent.width);
+    assert(regions.count <= regions_);
+    for (const MaskRegion& region : regions) {
+        recordRegion(job, layer, region, place++);
+    }
+    device_.vk.CmdEndRendering(job.commands);
+    device_.endLabel(job.commands);
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
@@ -158,22 +210,23 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     Slot& slot = slots_[slot_index];
     updateSet(slot, inputs, maps.view(), placer.buffer());
-    const MaskSurroundings around{options_.filter,    quantum_,           inputs.extent,
-                                  maps.info().extent, maps.info().levels, placer};
-    toAttachment(commands);
-    for (std::uint32_t layer = 0; layer < mask_.info().layers; ++layer) {
-        auto* constants = static_cast<std::byte*>(slot.constants.data()) + constants_stride_ * layer;
-        fillMaskLayer(frame, plan, layer, around, *reinterpret_cast<shared::GpuMaskLayer*>(constants));
-        const MaskLayerShape shape = describeMaskLayer(plan, layer);
-        Variant variant;
-        variant.lights = std::max(shape.lights, 1U);
-        variant.many_views = shape.further_views > 0;
-        variant.orthographic = shape.orthographic;
-        variant.normals = inputs.normal != VK_NULL_HANDLE;
-        variant.ids = inputs.object_id != VK_NULL_HANDLE;
-        recordLayer(commands, slot, layer, pipeline(variant));
+    const Job job{commands, slot, frame, plan, inputs, maps, placer};
+    const bool joins = alternate_ && alternates(plan);
+    const Image& target = joins ? alternate_->target() : mask_;
+    toAttachment(device_, commands, target);
+    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
+        recordLayer(job, target, layer);
     }
-    toReadable(commands);
+    toReadable(device_, commands, target);
+    if (joins) {
+        toAttachment(device_, commands, mask_);
+        alternate_->record(commands, slot_index, frame, plan,
+                           {inputs.depth, inputs.depth_layout, slot.constants.buffer(), constants_stride_ * regions_},
+                           mask_);
+        toReadable(device_, commands, mask_);
+    } else if (alternate_) {
+        alternate_->forget();
+    }
 }
 
 } // namespace gnomon::vulkan

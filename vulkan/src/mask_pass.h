@@ -2,10 +2,12 @@
 // The pass that turns maps and the camera's depth into the visibility mask.
 #pragma once
 
-#include "device.h"
+#include "alternate_pass.h"
 #include "layer_placer.h"
+#include "mask_regions.h"
 
 #include <array>
+#include <optional>
 
 namespace gnomon::vulkan {
 
@@ -23,7 +25,7 @@ public:
 
 private:
     struct Slot {
-        HostBuffer constants; // one GpuMaskLayer a layer, at constants_stride_
+        HostBuffer constants; // one GpuMaskLayer for each region of each layer, at constants_stride_
         VkDescriptorSet set = VK_NULL_HANDLE;
         // What the set holds now.
         VkImageView maps = VK_NULL_HANDLE;
@@ -39,10 +41,11 @@ private:
         bool orthographic = false;
         bool normals = false;
         bool ids = false;
+        std::uint32_t paired = 0; // MaskLayerShape::paired
         [[nodiscard]] std::size_t index() const
         {
             return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U) | (many_views ? 8U : 0U) |
-                   (lights - 1) << 4;
+                   (lights - 1) << 4 | paired << 6;
         }
     };
 
@@ -51,9 +54,19 @@ private:
     void updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers);
     [[nodiscard]] VkPipeline pipeline(Variant variant);
     [[nodiscard]] Pipeline makePipeline(Variant variant);
-    void recordLayer(VkCommandBuffer commands, const Slot& slot, std::uint32_t layer, VkPipeline pipeline);
-    void toAttachment(VkCommandBuffer commands);
-    void toReadable(VkCommandBuffer commands);
+    // What one record() is given.
+    struct Job {
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        Slot& slot;
+        const Frame& frame;
+        const Plan& plan;
+        const MaskInputs& inputs;
+        const Image& maps;
+        const LayerPlacer& placer;
+    };
+    void makeConstants(std::uint32_t layers, std::uint32_t regions);
+    void recordLayer(const Job& job, const Image& target, std::uint32_t layer);
+    void recordRegion(const Job& job, std::uint32_t layer, const MaskRegion& region, std::uint32_t place);
 
     Device& device_;
     ShadowRendererOptions options_;
@@ -65,10 +78,12 @@ private:
     Sampler map_sampler_; // of the maps
     DescriptorPool pool_;
     std::vector<Slot> slots_;
+    std::optional<AlternatePass> alternate_; // made when a plan first needs it
     VkDeviceSize constants_stride_ = 0;
+    std::uint32_t regions_ = 1; // of each layer that there is room for in the constants
     ShaderModule vertex_;
     std::array<ShaderModule, 4> fragments_; // by orthographic, ids
-    std::array<Pipeline, 64> pipelines_;    // by Variant::index(), made when first needed
+    std::array<Pipeline, 1024> pipelines_;  // by Variant::index(), made when first needed
 };
 
 } // namespace gnomon::vulkan

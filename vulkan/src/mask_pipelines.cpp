@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mask pass's layouts, descriptor sets and pipelines.
 #include "graphics_pipeline.h"
+#include "map_storage.h"
 #include "mask_constants.h"
 #include "mask_pass.h"
 #include "moment_rule_of.h"
+#include "samplers.h"
 
 #include <array>
 
@@ -24,6 +26,8 @@ struct Specialisation {
     std::int32_t moment_flags;
     std::int32_t moment_sampling;
     std::int32_t moment_layers;
+    std::int32_t depth_holding;
+    std::int32_t steps;
 };
 
 VkDescriptorType typeOf(std::uint32_t binding)
@@ -36,21 +40,6 @@ VkDescriptorType typeOf(std::uint32_t binding)
     default:
         return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
-}
-
-Sampler makeSampler(Device& device, VkFilter filter)
-{
-    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = filter;
-    info.minFilter = filter;
-    info.mipmapMode = filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.maxLod = VK_LOD_CLAMP_NONE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(device.vk.CreateSampler(device.handle(), &info, nullptr, &sampler), "create a sampler");
-    return {device, sampler};
 }
 
 VkWriteDescriptorSet imageWrite(VkDescriptorSet set, Binding binding, const VkDescriptorImageInfo& image)
@@ -180,7 +169,9 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
                                 filter.bias.automatic ? VK_TRUE : VK_FALSE,
                                 moments.flags,
                                 moments.sampling,
-                                moments.layers};
+                                moments.layers,
+                                depthHolding(filter.filter, filter.format),
+                                static_cast<std::int32_t>(variant.paired)};
     std::array<VkSpecializationMapEntry, sizeof values / 4> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
         entries[i] = {i, 4 * i, 4};

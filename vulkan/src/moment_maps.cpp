@@ -62,6 +62,7 @@ MomentMaps::Need MomentMaps::needOf(const Plan& plan)
         need.tile.width = std::max(need.tile.width, view.tile.width);
         need.tile.height = std::max(need.tile.height, view.tile.height);
     }
+    need.kept_layers = plan.kept_layers;
     return need;
 }
 
@@ -74,6 +75,7 @@ bool MomentMaps::fits(const Need& need) const
            images_.maps.info().layers >= need.atlas.layers * layers_per_map_ &&
            images_.maps.info().levels >= mipLevels(filter_, need.atlas.width, need.atlas.height) &&
            (!blur_ || covers(images_.scratch, need.tile.width, need.tile.height)) &&
+           kept_.layers() >= need.kept_layers &&
            images_.blocks.size() >= std::size_t{4} * groupsOf(need.tile.width, shared::kBlockTexels) *
                                         groupsOf(need.tile.height, shared::kBlockTexels);
 }
@@ -85,6 +87,7 @@ void MomentMaps::makeImages(const Need& need)
     layout_of_maps_ = VK_IMAGE_LAYOUT_UNDEFINED;
     images_.maps = {};
     images_.depth = {};
+    kept_ = {};
     images_.scratch = {};
     images_.blocks = {};
     constexpr VkImageUsageFlags kColour =
@@ -105,7 +108,13 @@ void MomentMaps::makeImages(const Need& need)
     depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     depth.purpose = "shadow map depth";
     depth.samples = static_cast<VkSampleCountFlagBits>(filter_.moments.samples);
+    if (need.kept_layers > 0) {
+        depth.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    }
     images_.depth = Image(device_, depth);
+    if (need.kept_layers > 0) {
+        kept_ = KeptDepth(device_, depth, need.kept_layers);
+    }
     if (blur_) {
         ImageInfo scratch;
         scratch.format = storage_.colour;
@@ -259,31 +268,29 @@ void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan
 
 void MomentMaps::recordDepth(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
 {
-    const Tile& tile = plan.views[index].tile;
-    assert(tile.x + tile.width <= images_.maps.info().extent.width &&
-           tile.y + tile.height <= images_.maps.info().extent.height);
+    const View& view = plan.views[index];
+    assert(view.tile.x + view.tile.width <= images_.maps.info().extent.width &&
+           view.tile.y + view.tile.height <= images_.maps.info().extent.height);
     beginViewLabel(device_, commands, plan, index);
     ImageBarrier barrier;
     barrier.image = images_.depth.image();
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
-    barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // what the view before left is not needed
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.target_stages = kDepthStages;
-    barrier.target_access = kDepthAccess;
-    recordBarrier(device_, commands, barrier);
-    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    depth.imageView = images_.depth.layer(0);
-    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    depth.clearValue.depthStencil = {1.0F, 0};
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = areaOf(tile);
-    info.layerCount = 1;
-    info.pDepthAttachment = &depth;
-    device_.vk.CmdBeginRendering(commands, &info);
-    setViewport(device_, commands, tile);
-    drawView(commands, plan, index, draw);
+    if (view.kept_layer != kNoIndex) {
+        if (view.redraw_kept || redraw_all_) {
+            kept_.draw(commands, plan, index, draw);
+        }
+        kept_.restore(commands, view, images_.depth);
+        beginDepthRendering(device_, commands, view.tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
+        drawView(commands, plan, index, CasterShare::moving, 0, draw);
+    } else {
+        barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // what the view before left is not needed
+        barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        barrier.target_stages = kDepthStages;
+        barrier.target_access = kDepthAccess;
+        recordBarrier(device_, commands, barrier);
+        beginDepthRendering(device_, commands, view.tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_CLEAR);
+        drawView(commands, plan, index, CasterShare::all, 0, draw);
+    }
     device_.vk.CmdEndRendering(commands);
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Filterable maps: casters are drawn as depths, which become what a filter's texels store (moment_pass.h), are blurred
-// (blur_pass.h) and averaged into mip levels (mip_pass.h).
+// (blur_pass.h) and averaged into mip levels (mip_pass.h). Of a view with a kept layer the depths of what stands still
+// are drawn into that layer and copied from there; then what moves is drawn over them. All of the tile is copied and
+// filtered, however little of it has changed.
 #pragma once
 
 #include "blur_pass.h"
+#include "kept_depth.h"
 #include "layer_placer.h"
 #include "map_recorder.h"
 #include "map_storage.h"
@@ -22,6 +25,7 @@ public:
     /// Prepares the layers of depth, too.
     bool prepare(const Plan& plan) override;
     void forget() override { redraw_all_ = true; }
+    [[nodiscard]] bool redrawsAll() const override { return redraw_all_; }
     void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
                 Profiler* profiler) override;
     void makeReadable(VkCommandBuffer commands) override;
@@ -33,6 +37,7 @@ private:
     struct Need {
         AtlasSize atlas;
         VkExtent2D tile{}; // that all tiles fit into
+        std::uint32_t kept_layers = 0;
     };
 
     [[nodiscard]] static Need needOf(const Plan& plan);
@@ -57,6 +62,7 @@ private:
     std::optional<BlurPass> blur_;
     MipPass mips_;
     MomentImages images_;
+    KeptDepth kept_;
     bool ready_ = false; // images and sets are all there
     VkImageLayout layout_of_maps_ = VK_IMAGE_LAYOUT_UNDEFINED;
     bool cleared_ = false;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_rule_of.h"
 
+#include "map_storage.h"
+
 #include <moments.h>
 #include <moments_four.h>
+#include <paired_depth.h>
 
 #include <algorithm>
 #include <bit>
@@ -119,12 +122,17 @@ shared::MomentRule momentRuleOf(const FilterOptions& filter)
     return rule;
 }
 
-float mapDepth(const FilterOptions& filter, std::span<const float> texel)
+float mapDepth(const FilterOptions& filter, std::span<const float> texel, TexelPart part)
 {
     assert(!texel.empty());
     float t = texel[0];
     if (!isFilterable(filter.filter)) {
-        return t;
+        glm::vec4 channels(t);
+        for (std::size_t i = 0; i < std::min<std::size_t>(texel.size(), 4); ++i) {
+            channels[static_cast<int>(i)] = texel[i];
+        }
+        return shared::pairedDepth(depthHolding(filter.filter, filter.format), channels,
+                                   part == TexelPart::second ? 1.0F : 0.0F);
     }
     const shared::MomentRule rule = momentRuleOf(filter);
     const bool warped = filter.filter == Filter::esm || filter.filter == Filter::evsm;

@@ -376,6 +376,7 @@ const Entry kEntries[] = {
     GNOMON_NULL(CmdDispatch, cmdDispatch),
     GNOMON_NULL(CmdFillBuffer, cmdIgnored),
     GNOMON_NULL(CmdClearColorImage, cmdIgnored),
+    GNOMON_NULL(CmdCopyImage, cmdLogged<NullEvent::Kind::copy_image>),
     GNOMON_NULL(CmdDraw, cmdDraw),
     GNOMON_NULL(CmdDrawIndexedIndirect, cmdDrawIndirect),
     GNOMON_NULL(CmdBeginQuery, cmdLogged<NullEvent::Kind::begin_query>),

@@ -6,6 +6,7 @@
 #include "mask_pass.h"
 #include "moment_maps.h"
 #include "moment_rule_of.h"
+#include "reuse_count.h"
 #include "timed.h"
 
 #include <gnomon/error.h>
@@ -44,7 +45,7 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ShadowRendererOp
     if (isFilterable(options.filter.filter)) {
         return std::make_unique<MomentMaps>(device, options, storage, placer);
     }
-    return std::make_unique<DepthMaps>(device, storage);
+    return std::make_unique<DepthMaps>(device, options, storage);
 }
 
 ImageRef describe(const Image& image)
@@ -59,7 +60,8 @@ struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options)
         : device(view), storage(storageFor(device, options.filter)),
           placer(device, options.filter, options.pipeline_cache), maps(makeRecorder(device, options, storage, placer)),
-          mask(device, options, storage.quantum)
+          mask(device, options, storage.quantum), filterable(isFilterable(options.filter.filter)),
+          reuse(options.frames_in_flight)
     {
     }
 
@@ -68,6 +70,8 @@ struct ShadowRenderer::Impl {
     LayerPlacer placer;
     std::unique_ptr<MapRecorder> maps;
     MaskPassRecorder mask;
+    bool filterable;
+    std::vector<MapReuse> reuse; // by slot
 };
 
 ShadowRenderer::ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options)
@@ -98,6 +102,7 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
                                 const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
+    impl_->reuse[slot] = countReuse(plan, impl_->maps->redrawsAll(), impl_->filterable);
     impl_->maps->record(commands, slot, plan, draw, profiler);
 }
 
@@ -127,6 +132,11 @@ ImageRef ShadowRenderer::maps() const
 FilterCost ShadowRenderer::filterCost(std::uint32_t slot) const
 {
     return impl_->maps->cost(slot);
+}
+
+MapReuse ShadowRenderer::reuse(std::uint32_t slot) const
+{
+    return impl_->reuse[slot];
 }
 
 std::vector<DepthLayer> ShadowRenderer::depthLayers(std::uint32_t view) const

@@ -131,7 +131,8 @@ struct View {
     std::uint32_t still_count = 0; // how many of them stand still; of use with a kept layer only
     bool redraw = true;            // false: the map of the last frame still holds, or nobody reads it in this frame
     /// Layer of the images that hold maps of still casters alone (same size and place there as `tile`), from which the
-    /// map is restored before those that move are drawn over it. kNoIndex: the map is drawn all at once.
+    /// map is restored before those that move are drawn over it. Of the plan's views no other one has it. kNoIndex: the
+    /// map is drawn all at once.
     std::uint32_t kept_layer = kNoIndex;
     bool redraw_kept = false; // draw the still casters into the kept layer first; then `dirty` is all of the tile
     /// With a kept layer and `redraw`: what has to be restored and drawn over, because something that moves is there or

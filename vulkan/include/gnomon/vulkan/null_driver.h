@@ -33,6 +33,7 @@ struct NullEvent {
         end_rendering,
         bind_pipeline,
         dispatch,
+        copy_image,
         draw,
         draw_indirect,
         timestamp,

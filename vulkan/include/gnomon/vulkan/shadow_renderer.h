@@ -45,8 +45,10 @@ struct FilterOptions {
 /// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
 /// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential
 /// is the mean of exponentials, of lvsm the mean in its first layer's own metric. `texel`: the channels of the format,
-/// in their order. What holds no such number gives one that is not in [0, 1], or none.
-[[nodiscard]] float mapDepth(const FilterOptions& filter, std::span<const float> texel);
+/// in their order. `part`: of a texel that two maps share. What holds no such number gives one that is not in [0, 1],
+/// or none.
+[[nodiscard]] float mapDepth(const FilterOptions& filter, std::span<const float> texel,
+                             TexelPart part = TexelPart::whole);
 
 struct ShadowRendererOptions {
     FilterOptions filter;
@@ -88,7 +90,8 @@ using DrawCasters = std::function<void(const MapPass&)>;
 
 /// What the host's caster pipelines must be made for.
 struct MapPassFormats {
-    VkFormat colour = VK_FORMAT_UNDEFINED; // UNDEFINED: depth only
+    /// UNDEFINED: depth only. Else fragment shaders write casterTexel() to it (caster.glsl).
+    VkFormat colour = VK_FORMAT_UNDEFINED;
     VkFormat depth = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     /// Perspective view into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample, each
@@ -124,6 +127,18 @@ struct FilterCost {
     BlurPath path = BlurPath::compute;
 };
 
+/// What one recordMaps() drew and what it did not have to.
+struct MapReuse {
+    std::uint32_t drawn = 0;      // maps drawn at once
+    std::uint32_t kept_drawn = 0; // maps of what stands still, drawn into their kept layers
+    std::uint32_t restored = 0;   // maps restored from a kept layer, and what moves drawn over that
+    std::uint32_t held = 0;       // maps left as they were
+    std::uint64_t restored_texels = 0;
+    std::uint32_t casters_at_once = 0; // in the maps drawn at once; one caster in two maps counts twice
+    std::uint32_t still_casters = 0;   // into kept layers
+    std::uint32_t moving_casters = 0;  // over what was restored
+};
+
 /// One layer of depth of an lvsm map, in the depths that the map stores: the view's depth metric, or with
 /// DepthMetricKind::z_over_w that of a perspective projection.
 struct DepthLayer {
@@ -144,8 +159,8 @@ public:
 
     /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, and then views that
     /// the plan would reuse are drawn again. It frees what it replaces at once: before a call with a larger atlas or
-    /// tile, another screen, or more views or lights than any before, everything that was recorded must have finished
-    /// on the GPU. Throws Error for sizes beyond the device's limits or memory.
+    /// tile, another screen, another motion, or more views, kept layers or lights than any before, everything that was
+    /// recorded must have finished on the GPU. Throws Error for sizes beyond the device's limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in
@@ -165,6 +180,8 @@ public:
     /// Of the last recordMaps() that was given this slot, once the GPU has finished it. What that counted is made
     /// visible to the host by recordMaps().
     [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
+    /// Of the last recordMaps() that was given this slot.
+    [[nodiscard]] MapReuse reuse(std::uint32_t slot) const;
     /// lvsm: the layers of a view of the last plan, nearest first, once the GPU has finished recordMaps(); else empty.
     [[nodiscard]] std::vector<DepthLayer> depthLayers(std::uint32_t view) const;
 

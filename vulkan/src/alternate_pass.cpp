@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alternate_pass.h"
+
+#include "graphics_pipeline.h"
+#include "mask_regions.h"
+#include "samplers.h"
+
+#include <gnomon_spirv.h>
+#include <sun_steps.h>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+
+namespace gnomon::vulkan {
+namespace {
+
+enum Binding : std::uint32_t { kConstants, kDepth, kNow, kBefore, kDistances, kBindingCount };
+
+// Push constants of alternate.frag.
+struct Before {
+    glm::vec4 x;
+    glm::vec4 y;
+    glm::vec4 w;
+    glm::vec4 eye;
+    glm::vec4 weights;
+};
+
+// Both are unit. Planners carry a direction over from step to step as it is; what is this near is the same to the eye.
+bool isSameDirection(const glm::dvec3& a, const glm::dvec3& b)
+{
+    constexpr double kNear = 1e-6;
+    return glm::length(a - b) < kNear;
+}
+
+const glm::dvec3& directionRead(const SunSteps& steps)
+{
+    return steps.read == SunPosition::later ? steps.later_ws : steps.earlier_ws;
+}
+
+const glm::dvec3& directionNotRead(const SunSteps& steps)
+{
+    return steps.read == SunPosition::later ? steps.earlier_ws : steps.later_ws;
+}
+
+bool alternates(const LightPlan& light)
+{
+    return light.outcome.hasMap() && light.steps.paired && light.steps.alternate;
+}
+
+ImageBarrier barrierOf(const Image& image)
+{
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    return barrier;
+}
+
+} // namespace
+
+bool alternates(const Plan& plan)
+{
+    return std::any_of(plan.lights.begin(), plan.lights.end(),
+                       [](const LightPlan& light) { return alternates(light); });
+}
+
+AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
+    : device_(device), cache_(cache)
+{
+    sampler_ = makeSampler(device, VK_FILTER_NEAREST);
+    makeLayouts();
+    makeSets(frames_in_flight);
+}
+
+void AlternatePass::makeLayouts()
+{
+    std::array<VkDescriptorSetLayoutBinding, kBindingCount> bindings{};
+    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
+        bindings[i] = {
+            i, i == kConstants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    set_info.bindingCount = kBindingCount;
+    set_info.pBindings = bindings.data();
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    check(device_.vk.CreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout),
+          "create a descriptor set layout");
+    set_layout_ = {device_, set_layout};
+    const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Before)};
+    const VkPipelineLayoutCreateInfo info{
+        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device_.vk.CreatePipelineLayout(device_.handle(), &info, nullptr, &layout), "create a pipeline layout");
+    layout_ = {device_, layout};
+}
+
+void AlternatePass::makeSets(std::uint32_t count)
+{
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2 * count},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count * (kBindingCount - 1)}}};
+    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = 2 * count;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(device_.vk.CreateDescriptorPool(device_.handle(), &pool_info, nullptr, &pool), "create a descriptor pool");
+    pool_ = {device_, pool};
+    sets_.resize(count);
+    const VkDescriptorSetLayout set_layout = set_layout_.get();
+    for (auto& turns : sets_) {
+        for (Set& set : turns) {
+            const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool, 1,
+                                                   &set_layout};
+            check(device_.vk.AllocateDescriptorSets(device_.handle(), &info, &set.set), "allocate a descriptor set");
+            device_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleBits(set.set), "alternate");
+        }
+    }
+}
+
+void AlternatePass::makePipeline(VkFormat mask_format)
+{
+    const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
+    const ShaderModule fragment = makeShader(device_, spirv::alternate_frag);
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (VkPipelineShaderStageCreateInfo& stage : stages) {
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.pName = "main";
+    }
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = vertex.get();
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    stages[1].module = fragment.get();
+    GraphicsState state;
+    state.stages = stages;
+    state.layout = layout_.get();
+    state.colour_format = mask_format;
+    state.second_format = VK_FORMAT_R32_SFLOAT;
+    state.cache = cache_;
+    state.name = "alternate";
+    pipeline_ = {};
+    pipeline_ = makeGraphicsPipeline(device_, state);
+}
+
+void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
+{
+    const ImageInfo& have = now().visibility.info();
+    if (now().visibility && have.format == mask.format && have.layers == mask.layers &&
+        have.extent.width == mask.extent.width && have.extent.height == mask.extent.height &&
+        lights_.size() >= lights) {
+        return;
+    }
+    if (!pipeline_ || have.format != mask.format) {
+        makePipeline(mask.format);
+    }
+    for (History& history : history_) {
+        history = {};
+        ImageInfo info = mask;
+        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        info.purpose = "mask of the frame before";
+        history.visibility = Image(device_, info);
+        info.format = VK_FORMAT_R32_SFLOAT;
+        history.distances = Image(device_, info);
+    }
+    for (auto& turns : sets_) {
+        for (Set& set : turns) {
+            set.inputs = {};
+        }
+    }
+    lights_.resize(lights);
+    fresh_ = true;
+    forget();
+}
+
+void AlternatePass::forget()
+{
+    std::fill(lights_.begin(), lights_.end(), LightHistory{});
+}
+
+void AlternatePass::updateSet(Set& set, const AlternateInputs& inputs)
+{
+    if (set.inputs.depth == inputs.depth && set.inputs.depth_layout == inputs.depth_layout &&
+        set.inputs.constants == inputs.constants) {
+        return;
+    }
+    constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkSampler sampler = sampler_.get();
+    const std::array<VkDescriptorImageInfo, kBindingCount> images{{{},
+                                                                   {sampler, inputs.depth, inputs.depth_layout},
+                                                                   {sampler, now().visibility.view(), kRead},
+                                                                   {sampler, before().visibility.view(), kRead},
+                                                                   {sampler, before().distances.view(), kRead}}};
+    const VkDescriptorBufferInfo buffer{inputs.constants, 0, sizeof(shared::GpuMaskLayer)};
+    std::array<VkWriteDescriptorSet, kBindingCount> writes{};
+    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set.set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pImageInfo = &images[i];
+    }
+    writes[kConstants].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+    writes[kConstants].pBufferInfo = &buffer;
+    device_.vk.UpdateDescriptorSets(device_.handle(), kBindingCount, writes.data(), 0, nullptr);
+    set.inputs = inputs;
+}
+
+glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) const
+{
+    glm::vec4 weights(0.0F);
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        const SunSteps& steps = light.steps;
+        if (light.mask_layer == layer && alternates(light) && lights_[i].known &&
+            isSameDirection(lights_[i].direction_ws, directionNotRead(steps))) {
+            const float weight = shared::stepWeight(stepRule(steps), 0.0F);
+            weights[static_cast<int>(light.mask_channel)] =
+                shared::weightOfBefore(weight, steps.read == SunPosition::later ? 1.0F : 0.0F);
+        }
+    }
+    return weights;
+}
+
+void AlternatePass::remember(const Frame& frame, const Plan& plan)
+{
+    camera_ = frame.camera;
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        lights_[i].known = alternates(light);
+        lights_[i].direction_ws = directionRead(light.steps);
+    }
+    turn_ = 1 - turn_;
+    fresh_ = false;
+}
+
+void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
+                                const Image& mask)
+{
+    const VkExtent2D extent = mask.info().extent;
+    std::array<VkRenderingAttachmentInfo, 2> colours{};
+    for (VkRenderingAttachmentInfo& colour : colours) {
+        colour.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+        colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+        colour.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    }
+    colours[0].imageView = mask.layer(layer);
+    colours[1].imageView = now().distances.layer(layer);
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea.extent = extent;
+    info.layerCount = 1;
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
+    info.pColorAttachments = colours.data();
+    device_.vk.CmdBeginRendering(commands, &info);
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0F, 1.0F};
+    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
+    device_.vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
+    const glm::dmat4 before_from_eye = camera_.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const glm::dvec4 w = glm::row(before_from_eye, 3);
+    Before push{};
+    push.x = (glm::row(before_from_eye, 0) + w) * (0.5 * extent.width);
+    push.y = (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height);
+    push.w = w;
+    push.eye = glm::dvec4(frame.camera.eye_ws - camera_.eye_ws, layer);
+    push.weights = weightsOfBefore(plan, layer);
+    device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+    device_.vk.CmdDraw(commands, 3, 1, 0, 0);
+    device_.vk.CmdEndRendering(commands);
+}
+
+void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                           const AlternateInputs& inputs, const Image& mask)
+{
+    Set& set = sets_[slot][turn_];
+    updateSet(set, inputs);
+    if (fresh_) { // nobody reads what is not there, but shaders name it
+        for (const Image* image : {&before().visibility, &before().distances}) {
+            ImageBarrier barrier = barrierOf(*image);
+            barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+            barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+            barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+            recordBarrier(device_, commands, barrier);
+        }
+    }
+    ImageBarrier barrier = barrierOf(now().distances);
+    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; // every pixel is written
+    barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    recordBarrier(device_, commands, barrier);
+    device_.beginLabel(commands, "alternate");
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
+        const auto offset = static_cast<std::uint32_t>(inputs.constants_stride * layer);
+        device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set.set, 1,
+                                         &offset);
+        recordLayer(commands, frame, plan, layer, mask);
+    }
+    device_.endLabel(commands);
+    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    recordBarrier(device_, commands, barrier);
+    remember(frame, plan);
+}
+
+} // namespace gnomon::vulkan

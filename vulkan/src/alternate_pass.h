@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of a stepping sun by turns: what this frame's maps of one position say is joined with what the frame before made
+// of the other one's, moved to where its surfaces are now. Where the frame before did not see the surface, this frame
+// counts alone; so does it in the first frame, and where the frame before had another pair of positions.
+#pragma once
+
+#include "device.h"
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+/// Does the plan have a light whose positions take turns?
+[[nodiscard]] bool alternates(const Plan& plan);
+
+/// What the pass reads besides its own images.
+struct AlternateInputs {
+    VkImageView depth = VK_NULL_HANDLE;
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkBuffer constants = VK_NULL_HANDLE; // a GpuMaskLayer for each layer of the mask
+    VkDeviceSize constants_stride = 0;   // from one layer's to the next one's
+};
+
+class AlternatePass {
+public:
+    AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
+
+    /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
+    void prepare(const ImageInfo& mask, std::size_t lights);
+    /// The next frame has no frame before it.
+    void forget();
+    /// Where the visibility by this frame's maps alone is to be drawn; afterwards it is readable by fragment shaders.
+    [[nodiscard]] const Image& target() const { return now().visibility; }
+    /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                const AlternateInputs& inputs, const Image& mask);
+
+private:
+    struct History {
+        Image visibility;
+        Image distances; // from the eye, metres; 0: no surface
+    };
+    struct LightHistory {
+        bool known = false;
+        glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
+    };
+    struct Set {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        AlternateInputs inputs; // that it names
+    };
+
+    void makeLayouts();
+    void makeSets(std::uint32_t count);
+    void updateSet(Set& set, const AlternateInputs& inputs);
+    void makePipeline(VkFormat mask_format);
+    void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
+                     const Image& mask);
+    [[nodiscard]] glm::vec4 weightsOfBefore(const Plan& plan, std::uint32_t layer) const;
+    void remember(const Frame& frame, const Plan& plan);
+    [[nodiscard]] const History& now() const { return history_[turn_]; }
+    [[nodiscard]] const History& before() const { return history_[1 - turn_]; }
+
+    Device& device_;
+    VkPipelineCache cache_;
+    Sampler sampler_;
+    SetLayout set_layout_;
+    PipelineLayout layout_;
+    DescriptorPool pool_;
+    Pipeline pipeline_;
+    std::vector<std::array<Set, 2>> sets_; // by slot and turn
+    std::array<History, 2> history_;
+    std::size_t turn_ = 0;
+    Camera camera_; // of the frame before
+    std::vector<LightHistory> lights_;
+    bool fresh_ = true; // the images of the frame before hold nothing
+};
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws what a map is before any caster is drawn into it: the kept map of what stands still, or nothing in one half of
+// texels whose other half is another map's. A draw and not a copy, because a copy has no colour write mask.
+#pragma once
+
+#include "device.h"
+#include "map_storage.h"
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+class MapRestorer {
+public:
+    MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache);
+
+    /// Images of all layers, in SHADER_READ_ONLY_OPTIMAL when they are read. `colours` is null for depth-only maps.
+    void setKept(VkImageView depths, VkImageView colours);
+    /// Rendering has begun, viewport and scissor are set: puts back what the scissor covers, depths and colours.
+    void restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer);
+    /// Likewise: colours are 1 where the map has its part of them. Depths have been cleared.
+    void clear(VkCommandBuffer commands, TexelPart part);
+
+private:
+    void makeLayouts();
+    void makeSet();
+    [[nodiscard]] Pipeline makePipeline(std::span<const std::uint32_t> fragment, TexelPart part);
+
+    Device& device_;
+    const MapStorage& storage_;
+    VkPipelineCache cache_;
+    Sampler sampler_;
+    SetLayout set_layout_;
+    PipelineLayout layout_;
+    DescriptorPool pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::array<Pipeline, 3> restores_; // by TexelPart, made when first needed
+    std::array<Pipeline, 3> clears_;
+};
+
+} // namespace gnomon::vulkan

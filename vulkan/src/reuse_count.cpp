@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reuse_count.h"
+
+#include "draw_view.h"
+
+namespace gnomon::vulkan {
+
+MapReuse countReuse(const Plan& plan, bool all, bool filterable)
+{
+    MapReuse reuse;
+    for (const View& view : plan.views) {
+        const auto count = [&](CasterShare share) {
+            return static_cast<std::uint32_t>(castersOf(plan, view, share).size());
+        };
+        const bool kept = view.kept_layer != kNoIndex;
+        if (!all && !view.redraw) {
+            ++reuse.held;
+        } else if (!kept) {
+            ++reuse.drawn;
+            reuse.casters_at_once += count(CasterShare::all);
+        } else {
+            if (all || view.redraw_kept) {
+                ++reuse.kept_drawn;
+                reuse.still_casters += count(CasterShare::still);
+            }
+            const VkRect2D area = filterable ? areaOf(view.tile) : redrawnArea(view, all);
+            ++reuse.restored;
+            reuse.restored_texels += std::uint64_t{area.extent.width} * area.extent.height;
+            reuse.moving_casters += count(CasterShare::moving);
+        }
+    }
+    return reuse;
+}
+
+} // namespace gnomon::vulkan
