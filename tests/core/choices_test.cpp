@@ -52,7 +52,7 @@ TEST(Choices, KernelsAndFormatsRoundTrip)
 {
     for (int i = 0; i <= static_cast<int>(PcfKernel::vogel); ++i)
         EXPECT_EQ(findPcfKernel(nameOf(static_cast<PcfKernel>(i))), static_cast<PcfKernel>(i));
-    for (int i = 0; i <= static_cast<int>(MapFormat::r16f); ++i)
+    for (int i = 0; i <= static_cast<int>(MapFormat::rgba8); ++i)
         EXPECT_EQ(findMapFormat(nameOf(static_cast<MapFormat>(i))), static_cast<MapFormat>(i));
     EXPECT_EQ(findPcfKernel("4x4"), std::nullopt);
     EXPECT_EQ(findMapFormat(""), std::nullopt);
@@ -115,8 +115,8 @@ TEST(Choices, EveryAvailableFilterHasTraits)
 TEST(Choices, AFormatIsRefusedUnlessItsFilterListsIt)
 {
     const std::map<Filter, std::set<MapFormat>> usable{
-        {Filter::hard, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16}},
-        {Filter::pcf, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16}},
+        {Filter::hard, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rgba8}},
+        {Filter::pcf, {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rgba8}},
         {Filter::vsm, {MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f}},
         {Filter::lvsm, {MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f}},
         {Filter::esm, {MapFormat::r32f, MapFormat::r16f}},
@@ -124,7 +124,7 @@ TEST(Choices, AFormatIsRefusedUnlessItsFilterListsIt)
         {Filter::msm, {MapFormat::rgba16, MapFormat::rgba32f}},
     };
     for (const auto& [filter, formats] : usable)
-        for (int i = 0; i <= static_cast<int>(MapFormat::r16f); ++i) {
+        for (int i = 0; i <= static_cast<int>(MapFormat::rgba8); ++i) {
             const auto format = static_cast<MapFormat>(i);
             const auto reason = refusal(filter, format);
             EXPECT_EQ(reason.has_value(), !formats.contains(format)) << nameOf(filter) << " " << nameOf(format);
