@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is recorded for a stepping sun and for kept maps, checked on a driver that only keeps count.
+#include "allocation_count.h"
+#include "scene.h"
+
+#include <gnomon/vulkan/null_driver.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::NullDriver;
+using vulkan::NullEvent;
+using vulkan::ShadowRenderer;
+using Kind = NullEvent::Kind;
+
+constexpr VkExtent2D kScreen{64, 48};
+
+// A sun's two positions over the scene of boxes.
+class Host {
+public:
+    Host(NullDriver& driver_in, Filter filter, MapFormat format)
+        : driver(driver_in), renderer(driver.view(), optionsOf(filter, format))
+    {
+        const std::vector<Tile> tiles{{0, 0, 0, 256, 256}};
+        plan = makePlan(scene, lights, tiles, {256, 256, 2});
+        View later = makeView(scene, makeSun({0.4, -1.0, 0.3}), 0, {1, 0, 0, 256, 256});
+        later.caster_count = plan.views[0].caster_count;
+        later.sun = SunPosition::later;
+        plan.views[0].sun = SunPosition::earlier;
+        plan.views.push_back(later);
+        plan.lights[0].view_count = 2;
+        SunSteps& steps = plan.lights[0].steps;
+        steps.stepping = true;
+        steps.paired = true;
+        steps.share = 0.5;
+        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
+        frame.lights = lights;
+        inputs.extent = kScreen;
+        inputs.depth = driver.makeView();
+        inputs.normal = driver.makeView();
+    }
+
+    /// From now on what stands still is kept.
+    void keep()
+    {
+        plan.kept_layers = 2;
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            plan.views[i].kept_layer = i;
+            plan.views[i].still_count = 3;
+            plan.views[i].dirty = {16, 32, 64, 48};
+        }
+    }
+    void record(std::uint32_t slot)
+    {
+        renderer.recordMaps(driver.commands(), slot, frame, plan, [](const vulkan::MapPass&) {});
+        renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
+    }
+    std::vector<VkRect2D> passes() const
+    {
+        std::vector<VkRect2D> areas;
+        for (const NullEvent& event : driver.events()) {
+            if (event.kind == Kind::begin_rendering) {
+                areas.push_back(event.area);
+            }
+        }
+        return areas;
+    }
+    std::size_t count(Kind kind) const
+    {
+        return static_cast<std::size_t>(std::count_if(driver.events().begin(), driver.events().end(),
+                                                      [&](const NullEvent& event) { return event.kind == kind; }));
+    }
+
+    static vulkan::ShadowRendererOptions optionsOf(Filter filter, MapFormat format)
+    {
+        vulkan::ShadowRendererOptions options;
+        options.filter.filter = filter;
+        options.filter.format = format;
+        return options;
+    }
+
+    NullDriver& driver;
+    Scene scene = makeScene();
+    std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
+    Plan plan;
+    Frame frame;
+    vulkan::MaskInputs inputs;
+    ShadowRenderer renderer;
+};
+
+TEST(NullSteps, onlyWhatIsDirtyIsDrawnAgain)
+{
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f}) {
+        NullDriver driver;
+        Host host(driver, Filter::pcf, format);
+        host.keep();
+        (void)host.renderer.prepare(host.plan, kScreen);
+        host.record(0);
+        EXPECT_EQ(host.passes().size(), 5U) << "two kept maps, two maps, the mask";
+        EXPECT_EQ(host.passes()[2].extent.width, 256U) << "new images: all of it";
+        driver.clearEvents();
+        host.plan.views[1].dirty = {};
+        host.record(1);
+        const auto passes = host.passes();
+        ASSERT_EQ(passes.size(), 2U) << "one map and the mask";
+        EXPECT_EQ(passes[0].offset.x, 16);
+        EXPECT_EQ(passes[0].offset.y, 32);
+        EXPECT_EQ(passes[0].extent.width, 64U);
+        EXPECT_EQ(passes[0].extent.height, 48U);
+    }
+}
+
+TEST(NullSteps, depthsOfFilterableMapsAreCopied)
+{
+    NullDriver driver;
+    Host host(driver, Filter::vsm, MapFormat::rg16f);
+    host.keep();
+    (void)host.renderer.prepare(host.plan, kScreen);
+    host.record(0);
+    EXPECT_EQ(host.count(Kind::copy_image), 2U);
+    EXPECT_EQ(host.passes().size(), 5U);
+    driver.clearEvents();
+    host.record(1);
+    EXPECT_EQ(host.count(Kind::copy_image), 2U);
+    EXPECT_EQ(host.passes().size(), 3U) << "what stands still is not drawn again";
+}
+
+// Only pixels in the band may pay for both positions.
+TEST(NullSteps, aBandPartsTheMaskInThree)
+{
+    NullDriver driver;
+    Host host(driver, Filter::pcf, MapFormat::d32f);
+    host.plan.lights[0].steps.band = 0.25;
+    host.plan.lights[0].steps.edge = 0.5;
+    (void)host.renderer.prepare(host.plan, kScreen);
+    host.record(0);
+    EXPECT_EQ(driver.counts().draws, 3U);
+    host.plan.lights[0].steps.edge = 0.0; // it has not come in yet
+    host.record(1);
+    EXPECT_EQ(driver.counts().draws, 4U);
+    host.plan.lights[0].steps.edge = 0.1;
+    host.record(0);
+    EXPECT_EQ(driver.counts().draws, 6U);
+}
+
+TEST(NullSteps, steadyStateAllocatesNothing)
+{
+    for (const bool alternate : {false, true}) {
+        NullDriver driver;
+        Host host(driver, Filter::pcf, MapFormat::rg16);
+        host.keep();
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            host.plan.views[i].part = i == 0 ? TexelPart::first : TexelPart::second;
+            host.plan.views[i].tile.layer = 0;
+        }
+        SunSteps& steps = host.plan.lights[0].steps;
+        steps.alternate = alternate;
+        const auto frame = [&](std::uint32_t i) {
+            steps.read = i % 2 == 0 ? SunPosition::earlier : SunPosition::later;
+            (void)host.renderer.prepare(host.plan, kScreen);
+            host.record(i % 2);
+        };
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            frame(i);
+        }
+        const auto counts = driver.counts();
+        const auto heap = heapAllocations();
+        for (std::uint32_t i = 0; i < 10; ++i) {
+            frame(i);
+        }
+        EXPECT_EQ(heapAllocations(), heap);
+        EXPECT_EQ(driver.counts().created, counts.created);
+        EXPECT_EQ(driver.counts().allocations, counts.allocations);
+        EXPECT_EQ(driver.counts().descriptor_updates, counts.descriptor_updates);
+        EXPECT_EQ(driver.counts().draws - counts.draws, 10U * (2 + (alternate ? 2 : 1))) << "restored, and the mask";
+    }
+}
+
+} // namespace
+} // namespace gnomon::test
