@@ -74,7 +74,7 @@ const std::vector<Wrong> kWrong{
     {"CascadesOfASingleMap", {"render", "--set", "cascades.count=2"}, 2, "only with partition cascades"},
     {"FadeWithoutAnEnd", {"render", "--set", "fade=0.2"}, 2, "only with max-distance above 0"},
     {"SoftenNotHere", {"render", "--soften", "blur"}, 2, "not in this version"},
-    {"FormatRefused", {"render", "--map-format", "rg16"}, 2, "rg16 cannot be had with filter pcf"},
+    {"FormatRefused", {"render", "--map-format", "rg16f"}, 2, "rg16f cannot be had with filter pcf"},
     {"UnknownFormat", {"render", "--map-format", "d24"}, 2, "it takes"},
     {"UnknownSetting", {"render", "--set", "pcf.kernal=3x3"}, 2, "did you mean \"pcf.kernel\""},
     {"SettingWithoutValue", {"render", "--set", "pcf.kernel"}, 2, "not KEY=VALUE"},
