@@ -101,6 +101,7 @@ struct FrameTimes {
     double record_ms = 0.0;
     double frame_ms = 0.0; // from the start of the frame's work to the GPU being done, without read-back
     PassRecords passes;
+    vulkan::MapReuse reuse; // which maps were drawn, restored and left as they were; zeros without shadows
 };
 
 /// A frame read back.

@@ -43,6 +43,23 @@ std::string blurTable(const BenchResult& result)
     return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
 }
 
+/// What frames along a path drew of their maps, and what they did not have to.
+std::string reuseTable(const BenchResult& result)
+{
+    TextTable table{{"maps that hold kept, per frame"}, {}};
+    for (const ReuseCounter& counter : reuseCounters({})) {
+        table.columns.emplace_back(counter.title);
+    }
+    for (const BenchedTechnique& technique : result.techniques) {
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row.push_back(describeTechnique(technique.settings));
+        for (const ReuseCounter& counter : reuseCounters(technique.reused.samples)) {
+            row.push_back(cell(counter.mean, 2));
+        }
+    }
+    return "\n" + fittedTableText(table);
+}
+
 Json techniqueJson(const BenchedTechnique& technique)
 {
     Json json{{"technique", describeTechnique(technique.settings)},
@@ -53,6 +70,7 @@ Json techniqueJson(const BenchedTechnique& technique)
     addTimes(json, "static_", technique.reused.samples);
     json["static_frame_ratio"] = frameRatioJson(technique.reused);
     json["static_mean_texels_rendered"] = numberJson(technique.reused.mean_texels_rendered);
+    json["static_reuse"] = reuseJson(technique.reused.samples);
     addMemory(json, technique.redrawn.added_memory);
     json["texel_density"] = densityJson(technique.density);
     json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
@@ -91,6 +109,7 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     }
     json["units"] = sharedUnitsJson();
     json["units"]["static_mean_texels_rendered"] = "texels per frame, maps that still hold kept";
+    json["units"]["static_reuse"] = "maps, texels and casters per frame, maps that still hold kept";
     json["units"]["static_frame_ratio"] = "median frame with maps that still hold kept / median frame without shadows";
     return json;
 }
@@ -124,7 +143,7 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
                             ratioCell(technique.reused),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
-    return text + blurTable(result);
+    return text + blurTable(result) + (settings.path.empty() ? "" : reuseTable(result));
 }
 
 } // namespace gnomon::app

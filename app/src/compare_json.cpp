@@ -145,6 +145,7 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
     json["outcome"] = outcomeJson(score.outcome);
     json["pixels"] = pixelsJson(score.pixels.counts);
     json["counters"] = countersJson(technique.timed.counters);
+    json["reuse"] = reuseJson(technique.timed.samples);
     json["passes_ms"] = passesJson(technique.timed.samples);
     json["settings"] = settingsJson(technique.settings, kCompare);
     json["settings"].erase("techniques"); // it is one of them
@@ -170,6 +171,7 @@ Json unitsJson()
     units["equal_error_shadow_ratio"] = "the same of what the two frames take beyond the frame without shadows";
     units["standard_error"] = "visibility, root mean square over the counted pixels";
     units["truth.samples"] = "rays per pixel";
+    units["reuse"] = "maps, texels and casters per frame";
     units["stability"] = "visibility: root mean square, largest mean of a frame, rmse";
     units["over_frames"] = "visibility; rmse, and mean change of the error since the frame before";
     units["texel_density.pixels"] = "pixels that see a surface: counted and in one of the light's maps, and all others";

@@ -37,6 +37,12 @@ constexpr std::array kPresets{
   "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "bilinear", "min-variance": 0.01,
   "bleeding.power": 1.3, "lighten": 0.65, "bloom": true
 })"},
+    // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
+    // world's clock is the document's: one minute a second.
+    Preset{"icefall-2010", "P. Fortier, shadows of a moving sun, 2010: two positions blended, two maps a texel", R"({
+  "scene": "sundial", "camera": "meadow", "size": "1280x720", "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024,
+  "map-format": "rgba8", "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth"
+})"},
 };
 
 /// A JSON value as it would be typed; `between` the elements of a list.

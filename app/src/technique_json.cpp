@@ -175,6 +175,37 @@ Json countersJson(const lab::Counters& counters)
             {"bytes_minimum", counters.bytes_minimum}};
 }
 
+std::vector<ReuseCounter> reuseCounters(const std::vector<host::FrameTimes>& samples)
+{
+    using Reuse = vulkan::MapReuse;
+    std::vector<ReuseCounter> counters;
+    const auto add = [&](std::string_view name, std::string_view title, auto Reuse::*member) {
+        double sum = 0.0;
+        for (const host::FrameTimes& sample : samples) {
+            sum += static_cast<double>(sample.reuse.*member);
+        }
+        counters.push_back({name, title, samples.empty() ? 0.0 : sum / static_cast<double>(samples.size())});
+    };
+    add("maps_drawn", "drawn", &Reuse::drawn);
+    add("maps_restored", "restored", &Reuse::restored);
+    add("maps_held", "untouched", &Reuse::held);
+    add("kept_maps_drawn", "kept drawn", &Reuse::kept_drawn);
+    add("texels_restored", "restored texels", &Reuse::restored_texels);
+    add("casters_at_once", "casters", &Reuse::casters_at_once);
+    add("still_casters", "still", &Reuse::still_casters);
+    add("moving_casters", "moving", &Reuse::moving_casters);
+    return counters;
+}
+
+Json reuseJson(const std::vector<host::FrameTimes>& samples)
+{
+    Json json = Json::object();
+    for (const ReuseCounter& counter : reuseCounters(samples)) {
+        json[std::string(counter.name)] = numberJson(counter.mean);
+    }
+    return json;
+}
+
 Json densityJson(const lab::TexelDensity& density)
 {
     const auto percentile = [&](double value) {

@@ -50,6 +50,15 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 /// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.
 [[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);
+/// What frames drew of their maps, and what they did not have to: vulkan::MapReuse, a row each, means per frame.
+struct ReuseCounter {
+    std::string_view name; // in JSON
+    std::string_view title;
+    double mean = 0.0;
+};
+[[nodiscard]] std::vector<ReuseCounter> reuseCounters(const std::vector<host::FrameTimes>& samples);
+/// Those, by name.
+[[nodiscard]] Json reuseJson(const std::vector<host::FrameTimes>& samples);
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);
 /// Median frame by that without shadows; null where the clock measured none.

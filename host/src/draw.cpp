@@ -74,6 +74,9 @@ FrameTimes Renderer::draw(const scene::State& state, const Eye& eye, const std::
     for (const vulkan::PassRecord& pass : self.profiler.results(0)) {
         times.passes.push_back(pass);
     }
+    if (self.shadows && masks_instead == nullptr) {
+        times.reuse = self.shadows->reuse(0);
+    }
     return times;
 }
 

@@ -86,6 +86,24 @@ TEST(PathOfTheDay, IsMeasured)
     }
 }
 
+/// With the sun between two steps nothing is drawn but what moves, and nothing moves in `planes`.
+TEST(PathOfTheDay, CountsWhatIsNotDrawnAgain)
+{
+    const test::Folder folder;
+    const auto reuse = [&](const char* technique) {
+        const test::Ran ran = inFolder(folder, {"bench", "planes", "--camera", "side", "--size", "96x54", "--map-size",
+                                                "64", "--techniques", technique, "--path", "day", "--fps", "100",
+                                                "--frames", "0-7", "--json=-"});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return json::parse(ran.out, nullptr, false)["results"].at(0)["static_reuse"];
+    };
+    const json followed = reuse("hard");
+    const json stepped = reuse("hard+step-jump");
+    EXPECT_GT(followed["maps_drawn"].get<double>(), 0.5); // the sun's in every frame
+    EXPECT_GT(stepped["maps_held"].get<double>(), followed["maps_held"].get<double>());
+    EXPECT_LT(stepped["maps_drawn"].get<double>() + stepped["kept_maps_drawn"].get<double>(), 0.5);
+}
+
 /// What a technique keeps from frame to frame is handed from one to the next without a message of the layer.
 class ValidPath : public testing::TestWithParam<const char*> {};
 
@@ -99,10 +117,26 @@ TEST_P(ValidPath, IsSilent)
         EXPECT_EQ(ran.status, 0) << path << ": " << ran.err;
     }
 }
-INSTANTIATE_TEST_SUITE_P(PathProgram, ValidPath, testing::Values("pcf+cascades+snap", "vsm+tsm"),
+/// Somebody walks through `sundial`, so maps are restored and drawn over from the first frame on, when some of the kept
+/// ones were never drawn.
+TEST(PathOfTheDay, KeepsMapsInSilence)
+{
+    const test::Folder folder;
+    for (const char* format : {"rgba8", "d32f"}) {
+        const test::Ran ran =
+            inFolder(folder, {"render", "--preset", "icefall-2010", "--map-format", format,   "--map-size", "128",
+                              "--size", "96x54",    "--time",       "300",          "--path", "day",        "--fps",
+                              "2",      "--frames", "0-5",          "--validate",   "-o",     format});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(PathProgram, ValidPath,
+                         testing::Values("pcf+cascades+snap", "vsm+tsm", "pcf+step-blend",
+                                         "pcf+step-blend+map-format=rgba8", "hard+step-alternate"),
                          [](const auto& technique) {
                              std::string name = technique.param;
-                             std::erase_if(name, [](char c) { return c == '+' || c == '-'; });
+                             std::erase_if(name, [](char c) { return c == '+' || c == '-' || c == '='; });
                              return name;
                          });
 

@@ -96,6 +96,8 @@ TEST(StepSettings, TwoMapsShareATexelOfAFormatOfTwo)
     EXPECT_FALSE(parseTechnique(defaultSettings(), "pcf").plan.paired_maps);
     EXPECT_FALSE(parseTechnique(defaultSettings(), "vsm+map-format=rg16").plan.paired_maps);
     EXPECT_FALSE(parseTechnique(defaultSettings(), "hard+map-format=r32f").plan.paired_maps);
+    EXPECT_TRUE(parseTechnique(defaultSettings(), "pcf+step-blend+map-format=rg16").plan.paired_maps);
+    EXPECT_TRUE(parseTechnique(defaultSettings(), "hard+map-format=rgba8").plan.paired_maps);
 }
 
 } // namespace
