@@ -170,6 +170,9 @@ void DepthMaps::drawKept(VkCommandBuffer commands, const Plan& plan, const DrawC
         }
         device_.endLabel(commands);
     }
+    // What restores a map names the whole image, with the layers of maps that nobody has needed so far.
+    kept_depths_.makeReadable(commands);
+    kept_colours_.makeReadable(commands);
 }
 
 void DepthMaps::drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
