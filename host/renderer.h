@@ -140,7 +140,7 @@ public:
     /// Reads back the last frame drawn.
     [[nodiscard]] Picture read(const WantedImages& wanted);
 
-    /// The plan of the last frame.
+    /// The plan of the last frame; views with View::gpu_cascade as the GPU has fitted them.
     [[nodiscard]] const Plan& plan() const;
     /// Bytes of every image and buffer, by purpose: the scene's, the host's own and the library's.
     [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;

@@ -25,7 +25,8 @@ std::uint32_t viewOf(const Plan& plan, std::uint32_t light, const glm::dvec3& po
 {
     for (const View& view : viewsOf(plan, light, strongerPosition(plan.lights[light].steps))) {
         const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
-        if (clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w) {
+        const bool inside = clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
+        if (inside && view.slice.holds(point_ws)) {
             return static_cast<std::uint32_t>(&view - plan.views.data());
         }
     }

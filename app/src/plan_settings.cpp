@@ -13,7 +13,7 @@ using Value = SettingValue;
 
 bool hasCascades(const Settings& s)
 {
-    return s.plan.technique.partition == Partition::cascades;
+    return s.plan.technique.partition == Partition::cascades || s.plan.technique.partition == Partition::sdsm;
 }
 bool hasSplits(const Settings& s)
 {
@@ -57,14 +57,14 @@ const std::vector<Setting>& rows()
          .doc = "over which shadows fade away before it", .own_option = false, .used = hasDistance, .used_when = "max-distance above 0",
          .apply = [](Settings& s, const Value& v) { s.plan.fade = v.real; }},
         {.key = "cascades.count", .group = Group::technique, .type = integer, .form = "N", .default_text = "4", .min = 1, .max = kMaxCascades,
-         .doc = "slices of the view, each with a map", .own_option = false, .used = hasCascades, .used_when = "partition cascades", .apply = applyCount},
+         .doc = "slices of the view, each with a map", .own_option = false, .used = hasCascades, .used_when = "partition cascades or sdsm", .apply = applyCount},
         {.key = "cascades.lambda", .group = Group::technique, .type = real, .form = "V", .default_text = "0.75", .min = 0, .max = 1,
-         .doc = "1 splits the view logarithmically, 0 evenly", .own_option = false, .used = hasSplits, .used_when = "partition cascades without cascades.ends",
+         .doc = "1 splits the view logarithmically, 0 evenly", .own_option = false, .used = hasSplits, .used_when = "partition cascades or sdsm without cascades.ends",
          .apply = [](Settings& s, const Value& v) { s.plan.cascades.lambda = v.real; }},
         {.key = "cascades.ends", .group = Group::technique, .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthest, .count = kMaxCascades - 1, .min_count = 1, .between = '/',
-         .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .own_option = false, .used = hasCascades, .used_when = "partition cascades", .apply = applyEnds},
+         .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .own_option = false, .used = hasCascades, .used_when = "partition cascades or sdsm", .apply = applyEnds},
         {.key = "cascades.blend", .group = Group::technique, .type = real, .form = "V", .unit = "of a cascade", .default_text = "0.1", .min = 0, .max = 0.5,
-         .doc = "over which one fades into the next", .own_option = false, .used = hasCascades, .used_when = "partition cascades",
+         .doc = "over which one fades into the next", .own_option = false, .used = hasCascades, .used_when = "partition cascades or sdsm",
          .apply = [](Settings& s, const Value& v) { s.plan.cascades.blend = v.real; }},
         {.key = "border", .group = Group::technique, .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64,
          .doc = "room around the fitted map; else what the kernel needs", .own_option = false,

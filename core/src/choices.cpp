@@ -43,7 +43,7 @@ constexpr std::array kValues{
     ChoiceValue{kPartition, "cascades", number(Partition::cascades), true,
                 "slices of the camera's frustum by the practical split",
                 "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
-    ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), false, "slices fitted to the depth buffer",
+    ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), true, "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
     ChoiceValue{kPartition, "cube", number(Partition::cube), false, "six faces around a point light", kForsyth},
     ChoiceValue{kPartition, "multi", number(Partition::multi), false, "frustums grown around groups of receivers",
@@ -163,6 +163,9 @@ constexpr std::array kRules{
              return light == LightType::point && t.partition != Partition::cube && t.partition != Partition::multi;
          },
          "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or multi"},
+    Rule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
+         "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs motion "
+         "free"},
 };
 
 template <class Enum>

@@ -243,6 +243,8 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.value("blend_m", view.slice.blend_m);
     json.vector("axis", view.slice.axis, 4);
     json.closeLine('}');
+    if (view.gpu_cascade != kNoIndex)
+        json.value("gpu_cascade", view.gpu_cascade);
     json.vector("light_place_ws", view.light_place_ws, 3);
     json.open("clip_from_world_rows", '[');
     for (int row = 0; row < 4; ++row) {

@@ -64,6 +64,7 @@ constexpr std::string_view kUnwarped =
 struct Planner::Impl {
     PlanOptions options;
     PartitionFunction partition = nullptr;
+    bool fits_on_gpu = false;
     FitFunction fit = nullptr;
     const MotionTraits* motion = nullptr;
     const FilterTraits* filter = nullptr;
@@ -98,6 +99,8 @@ struct Planner::Impl {
     bool keeps(const Light& light) const
     {
         const bool steps = motion->stepping != Stepping::none && light.type == LightType::directional;
+        if (fits_on_gpu) // every map is another one in each frame
+            return false;
         return options.keep_still == KeepStill::always || (options.keep_still == KeepStill::automatic && steps);
     }
 
@@ -106,6 +109,7 @@ struct Planner::Impl {
     std::optional<Position> takeRoom(const Light& light);
     void planPositions(const Frame& frame, const Position& room, std::uint32_t earlier_slot, LightPlan& planned);
     void planPosition(const Frame& frame, const Position& position, std::optional<Outcome>& best);
+    void listCascades(std::uint32_t base, std::uint32_t first_layer);
     Outcome planView(const Frame& frame, const Position& position, std::uint32_t slice_index);
     void decideRedraws(const Frame& frame);
 };
@@ -121,6 +125,7 @@ Planner::Planner(const PlanOptions& options) : impl_(std::make_unique<Impl>())
     Impl& s = *impl_;
     s.options = options;
     s.partition = partitionFunction(options.technique.partition);
+    s.fits_on_gpu = partitionFitsOnGpu(options.technique.partition);
     s.fit = fitFunction(options.technique.fit);
     s.motion = motionTraits(options.technique.motion);
     s.filter = filterTraits(options.technique.filter);
@@ -171,6 +176,8 @@ void Planner::Impl::look(const Frame& frame)
     view.look(frame, options.max_distance_m, plan.receivers);
     plan.fade_end_m = options.max_distance_m;
     plan.fade_begin_m = options.max_distance_m * (1.0 - options.fade);
+    plan.cascades = options.cascades;
+    plan.border_texels = border_texels;
     const bool steady = motion != nullptr && motion->steady;
     if (view.outcome.kind == OutcomeKind::ok && !plan.receivers.empty()) {
         if (steady)
@@ -213,7 +220,7 @@ std::uint32_t Planner::Impl::followSun(const Frame& frame, const Light& light, S
 /// Depends on the options and the light's type alone, so that tiles last. None when the atlas is full.
 std::optional<Position> Planner::Impl::takeRoom(const Light& light)
 {
-    const auto count = static_cast<std::uint32_t>(slices.size());
+    const auto count = static_cast<std::uint32_t>(slices.size()) * (fits_on_gpu ? options.cascades.count : 1);
     Position room;
     room.kept_step = pairs(light) ? 2 : 1;
     room.layer_step = pairs(light) && !options.paired_maps ? 2 : 1;
@@ -300,6 +307,20 @@ void Planner::Impl::planPosition(const Frame& frame, const Position& position, s
                           (outcome.kind == OutcomeKind::fallback && best->kind == OutcomeKind::ok);
         if (more)
             best = outcome;
+        if (fits_on_gpu && outcome.hasMap())
+            listCascades(static_cast<std::uint32_t>(plan.views.size()) - 1, position.first_layer);
+    }
+}
+
+/// Of a base map, one view for each cascade that the GPU will fit to a part of it.
+void Planner::Impl::listCascades(std::uint32_t base, std::uint32_t first_layer)
+{
+    plan.views[base].gpu_cascade = 0;
+    for (std::uint32_t i = 1; i < options.cascades.count; ++i) {
+        View cascade = plan.views[base];
+        cascade.gpu_cascade = i;
+        cascade.tile = atlas.tile(first_layer + i);
+        plan.views.push_back(cascade);
     }
 }
 
@@ -367,7 +388,7 @@ void Planner::Impl::decideRedraws(const Frame& frame)
     drawn.begin(plan, *frame.objects);
     for (View& made : plan.views) {
         const std::uint32_t kept_layer = std::exchange(made.kept_layer, kNoIndex);
-        if (made.redraw) // it is read
+        if (made.redraw && made.gpu_cascade == kNoIndex) // it is read, and known beforehand
             drawn.decide(made, kept_layer, std::span(plan.casters).subspan(made.first_caster, made.caster_count),
                          *frame.objects);
     }

@@ -42,7 +42,7 @@ inline constexpr Access kDepthWrite{
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL};
 inline constexpr Access kDepthRead{VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
                                        VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
-                                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
 inline constexpr Access kSampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,

@@ -254,7 +254,7 @@ void Renderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     profiler.addDraws(draws.recordOpaque(cmd, pipelines, frame_set));
     vkCmdEndRendering(cmd);
     for (const Image& image : targets.gbuffer) {
-        barrier(cmd, image, kColourWrite, kSampled);
+        barrier(cmd, image, kColourWrite, kSampledByAll);
     }
     barrier(cmd, targets.depth, kDepthWrite, kDepthRead);
     profiler.endPass(cmd);
@@ -263,20 +263,20 @@ void Renderer::Impl::recordGBuffer(VkCommandBuffer cmd)
 
 void Renderer::Impl::recordShadows(VkCommandBuffer cmd)
 {
-    casters->beginFrame(0, *plan, draws.casterGeometry(), draws.transforms());
-    shadows->recordMaps(
-        cmd, 0, frame, *plan, [this](const vulkan::MapPass& pass) { profiler.addDraws(casters->draw(pass)); },
-        &profiler);
-    if (light_count == 0) {
-        return;
-    }
     vulkan::MaskInputs inputs;
     inputs.extent = targets.drawn;
     inputs.depth = targets.depth.view;
     inputs.depth_layout = kDepthRead.layout;
     inputs.normal = targets.normals().view;
     inputs.object_id = targets.ids().view;
-    shadows->recordMask(cmd, 0, frame, *plan, inputs, &profiler);
+    shadows->recordBounds(cmd, 0, frame, *plan, inputs, &profiler);
+    casters->beginFrame(0, *plan, draws.casterGeometry(), draws.transforms());
+    shadows->recordMaps(
+        cmd, 0, frame, *plan, [this](const vulkan::MapPass& pass) { profiler.addDraws(casters->draw(pass)); },
+        &profiler);
+    if (light_count > 0) {
+        shadows->recordMask(cmd, 0, frame, *plan, inputs, &profiler);
+    }
 }
 
 void Renderer::Impl::recordInstead(VkCommandBuffer cmd) const

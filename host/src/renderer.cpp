@@ -4,6 +4,7 @@
 
 #include <gnomon/error.h>
 
+#include <algorithm>
 #include <string>
 
 namespace gnomon::host {
@@ -184,7 +185,26 @@ Renderer::~Renderer() = default;
 
 const Plan& Renderer::plan() const
 {
-    return impl_->plan != nullptr ? *impl_->plan : impl_->no_plan;
+    Impl& self = *impl_;
+    if (self.plan == nullptr) {
+        return self.no_plan;
+    }
+    const auto fits = [](const View& view) {
+        return view.gpu_cascade != kNoIndex;
+    };
+    if (std::none_of(self.plan->views.begin(), self.plan->views.end(), fits)) {
+        return *self.plan;
+    }
+    if (self.fitted_frame != self.plan->frame) {
+        self.fitted = *self.plan;
+        self.fitted_frame = self.plan->frame;
+        const std::vector<FittedView> found = self.shadows->fittedViews(0);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            View& view = self.fitted.views[i];
+            view = fits(view) ? viewAsFitted(view, found[i]) : view;
+        }
+    }
+    return self.fitted;
 }
 
 std::vector<vulkan::MemoryUse> Renderer::memory() const

@@ -38,6 +38,8 @@ struct Renderer::Impl {
     ObjectSet objects;
     Planner planner;
     Plan no_plan; // without shadows
+    Plan fitted;  // with what the GPU found for a frame, when somebody has asked
+    std::optional<std::uint64_t> fitted_frame;
     std::optional<vulkan::ShadowRenderer> shadows;
     std::optional<vulkan::CasterDrawer> casters;
 

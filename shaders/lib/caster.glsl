@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // For caster shaders, ours and hosts': what a map's texel is to hold. In the vertex shader, write gl_Position =
-// clip_from_world * p and pass on casterMetric(). In the fragment shader of a map with a colour format write to it
-// casterTexel(), with kDepthBytes for R8G8B8A8_UNORM and kDepthAlone for all others; of a depth-only map that says
-// MapPassFormats::write_frag_depth, write casterStored() to gl_FragDepth; else nothing, because the rasteriser's depth
-// is the metric then.
+// clip_from_world * p (of a MapPass with a `placement`: casterPlaced() of that) and pass on casterMetric(). In the
+// fragment shader of a map with a colour format write to it casterTexel(), with kDepthBytes for R8G8B8A8_UNORM and
+// kDepthAlone for all others; of a depth-only map that says MapPassFormats::write_frag_depth, write casterStored() to
+// gl_FragDepth; else nothing, because the rasteriser's depth is the metric then.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"
@@ -14,6 +14,13 @@ GN_BEGIN
 GN_FN real casterMetric(real3 p_ws, real4 metric_ws)
 {
     return depthMetricPlane(p_ws, metric_ws);
+}
+
+// Of a view that the GPU has fitted to a part of its base map: from clip space of the base map to its own. `place` is
+// what MapPass::placement holds. Depth stays as it is.
+GN_FN real4 casterPlaced(real4 clip, real4 place)
+{
+    return real4((clip.x - place.z * clip.w) * place.x, (clip.y - place.w * clip.w) * place.y, clip.z, clip.w);
 }
 
 GN_FN real casterStored(real metric)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL only: body of the caster vertex shaders. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
+#include "caster.glsl"
+
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 row_x;
 layout(location = 2) in vec4 row_y;
@@ -11,6 +13,9 @@ layout(location = 5) in vec4 row_metric;
 #define UV_LOCATION 6
 #else
 #define UV_LOCATION 4
+#endif
+#ifdef PLACED
+layout(location = 7) in vec4 place; // the same for all
 #endif
 #ifdef METRIC
 layout(location = 0) out float metric; // for fragment shaders that store it
@@ -36,7 +41,11 @@ void main()
 #elif defined(METRIC)
     metric = clip.z;
 #endif
+#ifdef PLACED
+    gl_Position = casterPlaced(clip, place);
+#else
     gl_Position = clip;
+#endif
 #ifdef MASKED
     vec3 t = vec3(uv_in, 1.0);
     uv = vec2(dot(uv_u.xyz, t), dot(uv_v.xyz, t));

@@ -69,7 +69,8 @@ const std::vector<Wrong> kWrong{
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
     {"FilterNotHere", {"render", "--filter", "pcss"}, 2, "not in this version"},
-    {"PartitionNotHere", {"render", "--partition", "sdsm"}, 2, "not in this version"},
+    {"PartitionNotHere", {"render", "--partition", "cube"}, 2, "not in this version"},
+    {"SdsmHeldStill", {"render", "--partition", "sdsm", "--motion", "snap"}, 2, "needs motion free"},
     {"CascadesThatDoNotAscend", {"render", "--partition", "cascades", "--set", "cascades.ends=40/10"}, 2, "ascend"},
     {"CascadesOfASingleMap", {"render", "--set", "cascades.count=2"}, 2, "only with partition cascades"},
     {"FadeWithoutAnEnd", {"render", "--set", "fade=0.2"}, 2, "only with max-distance above 0"},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where cascades end, that together they serve all that is seen, and that each of them has it in its map.
-#include "partition/cascades.h"
+#define GNOMON_REAL double
 #include "worlds.h"
 
+#include <cascade_fit.h>
 #include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 namespace gnomon {
 namespace {
 
+using shared::practicalSplit;
 using test::Random;
 
 TEST(PracticalSplit, IsTheMeanOfBothRulesByLambda)

@@ -128,7 +128,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
     for (const View& view : plan.views) {
         for (const CasterBatch& batch : batches) {
             pipelines.ensure({!view.orthographic, batch.texture != VK_NULL_HANDLE, view.clamp_near,
-                              options.cull_back_faces && !batch.two_sided, view.part});
+                              options.cull_back_faces && !batch.two_sided, view.part, view.gpu_cascade != kNoIndex});
         }
     }
 }
@@ -227,7 +227,12 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
 
     self.bound = VK_NULL_HANDLE;
     self.bindGeometry(pass.commands, self.instances_used);
-    const CasterPipelineKey key{!view.orthographic, false, view.clamp_near, false, view.part};
+    const bool placed = pass.placement != VK_NULL_HANDLE;
+    if (placed) {
+        self.device.vk.CmdBindVertexBuffers(pass.commands, kPlacementBinding, 1, &pass.placement,
+                                            &pass.placement_offset);
+    }
+    const CasterPipelineKey key{!view.orthographic, false, view.clamp_near, false, view.part, placed};
     for (const BatchDraws& draws : lists.batches) {
         self.drawBatch(pass.commands, draws, key, self.commands_used);
     }

@@ -10,8 +10,23 @@
 namespace gnomon::vulkan {
 namespace {
 
+std::span<const std::uint32_t> placedVertexCode(const MapPassFormats& formats, CasterPipelineKey key)
+{
+    if (key.perspective) {
+        return key.masked ? spirv::caster_placed_perspective_masked_vert : spirv::caster_placed_perspective_vert;
+    }
+    if (formats.colour != VK_FORMAT_UNDEFINED) {
+        return key.masked ? spirv::caster_placed_orthographic_metric_masked_vert
+                          : spirv::caster_placed_orthographic_metric_vert;
+    }
+    return key.masked ? spirv::caster_placed_orthographic_masked_vert : spirv::caster_placed_orthographic_vert;
+}
+
 std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, CasterPipelineKey key)
 {
+    if (key.placed) {
+        return placedVertexCode(formats, key);
+    }
     if (key.perspective) {
         return key.masked ? spirv::caster_perspective_masked_vert : spirv::caster_perspective_vert;
     }
@@ -39,8 +54,8 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
 }
 
 struct VertexInput {
-    std::array<VkVertexInputBindingDescription, 3> bindings{};
-    std::array<VkVertexInputAttributeDescription, 7> attributes{};
+    std::array<VkVertexInputBindingDescription, 4> bindings{};
+    std::array<VkVertexInputAttributeDescription, 8> attributes{};
     std::uint32_t binding_count = 0;
     std::uint32_t attribute_count = 0;
 };
@@ -59,6 +74,11 @@ VertexInput vertexInput(CasterPipelineKey key)
     if (key.masked) {
         input.bindings[input.binding_count++] = {2, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
         input.attributes[input.attribute_count++] = {1 + rows, 2, VK_FORMAT_R32G32_SFLOAT, 0};
+    }
+    if (key.placed) {
+        // A stride of 0: all instances read the same.
+        input.bindings[input.binding_count++] = {kPlacementBinding, 0, VK_VERTEX_INPUT_RATE_INSTANCE};
+        input.attributes[input.attribute_count++] = {7, kPlacementBinding, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
     }
     return input;
 }

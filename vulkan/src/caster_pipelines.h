@@ -17,10 +17,11 @@ struct CasterPipelineKey {
     bool clamp = true; // casters before the near plane are clamped onto it
     bool cull = false;
     TexelPart part = TexelPart::whole;
+    bool placed = false; // MapPass::placement
     [[nodiscard]] std::size_t index() const
     {
         return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) |
-               static_cast<std::size_t>(part) << 4;
+               (static_cast<std::size_t>(part) << 4) + (placed ? 48U : 0U);
     }
 };
 
@@ -38,6 +39,9 @@ inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT
     return perspective ? 5 : 3;
 }
 
+/// Vertex buffer of MapPass::placement.
+inline constexpr std::uint32_t kPlacementBinding = 3;
+
 class CasterPipelines {
 public:
     CasterPipelines(Device& device, const CasterDrawerOptions& options);
@@ -54,7 +58,7 @@ private:
     CasterDrawerOptions options_;
     SetLayout set_layout_;
     PipelineLayout layout_;
-    std::array<Pipeline, 48> pipelines_;
+    std::array<Pipeline, 96> pipelines_;
 };
 
 } // namespace gnomon::vulkan

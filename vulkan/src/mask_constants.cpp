@@ -168,6 +168,9 @@ void fillViews(const Frame& frame, const Plan& plan, std::uint32_t layer, const 
         const double near_over_far = view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m;
         gpu.more =
             glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
+        if (view.gpu_cascade != kNoIndex) { // filled in for its base map: CascadeFitter::recordConstants
+            gpu.slice.w = static_cast<float>(index + 1);
+        }
         return gpu;
     };
     const std::uint32_t firsts = firstViews(describeMaskLayer(plan, layer, region));
@@ -223,7 +226,7 @@ void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, co
     out.eye_w = glm::row(eye_from_ndc, 3);
     out.view_axis = glm::vec4(0.0F);
     for (const View& view : plan.views) {
-        if (view.slice.bounded()) { // all of them along the one camera's view
+        if (view.slice.bounded() || view.gpu_cascade != kNoIndex) { // all of them along the one camera's view
             out.view_axis = glm::vec4(glm::vec3(view.slice.axis), 0.0F);
         }
     }

@@ -97,7 +97,8 @@ void MaskPassRecorder::makeConstants(std::uint32_t layers, std::uint32_t regions
             continue;
         }
         slot.constants = {};
-        slot.constants = HostBuffer(device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "constants");
+        slot.constants = HostBuffer(
+            device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
         const VkDescriptorBufferInfo buffer{slot.constants.buffer(), 0, sizeof(shared::GpuMaskLayer)};
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = slot.set;
@@ -202,7 +203,8 @@ void MaskPassRecorder::recordLayer(const Job& job, const Image& target, std::uin
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
-                              const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer)
+                              const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer,
+                              CascadeFitter& fitter)
 {
     assert(slot_index < slots_.size());
     assert(frame.lights.size() == plan.lights.size());
@@ -210,6 +212,12 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     Slot& slot = slots_[slot_index];
     updateSet(slot, inputs, maps.view(), placer.buffer());
+    if (CascadeFitter::fits(plan)) {
+        // Filled in below, and read by the GPU long after. No band: these maps go with motion free alone.
+        for (std::uint32_t layer = 0; layer < mask_.info().layers; ++layer) {
+            fitter.recordConstants(commands, slot_index, slot.constants, constants_stride_ * layer * regions_);
+        }
+    }
     const Job job{commands, slot, frame, plan, inputs, maps, placer};
     const bool joins = alternate_ && alternates(plan);
     const Image& target = joins ? alternate_->target() : mask_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "alternate_pass.h"
+#include "cascade_fitter.h"
 #include "layer_placer.h"
 #include "mask_regions.h"
 
@@ -20,7 +21,7 @@ public:
     /// The maps or the buffer of the layers of depth were made anew: descriptors that name them are out of date.
     void forgetMaps();
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer);
+                const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer, CascadeFitter& fitter);
     [[nodiscard]] const Image& mask() const { return mask_; }
 
 private:

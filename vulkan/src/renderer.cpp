@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cascade_fitter.h"
 #include "device.h"
 #include "layer_placer.h"
 #include "map_pass.h"
@@ -60,8 +61,8 @@ struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options)
         : device(view), storage(storageFor(device, options.filter)),
           placer(device, options.filter, options.pipeline_cache), maps(makeRecorder(device, options, storage, placer)),
-          mask(device, options, storage.quantum), filterable(isFilterable(options.filter.filter)),
-          reuse(options.frames_in_flight)
+          fitter(device, options), mask(device, options, storage.quantum),
+          filterable(isFilterable(options.filter.filter)), reuse(options.frames_in_flight)
     {
     }
 
@@ -69,6 +70,7 @@ struct ShadowRenderer::Impl {
     const MapStorage& storage;
     LayerPlacer placer;
     std::unique_ptr<MapRecorder> maps;
+    CascadeFitter fitter;
     MaskPassRecorder mask;
     bool filterable;
     std::vector<MapReuse> reuse; // by slot
@@ -92,6 +94,7 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     if (maps_changed) {
         impl_->mask.forgetMaps();
     }
+    impl_->fitter.prepare(plan);
     const bool mask_changed = impl_->mask.prepare(plan, screen);
     if (mask_changed) {
         impl_->maps->forget();
@@ -99,11 +102,29 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     return maps_changed || mask_changed;
 }
 
+void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                                  const MaskInputs& inputs, Profiler* profiler)
+{
+    if (CascadeFitter::fits(plan)) {
+        const Timed timed(profiler, commands, "shadow bounds");
+        impl_->fitter.record(commands, slot, frame, plan, inputs);
+    }
+}
+
 void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
                                 const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
     impl_->reuse[slot] = countReuse(plan, impl_->maps->redrawsAll(), impl_->filterable);
-    impl_->maps->record(commands, slot, plan, draw, profiler);
+    assert(impl_->fitter.isFitted(plan));
+    const DrawCasters placed = [&](const MapPass& pass) {
+        MapPass with = pass;
+        if (pass.view->gpu_cascade != kNoIndex) {
+            with.placement = impl_->fitter.views();
+            with.placement_offset = pass.view_index * sizeof(shared::GpuFittedView);
+        }
+        draw(with);
+    };
+    impl_->maps->record(commands, slot, plan, placed, profiler);
 }
 
 void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
@@ -111,7 +132,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
 {
     const Timed timed(profiler, commands, "mask");
     impl_->maps->makeReadable(commands);
-    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps->maps(), impl_->placer);
+    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps->maps(), impl_->placer, impl_->fitter);
 }
 
 MapPassFormats ShadowRenderer::mapFormats(bool orthographic) const
@@ -142,6 +163,11 @@ MapReuse ShadowRenderer::reuse(std::uint32_t slot) const
 std::vector<DepthLayer> ShadowRenderer::depthLayers(std::uint32_t view) const
 {
     return impl_->placer.read(view);
+}
+
+std::vector<FittedView> ShadowRenderer::fittedViews(std::uint32_t slot) const
+{
+    return impl_->fitter.read(slot);
 }
 
 std::span<const MemoryUse> ShadowRenderer::memory() const

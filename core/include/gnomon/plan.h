@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -22,6 +23,22 @@
 namespace gnomon {
 
 inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU;
+
+inline constexpr std::uint32_t kMaxCascades = 6;
+
+/// How Partition::cascades and sdsm divide the camera's depth.
+struct CascadeOptions {
+    std::uint32_t count = 4; // 1 .. kMaxCascades
+    /// The practical split: 1 divides logarithmically, as perspective shrinks things, 0 evenly. F. Zhang, H. Sun,
+    /// L. Xu, L. K. Lun, "Parallel-split shadow maps for large-scale virtual environments", 2006, eq. 5.
+    double lambda = 0.75;
+    /// Where all cascades but the last end, metres from the eye along its view: > 0, ascending, count - 1 of them.
+    /// Zeros: the practical split.
+    std::array<double, kMaxCascades - 1> ends_m{};
+    double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
+
+    [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
+};
 
 /// What became of a light, as a value with a reason. Never an exception, never a silent fallback.
 enum class OutcomeKind : std::uint8_t {
@@ -142,12 +159,34 @@ struct View {
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
     ViewSlice slice;
+    /// Partition::sdsm: which of its light's cascades this is. Then what is above says how the light's base map lies,
+    /// and the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters
+    /// are the base map's. Always to be drawn again. kNoIndex: all is as it says here.
+    std::uint32_t gpu_cascade = kNoIndex;
     /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one.
     bool parallel = true;
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
     glm::dvec3 light_place_ws{0.0};
 };
+
+/// What the GPU found for a view with View::gpu_cascade: with (x, y) a place on the base map, in [-1, 1], the view's
+/// own is ((x, y) - centre) * scale.
+struct FittedView {
+    glm::dvec2 scale{1.0};
+    glm::dvec2 centre{0.0};
+    double begin_m = -std::numeric_limits<double>::infinity(); // as ViewSlice
+    double end_m = std::numeric_limits<double>::infinity();
+    double blend_m = 0.0;
+    /// Of the base map, the rectangle that the slice's pixels lie in; low > high: there are none, and the view is the
+    /// base map.
+    glm::dvec2 seen_low{1.0};
+    glm::dvec2 seen_high{-1.0};
+
+    [[nodiscard]] bool empty() const { return seen_low.x > seen_high.x; }
+};
+/// The view as it was drawn: what is known of it beforehand is its base map.
+[[nodiscard]] View viewAsFitted(const View& base, const FittedView& found);
 
 /// Where a sun that moves in steps stands for its maps, and how what they say is joined: with v and u the visibilities
 /// by the earlier and the later position, v + (u - v) * weight, where at x (0: left edge of the picture, 1: right)
@@ -195,6 +234,10 @@ struct Plan {
     AtlasSize atlas;
     std::uint32_t kept_layers = 0; // one past the largest View::kept_layer that any view of these lights may have
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
+    /// For views with View::gpu_cascade: how the camera's depth is to be divided among a light's, and the room that is
+    /// left for the filter's kernel around what a cascade's pixels lie in, texels.
+    CascadeOptions cascades;
+    double border_texels = 0.0;
     /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. 0: nothing
     /// fades.
     double fade_begin_m = 0.0;

@@ -7,27 +7,10 @@
 #include <gnomon/frame.h>
 #include <gnomon/plan.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 
 namespace gnomon {
-
-inline constexpr std::uint32_t kMaxCascades = 6;
-
-/// How Partition::cascades divides the camera's depth.
-struct CascadeOptions {
-    std::uint32_t count = 4; // 1 .. kMaxCascades
-    /// The practical split: 1 divides logarithmically, as perspective shrinks things, 0 evenly. F. Zhang, H. Sun,
-    /// L. Xu, L. K. Lun, "Parallel-split shadow maps for large-scale virtual environments", 2006, eq. 5.
-    double lambda = 0.75;
-    /// Where all cascades but the last end, metres from the eye along its view: > 0, ascending, count - 1 of them.
-    /// Zeros: the practical split.
-    std::array<double, kMaxCascades - 1> ends_m{};
-    double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
-
-    [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
-};
 
 /// When a sun that moves in steps takes the next one.
 enum class StepBy : std::uint8_t { angle, time };

@@ -4,27 +4,14 @@
 // 2006, eq. 3 to 5; W. Engel, "Cascaded Shadow Maps", ShaderX5, 2006.
 // Departure: the near and far ends are those of the receivers that the camera sees, not its planes. A camera may have
 // no far plane, and nothing is gained by maps of the empty air before the eye.
-#include "partition/cascades.h"
+#define GNOMON_REAL double
+#include "partition/partition.h"
+
+#include <cascade_fit.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon {
-namespace {
-
-// A logarithm has to start somewhere: no split is nearer than this share of the far end.
-constexpr double kNearest = 1e-4;
-
-} // namespace
-
-double practicalSplit(double near_m, double far_m, double lambda, std::uint32_t i, std::uint32_t count)
-{
-    const double share = static_cast<double>(i) / count;
-    const double logarithmic = near_m * std::pow(far_m / near_m, share); // eq. 3
-    const double even = near_m + (far_m - near_m) * share;               // eq. 4
-    return lambda * logarithmic + (1.0 - lambda) * even;                 // eq. 5
-}
-
 Plane depthPlane(const CameraView& view, double depth_m, bool away)
 {
     const double at = glm::dot(view.forward_ws, view.eye_ws) + depth_m;
@@ -36,15 +23,11 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
     const CameraView& view = input.view;
     const CascadeOptions& options = input.cascades;
     const std::uint32_t count = options.count;
-    // An orthographic camera's depths may be negative, and it sees near and far alike.
-    const double far_m = std::max(view.far_m, view.near_m + 1e-6);
-    const double near_m = view.perspective ? std::max(view.near_m, kNearest * far_m) : view.near_m;
-    const double lambda = view.perspective ? options.lambda : 0.0;
+    const shared::SplitRange range = shared::splitRange(view.near_m, view.far_m, options.lambda, view.perspective);
     const auto end = [&](std::uint32_t i) {
         if (options.explicitEnds() && i < count)
             return i == 0 ? 0.0 : options.ends_m[i - 1];
-        return lambda > 0.0 ? practicalSplit(near_m, far_m, lambda, i, count)
-                            : near_m + (far_m - near_m) * static_cast<double>(i) / count;
+        return shared::splitAt(range, static_cast<int>(i), static_cast<int>(count));
     };
     const glm::dvec4 axis(view.forward_ws, -glm::dot(view.forward_ws, view.eye_ws));
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -60,8 +43,7 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
         if (i + 1 == count)
             slice.cut[slice.cut_count++] = depthPlane(view, far_m + view.pad_m, false);
         if (i > 0) {
-            slice.depth.blend_m = options.blend * (end(i) - (i > 1 ? end(i - 1) : near_m));
-            slice.depth.blend_m = std::max(slice.depth.blend_m, 0.0);
+            slice.depth.blend_m = shared::blendWidth(options.blend, i > 1 ? end(i - 1) : range.near_m, end(i));
             slice.depth.begin_m = end(i) - slice.depth.blend_m;
             slice.cut[slice.cut_count++] = depthPlane(view, slice.depth.begin_m, true);
         }

@@ -32,11 +32,14 @@ using PartitionFunction = void (*)(const PartitionInput& input, std::vector<Slic
 [[nodiscard]] PartitionFunction partitionFunction(Partition partition);
 /// Does it need CameraView::near_m and far_m?
 [[nodiscard]] bool partitionMeasures(Partition partition);
+/// Is each of its views a base map, to be listed once for each cascade that the GPU fits to a part of it?
+[[nodiscard]] bool partitionFitsOnGpu(Partition partition);
 
 /// Plane z = depth of the view, which faces away from the eye or towards it.
 [[nodiscard]] Plane depthPlane(const CameraView& view, double depth_m, bool away);
 
 void partitionSingle(const PartitionInput& input, std::vector<Slice>& out);
 void partitionCascades(const PartitionInput& input, std::vector<Slice>& out);
+void partitionSdsm(const PartitionInput& input, std::vector<Slice>& out);
 
 } // namespace gnomon

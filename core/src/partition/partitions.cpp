@@ -8,10 +8,12 @@ struct Row {
     Partition partition;
     PartitionFunction function;
     bool measures;
+    bool fits_on_gpu;
 };
 constexpr Row kPartitions[] = {
-    {Partition::single, partitionSingle, false},
-    {Partition::cascades, partitionCascades, true},
+    {Partition::single, partitionSingle, false, false},
+    {Partition::cascades, partitionCascades, true, false},
+    {Partition::sdsm, partitionSdsm, false, true},
 };
 
 } // namespace
@@ -29,6 +31,14 @@ bool partitionMeasures(Partition partition)
     for (const Row& row : kPartitions)
         if (row.partition == partition)
             return row.measures;
+    return false;
+}
+
+bool partitionFitsOnGpu(Partition partition)
+{
+    for (const Row& row : kPartitions)
+        if (row.partition == partition)
+            return row.fits_on_gpu;
     return false;
 }
 

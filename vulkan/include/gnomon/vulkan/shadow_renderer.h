@@ -85,6 +85,11 @@ struct MapPass {
     std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F};
     glm::vec4 metric_ws{0.0F}; // d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl
+    /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
+    /// written, says which part of it the view shows: casterPlaced() in shaders/lib/caster.glsl. A vertex buffer (to be
+    /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
+    VkBuffer placement = VK_NULL_HANDLE;
+    VkDeviceSize placement_offset = 0;
 };
 using DrawCasters = std::function<void(const MapPass&)>;
 
@@ -163,6 +168,11 @@ public:
     /// recorded must have finished on the GPU. Throws Error for sizes beyond the device's limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
 
+    /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (assert there); does nothing
+    /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose
+    /// writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
+    void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                      const MaskInputs& inputs, Profiler* profiler = nullptr);
     /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in
     /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
@@ -184,6 +194,10 @@ public:
     [[nodiscard]] MapReuse reuse(std::uint32_t slot) const;
     /// lvsm: the layers of a view of the last plan, nearest first, once the GPU has finished recordMaps(); else empty.
     [[nodiscard]] std::vector<DepthLayer> depthLayers(std::uint32_t view) const;
+    /// What the last recordBounds() that was given this slot found, by view of its plan, once the GPU has finished it;
+    /// of use for views with View::gpu_cascade alone (viewAsFitted()). For reports: nothing is drawn from it. Empty
+    /// when the plan has no such views.
+    [[nodiscard]] std::vector<FittedView> fittedViews(std::uint32_t slot) const;
 
 private:
     struct Impl;

@@ -1,0 +1,4 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/cascade_depth.glsl"

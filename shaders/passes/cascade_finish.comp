@@ -1,0 +1,43 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// From what was found of a light's cascades to how each lies on the base map. One thread a cascade.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/cascade_pixels.glsl"
+layout(local_size_x = kMostCascades) in;
+layout(set = 0, binding = 2, std430) writeonly buffer Views
+{
+    GpuFittedView views[]; // by their place in the plan
+};
+layout(set = 0, binding = 3, std430) writeonly buffer Report
+{
+    GpuFittedView report[]; // the same, for whoever asks once the GPU has finished
+};
+
+void main()
+{
+    GpuCascadeLight light = cascade_lights[gl_WorkGroupID.z];
+    int i = int(gl_LocalInvocationID.x);
+    if (i >= int(light.cascades.x)) {
+        return;
+    }
+    const uint first = kDepthKeys + 4 * i;
+    GpuCascadeKeys keys = cascade_keys[gl_WorkGroupID.z];
+    GpuFittedView view;
+    view.place = vec4(1.0, 1.0, 0.0, 0.0);
+    view.seen = vec4(1.0, 1.0, -1.0, -1.0);
+    view.slice = vec4(-1e30, 1e30, 0.0, 0.0);
+    if (keys.key[1] != 0u || light.cascades.z != 0u) { // else no pixel was seen, and there is nothing to divide
+        vec3 slice = cascadeSlice(light, i);
+        view.slice = vec4(slice.xy, slice.z > 0.0 ? 1.0 / slice.z : 0.0, 0.0);
+    }
+    if (keys.key[first] != 0u) {
+        view.seen = vec4(-fromKey(keys.key[first]), -fromKey(keys.key[first + 1]), fromKey(keys.key[first + 2]),
+                         fromKey(keys.key[first + 3]));
+    }
+    vec2 x = axisPlace(view.seen.x, view.seen.z, light.split.z);
+    vec2 y = axisPlace(view.seen.y, view.seen.w, light.split.w);
+    view.place = vec4(x.x, y.x, x.y, y.y);
+    view.slice.w = max(light.texel.x / x.x, light.texel.y / y.x);
+    views[light.cascades.y + i] = view;
+    report[light.cascades.y + i] = view;
+}

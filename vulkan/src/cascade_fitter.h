@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits views with View::gpu_cascade to the camera's depth buffer, on the GPU: what is found is read by the passes that
+// draw the maps and is put into the mask's constants, and never waits for the CPU.
+#pragma once
+
+#include "device.h"
+
+#include <gpu_cascades.h>
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+class CascadeFitter {
+public:
+    CascadeFitter(Device& device, const ShadowRendererOptions& options);
+
+    /// Makes what such a plan needs; nothing for a plan without such views. Nothing that was recorded may be pending
+    /// when the plan has more views or lights than any before.
+    void prepare(const Plan& plan);
+    /// Afterwards views() is visible to vertex shaders, as attribute and as storage buffer, and to COMPUTE_SHADER.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                const MaskInputs& inputs);
+    /// Has the plan views for it?
+    [[nodiscard]] static bool fits(const Plan& plan);
+    /// Has record() been given this plan, or does it need none?
+    [[nodiscard]] bool isFitted(const Plan& plan) const;
+    [[nodiscard]] VkBuffer views() const { return views_.buffer(); } // GpuFittedView by view of the plan
+    /// Completes one layer's GpuMaskLayer at `offset` of a buffer, whose views say in slice.w which view of the plan,
+    /// counted from 1, they are to be completed for. Afterwards it is visible to FRAGMENT_SHADER as uniform.
+    void recordConstants(VkCommandBuffer commands, std::uint32_t slot, const Buffer& constants, VkDeviceSize offset);
+    /// Of every view of the last plan that was recorded with this slot, once the GPU has finished. Empty without such
+    /// views.
+    [[nodiscard]] std::vector<FittedView> read(std::uint32_t slot) const;
+
+private:
+    struct Slot {
+        HostBuffer lights;
+        HostBuffer report;
+        std::uint32_t view_count = 0; // in the report
+        VkDescriptorSet fit = VK_NULL_HANDLE;
+        VkDescriptorSet complete = VK_NULL_HANDLE;
+        // What the sets hold now.
+        VkImageView depth = VK_NULL_HANDLE;
+        VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+        VkImageView object_id = VK_NULL_HANDLE;
+        VkBuffer constants = VK_NULL_HANDLE;
+    };
+    enum Pass : std::uint32_t { kDepth, kDepthIds, kBounds, kBoundsIds, kFinish, kPassCount };
+
+    void makePipelines();
+    void makeSets();
+    void makeBuffers(std::uint32_t views, std::uint32_t lights);
+    void updateFitSet(Slot& slot, const MaskInputs& inputs);
+    [[nodiscard]] std::uint32_t fillLights(Slot& slot, const Frame& frame, const Plan& plan,
+                                           const MaskInputs& inputs) const;
+    void dispatch(VkCommandBuffer commands, Pass pass, const glm::uvec3& groups) const;
+
+    Device& device_;
+    float reach_texels_;
+    std::uint32_t slot_count_;
+    VkPipelineCache cache_;
+    SetLayout fit_set_layout_;
+    SetLayout complete_set_layout_;
+    PipelineLayout fit_layout_;
+    PipelineLayout complete_layout_;
+    std::array<Pipeline, kPassCount> passes_;
+    Pipeline complete_;
+    DescriptorPool pool_;
+    DeviceBuffer keys_;
+    DeviceBuffer views_;
+    std::vector<Slot> slots_;
+    std::uint64_t fitted_frame_ = ~std::uint64_t{0};
+};
+
+} // namespace gnomon::vulkan
