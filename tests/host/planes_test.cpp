@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"cascades_tsm", 128, of(Fit::tsm, Partition::cascades), 4},
                     EdgeCase{"sdsm", 128, of(Fit::uniform, Partition::sdsm), 4},
                     EdgeCase{"sdsm_lispsm", 128, of(Fit::lispsm, Partition::sdsm), 4},
-                    EdgeCase{"sdsm_psm", 128, of(Fit::psm, Partition::sdsm), 4},
+                    EdgeCase{"sdsm_tsm", 128, of(Fit::tsm, Partition::sdsm), 4},
                     EdgeCase{"snap", 256, of(Fit::uniform, Partition::single, Motion::snap), 1},
                     EdgeCase{"cascades_snap", 128, of(Fit::uniform, Partition::cascades, Motion::snap), 3}),
     [](const auto& edge) { return edge.param.name; });
