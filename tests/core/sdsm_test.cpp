@@ -29,23 +29,23 @@ struct Meadow {
     }
 };
 
-PlanOptions optionsOf(Partition partition, Fit fit)
+PlanOptions optionsOf(Partition partition, Fit fit, std::uint32_t count = 3)
 {
     PlanOptions options;
     options.technique.partition = partition;
     options.technique.fit = fit;
-    options.cascades.count = 3;
+    options.cascades.count = count;
     options.map_size = 512;
     return options;
 }
 
-TEST(Sdsm, ListsTheSingleMapOnceForEachCascade)
+TEST(Sdsm, ListsTheMapOfASingleCascadeOnceForEach)
 {
     const Meadow meadow;
     for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm}) {
         const PlanOptions options = optionsOf(Partition::sdsm, fit);
         Planner planner(options);
-        Planner single(optionsOf(Partition::single, fit));
+        Planner single(optionsOf(Partition::cascades, fit, 1));
         const Plan& plan = planner.plan(meadow.frame);
         const Plan& base = single.plan(meadow.frame);
         ASSERT_EQ(base.views.size(), 2U);

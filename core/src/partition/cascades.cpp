@@ -41,7 +41,7 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
         if (i == 0)
             slice.cut[slice.cut_count++] = depthPlane(view, view.near_m - view.pad_m, true);
         if (i + 1 == count)
-            slice.cut[slice.cut_count++] = depthPlane(view, far_m + view.pad_m, false);
+            slice.cut[slice.cut_count++] = depthPlane(view, range.far_m + view.pad_m, false);
         if (i > 0) {
             slice.depth.blend_m = shared::blendWidth(options.blend, i > 1 ? end(i - 1) : range.near_m, end(i));
             slice.depth.begin_m = end(i) - slice.depth.blend_m;

@@ -13,7 +13,7 @@ struct Row {
 constexpr Row kPartitions[] = {
     {Partition::single, partitionSingle, false, false},
     {Partition::cascades, partitionCascades, true, false},
-    {Partition::sdsm, partitionSdsm, false, true},
+    {Partition::sdsm, partitionSdsm, true, true},
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cascades that are cut and fitted to the pixels of the camera's depth buffer, on the GPU. Here, the map that they are
-// rectangles of: one frustum for everything.
+// rectangles of: that of one cascade for everything.
 // Based on: A. Lauritzen, M. Salvi, A. Lefohn, "Sample Distribution Shadow Maps", I3D 2011.
 // Departure: a cascade's map is a rectangle of the base map, which may be warped, instead of a box in light space; so
 // every fit goes with it, and all that the GPU has to find of a map is a scale and an offset along two axes. How depth
@@ -11,9 +11,9 @@ namespace gnomon {
 
 void partitionSdsm(const PartitionInput& input, std::vector<Slice>& out)
 {
-    partitionSingle(input, out);
-    const CameraView& view = input.view;
-    out.back().depth.axis = glm::dvec4(view.forward_ws, -glm::dot(view.forward_ws, view.eye_ws));
+    CascadeOptions one;
+    one.count = 1;
+    partitionCascades({input.light, input.view, one}, out);
 }
 
 } // namespace gnomon
