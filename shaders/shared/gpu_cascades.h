@@ -36,7 +36,7 @@ struct GpuCascadeLight {
     GN_VEC4 reach; // x: depth of the background, y: greatest distance from the eye, m; z, w: of |x| / w, |y| / w
     GN_VEC4 split; // x: lambda, y: blend; z, w: axisPlace's `widen`
     GN_UVEC4
-        cascades; // x: how many, y: first view of the plan, z: 1 for ends that are given, w: 1 for a perspective camera
+    cascades; // x: how many, y: first view of the plan, z: 1 for ends that are given, w: 1 for a perspective camera
     GN_VEC4 ends[2]; // given: where all cascades but the last end, m
     GN_VEC4 texel;   // x, y: View::texel_xy_m of the base map
 };

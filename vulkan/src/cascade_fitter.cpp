@@ -17,6 +17,8 @@
 namespace gnomon::vulkan {
 namespace {
 
+static_assert(shared::kMostCascades == static_cast<int>(kMaxCascades));
+
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags2 kVertex =
     VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
