@@ -20,8 +20,8 @@ struct CasterPipelineKey {
     bool placed = false; // MapPass::placement
     [[nodiscard]] std::size_t index() const
     {
-        return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) |
-               (static_cast<std::size_t>(part) << 4) + (placed ? 48U : 0U);
+        const std::size_t parts = static_cast<std::size_t>(part) + (placed ? 3U : 0U);
+        return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) | parts << 4;
     }
 };
 
