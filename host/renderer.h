@@ -137,6 +137,11 @@ public:
     /// library's, e.g. the ray tracer's.
     FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                     const std::vector<ImageF>* masks_instead = nullptr);
+    /// The moment of the last draw() once more, from another eye: maps stay as they are, only the picture and its masks
+    /// are new. `state` and `lights` as they were then. For measuring what changes at a point of the world from frame
+    /// to frame. Does nothing for what a technique remembers of its frames, so what reads that (step-alternate) or
+    /// makes maps of the picture (sdsm) is not to be asked. Precondition: draw(), not with other masks.
+    void drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
     /// Reads back the last frame drawn.
     [[nodiscard]] Picture read(const WantedImages& wanted);
 

@@ -46,6 +46,12 @@ public:
     /// run's size. `show`: keep pictures of it. `step` is called after each technique and may throw to stop.
     void add(const Subject& subject, truth::Traced truth, bool show, const std::function<void()>& step);
 
+    /// The frame added last once more, from where the next one is seen: its own moment, `subject` with another eye
+    /// alone, and the truth of that. To be called before add() where the camera moves, so that what changes at a point
+    /// of the world is known at that point and not from pixels around it. Nothing comes of it for techniques that
+    /// cannot be drawn again (host::Renderer::drawAgain()).
+    void revisit(const Subject& subject, const truth::Traced& truth);
+
     /// Noise of the truths: the root of the mean over the frames of its square; nothing when in none a pixel counts.
     [[nodiscard]] std::optional<double> noise() const;
     struct Result {

@@ -31,6 +31,12 @@ std::vector<std::uint32_t> shownFrames(const FrameRange& range)
     return frames;
 }
 
+bool isSameEye(const host::Eye& a, const host::Eye& b)
+{
+    return a.position_ws == b.position_ws && a.target_ws == b.target_ws && a.up_ws == b.up_ws &&
+           a.fov_y_rad == b.fov_y_rad && a.near_m == b.near_m && a.far_m == b.far_m;
+}
+
 /// One walk of a group of techniques along the path.
 class Walk {
 public:
@@ -46,6 +52,9 @@ public:
         TruthTracer tracer(shot_, settings_);
         std::optional<lab::PathRun> run;
         for (std::uint32_t frame = range.first; frame <= range.last; ++frame) {
+            if (run) {
+                revisit(*run, tracer, frame);
+            }
             moveShot(shot_, settings_, frame);
             tracer.moved();
             TruthRun truth = tracer.trace(light_);
@@ -68,6 +77,22 @@ public:
     }
 
 private:
+    /// Shows the run the frame before `frame` from where that will be seen, if the camera moves. Leaves the shot
+    /// anywhere.
+    void revisit(lab::PathRun& run, TruthTracer& tracer, std::uint32_t frame)
+    {
+        const host::Eye before = shot_.eye;
+        moveShot(shot_, settings_, frame);
+        const host::Eye eye = shot_.eye;
+        if (isSameEye(eye, before)) {
+            return;
+        }
+        moveShot(shot_, settings_, frame - 1);
+        shot_.eye = eye;
+        tracer.moved();
+        run.revisit(subjectNow(), tracer.trace(light_).traced);
+    }
+
     [[nodiscard]] lab::Subject subjectNow() const
     {
         return {&shot_.scene, &shot_.state, shot_.eye, {shot_.lights[light_]}, 0};

@@ -57,7 +57,11 @@ FrameTimes Renderer::draw(const scene::State& state, const Eye& eye, const std::
 
     const Clock::time_point plan_start = Clock::now();
     self.mask_instead = masks_instead != nullptr;
-    self.makePlan();
+    if (self.again) {
+        self.keepPlan();
+    } else {
+        self.makePlan();
+    }
     times.plan_ms = millisecondsSince(plan_start);
 
     const Clock::time_point record_start = Clock::now();
@@ -78,6 +82,30 @@ FrameTimes Renderer::draw(const scene::State& state, const Eye& eye, const std::
         times.reuse = self.shadows->reuse(0);
     }
     return times;
+}
+
+void Renderer::drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
+{
+    impl_->again = true;
+    try {
+        draw(state, eye, lights);
+    } catch (...) {
+        impl_->again = false;
+        throw;
+    }
+    impl_->again = false;
+}
+
+void Renderer::Impl::keepPlan()
+{
+    if (plan != nullptr && plan != &kept_plan) {
+        kept_plan = *plan;
+        plan = &kept_plan;
+    }
+    for (View& view : kept_plan.views) {
+        view.redraw = false;
+        view.redraw_kept = false;
+    }
 }
 
 void Renderer::Impl::update(const scene::State& state)

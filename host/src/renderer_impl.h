@@ -45,6 +45,8 @@ struct Renderer::Impl {
 
     // This frame.
     const Plan* plan = nullptr;
+    Plan kept_plan; // of drawAgain(): the last plan, nothing of which is to be drawn
+    bool again = false;
     Sight sight;
     Frame frame;
     std::vector<Light> frame_lights;
@@ -70,6 +72,7 @@ struct Renderer::Impl {
     void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
     void sortNearestFirst();
     void makePlan();
+    void keepPlan();
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights, bool has_mask);
     void writeInstead(const std::vector<ImageF>& masks);
     void record(bool has_mask);

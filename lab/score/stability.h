@@ -56,6 +56,19 @@ private:
     std::uint64_t matched_ = 0;
 };
 
+/// What a frame is held against: the frame before it.
+struct FrameBefore {
+    const Reprojection& match; // onto the frame before as it was seen then: these pixels count
+    /// The error of the frame before as this frame's camera sees it, and the way to it, which is from each pixel to
+    /// itself where that sees the same surface. Null: the error is fetched with `match` from the pixels around, which
+    /// is right where the camera stands still; else edges of shadows differ by what lies between the pixels.
+    const Reprojection* here = nullptr;
+    const ImageF* error_here = nullptr;
+};
+
+/// Mask less truth.
+[[nodiscard]] ImageF errorOf(const ImageF& mask, const ImageF& truth);
+
 struct Stability {
     double shimmer = 0.0;      // sqrt(mean D^2) over every matched pixel of every step; 0 is best
     double pop = 0.0;          // mean |D| of the step where that is largest; 0 is best
@@ -72,9 +85,9 @@ public:
         double mean_squared = 0.0; // likewise
     };
 
-    /// Frames in order. `onto_before`: null at the first. One channel each, of one size. A value that is not a number
-    /// makes shimmer and pop NaN, as in errorNumbers().
-    void add(const ImageF& mask, const ImageF& truth, const Reprojection* onto_before);
+    /// Frames in order. `before`: null at the first. One channel each, of one size. A value that is not a number makes
+    /// shimmer and pop NaN, as in errorNumbers().
+    void add(const ImageF& mask, const ImageF& truth, const FrameBefore* before);
     /// One less than frames added.
     [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
     /// Nothing when no pixel of any step has a match.

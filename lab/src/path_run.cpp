@@ -17,6 +17,12 @@ struct Before {
     Counted counted;
 };
 
+/// Where the pixels of a frame find what they see in the frame before.
+struct Matches {
+    Reprojection onto_before;
+    std::optional<Reprojection> onto_here;
+};
+
 struct Walker {
     host::RenderOptions options;
     std::unique_ptr<host::Renderer> renderer;
@@ -24,7 +30,15 @@ struct Walker {
     StabilityMeter meter;
     Timed timed;
     std::vector<ShownFrame> shown;
+    std::optional<ImageF> error_here; // of the frame before, by revisit()
 };
+
+/// Can the moment of its last frame be drawn once more and leave it as it was?
+bool canBeRevisited(const host::RenderOptions& options)
+{
+    const Technique& technique = options.plan.technique;
+    return technique.motion != Motion::step_alternate && technique.partition != Partition::sdsm;
+}
 
 ShownFrame shownOf(Score& score)
 {
@@ -44,13 +58,14 @@ struct PathRun::Impl {
     glm::uvec2 size_px{0};
     std::uint32_t frames = 0;
     std::optional<Before> before;
+    std::optional<Before> here; // the frame before, from where the one to come is seen
     double squared_noise = 0.0;
     std::uint64_t noisy_frames = 0;
     std::uint64_t baseline_bytes = 0;
 
     void draw(const Subject& subject);
     void score(Walker& walker, const Subject& subject, const truth::Traced& truth, bool show,
-               std::optional<Reprojection>& onto_before, Counted& counted) const;
+               std::optional<Matches>& matches, Counted& counted) const;
 };
 
 PathRun::PathRun(host::Gpu& gpu, const Subject& first, glm::uvec2 size_px, const std::vector<Contestant>& contestants)
@@ -89,18 +104,30 @@ void PathRun::Impl::draw(const Subject& subject)
 }
 
 void PathRun::Impl::score(Walker& walker, const Subject& subject, const truth::Traced& truth, bool show,
-                          std::optional<Reprojection>& onto_before, Counted& counted) const
+                          std::optional<Matches>& matches, Counted& counted) const
 {
     Score score = scoreDrawn(*walker.renderer, subject, truth, walker.options);
     if (counted.values.empty()) { // all renderers see the same objects
         counted = score.pixels.counted;
         if (before) {
             const Camera camera = host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws);
-            onto_before.emplace(SeenFrame{camera, truth.surfaces, counted},
-                                SeenFrame{before->camera, before->surfaces, before->counted});
+            const SeenFrame now{camera, truth.surfaces, counted};
+            matches.emplace(Matches{Reprojection(now, {before->camera, before->surfaces, before->counted}), {}});
+            if (here) {
+                matches->onto_here.emplace(now, SeenFrame{here->camera, here->surfaces, here->counted});
+            }
         }
     }
-    walker.meter.add(score.mask, truth.visibility.visibility, onto_before ? &*onto_before : nullptr);
+    std::optional<FrameBefore> then;
+    if (matches) {
+        then.emplace(FrameBefore{matches->onto_before});
+        if (matches->onto_here && walker.error_here) {
+            then->here = &*matches->onto_here;
+            then->error_here = &*walker.error_here;
+        }
+    }
+    walker.meter.add(score.mask, truth.visibility.visibility, then ? &*then : nullptr);
+    walker.error_here.reset();
     walker.score.add(score);
     if (show) {
         walker.shown.push_back(shownOf(score));
@@ -111,10 +138,10 @@ void PathRun::add(const Subject& subject, truth::Traced truth, bool show, const 
 {
     assert(subject.light == 0 && subject.lights.size() == 1);
     impl_->draw(subject);
-    std::optional<Reprojection> onto_before;
+    std::optional<Matches> matches;
     Counted counted;
     for (std::size_t i = 1; i < impl_->walkers.size(); ++i) {
-        impl_->score(impl_->walkers[i], subject, truth, show, onto_before, counted);
+        impl_->score(impl_->walkers[i], subject, truth, show, matches, counted);
         if (step) {
             step();
         }
@@ -126,7 +153,28 @@ void PathRun::add(const Subject& subject, truth::Traced truth, bool show, const 
     const glm::uvec2 size_px = impl_->size_px;
     impl_->before = Before{host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws),
                            std::move(truth.surfaces), std::move(counted)};
+    impl_->here.reset();
     ++impl_->frames;
+}
+
+void PathRun::revisit(const Subject& subject, const truth::Traced& truth)
+{
+    assert(impl_->frames != 0);
+    const glm::uvec2 size_px = impl_->size_px;
+    for (std::size_t i = 1; i < impl_->walkers.size(); ++i) {
+        Walker& walker = impl_->walkers[i];
+        if (!canBeRevisited(walker.options)) {
+            continue;
+        }
+        walker.renderer->drawAgain(*subject.state, subject.eye, subject.lights);
+        const bool first = !impl_->here;
+        const host::Picture picture = walker.renderer->read({.colour = false, .masks = true, .geometry = first});
+        walker.error_here = errorOf(picture.masks[subject.light], truth.visibility.visibility);
+        if (first) { // all renderers see the same objects
+            impl_->here = Before{host::cameraOf(subject.eye, size_px.x, size_px.y, subject.state->bounds_ws),
+                                 truth.surfaces, countPixels(subject, truth.surfaces, picture).counted};
+        }
+    }
 }
 
 std::optional<double> PathRun::noise() const

@@ -149,19 +149,30 @@ std::optional<double> Reprojection::fetch(const ImageF& before, std::size_t pixe
     return sum > 0.0 ? std::optional(value / sum) : std::nullopt;
 }
 
-void StabilityMeter::add(const ImageF& mask, const ImageF& truth, const Reprojection* onto_before)
+ImageF errorOf(const ImageF& mask, const ImageF& truth)
 {
     assert(areMasksOfOneSize(mask, truth));
-    assert((onto_before == nullptr) == error_before_.values.empty());
     ImageF error(mask.width, mask.height, 1);
     for (std::size_t i = 0; i < error.values.size(); ++i) {
         error.values[i] = mask.values[i] - truth.values[i];
     }
-    if (onto_before != nullptr) {
+    return error;
+}
+
+void StabilityMeter::add(const ImageF& mask, const ImageF& truth, const FrameBefore* before)
+{
+    assert((before == nullptr) == error_before_.values.empty());
+    assert(before == nullptr || (before->here == nullptr) == (before->error_here == nullptr));
+    ImageF error = errorOf(mask, truth);
+    if (before != nullptr) {
         Step step;
         for (std::size_t i = 0; i < error.values.size(); ++i) {
-            if (const std::optional<double> before = onto_before->fetch(error_before_, i)) {
-                const double change = error.values[i] - *before;
+            std::optional<double> error_then = before->match.fetch(error_before_, i);
+            if (error_then && before->here != nullptr) {
+                error_then = before->here->fetch(*before->error_here, i);
+            }
+            if (error_then) {
+                const double change = error.values[i] - *error_then;
                 step.mean_abs += std::abs(change);
                 step.mean_squared += change * change;
                 ++step.matched;

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace gnomon::lab {
 namespace {
@@ -74,6 +75,42 @@ ImageF litFrom(std::uint32_t first)
     return columns([=](std::uint32_t x) { return x >= first ? 1.0 : 0.0; });
 }
 
+/// A frame whose error then is fetched from the pixels around; null at the first.
+void add(StabilityMeter& meter, const ImageF& mask, const ImageF& truth, const Reprojection* onto_before)
+{
+    const std::optional<FrameBefore> before =
+        onto_before != nullptr ? std::optional<FrameBefore>(FrameBefore{*onto_before}) : std::nullopt;
+    meter.add(mask, truth, before ? &*before : nullptr);
+}
+
+TEST(Stability, TheErrorAtThePointItselfGoesBeforeThatOfThePixelsAround)
+{
+    // Between two pixels an edge is half lit by what is fetched around it, though it stayed where it was.
+    const Frame now(0.5);
+    const Frame then(0.0);
+    const Reprojection onto_before(now.seen(), then.seen());
+    const Reprojection here(now.seen(), now.seen());
+    const ImageF lit = columns([](std::uint32_t) { return 1.0; });
+    for (const bool exact : {false, true}) {
+        StabilityMeter meter;
+        meter.add(litFrom(6), lit, nullptr);
+        const ImageF error_here = errorOf(litFrom(6), lit);
+        const FrameBefore before{onto_before, exact ? &here : nullptr, exact ? &error_here : nullptr};
+        meter.add(litFrom(6), lit, &before);
+        EXPECT_EQ(meter.steps()[0].matched, kWidth * kHeight);
+        EXPECT_EQ(meter.stability().value().shimmer == 0.0, exact);
+    }
+    // What the frame then did not see does not count, even where its moment could be seen from here.
+    const Frame elsewhere(100.0);
+    const Reprojection onto_nothing(now.seen(), elsewhere.seen());
+    const ImageF error_here = errorOf(litFrom(6), lit);
+    const FrameBefore before{onto_nothing, &here, &error_here};
+    StabilityMeter meter;
+    meter.add(litFrom(6), lit, nullptr);
+    meter.add(litFrom(6), lit, &before);
+    EXPECT_EQ(meter.steps()[0].matched, 0U);
+}
+
 TEST(Stability, AnErrorThatStaysInTheWorldIsNone)
 {
     // The camera goes right by a pixel, so the world goes left; the mask is wrong at the same places of the world.
@@ -84,7 +121,7 @@ TEST(Stability, AnErrorThatStaysInTheWorldIsNone)
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
         const ImageF mask = columns([&](std::uint32_t x) { return error_at(x + frame); });
         const Reprojection onto_before(Frame(frame).seen(), Frame(frame - 1.0).seen());
-        meter.add(mask, columns([](std::uint32_t) { return 0.0; }), frame == 0 ? nullptr : &onto_before);
+        add(meter, mask, columns([](std::uint32_t) { return 0.0; }), frame == 0 ? nullptr : &onto_before);
     }
     ASSERT_EQ(meter.steps().size(), 3U);
     EXPECT_EQ(meter.steps()[0].matched, (kWidth - 1) * kHeight); // the last column was not in the picture
@@ -99,7 +136,7 @@ TEST(Stability, AShadowThatMovesAsTheTruthDoesIsNone)
     const Reprojection onto_before(still.seen(), still.seen());
     EXPECT_EQ(onto_before.matched(), kWidth * kHeight);
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
-        meter.add(litFrom(3 + 2 * frame), litFrom(3 + 2 * frame), frame == 0 ? nullptr : &onto_before);
+        add(meter, litFrom(3 + 2 * frame), litFrom(3 + 2 * frame), frame == 0 ? nullptr : &onto_before);
     }
     EXPECT_EQ(meter.stability().value().shimmer, 0.0);
 }
@@ -110,8 +147,8 @@ TEST(Stability, AnErrorThatStaysOnTheScreenIs)
     StabilityMeter meter;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
         const Reprojection onto_before(Frame(frame).seen(), Frame(frame - 1.0).seen());
-        meter.add(columns([](std::uint32_t x) { return x % 2; }), columns([](std::uint32_t) { return 0.0; }),
-                  frame == 0 ? nullptr : &onto_before);
+        add(meter, columns([](std::uint32_t x) { return x % 2; }), columns([](std::uint32_t) { return 0.0; }),
+            frame == 0 ? nullptr : &onto_before);
     }
     EXPECT_DOUBLE_EQ(meter.stability().value().shimmer, 1.0);
     EXPECT_DOUBLE_EQ(meter.stability().value().pop, 1.0);
@@ -123,7 +160,7 @@ TEST(Stability, AnEdgeThatJumpsByAPixel)
     const Frame still(0.0);
     const Reprojection onto_before(still.seen(), still.seen());
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
-        meter.add(litFrom(4 + frame), litFrom(4), frame == 0 ? nullptr : &onto_before);
+        add(meter, litFrom(4 + frame), litFrom(4), frame == 0 ? nullptr : &onto_before);
     }
     // One column of twenty changes by 1.
     EXPECT_DOUBLE_EQ(meter.stability().value().shimmer, std::sqrt(1.0 / kWidth));
@@ -137,7 +174,7 @@ TEST(Stability, PopIsTheWorstFrame)
     const Reprojection onto_before(still.seen(), still.seen());
     const std::uint32_t edges[] = {4, 5, 5, 9, 8};
     for (std::size_t frame = 0; frame < std::size(edges); ++frame) {
-        meter.add(litFrom(edges[frame]), litFrom(4), frame == 0 ? nullptr : &onto_before);
+        add(meter, litFrom(edges[frame]), litFrom(4), frame == 0 ? nullptr : &onto_before);
     }
     const Stability stability = meter.stability().value();
     EXPECT_DOUBLE_EQ(stability.pop, 4.0 / kWidth);
@@ -190,9 +227,9 @@ TEST(Stability, NothingMatchesNothingIsSaid)
     EXPECT_FALSE(meter.stability().has_value());
     const Reprojection elsewhere(Frame(100.0).seen(), Frame(0.0).seen());
     EXPECT_EQ(elsewhere.matched(), 0U);
-    meter.add(litFrom(3), litFrom(3), nullptr);
+    add(meter, litFrom(3), litFrom(3), nullptr);
     EXPECT_FALSE(meter.stability().has_value()); // a single frame
-    meter.add(litFrom(9), litFrom(3), &elsewhere);
+    add(meter, litFrom(9), litFrom(3), &elsewhere);
     ASSERT_EQ(meter.steps().size(), 1U);
     EXPECT_EQ(meter.steps()[0].matched, 0U);
     EXPECT_EQ(meter.steps()[0].mean_abs, 0.0);
@@ -204,9 +241,9 @@ TEST(Stability, NotANumberIsNotHidden)
     const Frame still(0.0);
     const Reprojection onto_before(still.seen(), still.seen());
     StabilityMeter meter;
-    meter.add(litFrom(4), litFrom(4), nullptr);
-    meter.add(columns([](std::uint32_t x) { return x == 3 ? kNan : 0.0; }), litFrom(4), &onto_before);
-    meter.add(litFrom(5), litFrom(4), &onto_before);
+    add(meter, litFrom(4), litFrom(4), nullptr);
+    add(meter, columns([](std::uint32_t x) { return x == 3 ? kNan : 0.0; }), litFrom(4), &onto_before);
+    add(meter, litFrom(5), litFrom(4), &onto_before);
     EXPECT_TRUE(std::isnan(meter.stability().value().shimmer));
     EXPECT_TRUE(std::isnan(meter.stability().value().pop));
 }
