@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What motions win and cost, as Markdown on stdout: the tables of docs/measurements.md.
+
+usage: measure_motion.py [--tables LIST] [--only NAMES] [--size WxH] [--samples N] [--map-size N] [--repetitions N] GNOMON SHARED
+
+GNOMON is the program, SHARED the folder that holds scenes/. The tables, of which --tables picks some:
+
+snap      shimmer of every filter with motion free and with snap while the camera pans and orbits, against hard truth
+steps     shimmer, pop and lag of the step motions over a part of sundial's day, camera still, against area truth
+lag       how far step-blend and step-jump are from the sun, by the angle of a step
+cost      frames on sundial with its walker as ratios to free's, whose map is drawn in every frame, with the counters that
+          explain them; and cascades against a single map of as many texels
+
+--only names scenes by words in their names. A scene that is not there is named on stderr and left out, and the exit status
+is then 1. Times are for a quiet machine.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from measuring import cell, present, run, table
+
+# Name, scene, options. In the second the map moves, because the scene is larger than what is shadowed of it.
+WALKS = [
+    ("kenney_city", "scenes/kenney_city/kenney_city.gltf",
+     ["--eye", "3,3.2,6.5", "--target", "2.5,0.3,1.5", "--fov", "45", "--sun", "0.5826,-0.766,-0.2717"]),
+    ("truck_town, within 150 m", "scenes/truck_town/truck_town.gltf",
+     ["--eye", "0,22,45", "--target", "2,8,5", "--fov", "50", "--sun", "0.4967,-0.819,0.2868",
+      "--set", "max-distance=150"]),
+]
+FILTERS = ["hard", "pcf", "vsm", "lvsm", "esm", "evsm", "msm"]
+STEPPED = ["free", "snap", "step-jump", "step-band", "step-blend", "step-alternate"]
+MORNING = ["--camera", "meadow", "--light", "sun", "--time", "120"]  # 10 o'clock
+
+
+def compare(options, scene, arguments):
+    return run(options.gnomon, "compare", [scene, *arguments, "--size", options.size, "--map-size",
+                                           str(options.map_size), "--set", "blur.path=compute"])["results"]
+
+
+def by_choice(results, *choices):
+    return {tuple(r["choices"][c] for c in choices): r for r in results}
+
+
+def share(value, base):
+    return f"{100.0 * value / base:.2g} %" if base else "–"
+
+
+def snap_table(options, view):
+    name, scene, arguments = view
+    techniques = ",".join(f"{f}+{m}" for f in FILTERS for m in ["free", "snap"])
+    rows = []
+    for path in ["pan", "orbit"]:
+        results = compare(options, scene, [*arguments, "--path", path, "--frames", f"0-{options.frames - 1}",
+                                           "--truth", "hard", "--techniques", techniques])
+        found = by_choice(results, "filter", "motion")
+        for name_of_filter in FILTERS:
+            free, snap = (found[(name_of_filter, motion)]["stability"]["shimmer"] for motion in ["free", "snap"])
+            rows.append([path, name_of_filter, cell(free, 5), cell(snap, 5), share(snap, free)])
+    return f"### Shimmer under a moving camera: {name}\n\n" + table(["path", "filter", "free", "snap", "share"], rows)
+
+
+def steps_table(options, _):
+    rows = []
+    for name_of_filter in ["pcf", "vsm"]:
+        techniques = ",".join(f"{name_of_filter}+{motion}" for motion in STEPPED)
+        results = compare(options, "sundial", [*MORNING, "--path", "day", "--frames", f"0-{options.day - 1}", "--truth",
+                                               "area", "--samples", str(options.samples), "--techniques", techniques])
+        found = by_choice(results, "motion")
+        free = found[("free",)]["stability"]
+        jump = found[("step-jump",)]["stability"]
+        for motion in STEPPED:
+            s = found[(motion,)]["stability"]
+            rows.append([name_of_filter, motion, cell(s["shimmer"], 5), share(s["shimmer"], free["shimmer"]),
+                         cell(s["pop"], 5), share(s["pop"], jump["pop"]), cell(s["lag"]),
+                         cell(found[(motion,)]["mean_texels_rendered"] / options.map_size ** 2, 2)])
+    columns = ["filter", "motion", "shimmer", "of free's", "pop", "of step-jump's", "lag", "maps drawn a frame"]
+    return "### A sun that moves: sundial\n\n" + table(columns, rows)
+
+
+def lag_table(options, _):
+    angles = [0.125, 0.25, 0.5, 1.0, 2.0, 4.0]
+    motions = ["step-jump", "step-blend"]
+    techniques = ["pcf+free"] + [f"pcf+{m}+step.angle={a}" for a in angles for m in motions]
+    # Few frames far apart, so that they meet all phases of a step.
+    results = compare(options, "sundial", [*MORNING, "--path", "day", "--frames", f"0-{options.day - 1}", "--fps", "3",
+                                           "--truth", "area", "--samples", str(options.samples), "--techniques",
+                                           ",".join(techniques)])
+    found = {}
+    for result in results:
+        motion = result["choices"]["motion"]
+        found[(motion, float(result["settings"].get("step.angle", 0.0)) if motion != "free" else 0.0)] = result
+    free = found[("free", 0.0)]["stability"]["lag"]
+    rows = [[f"{a}", *(cell(found[(m, a)]["stability"]["lag"]) for m in motions)] for a in angles]
+    return (f"### Lag by the angle of a step: sundial\n\nThe same with motion free: {cell(free)}.\n\n" +
+            table(["step, degrees", *motions], rows))
+
+
+def bench(options, arguments, techniques):
+    return run(options.gnomon, "bench", [*arguments, "--size", "1280x720", "--techniques", ",".join(techniques)])
+
+
+def cost_table(options, _):
+    techniques = [f"pcf+{motion}+map-size={options.map_size}" for motion in STEPPED]
+    whole = bench(options, ["sundial", "--camera", "meadow", "--time", "120", "--path", "day", "--frames",
+                            f"0-{options.day - 1}"], techniques)
+    found = by_choice(whole["results"], "motion")
+
+    def frame(result):
+        return result["static_time_ms"]["frame"]
+
+    base = frame(found[("free",)])
+    rows = []
+    for motion in STEPPED:
+        result = found[(motion,)]
+        rows.append([motion, cell(frame(result), 1), f"{100.0 * (frame(result) / base - 1.0):+.0f} %",
+                     cell(result["static_mean_texels_rendered"] / options.map_size ** 2, 2)])
+    text = "### What steps cost: sundial\n\n" + table(["motion", "frame ms", "against free", "maps drawn a frame"], rows)
+    side = options.map_size // 2
+    pair = bench(options, ["sundial", "--camera", "long", "--time", "120", "--repetitions", str(options.repetitions)],
+                 [f"pcf+single+map-size={options.map_size}", f"pcf+cascades+map-size={side}"])
+    found = by_choice(pair["results"], "partition")
+    rows = [[p, cell(found[(p,)]["time_ms"]["frame"], 1), cell(found[(p,)]["time_ms"]["maps"], 1),
+             cell(found[(p,)]["time_ms"]["mask"], 1)] for p in ["single", "cascades"]]
+    ratio = found[("cascades",)]["time_ms"]["frame"] / found[("single",)]["time_ms"]["frame"]
+    return (text + f"\nCascades of {side} against a single map of {options.map_size}: {ratio:.2f} times the frame.\n\n" +
+            table(["partition", "frame ms", "maps ms", "mask ms"], rows))
+
+
+TABLES = {"snap": (WALKS, snap_table), "steps": ([("sundial", "sundial")], steps_table),
+          "lag": ([("sundial", "sundial")], lag_table), "cost": ([("sundial", "sundial")], cost_table)}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tables", default=",".join(TABLES))
+    parser.add_argument("--only", default="")
+    parser.add_argument("--size", default="320x180")
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--map-size", type=int, default=1024)
+    parser.add_argument("--frames", type=int, default=16, help="of paths of the camera")
+    parser.add_argument("--day", type=int, default=90, help="frames of paths of the sun")
+    parser.add_argument("--repetitions", type=int, default=9)
+    parser.add_argument("gnomon")
+    parser.add_argument("shared", type=Path)
+    options = parser.parse_args()
+    asked = options.tables.split(",")
+    if not set(asked) <= set(TABLES):
+        parser.error(f"tables are {', '.join(TABLES)}")
+    missing = False
+    for name in asked:
+        views, make = TABLES[name]
+        views, absent = present(views, options.shared, options.only)
+        missing = missing or absent
+        for view in views:
+            print(make(options, view), flush=True)
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
