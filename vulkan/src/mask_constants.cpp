@@ -45,7 +45,9 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     const ViewSlice& slice = view.slice;
     // A shader need not know infinities.
     constexpr double kEndless = 1e30;
-    gpu.slice = glm::dvec4(std::max(slice.begin_m, -kEndless), std::min(slice.end_m, kEndless),
+    // Depths count from the eye for which the plan was made, which need not be the one that looks now.
+    const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
+    gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
                            slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
     return gpu;
 }
