@@ -131,7 +131,11 @@ float lightVisibility(int index, PixelSteps steps, vec3 p, vec3 n)
     GpuLight light = mask.lights[index];
     BiasRule bias = biasOf(mask.bias, mask.bias_more);
     bias.automatic = kAutomaticBias ? 1.0 : 0.0;
+#ifdef GNOMON_STEPPING
     const bool paired = (kSteps & (1 << index)) != 0;
+#else
+    const bool paired = false; // else every pipeline would be compiled from half as much code again
+#endif
     float depth = dot(mask.view_axis.xyz, p);
     Seen seen = firstView(index, depth, bias, steps, p, n);
     Seen later = Seen(1.0, false);

@@ -84,6 +84,10 @@ MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& 
     fragments_[1] = makeShader(device, spirv::mask_orthographic_frag);
     fragments_[2] = makeShader(device, spirv::mask_ids_frag);
     fragments_[3] = makeShader(device, spirv::mask_orthographic_ids_frag);
+    fragments_[4] = makeShader(device, spirv::mask_stepping_frag);
+    fragments_[5] = makeShader(device, spirv::mask_stepping_orthographic_frag);
+    fragments_[6] = makeShader(device, spirv::mask_stepping_ids_frag);
+    fragments_[7] = makeShader(device, spirv::mask_stepping_orthographic_ids_frag);
     makeLayouts();
     makeSlots();
 }

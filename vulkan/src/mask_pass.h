@@ -83,7 +83,7 @@ private:
     VkDeviceSize constants_stride_ = 0;
     std::uint32_t regions_ = 1; // of each layer that there is room for in the constants
     ShaderModule vertex_;
-    std::array<ShaderModule, 4> fragments_; // by orthographic, ids
+    std::array<ShaderModule, 8> fragments_; // by orthographic, ids, paired
     std::array<Pipeline, 1024> pipelines_;  // by Variant::index(), made when first needed
 };
 
