@@ -22,7 +22,7 @@ constexpr std::string_view kMarinescu =
 constexpr std::string_view kForsyth = "T. Forsyth, Extremely Practical Shadows, GDC 2006";
 constexpr std::string_view kShastry = "A. S. Shastry, Soft-Edged Shadows, 2005";
 constexpr std::string_view kKiteLightning = "Kite & Lightning, Variance Shadow Maps, 2014";
-constexpr std::string_view kIceFall = "P. Fortier (IceFall Games), Shadow maps for moving light sources, 2013";
+constexpr std::string_view kIceFall = "P. Fortier (IceFall Games), Shadow maps for moving light sources, 2010";
 constexpr std::string_view kWilliams = "L. Williams, Casting Curved Shadows on Curved Surfaces, 1978";
 
 constexpr std::string_view kLight = "light";
