@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <span>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace gnomon::host::test {

@@ -178,7 +178,8 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
     }
     const VkSpecializationInfo specialisation{static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
                                               &values};
-    const std::size_t fragment = (variant.orthographic ? 1U : 0U) + (variant.ids ? 2U : 0U) + (variant.paired != 0 ? 4U : 0U);
+    const std::size_t fragment =
+        (variant.orthographic ? 1U : 0U) + (variant.ids ? 2U : 0U) + (variant.paired != 0 ? 4U : 0U);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (VkPipelineShaderStageCreateInfo& stage : stages) {
         stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
