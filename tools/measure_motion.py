@@ -37,7 +37,7 @@ MORNING = ["--camera", "meadow", "--light", "sun", "--time", "120"]  # 10 o'cloc
 
 def compare(options, scene, arguments):
     return run(options.gnomon, "compare", [scene, *arguments, "--size", options.size, "--map-size",
-                                           str(options.map_size), "--set", "blur.path=compute"])["results"]
+                                           str(options.map_size)])["results"]
 
 
 def by_choice(results, *choices):

@@ -188,7 +188,7 @@ void Planner::Impl::look(const Frame& frame)
     all_receivers.clear();
     const bool levels = steady && options.level_depth && filter != nullptr && filter->filterable;
     for (std::uint32_t i = 0; levels && i < frame.objects->size(); ++i)
-        if (frame.objects->flags(i).receives)
+        if (frame.objects->alive(i) && frame.objects->flags(i).receives)
             all_receivers.push_back(i);
 }
 
