@@ -16,9 +16,8 @@ names. A scene that is not there is named on stderr and left out, and the exit s
 
 import argparse
 import sys
-from pathlib import Path
 
-from measuring import cell, present, run, table
+from measuring import cell, print_tables, run, table
 
 OVERHEAD = ["--sun", "0,-1,0"]
 TOWN = ["--eye", "0,22,45", "--target", "2,8,5", "--fov", "50"]
@@ -130,25 +129,10 @@ TABLES = {"density": (LONG_VIEWS, density_table), "error": (TOWNS, error_table)}
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument("--tables", default=",".join(TABLES))
-    parser.add_argument("--only", default="")
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--samples", type=int, default=256)
     parser.add_argument("--map-size", type=int, default=2048)
-    parser.add_argument("gnomon")
-    parser.add_argument("shared", type=Path)
-    options = parser.parse_args()
-    asked = options.tables.split(",")
-    if not set(asked) <= set(TABLES):
-        parser.error(f"tables are {', '.join(TABLES)}")
-    missing = False
-    for name in asked:
-        views, make = TABLES[name]
-        views, absent = present(views, options.shared, options.only)
-        missing = missing or absent
-        for view in views:
-            print(make(options, view), flush=True)
-    return 1 if missing else 0
+    return print_tables(parser, TABLES)
 
 
 if __name__ == "__main__":

@@ -18,9 +18,8 @@ is then 1. Times are for a quiet machine.
 
 import argparse
 import sys
-from pathlib import Path
 
-from measuring import cell, present, run, table
+from measuring import cell, print_tables, run, table
 
 # Name, scene, options. In the second the map moves, because the scene is larger than what is shadowed of it.
 WALKS = [
@@ -135,28 +134,13 @@ TABLES = {"snap": (WALKS, snap_table), "steps": ([("sundial", "sundial")], steps
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument("--tables", default=",".join(TABLES))
-    parser.add_argument("--only", default="")
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--map-size", type=int, default=1024)
     parser.add_argument("--frames", type=int, default=16, help="of paths of the camera")
     parser.add_argument("--day", type=int, default=90, help="frames of paths of the sun")
     parser.add_argument("--repetitions", type=int, default=9)
-    parser.add_argument("gnomon")
-    parser.add_argument("shared", type=Path)
-    options = parser.parse_args()
-    asked = options.tables.split(",")
-    if not set(asked) <= set(TABLES):
-        parser.error(f"tables are {', '.join(TABLES)}")
-    missing = False
-    for name in asked:
-        views, make = TABLES[name]
-        views, absent = present(views, options.shared, options.only)
-        missing = missing or absent
-        for view in views:
-            print(make(options, view), flush=True)
-    return 1 if missing else 0
+    return print_tables(parser, TABLES)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 
 def run(gnomon, command, arguments):
@@ -41,3 +42,24 @@ def cell(value, digits=4):
 def table(columns, rows):
     lines = [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
     return "\n".join(lines + [f"| {' | '.join(row)} |" for row in rows]) + "\n"
+
+
+def print_tables(parser, tables):
+    """Adds --tables, --only, GNOMON and SHARED to the parser's own options, prints the tables that are asked for, and gives
+    the exit status. `tables`: name to (views as in present(), function of options and a view that gives Markdown)."""
+    parser.add_argument("--tables", default=",".join(tables))
+    parser.add_argument("--only", default="")
+    parser.add_argument("gnomon")
+    parser.add_argument("shared", type=Path)
+    options = parser.parse_args()
+    asked = options.tables.split(",")
+    if not set(asked) <= set(tables):
+        parser.error(f"tables are {', '.join(tables)}")
+    missing = False
+    for name in asked:
+        views, make = tables[name]
+        found, absent = present(views, options.shared, options.only)
+        missing = missing or absent
+        for view in found:
+            print(make(options, view), flush=True)
+    return 1 if missing else 0
