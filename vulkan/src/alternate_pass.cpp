@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alternate_pass.h"
 
-#include "graphics_pipeline.h"
 #include "mask_regions.h"
+#include "pipelines.h"
 #include "samplers.h"
 
 #include <gnomon_spirv.h>
@@ -17,6 +17,10 @@ namespace gnomon::vulkan {
 namespace {
 
 enum Binding : std::uint32_t { kConstants, kDepth, kNow, kBefore, kDistances, kBindingCount };
+constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 // Push constants of alternate.frag.
 struct Before {
@@ -66,56 +70,15 @@ bool alternates(const Plan& plan)
 }
 
 AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
-    : device_(device), cache_(cache)
+    : device_(device), cache_(cache), sampler_(makeSampler(device, VK_FILTER_NEAREST)),
+      sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
+      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Before))),
+      slots_(frames_in_flight)
 {
-    sampler_ = makeSampler(device, VK_FILTER_NEAREST);
-    makeLayouts();
-    makeSets(frames_in_flight);
-}
-
-void AlternatePass::makeLayouts()
-{
-    std::array<VkDescriptorSetLayoutBinding, kBindingCount> bindings{};
-    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
-        bindings[i] = {
-            i, i == kConstants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
-    }
-    VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set_info.bindingCount = kBindingCount;
-    set_info.pBindings = bindings.data();
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout),
-          "create a descriptor set layout");
-    set_layout_ = {device_, set_layout};
-    const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Before)};
-    const VkPipelineLayoutCreateInfo info{
-        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(device_.vk.CreatePipelineLayout(device_.handle(), &info, nullptr, &layout), "create a pipeline layout");
-    layout_ = {device_, layout};
-}
-
-void AlternatePass::makeSets(std::uint32_t count)
-{
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2 * count},
-         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count * (kBindingCount - 1)}}};
-    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool_info.maxSets = 2 * count;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorPool(device_.handle(), &pool_info, nullptr, &pool), "create a descriptor pool");
-    pool_ = {device_, pool};
-    sets_.resize(count);
-    const VkDescriptorSetLayout set_layout = set_layout_.get();
-    for (auto& turns : sets_) {
+    sets_.reset(2 * frames_in_flight);
+    for (auto& turns : slots_) {
         for (Set& set : turns) {
-            const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool, 1,
-                                                   &set_layout};
-            check(device_.vk.AllocateDescriptorSets(device_.handle(), &info, &set.set), "allocate a descriptor set");
-            device_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleBits(set.set), "alternate");
+            set.set = sets_.take("alternate");
         }
     }
 }
@@ -124,15 +87,7 @@ void AlternatePass::makePipeline(VkFormat mask_format)
 {
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment = makeShader(device_, spirv::alternate_frag);
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    for (VkPipelineShaderStageCreateInfo& stage : stages) {
-        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        stage.pName = "main";
-    }
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex.get();
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment.get();
+    const TwoStages stages = stagesOf(vertex, fragment);
     GraphicsState state;
     state.stages = stages;
     state.layout = layout_.get();
@@ -164,7 +119,7 @@ void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
         info.format = VK_FORMAT_R32_SFLOAT;
         history.distances = Image(device_, info);
     }
-    for (auto& turns : sets_) {
+    for (auto& turns : slots_) {
         for (Set& set : turns) {
             set.inputs = {};
         }
@@ -187,24 +142,13 @@ void AlternatePass::updateSet(Set& set, const AlternateInputs& inputs)
     }
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
-    const std::array<VkDescriptorImageInfo, kBindingCount> images{{{},
-                                                                   {sampler, inputs.depth, inputs.depth_layout},
-                                                                   {sampler, now().visibility.view(), kRead},
-                                                                   {sampler, before().visibility.view(), kRead},
-                                                                   {sampler, before().distances.view(), kRead}}};
-    const VkDescriptorBufferInfo buffer{inputs.constants, 0, sizeof(shared::GpuMaskLayer)};
-    std::array<VkWriteDescriptorSet, kBindingCount> writes{};
-    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
-        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        writes[i].dstSet = set.set;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        writes[i].pImageInfo = &images[i];
-    }
-    writes[kConstants].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
-    writes[kConstants].pBufferInfo = &buffer;
-    device_.vk.UpdateDescriptorSets(device_.handle(), kBindingCount, writes.data(), 0, nullptr);
+    const std::array<DescriptorSets::Write, kBindingCount> writes{
+        DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuMaskLayer)),
+        DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
+        DescriptorSets::image(kNow, sampler, now().visibility.view(), kRead),
+        DescriptorSets::image(kBefore, sampler, before().visibility.view(), kRead),
+        DescriptorSets::image(kDistances, sampler, before().distances.view(), kRead)};
+    sets_.write(set.set, writes);
     set.inputs = inputs;
 }
 
@@ -275,7 +219,7 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
 void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                            const AlternateInputs& inputs, const Image& mask)
 {
-    Set& set = sets_[slot][turn_];
+    Set& set = slots_[slot][turn_];
     updateSet(set, inputs);
     if (fresh_) { // nobody reads what is not there, but shaders name it
         for (const Image* image : {&before().visibility, &before().distances}) {

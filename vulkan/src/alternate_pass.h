@@ -4,7 +4,7 @@
 // counts alone; so does it in the first frame, and where the frame before had another pair of positions.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 
 #include <array>
 
@@ -49,8 +49,6 @@ private:
         AlternateInputs inputs; // that it names
     };
 
-    void makeLayouts();
-    void makeSets(std::uint32_t count);
     void updateSet(Set& set, const AlternateInputs& inputs);
     void makePipeline(VkFormat mask_format);
     void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
@@ -63,11 +61,10 @@ private:
     Device& device_;
     VkPipelineCache cache_;
     Sampler sampler_;
-    SetLayout set_layout_;
+    DescriptorSets sets_;
     PipelineLayout layout_;
-    DescriptorPool pool_;
     Pipeline pipeline_;
-    std::vector<std::array<Set, 2>> sets_; // by slot and turn
+    std::vector<std::array<Set, 2>> slots_; // by slot and turn
     std::array<History, 2> history_;
     std::size_t turn_ = 0;
     Camera camera_; // of the frame before

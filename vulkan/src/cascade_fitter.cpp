@@ -211,14 +211,9 @@ void CascadeFitter::recordConstants(VkCommandBuffer commands, std::uint32_t slot
 {
     Slot& slot = slots_[slot_index];
     if (slot.constants != constants.buffer()) {
-        const std::array<VkDescriptorBufferInfo, 2> buffers{
-            {{views_.buffer(), 0, VK_WHOLE_SIZE}, {constants.buffer(), 0, VK_WHOLE_SIZE}}};
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = slot.complete;
-        write.descriptorCount = buffers.size();
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        write.pBufferInfo = buffers.data();
-        device_.vk.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+        const std::array writes{DescriptorSets::buffer(0, views_.buffer()),
+                                DescriptorSets::buffer(1, constants.buffer())};
+        complete_sets_.write(slot.complete, writes);
         slot.constants = constants.buffer();
     }
     const auto first = static_cast<std::uint32_t>((offset + offsetof(shared::GpuMaskLayer, views)) / sizeof(glm::vec4));

@@ -3,7 +3,7 @@
 // draw the maps and is put into the mask's constants, and never waits for the CPU.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 
 #include <gpu_cascades.h>
 
@@ -60,13 +60,12 @@ private:
     float reach_texels_;
     std::uint32_t slot_count_;
     VkPipelineCache cache_;
-    SetLayout fit_set_layout_;
-    SetLayout complete_set_layout_;
+    DescriptorSets fit_sets_;
+    DescriptorSets complete_sets_;
     PipelineLayout fit_layout_;
     PipelineLayout complete_layout_;
     std::array<Pipeline, kPassCount> passes_;
     Pipeline complete_;
-    DescriptorPool pool_;
     DeviceBuffer keys_;
     DeviceBuffer views_;
     std::vector<Slot> slots_;

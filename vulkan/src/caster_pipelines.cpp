@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "caster_pipelines.h"
 
-#include "graphics_pipeline.h"
 #include "map_storage.h"
+#include "pipelines.h"
 
 #include <gnomon_spirv.h>
 #include <paired_depth.h>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filter_layout.h"
 
-#include "graphics_pipeline.h"
 #include "moment_rule_of.h"
+#include "pipelines.h"
+#include "samplers.h"
+#include "specialisation.h"
 
 #include <gnomon_spirv.h>
 
@@ -24,17 +26,6 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-using Entries = std::array<VkSpecializationMapEntry, sizeof(FilterConstants) / 4>;
-
-Entries makeEntries()
-{
-    Entries entries{};
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-        entries[i] = {i, 4 * i, 4};
-    }
-    return entries;
-}
-
 } // namespace
 
 FilterConstants filterConstants(const FilterOptions& filter)
@@ -51,113 +42,34 @@ FilterConstants filterConstants(const FilterOptions& filter)
     return constants;
 }
 
-FilterLayout::FilterLayout(Device& device, VkPipelineCache cache) : device_(device), cache_(cache)
+FilterLayout::FilterLayout(Device& device, VkPipelineCache cache)
+    : device_(device), cache_(cache), sets_(device, kTypes, kStages),
+      layout_(makePipelineLayout(device, sets_.layout(), kStages, sizeof(shared::FilterPassPlace))),
+      nearest_(makeSampler(device, VK_FILTER_NEAREST)), linear_(makeSampler(device, VK_FILTER_LINEAR))
 {
-    makeLayouts();
-}
-
-void FilterLayout::makeLayouts()
-{
-    std::array<VkDescriptorSetLayoutBinding, kBindingCount> bindings{};
-    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
-        bindings[i] = {i, kTypes[i], 1, kStages, nullptr};
-    }
-    const VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0,
-                                                   kBindingCount, bindings.data()};
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout),
-          "create a descriptor set layout");
-    set_layout_ = {device_, set_layout};
-    const VkPushConstantRange range{kStages, 0, sizeof(shared::FilterPassPlace)};
-    const VkPipelineLayoutCreateInfo layout_info{
-        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(device_.vk.CreatePipelineLayout(device_.handle(), &layout_info, nullptr, &layout),
-          "create a pipeline layout");
-    layout_ = {device_, layout};
-    nearest_ = makeSampler(VK_FILTER_NEAREST);
-    linear_ = makeSampler(VK_FILTER_LINEAR);
-}
-
-Sampler FilterLayout::makeSampler(VkFilter filter)
-{
-    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = filter;
-    info.minFilter = filter;
-    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(device_.vk.CreateSampler(device_.handle(), &info, nullptr, &sampler), "create a sampler");
-    return {device_, sampler};
-}
-
-void FilterLayout::reset(std::uint32_t sets)
-{
-    std::array<VkDescriptorPoolSize, kBindingCount> sizes{};
-    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
-        sizes[i] = {kTypes[i], sets};
-    }
-    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = sets;
-    info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorPool(device_.handle(), &info, nullptr, &pool), "create a descriptor pool");
-    pool_ = {device_, pool};
 }
 
 VkDescriptorSet FilterLayout::makeSet(const FilterBindings& bindings)
 {
-    const VkDescriptorSetLayout layout = set_layout_.get();
-    const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool_.get(), 1,
-                                           &layout};
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    check(device_.vk.AllocateDescriptorSets(device_.handle(), &info, &set), "allocate a descriptor set");
-    device_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleBits(set), "shadow filter");
-
-    const std::array<VkDescriptorImageInfo, 2> images{
+    const VkDescriptorSet set = sets_.take("shadow filter");
+    const std::array<DescriptorSets::Write, kBindingCount> writes{
         bindings.source_is_depth
-            ? VkDescriptorImageInfo{nearest_.get(), bindings.source, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}
-            : VkDescriptorImageInfo{linear_.get(), bindings.source, VK_IMAGE_LAYOUT_GENERAL},
-        VkDescriptorImageInfo{VK_NULL_HANDLE, bindings.target, VK_IMAGE_LAYOUT_GENERAL}};
-    const std::array<VkDescriptorBufferInfo, 4> buffers{{{bindings.blocks, 0, VK_WHOLE_SIZE},
-                                                         {bindings.depth_layers, 0, VK_WHOLE_SIZE},
-                                                         {bindings.kernel, 0, sizeof(shared::BlurKernel)},
-                                                         {bindings.counts, 0, sizeof(shared::BlurCounts)}}};
-    std::array<VkWriteDescriptorSet, kBindingCount> writes{};
-    for (std::uint32_t i = 0; i < kBindingCount; ++i) {
-        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        writes[i].dstSet = set;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = kTypes[i];
-        writes[i].pImageInfo = i < kBlocks ? &images[i] : nullptr;
-        writes[i].pBufferInfo = i < kBlocks ? nullptr : &buffers[i - kBlocks];
-    }
-    device_.vk.UpdateDescriptorSets(device_.handle(), kBindingCount, writes.data(), 0, nullptr);
+            ? DescriptorSets::image(kSource, nearest_.get(), bindings.source, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)
+            : DescriptorSets::image(kSource, linear_.get(), bindings.source, VK_IMAGE_LAYOUT_GENERAL),
+        DescriptorSets::image(kTarget, VK_NULL_HANDLE, bindings.target, VK_IMAGE_LAYOUT_GENERAL),
+        DescriptorSets::buffer(kBlocks, bindings.blocks),
+        DescriptorSets::buffer(kDepthLayers, bindings.depth_layers),
+        DescriptorSets::buffer(kKernel, bindings.kernel, sizeof(shared::BlurKernel)),
+        DescriptorSets::buffer(kCounts, bindings.counts, sizeof(shared::BlurCounts))};
+    sets_.write(set, writes);
     return set;
 }
 
 Pipeline FilterLayout::makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
                                    const char* name)
 {
-    const ShaderModule shader = makeShader(device_, spirv);
-    const Entries entries = makeEntries();
-    const VkSpecializationInfo specialisation{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              sizeof constants, &constants};
-    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    create.stage.module = shader.get();
-    create.stage.pName = "main";
-    create.stage.pSpecializationInfo = &specialisation;
-    create.layout = layout_.get();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(device_.vk.CreateComputePipelines(device_.handle(), cache_, 1, &create, nullptr, &pipeline),
-          "create a compute pipeline");
-    device_.name(VK_OBJECT_TYPE_PIPELINE, handleBits(pipeline), name);
-    return {device_, pipeline};
+    const Specialisation specialisation(constants);
+    return makeComputePipeline(device_, {spirv, specialisation.info(), layout_.get(), cache_, name});
 }
 
 Pipeline FilterLayout::makeFragment(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
@@ -165,19 +77,8 @@ Pipeline FilterLayout::makeFragment(std::span<const std::uint32_t> spirv, const 
 {
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment = makeShader(device_, spirv);
-    const Entries entries = makeEntries();
-    const VkSpecializationInfo specialisation{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              sizeof constants, &constants};
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    for (VkPipelineShaderStageCreateInfo& stage : stages) {
-        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        stage.pName = "main";
-    }
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex.get();
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment.get();
-    stages[1].pSpecializationInfo = &specialisation;
+    const Specialisation specialisation(constants);
+    const TwoStages stages = stagesOf(vertex, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout_.get();

@@ -3,7 +3,7 @@
 // compute and fragment, the pool of their descriptor sets, and how their pipelines are made.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 
 #include <filter_pass.h>
 
@@ -38,7 +38,7 @@ public:
     FilterLayout(Device& device, VkPipelineCache cache);
 
     /// Room for this many sets, all of them new. Sets that were made before are gone.
-    void reset(std::uint32_t sets);
+    void reset(std::uint32_t sets) { sets_.reset(sets); }
     [[nodiscard]] VkDescriptorSet makeSet(const FilterBindings& bindings);
     [[nodiscard]] Pipeline makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,
                                        const char* name);
@@ -51,17 +51,13 @@ public:
     [[nodiscard]] Device& device() const { return device_; }
 
 private:
-    void makeLayouts();
-    [[nodiscard]] Sampler makeSampler(VkFilter filter);
-
     Device& device_;
     VkPipelineCache cache_;
-    SetLayout set_layout_;
+    DescriptorSets sets_;
     PipelineLayout layout_;
     // Clamped. Depth formats need not be filterable, and are only ever fetched from.
     Sampler nearest_;
     Sampler linear_;
-    DescriptorPool pool_;
 };
 
 } // namespace gnomon::vulkan

@@ -2,7 +2,7 @@
 // Lloyd relaxation of one view's layers of depth on the GPU: a histogram of what was drawn, then steps of k-means.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 
 #include <layer_placing.h>
 
@@ -24,23 +24,15 @@ public:
     void record(VkCommandBuffer commands, const Job& job);
 
 private:
-    void makeHistogram();
-    void makeLayouts();
-    void makePool();
-    [[nodiscard]] PipelineLayout makeLayout(std::uint32_t push_bytes);
-    [[nodiscard]] Pipeline makePipeline(std::span<const std::uint32_t> spirv, VkPipelineLayout layout,
-                                        VkPipelineCache cache);
     void updateSet(const Job& job);
 
     Device& device_;
-    Memory histogram_memory_;
-    Owned<VkBuffer, &Functions::DestroyBuffer> histogram_;
-    SetLayout set_layout_;
+    DeviceBuffer histogram_;
+    DescriptorSets sets_;
     PipelineLayout count_layout_;
     PipelineLayout place_layout_;
     Pipeline count_;
     Pipeline place_;
-    DescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkImageView depth_ = VK_NULL_HANDLE; // what the set holds now
     VkBuffer layers_ = VK_NULL_HANDLE;

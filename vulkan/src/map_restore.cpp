@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_restore.h"
 
-#include "graphics_pipeline.h"
+#include "pipelines.h"
 #include "samplers.h"
 
 #include <gnomon_spirv.h>
@@ -11,84 +11,35 @@ namespace {
 
 using Layer = std::int32_t; // push constant of restore_fragment.glsl
 
+constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                            VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // depths, colours
+
 } // namespace
 
 MapRestorer::MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache)
-    : device_(device), storage_(storage), cache_(cache)
+    : device_(device), storage_(storage), cache_(cache), sampler_(makeSampler(device, VK_FILTER_NEAREST)),
+      sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
+      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Layer)))
 {
-    sampler_ = makeSampler(device, VK_FILTER_NEAREST);
-    makeLayouts();
-    makeSet();
-}
-
-void MapRestorer::makeLayouts()
-{
-    std::array<VkDescriptorSetLayoutBinding, 2> bindings{};
-    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
-    }
-    VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    set_info.pBindings = bindings.data();
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout),
-          "create a descriptor set layout");
-    set_layout_ = {device_, set_layout};
-    const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Layer)};
-    const VkPipelineLayoutCreateInfo info{
-        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(device_.vk.CreatePipelineLayout(device_.handle(), &info, nullptr, &layout), "create a pipeline layout");
-    layout_ = {device_, layout};
-}
-
-void MapRestorer::makeSet()
-{
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2};
-    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool_info.maxSets = 1;
-    pool_info.poolSizeCount = 1;
-    pool_info.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(device_.vk.CreateDescriptorPool(device_.handle(), &pool_info, nullptr, &pool), "create a descriptor pool");
-    pool_ = {device_, pool};
-    const VkDescriptorSetLayout set_layout = set_layout_.get();
-    const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool, 1,
-                                           &set_layout};
-    check(device_.vk.AllocateDescriptorSets(device_.handle(), &info, &set_), "allocate a descriptor set");
-    device_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, handleBits(set_), "restore");
+    sets_.reset(1);
+    set_ = sets_.take("restore");
 }
 
 void MapRestorer::setKept(VkImageView depths, VkImageView colours)
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     // Lavapipe 22.3 crashes on a descriptor that was never written even if no shader names it.
-    const std::array<VkDescriptorImageInfo, 2> images{
-        {{sampler_.get(), depths, kRead}, {sampler_.get(), colours != VK_NULL_HANDLE ? colours : depths, kRead}}};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set_;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.descriptorCount = 1;
-    for (std::uint32_t i = 0; i < images.size(); ++i) {
-        write.dstBinding = i;
-        write.pImageInfo = &images[i];
-        device_.vk.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
-    }
+    const std::array writes{
+        DescriptorSets::image(0, sampler_.get(), depths, kRead),
+        DescriptorSets::image(1, sampler_.get(), colours != VK_NULL_HANDLE ? colours : depths, kRead)};
+    sets_.write(set_, writes);
 }
 
 Pipeline MapRestorer::makePipeline(std::span<const std::uint32_t> fragment, TexelPart part)
 {
     const ShaderModule vertex_module = makeShader(device_, spirv::restore_vert);
     const ShaderModule fragment_module = makeShader(device_, fragment);
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    for (VkPipelineShaderStageCreateInfo& stage : stages) {
-        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        stage.pName = "main";
-    }
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex_module.get();
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment_module.get();
+    const TwoStages stages = stagesOf(vertex_module, fragment_module);
     GraphicsState state;
     state.stages = stages;
     state.layout = layout_.get();

@@ -3,7 +3,7 @@
 // texels whose other half is another map's. A draw and not a copy, because a copy has no colour write mask.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 #include "map_storage.h"
 
 #include <array>
@@ -22,17 +22,14 @@ public:
     void clear(VkCommandBuffer commands, TexelPart part);
 
 private:
-    void makeLayouts();
-    void makeSet();
     [[nodiscard]] Pipeline makePipeline(std::span<const std::uint32_t> fragment, TexelPart part);
 
     Device& device_;
     const MapStorage& storage_;
     VkPipelineCache cache_;
     Sampler sampler_;
-    SetLayout set_layout_;
+    DescriptorSets sets_;
     PipelineLayout layout_;
-    DescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     std::array<Pipeline, 3> restores_; // by TexelPart, made when first needed
     std::array<Pipeline, 3> clears_;

@@ -103,13 +103,7 @@ void MaskPassRecorder::makeConstants(std::uint32_t layers, std::uint32_t regions
         slot.constants = {};
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
-        const VkDescriptorBufferInfo buffer{slot.constants.buffer(), 0, sizeof(shared::GpuMaskLayer)};
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = slot.set;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
-        write.pBufferInfo = &buffer;
-        device_.vk.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+        writeConstants(slot);
     }
 }
 

@@ -52,6 +52,7 @@ private:
 
     void makeLayouts();
     void makeSlots();
+    void writeConstants(Slot& slot) const;
     void updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers);
     [[nodiscard]] VkPipeline pipeline(Variant variant);
     [[nodiscard]] Pipeline makePipeline(Variant variant);
@@ -73,11 +74,10 @@ private:
     ShadowRendererOptions options_;
     float quantum_;
     Image mask_;
-    SetLayout set_layout_;
+    DescriptorSets sets_;
     PipelineLayout layout_;
     Sampler sampler_;     // of what is read texel by texel
     Sampler map_sampler_; // of the maps
-    DescriptorPool pool_;
     std::vector<Slot> slots_;
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
     VkDeviceSize constants_stride_ = 0;

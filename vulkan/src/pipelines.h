@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Graphics pipelines for dynamic rendering, with what all of ours have in common filled in.
+// Pipelines, with what all of ours have in common filled in: graphics for dynamic rendering, and compute.
 #pragma once
 
 #include "device.h"
 
+#include <array>
+
 namespace gnomon::vulkan {
+
+using TwoStages = std::array<VkPipelineShaderStageCreateInfo, 2>;
+
+/// A vertex and a fragment shader; `specialisation`, of the latter, must live as long as this is used.
+[[nodiscard]] TwoStages stagesOf(const ShaderModule& vertex, const ShaderModule& fragment,
+                                 const VkSpecializationInfo* specialisation = nullptr);
 
 struct GraphicsState {
     std::span<const VkPipelineShaderStageCreateInfo> stages;
@@ -26,5 +34,14 @@ struct GraphicsState {
 
 /// Viewport and scissor are dynamic.
 [[nodiscard]] Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state);
+
+struct ComputeState {
+    std::span<const std::uint32_t> spirv;
+    const VkSpecializationInfo* specialisation = nullptr;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    const char* name = "";
+};
+[[nodiscard]] Pipeline makeComputePipeline(Device& device, const ComputeState& state);
 
 } // namespace gnomon::vulkan

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "graphics_pipeline.h"
-
-#include <array>
+#include "pipelines.h"
 
 namespace gnomon::vulkan {
+
+TwoStages stagesOf(const ShaderModule& vertex, const ShaderModule& fragment, const VkSpecializationInfo* specialisation)
+{
+    TwoStages stages{};
+    for (VkPipelineShaderStageCreateInfo& stage : stages) {
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.pName = "main";
+    }
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = vertex.get();
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    stages[1].module = fragment.get();
+    stages[1].pSpecializationInfo = specialisation;
+    return stages;
+}
 
 Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
 {
@@ -64,6 +77,23 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(device.vk.CreateGraphicsPipelines(device.handle(), state.cache, 1, &create, nullptr, &pipeline),
           "create a graphics pipeline");
+    device.name(VK_OBJECT_TYPE_PIPELINE, handleBits(pipeline), state.name);
+    return {device, pipeline};
+}
+
+Pipeline makeComputePipeline(Device& device, const ComputeState& state)
+{
+    const ShaderModule module = makeShader(device, state.spirv);
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    create.stage.module = module.get();
+    create.stage.pName = "main";
+    create.stage.pSpecializationInfo = state.specialisation;
+    create.layout = state.layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(device.vk.CreateComputePipelines(device.handle(), state.cache, 1, &create, nullptr, &pipeline),
+          "create a compute pipeline");
     device.name(VK_OBJECT_TYPE_PIPELINE, handleBits(pipeline), state.name);
     return {device, pipeline};
 }
