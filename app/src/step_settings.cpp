@@ -69,7 +69,7 @@ const std::vector<Setting>& rows()
         {.key = "step.interval", .group = Group::technique, .type = real, .form = "S", .unit = "s", .default_text = "2", .min = 0.01, .max = 86400,
          .doc = "from step to step, of the scene's time", .own_option = false, .used = stepsByTime, .used_when = "a motion that steps and step.by time",
          .apply = [](Settings& s, const Value& v) { s.plan.steps.interval_s = v.real; }},
-        {.key = "step.fade", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "smooth", .choices = [] { return std::vector<std::string_view>{"smooth", "linear"}; },
+        {.key = "step.fade", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "linear", .choices = [] { return std::vector<std::string_view>{"linear", "smooth"}; },
          .doc = "how one position gives way to the next", .own_option = false, .used = fades, .used_when = "motion step-band, -blend or -alternate",
          .apply = [](Settings& s, const Value& v) { s.plan.steps.smooth = v.text == "smooth"; }},
         {.key = "step.band", .group = Group::technique, .type = real, .form = "W", .unit = "of the picture's width", .default_text = "0.25", .min = 0.01, .max = 1,

@@ -38,13 +38,13 @@ TEST(StepSettings, BecomeThePlanners)
     const Settings settings = with({{"step.by", "time"},
                                     {"step.angle", "2"},
                                     {"step.interval", "0.5"},
-                                    {"step.fade", "linear"},
+                                    {"step.fade", "smooth"},
                                     {"step.band", "0.5"},
                                     {"keep-still", "always"}});
     EXPECT_EQ(settings.plan.steps.by, StepBy::time);
     EXPECT_DOUBLE_EQ(settings.plan.steps.angle_rad, glm::radians(2.0));
     EXPECT_EQ(settings.plan.steps.interval_s, 0.5);
-    EXPECT_FALSE(settings.plan.steps.smooth);
+    EXPECT_TRUE(settings.plan.steps.smooth);
     EXPECT_EQ(settings.plan.steps.band, 0.5);
     EXPECT_EQ(settings.plan.keep_still, KeepStill::always);
     EXPECT_EQ(with({{"keep-still", "never"}}).plan.keep_still, KeepStill::never);

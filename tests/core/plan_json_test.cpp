@@ -23,6 +23,7 @@ Plan tinyPlan()
     steps.paired = true;
     steps.later_ws = {0.6, -0.8, 0.0};
     steps.share = 0.25;
+    steps.smooth = true;
     steps.band = 0.5;
     steps.edge = 0.375;
     plan.atlas = {1024, 1024, 1};

@@ -199,7 +199,7 @@ struct SunSteps {
     glm::dvec3 earlier_ws{0.0, -1.0, 0.0}; // unit, the way light travels
     glm::dvec3 later_ws{0.0, -1.0, 0.0};
     double share = 0.0; // how far the sun itself has got from one to the other: 0 .. 1
-    bool smooth = true;
+    bool smooth = false;
     double band = 0.0; // width, share of the picture's; 0: the weight is the same all over
     double edge = 0.0; // the band's right end
     /// Maps by turns (step-alternate): this frame draws and reads those of `read` alone, and joins them with what the

@@ -20,7 +20,7 @@ struct StepOptions {
     StepBy by = StepBy::angle;
     double angle_rad = 0.00872664626; // by angle: 0.5 degrees, about the sun's own width; 0.0001 .. 0.5
     double interval_s = 2.0;          // by time: 0.01 .. 86400, of Frame::time_s
-    bool smooth = true;               // step-blend, -band, -alternate: the share as a cubic, else linear
+    bool smooth = false;              // step-blend, -band, -alternate: the share as a cubic, else linear
     double band = 0.25;               // step-band: its width, share of the picture's: 0.01 .. 1
 };
 
