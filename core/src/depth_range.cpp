@@ -15,6 +15,8 @@ namespace {
 /// is nothing.
 constexpr double kClearanceRanges = 3.0;
 constexpr double kClearanceTexels = 64.0;
+/// Share of the range that is added at its ends.
+constexpr double kMargin = 1e-4;
 
 } // namespace
 
@@ -22,8 +24,8 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
 {
     const Region& region = input.region;
     const LightSpace& space = input.space;
-    if (input.steady && space.perspective)
-        return {space.near_m, space.reach_m};
+    if (input.steady && space.perspective) // and what is at the reach itself is not beyond it by rounding
+        return {space.near_m, space.reach_m + kMargin * (space.reach_m - space.near_m)};
     DepthRange range{region.casterNear_m(), region.receiverFar_m()};
     if (input.clamp_near) {
         const double own_m = region.receiverFar_m() - region.receiverNear_m();
@@ -31,7 +33,7 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
         range.near_m = std::max(range.near_m, region.receiverNear_m() - clearance_m);
     }
     range.near_m = std::min(range.near_m, range.far_m);
-    const double margin_m = 1e-4 * (range.far_m - range.near_m) + input.pad_m;
+    const double margin_m = kMargin * (range.far_m - range.near_m) + input.pad_m;
     range.near_m -= margin_m;
     range.far_m += margin_m;
     if (space.perspective)

@@ -56,8 +56,13 @@ struct Position {
     std::uint32_t kept_step = 1;
 };
 
-constexpr std::string_view kUnwarped =
-    "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
+/// Of what becomes of a light's slices, the highest is what is said of the light.
+int rank(OutcomeKind kind)
+{
+    constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::ok,
+                                        OutcomeKind::fallback};
+    return static_cast<int>(std::find(std::begin(kUpwards), std::end(kUpwards), kind) - std::begin(kUpwards));
+}
 
 } // namespace
 
@@ -303,9 +308,7 @@ void Planner::Impl::planPosition(const Frame& frame, const Position& position, s
     partition({position.at, view, options.cascades}, slices);
     for (std::uint32_t i = 0; i < slices.size(); ++i) {
         const Outcome outcome = planView(frame, position, i);
-        const bool more = !best || (outcome.hasMap() && !best->hasMap()) ||
-                          (outcome.kind == OutcomeKind::fallback && best->kind == OutcomeKind::ok);
-        if (more)
+        if (!best || rank(outcome.kind) > rank(best->kind))
             best = outcome;
         if (fits_on_gpu && outcome.hasMap())
             listCascades(static_cast<std::uint32_t>(plan.views.size()) - 1, position.first_layer);

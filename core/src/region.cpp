@@ -78,7 +78,8 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     const std::span<const Aabb> bounds = input.objects.allBounds();
     for (const std::uint32_t object : input.seen) {
         const Aabb& box = bounds[object];
-        if (space.perspective && classify(cone_planes_, box) == Containment::outside)
+        // Padded, because a light without a range ends where the scene does: at the very corner of a box.
+        if (space.perspective && classify(cone_planes_, grown(box, input.view.pad_m)) == Containment::outside)
             continue;
         receivers_ws.min = glm::min(receivers_ws.min, box.min);
         receivers_ws.max = glm::max(receivers_ws.max, box.max);

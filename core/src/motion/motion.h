@@ -6,6 +6,8 @@
 #include "motion/sun_steps.h"
 #include "partition/partition.h"
 
+#include <string_view>
+
 namespace gnomon {
 
 struct MotionInput {
@@ -28,6 +30,10 @@ struct MotionTraits {
     bool steady;
     Stepping stepping; // of a directional light; others stay where they are
 };
+/// Why a steady map has no warp.
+inline constexpr std::string_view kUnwarped =
+    "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
+
 /// Null for a motion that is not available.
 [[nodiscard]] const MotionTraits* motionTraits(Motion motion);
 
