@@ -107,25 +107,26 @@ def cost_table(options, _):
                             f"0-{options.day - 1}"], techniques)
     found = by_choice(whole["results"], "motion")
 
-    def frame(result):
-        return result["static_time_ms"]["frame"]
-
-    base = frame(found[("free",)])
+    base = found[("free",)]["static_time_ms"]["frame"]
     rows = []
     for motion in STEPPED:
         result = found[(motion,)]
-        rows.append([motion, cell(frame(result), 1), f"{100.0 * (frame(result) / base - 1.0):+.0f} %",
-                     cell(result["static_mean_texels_rendered"] / options.map_size ** 2, 2)])
-    text = "### What steps cost: sundial\n\n" + table(["motion", "frame ms", "against free", "maps drawn a frame"], rows)
+        time, spread, reuse = (result[f"static_{part}"] for part in ["time_ms", "iqr_ms", "reuse"])
+        rows.append([motion, f"{time['frame']:.0f} ({spread['frame']:.0f})", f"{100.0 * (time['frame'] / base - 1.0):+.0f} %",
+                     cell(time["maps"], 1), cell(time["mask"], 1),
+                     cell(result["static_mean_texels_rendered"] / options.map_size ** 2, 2),
+                     cell(sum(reuse[f"{which}_casters"] for which in ["still", "moving"]) + reuse["casters_at_once"], 0)])
+    columns = ["motion", "frame ms (iqr)", "against free", "maps ms", "mask ms", "maps drawn a frame", "casters drawn a frame"]
+    text = "### What steps cost: sundial\n\n" + table(columns, rows)
     side = options.map_size // 2
     pair = bench(options, ["sundial", "--camera", "long", "--time", "120", "--repetitions", str(options.repetitions)],
                  [f"pcf+single+map-size={options.map_size}", f"pcf+cascades+map-size={side}"])
     found = by_choice(pair["results"], "partition")
-    rows = [[p, cell(found[(p,)]["time_ms"]["frame"], 1), cell(found[(p,)]["time_ms"]["maps"], 1),
-             cell(found[(p,)]["time_ms"]["mask"], 1)] for p in ["single", "cascades"]]
+    rows = [[p, f"{found[(p,)]['time_ms']['frame']:.0f} ({found[(p,)]['iqr_ms']['frame']:.0f})",
+             cell(found[(p,)]["time_ms"]["maps"], 1), cell(found[(p,)]["time_ms"]["mask"], 1)] for p in ["single", "cascades"]]
     ratio = found[("cascades",)]["time_ms"]["frame"] / found[("single",)]["time_ms"]["frame"]
     return (text + f"\nCascades of {side} against a single map of {options.map_size}: {ratio:.2f} times the frame.\n\n" +
-            table(["partition", "frame ms", "maps ms", "mask ms"], rows))
+            table(["partition", "frame ms (iqr)", "maps ms", "mask ms"], rows))
 
 
 TABLES = {"snap": (WALKS, snap_table), "steps": ([("sundial", "sundial")], steps_table),

@@ -59,14 +59,16 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
-std::string sentence(const Settings& settings, const Shot& shot, const fs::path& path, glm::uvec2 size_px,
+std::string sentence(const Settings& settings, const Shot& shot, const RenderTarget& target, glm::uvec2 size_px,
                      const std::string& how, double seconds)
 {
-    const std::string what = settings.frames
-                                 ? fmt::format("{} frames", settings.frames->last - settings.frames->first + 1)
-                                 : fmt::format("{}x{}", size_px.x, size_px.y);
-    return fmt::format("{}: {} of {}, camera {}, {}, in {:.2f} s\n", path.string(), what, settings.scene, shot.camera,
-                       how, seconds);
+    const std::string size = fmt::format("{}x{}", size_px.x, size_px.y);
+    const std::uint32_t frames = settings.frames ? settings.frames->last - settings.frames->first + 1 : 1;
+    const std::string what = !settings.frames      ? size
+                             : target.oneForEach() ? fmt::format("{} frames", frames)
+                                                   : fmt::format("{}, last of {} frames", size, frames);
+    return fmt::format("{}: {} of {}, camera {}, {}, in {:.2f} s\n", target.path().string(), what, settings.scene,
+                       shot.camera, how, seconds);
 }
 
 /// Moves the shot from frame to frame and calls `draw` with the index and whether it is the first.
@@ -103,12 +105,16 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 noteOutcomes(shot, renderer.plan());
             }
+            const std::optional<fs::path> file = target.frame(index);
+            if (!file) {
+                return;
+            }
             if (settings.debug != "none") {
                 const Image8 picture = debugPicture(renderer, shot, settings, light);
                 size_px = {picture.width, picture.height};
-                writePng(target.frame(index), picture);
+                writePng(*file, picture);
             } else {
-                writePicture(target.frame(index), renderer, settings, light);
+                writePicture(*file, renderer, settings, light);
             }
         });
     }
@@ -135,10 +141,14 @@ std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 truth.noteSizes();
             }
+            const std::optional<fs::path> file = target.frame(index);
+            if (!file) {
+                return;
+            }
             const std::vector<ImageF> masks = truth.ofAllLights();
             renderer.draw(shot.state, shot.eye, shot.lights, &masks);
             requireSilence(*gpu);
-            writePicture(target.frame(index), renderer, settings, 0);
+            writePicture(*file, renderer, settings, 0);
         });
     }
     requireSilence(*gpu);
@@ -155,9 +165,11 @@ std::string writeTruth(Shot& shot, const Settings& settings, RenderTarget& targe
             std::for_each(shot.notices.begin(), shot.notices.end(), notice);
             truth.noteSize(light);
         }
-        const ImageF mask = truth.ofLight(light);
-        requireNotInterrupted();
-        writeMask(target.frame(index), mask);
+        if (const std::optional<fs::path> file = target.frame(index)) {
+            const ImageF mask = truth.ofLight(light);
+            requireNotInterrupted();
+            writeMask(*file, mask);
+        }
     });
     return truth.summary();
 }
@@ -176,7 +188,7 @@ int runRender(const Settings& settings)
                             : settings.mask ? writeTruth(shot, settings, target, light)
                                             : drawTruth(shot, settings, target);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    writeStdout(sentence(settings, shot, target.path(), size_px, how, seconds.count()));
+    writeStdout(sentence(settings, shot, target, size_px, how, seconds.count()));
     return 0;
 }
 

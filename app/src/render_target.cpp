@@ -11,22 +11,30 @@ namespace gnomon::app {
 
 namespace fs = std::filesystem;
 
-RenderTarget::RenderTarget(const Settings& settings) : folder_wanted_(settings.frames.has_value())
+namespace {
+
+bool isPicture(const fs::path& path)
 {
-    path_ = !settings.output.empty() ? settings.output : folder_wanted_ ? "gnomon_frames" : "gnomon.png";
+    return path.extension() == ".png" || path.extension() == ".exr";
+}
+
+} // namespace
+
+RenderTarget::RenderTarget(const Settings& settings)
+{
+    const bool frames = settings.frames.has_value();
+    path_ = !settings.output.empty() ? settings.output : frames ? "gnomon_frames" : "gnomon.png";
+    folder_wanted_ = frames && (!isPicture(path_) || fs::is_directory(path_));
+    last_ = frames ? settings.frames->last : 0;
     if (!folder_wanted_) {
         if (fs::is_directory(path_)) {
             throw Error("writing " + path_.string(), "it is a directory", "name a file in it");
         }
-        if (path_.extension() != ".png" && path_.extension() != ".exr") {
+        if (!isPicture(path_)) {
             throw UsageError(fmt::format("--out: \"{}\" ends neither in .png nor in .exr", path_.string()));
         }
         requireWritable(path_);
         return;
-    }
-    if (path_.extension() == ".png" || path_.extension() == ".exr") {
-        throw UsageError(
-            fmt::format("--out: \"{}\" names a picture, but with --frames it is a folder", path_.string()));
     }
     if (fs::exists(path_) && !fs::is_directory(path_)) {
         throw Error("writing frames to " + path_.string(), "it is not a folder");
@@ -47,10 +55,10 @@ RenderTarget::~RenderTarget()
     }
 }
 
-fs::path RenderTarget::frame(std::uint32_t index)
+std::optional<fs::path> RenderTarget::frame(std::uint32_t index)
 {
     if (!folder_wanted_) {
-        return path_;
+        return index == last_ ? std::optional(path_) : std::nullopt;
     }
     if (!fs::exists(path_)) {
         std::error_code error;

@@ -55,6 +55,26 @@ TEST(PathProgram, RenderDrawsTheFrames)
     EXPECT_FALSE(fs::exists(place.folder / "walk/frame_0004.png"));
 }
 
+/// Of a picture there is the last frame alone, with what the frames before it left behind.
+TEST(PathProgram, RenderDrawsTheLastFrameIntoAPicture)
+{
+    const Place place;
+    const auto render = [&](const char* frames, const char* target) {
+        const test::Ran ran =
+            place.run({"render",  "sundial", "--size", "160x90",   "--map-size", "128",        "--camera", "meadow",
+                       "--light", "sun",     "--time", "120",      "--motion",   "step-blend", "--mask",   "--path",
+                       "day",     "--fps",   "2",      "--frames", frames,       "-o",         target});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.out;
+    };
+    EXPECT_NE(render("0-2", "walk").find("3 frames of sundial"), std::string::npos);
+    EXPECT_NE(render("0-2", "last.png").find("160x90, last of 3 frames of sundial"), std::string::npos);
+    (void)render("2-2", "alone.png");
+    const std::string last = test::slurp(place.folder / "last.png");
+    EXPECT_EQ(last, test::slurp(place.folder / "walk/frame_0002.png"));
+    EXPECT_NE(last, test::slurp(place.folder / "alone.png")) << "the shadow is half way to another position";
+}
+
 /// The ray tracer's own masks follow the camera too, though nothing of the scene moves.
 TEST(PathProgram, TheTruthFollows)
 {

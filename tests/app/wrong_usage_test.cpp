@@ -305,7 +305,6 @@ const std::vector<Wrong> kWrong{
      {"plan", "planes", "--json", "out.txt"},
      2,
      "must end in .json or be given as --json=out"},
-    {"FramesToAPicture", {"render", "planes", "--frames", "0-1", "-o", "a.exr"}, 2, "with --frames it is a folder"},
     {"MaskWithoutMap", {"render", "lights.gltf", "--mask", "--light", "Lamp"}, 1, "mask of light light0"},
     {"FramesToAFile", {"render", "planes", "--frames", "0-1", "-o", "broken.json"}, 1, "not a folder"},
     {"BenchJsonIsAFolder", {"bench", "planes", "--json=a_folder"}, 1, "directory"},
