@@ -13,8 +13,4 @@ namespace gnomon::lab {
 /// `reach_texels` as texelDensity() has it.
 [[nodiscard]] ImageF viewShares(const Sight& seen, const Plan& plan, std::uint32_t light, double reach_texels);
 
-/// What the later one of a stepping sun's positions counts for, [0, 1], at `x` from the picture's left edge (0) to its
-/// right (1). Precondition: steps.paired.
-[[nodiscard]] double laterWeight(const SunSteps& steps, double x);
-
 } // namespace gnomon::lab

@@ -5,6 +5,8 @@
 #include "pipelines.h"
 #include "samplers.h"
 
+#include <gnomon/plan_views.h>
+
 #include <gnomon_spirv.h>
 #include <sun_steps.h>
 
@@ -160,7 +162,7 @@ glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) 
         const SunSteps& steps = light.steps;
         if (light.mask_layer == layer && alternates(light) && lights_[i].known &&
             isSameDirection(lights_[i].direction_ws, directionNotRead(steps))) {
-            const float weight = shared::stepWeight(stepRule(steps), 0.0F);
+            const auto weight = static_cast<float>(laterWeight(steps, 0.0));
             weights[static_cast<int>(light.mask_channel)] =
                 shared::weightOfBefore(weight, steps.read == SunPosition::later ? 1.0F : 0.0F);
         }

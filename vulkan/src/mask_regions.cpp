@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_regions.h"
 
-#include <sun_steps.h>
+#include <gnomon/plan_views.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,8 @@ SunShown shownAt(const LightPlan& light, std::uint32_t x, std::uint32_t width)
         const BandPixels band = bandPixels(steps, width);
         return x < band.begin ? SunShown::later : x >= band.end ? SunShown::earlier : SunShown::all;
     }
-    const float weight = shared::stepWeight(stepRule(steps), 0.0F);
-    return weight <= 0.0F ? SunShown::earlier : weight >= 1.0F ? SunShown::later : SunShown::all;
+    const double weight = laterWeight(steps, 0.0);
+    return weight <= 0.0 ? SunShown::earlier : weight >= 1.0 ? SunShown::later : SunShown::all;
 }
 
 } // namespace

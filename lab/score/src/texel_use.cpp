@@ -2,7 +2,6 @@
 #include "lab/score/texel_density.h"
 
 #include "lab/metrics/same_shape.h"
-#include "lab/score/view_shares.h"
 #include "pixel_rays.h"
 
 #include <gnomon/plan_views.h>

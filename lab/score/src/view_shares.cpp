@@ -3,6 +3,8 @@
 
 #include "pixel_rays.h"
 
+#include <gnomon/plan_views.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -36,13 +38,6 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
 }
 
 } // namespace
-
-double laterWeight(const SunSteps& steps, double x)
-{
-    assert(steps.paired);
-    const double a = steps.band > 0.0 ? std::clamp((steps.edge - x) / steps.band, 0.0, 1.0) : steps.share;
-    return steps.smooth ? a * a * (3.0 - 2.0 * a) : a;
-}
 
 ImageF viewShares(const Sight& seen, const Plan& plan, std::uint32_t light, double reach_texels)
 {

@@ -2,6 +2,7 @@
 // What each of a light's maps counts for, on a plane that is seen aslant.
 #include "lab/score/view_shares.h"
 
+#include <gnomon/plan_views.h>
 #include <gnomon/planner.h>
 
 #include <glm/geometric.hpp>
