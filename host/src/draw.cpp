@@ -47,53 +47,51 @@ void beginRendering(VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRe
 FrameTimes Renderer::draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                           const std::vector<ImageF>* masks_instead)
 {
-    Impl& self = *impl_;
-    const bool has_mask = masks_instead != nullptr || self.shadows.has_value();
-    FrameTimes times;
-    const Clock::time_point start = Clock::now();
-    self.update(state);
-    self.look(state, eye, lights);
-    times.advance_ms = millisecondsSince(start);
-
-    const Clock::time_point plan_start = Clock::now();
-    self.mask_instead = masks_instead != nullptr;
-    if (self.again) {
-        self.keepPlan();
-    } else {
-        self.makePlan();
-    }
-    times.plan_ms = millisecondsSince(plan_start);
-
-    const Clock::time_point record_start = Clock::now();
-    self.draws.build(state, self.sight.eye_ws, self.visible);
-    if (masks_instead != nullptr) {
-        self.writeInstead(*masks_instead);
-    }
-    self.writeFrameData(state, lights, has_mask);
-    self.record(has_mask);
-    times.record_ms = millisecondsSince(record_start);
-
-    self.commands.finish();
-    times.frame_ms = millisecondsSince(start);
-    for (const vulkan::PassRecord& pass : self.profiler.results(0)) {
-        times.passes.push_back(pass);
-    }
-    if (self.shadows && masks_instead == nullptr) {
-        times.reuse = self.shadows->reuse(0);
-    }
-    return times;
+    return impl_->drawFrame(state, eye, lights, masks_instead, Maps::planned);
 }
 
 void Renderer::drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
 {
-    impl_->again = true;
-    try {
-        draw(state, eye, lights);
-    } catch (...) {
-        impl_->again = false;
-        throw;
+    impl_->drawFrame(state, eye, lights, nullptr, Maps::kept);
+}
+
+FrameTimes Renderer::Impl::drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                                     const std::vector<ImageF>* masks_instead, Maps maps)
+{
+    const bool has_mask = masks_instead != nullptr || shadows.has_value();
+    FrameTimes times;
+    const Clock::time_point start = Clock::now();
+    update(state);
+    look(state, eye, lights);
+    times.advance_ms = millisecondsSince(start);
+
+    const Clock::time_point plan_start = Clock::now();
+    mask_instead = masks_instead != nullptr;
+    if (maps == Maps::kept) {
+        keepPlan();
+    } else {
+        makePlan();
     }
-    impl_->again = false;
+    times.plan_ms = millisecondsSince(plan_start);
+
+    const Clock::time_point record_start = Clock::now();
+    draws.build(state, sight.eye_ws, visible);
+    if (masks_instead != nullptr) {
+        writeInstead(*masks_instead);
+    }
+    writeFrameData(state, lights, has_mask);
+    record(has_mask);
+    times.record_ms = millisecondsSince(record_start);
+
+    commands.finish();
+    times.frame_ms = millisecondsSince(start);
+    for (const vulkan::PassRecord& pass : profiler.results(0)) {
+        times.passes.push_back(pass);
+    }
+    if (shadows && masks_instead == nullptr) {
+        times.reuse = shadows->reuse(0);
+    }
+    return times;
 }
 
 void Renderer::Impl::keepPlan()

@@ -12,6 +12,12 @@
 
 namespace gnomon::host {
 
+/// Where a frame's maps come from.
+enum class Maps : std::uint8_t {
+    planned,
+    kept, // those of the frame before, as they are
+};
+
 struct Renderer::Impl {
     Impl(Gpu& gpu, const scene::Scene& scene, const scene::State& state, const RenderOptions& options);
     ~Impl();
@@ -46,7 +52,6 @@ struct Renderer::Impl {
     // This frame.
     const Plan* plan = nullptr;
     Plan kept_plan; // of drawAgain(): the last plan, nothing of which is to be drawn
-    bool again = false;
     Sight sight;
     Frame frame;
     std::vector<Light> frame_lights;
@@ -66,6 +71,8 @@ struct Renderer::Impl {
 
     Buffer read_back;
 
+    FrameTimes drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                         const std::vector<ImageF>* masks_instead, Maps maps);
     void makeFrameSet();
     void bindMask(VkImageView view);
     void update(const scene::State& state);
