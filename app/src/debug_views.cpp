@@ -89,12 +89,14 @@ Image8 layersPicture(const Drawn& drawn)
 }
 
 /// The depth that each texel of the light's first map stands for, as it is read: of lvsm its first layer, of others
-/// blurred if they blur.
+/// blurred if they blur. Of a sun between two positions, of the stronger one's first map, which is drawn for certain.
 Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
     const vulkan::FilterOptions& filter = drawn.settings.filter;
-    const View& view = drawn.plan.views[drawn.plan.lights[drawn.light].first_view];
+    const LightPlan& light = drawn.plan.lights[drawn.light];
+    const auto views = viewsOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), strongerPosition(light.steps));
+    const View& view = views.empty() ? drawn.plan.views[light.first_view] : views.front(); // a position may have none
     const Tile& tile = view.tile;
     const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(filter.filter, filter.moments));
     ImageF depths(tile.width, tile.height, 1);
