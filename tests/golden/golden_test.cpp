@@ -29,9 +29,9 @@ using nlohmann::json;
 
 struct Case {
     std::string name;
-    std::string scene; // "shared:" in front: a file of the shared scenes
-    std::vector<std::string> arguments;
-    std::string image; // in images/
+    std::string scene;                  // "shared:" in front: a file of the shared scenes
+    std::vector<std::string> arguments; // of `gnomon render`; with --frames the last one's picture counts
+    std::string image;                  // in images/
     Tolerance tolerance;
     bool must_fail = false; // compares with an image that it must differ from
     int shift_x = 0;        // pixels that the result is moved by before it is compared
@@ -115,9 +115,14 @@ protected:
         std::vector<std::string> arguments{"render", sceneFile(wanted.scene)};
         arguments.insert(arguments.end(), wanted.arguments.begin(), wanted.arguments.end());
         const app::Settings settings = app::parseCommandLine(arguments).settings;
-        const app::Shot shot = app::makeShot(settings);
+        app::Shot shot = app::makeShot(settings);
         host::Renderer renderer(gpu(), shot.scene, shot.state, app::renderOptions(settings));
         renderer.draw(shot.state, shot.eye, shot.lights);
+        const app::FrameRange range = settings.frames.value_or(app::FrameRange{});
+        for (std::uint32_t frame = range.first + 1; frame <= range.last; ++frame) {
+            app::moveShot(shot, settings, frame);
+            renderer.draw(shot.state, shot.eye, shot.lights);
+        }
         const std::size_t light = lightOf(shot, settings);
         if (settings.debug != "none") {
             return toFloat(app::debugPicture(renderer, shot, settings, light));
