@@ -76,6 +76,13 @@ vulkan::CasterDrawerOptions drawerOptions(const vulkan::ShadowRenderer& renderer
     return options;
 }
 
+vulkan::DeviceView viewWith(const vulkan::MemoryHooks& memory)
+{
+    vulkan::DeviceView view = gpu().view();
+    view.memory = memory;
+    return view;
+}
+
 vulkan::FilterOptions filterOf(MapFormat format)
 {
     vulkan::FilterOptions filter;
@@ -90,8 +97,9 @@ Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
 {
 }
 
-Bench::Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z, bool cull)
-    : renderer(gpu().view(), rendererOptions(filter)), drawer(gpu().view(), drawerOptions(renderer, cull)),
+Bench::Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z, bool cull,
+             const vulkan::MemoryHooks& memory)
+    : renderer(viewWith(memory), rendererOptions(filter)), drawer(gpu().view(), drawerOptions(renderer, cull)),
       screen_(screen)
 {
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);

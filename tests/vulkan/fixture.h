@@ -21,7 +21,8 @@ void expectSilence(Gpu& gpu);
 class Bench {
 public:
     Bench(VkExtent2D screen, MapFormat format, bool reversed_z = true, bool cull = false);
-    Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z = true, bool cull = false);
+    Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z = true, bool cull = false,
+          const vulkan::MemoryHooks& memory = {});
 
     /// After changes to `scene`: makes plan, picture and mesh.
     void setLights(std::vector<Light> lights, const std::vector<Tile>& tiles, AtlasSize atlas);

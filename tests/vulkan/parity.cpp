@@ -32,8 +32,48 @@ void readBack(const ShadowRenderer& renderer, const FilterOptions& options, Rend
     }
 }
 
-void setLights(ParityLights lights, Rendered& r)
+bool hasTwoMapsInATexel(const FilterOptions& options)
 {
+    return !isFilterable(options.filter) && (options.format == MapFormat::rg16 || options.format == MapFormat::rgba8);
+}
+
+/// A sun whose maps are of before and after it.
+void setSteppingSun(bool band, bool share_texels, Rendered& r)
+{
+    const glm::dvec3 earlier = glm::normalize(glm::dvec3(0.8, -0.9, -0.35));
+    const glm::dvec3 later = glm::normalize(glm::dvec3(0.65, -0.9, -0.55));
+    r.lights = {makeSun(earlier + later)};
+    r.plan = makePlan(r.scene, r.lights, std::vector<Tile>{{0, 0, 0, 512, 512}}, {512, 512, share_texels ? 1U : 2U});
+    r.plan.views.clear();
+    for (const SunPosition position : {SunPosition::earlier, SunPosition::later}) {
+        const bool second = position == SunPosition::later;
+        View view = makeView(r.scene, makeSun(second ? later : earlier), 0,
+                             {second && !share_texels ? 1U : 0U, 0, 0, 512, 512});
+        view.sun = position;
+        if (share_texels) {
+            view.part = second ? TexelPart::second : TexelPart::first;
+        }
+        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        r.plan.views.push_back(view);
+    }
+    LightPlan& light = r.plan.lights[0];
+    light.view_count = 2;
+    light.steps.stepping = true;
+    light.steps.paired = true;
+    light.steps.earlier_ws = earlier;
+    light.steps.later_ws = later;
+    light.steps.share = 0.4;
+    light.steps.smooth = band;
+    light.steps.band = band ? 0.5 : 0.0;
+    light.steps.edge = band ? 0.7 : 0.0;
+}
+
+void setLights(ParityLights lights, const FilterOptions& options, Rendered& r)
+{
+    if (lights == ParityLights::stepping_sun || lights == ParityLights::stepping_band) {
+        setSteppingSun(lights == ParityLights::stepping_band, hasTwoMapsInATexel(options), r);
+        return;
+    }
     const Light sun = makeSun({0.8, -0.9, -0.35});
     const Light spot = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
     std::vector<Tile> tiles{{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
@@ -63,7 +103,7 @@ std::vector<std::byte> toBytes(const std::vector<double>& mask)
 Rendered renderParity(const FilterOptions& options, ParityLights lights)
 {
     Rendered r;
-    setLights(lights, r);
+    setLights(lights, options, r);
     constexpr std::uint32_t kFrames = 3;
     Frame frame;
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kParityScreen.width) / kParityScreen.height);

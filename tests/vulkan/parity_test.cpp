@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::test {
 namespace {
@@ -54,6 +55,54 @@ INSTANTIATE_TEST_SUITE_P(Filters, Parity,
                                          Case{"pcf_poisson_d32f", Filter::pcf, PcfKernel::poisson, MapFormat::d32f},
                                          Case{"pcf_vogel_d32f", Filter::pcf, PcfKernel::vogel, MapFormat::d32f}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
+
+// Two positions of a sun, joined: by maps in halves of a texel and by maps with layers of their own.
+class ParityOfSteps : public testing::TestWithParam<Case> {};
+
+TEST_P(ParityOfSteps, maskIsThatOfTheCpu)
+{
+    FilterOptions options;
+    options.filter = GetParam().filter;
+    options.pcf_kernel = GetParam().kernel;
+    options.format = GetParam().format;
+    const std::string name = std::string("steps_") + GetParam().name;
+    expectParity(renderParity(options, ParityLights::stepping_sun), options, name);
+    expectParity(renderParity(options, ParityLights::stepping_band), options, name + "_band");
+    expectSilence(gpu());
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, ParityOfSteps,
+                         testing::Values(Case{"hard_rg16", Filter::hard, PcfKernel::bilinear_2x2, MapFormat::rg16},
+                                         Case{"pcf_3x3_rg16", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::rg16},
+                                         Case{"pcf_3x3_rgba8", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::rgba8},
+                                         Case{"pcf_3x3_d32f", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d32f},
+                                         Case{"vsm_rg32f", Filter::vsm, PcfKernel::bilinear_2x2, MapFormat::rg32f}),
+                         [](const auto& test_case) { return std::string(test_case.param.name); });
+
+// The reference must be able to tell: a weight that is off by a tenth, and positions the wrong way round.
+TEST(ParityOfStepsItself, tellsAnotherBlendApart)
+{
+    FilterOptions options;
+    options.filter = Filter::pcf;
+    options.format = MapFormat::rgba8;
+    const Rendered r = renderParity(options, ParityLights::stepping_sun);
+    const auto countOff = [&](const Plan& plan) {
+        const ReferenceScene scene{r.picture, r.camera, r.lights, plan, r.maps};
+        const auto reference = referenceMask(scene, 0, options);
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            off += std::abs(std::to_integer<int>(r.masks[0][i]) - 255.0 * reference[i]) > 1.001 ? 1 : 0;
+        }
+        return off;
+    };
+    Plan other = r.plan;
+    other.lights[0].steps.share += 0.1;
+    EXPECT_GT(countOff(other), r.picture.depth.size() / 1000);
+    other = r.plan;
+    std::swap(other.views[0].part, other.views[1].part);
+    EXPECT_GT(countOff(other), r.picture.depth.size() / 1000);
+    expectSilence(gpu());
+}
 
 TEST(ParityOfBias, manualRulesAreThoseOfTheCpu)
 {

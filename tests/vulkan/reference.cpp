@@ -6,6 +6,7 @@
 
 #include <shared/discs.h>
 #include <shared/paired_depth.h>
+#include <shared/sun_steps.h>
 
 #include <algorithm>
 #include <cmath>
@@ -235,10 +236,9 @@ private:
     glm::dvec2 pixel_;
 };
 
-} // namespace
-
-std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
-                                  const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
+/// What one view alone says.
+std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, const View& view,
+                               const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
 {
     current_maps = scene.maps;
     current_layers = layers;
@@ -247,8 +247,6 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
     current_taps = int(options.disc_taps);
     current_holding = holdingOf(options);
     const Picture& picture = scene.picture;
-    const Light& light = scene.lights[index];
-    const View& view = scene.plan.views[scene.plan.lights[index].first_view];
     const MapRows rows = rowsOf(view);
     const BiasRule rule = ruleOf(options);
     const Footprint footprint(scene, rows);
@@ -284,6 +282,29 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
     current_maps = {};
     current_layers = {};
     current_nudge = {};
+    return mask;
+}
+
+} // namespace
+
+std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
+                                  const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
+{
+    const Light& light = scene.lights[index];
+    const LightPlan& planned = scene.plan.lights[index];
+    std::vector<double> mask = maskOfView(scene, light, scene.plan.views[planned.first_view], options, layers);
+    const SunSteps& steps = planned.steps;
+    if (steps.paired) {
+        const View& later_view = scene.plan.views[planned.first_view + 1];
+        const std::vector<double> later = maskOfView(scene, light, later_view, options, layers);
+        const glm::dvec4 rule(steps.share, steps.edge, steps.band > 0.0 ? 1.0 / steps.band : 0.0,
+                              steps.smooth ? 1.0 : 0.0);
+        const std::uint32_t width = scene.picture.extent.width;
+        for (std::size_t i = 0; i < mask.size(); ++i) {
+            const double weight = shared::stepWeight(rule, (double(i % width) + 0.5) / width);
+            mask[i] = shared::steppedVisibility(mask[i], later[i], weight);
+        }
+    }
     return mask;
 }
 

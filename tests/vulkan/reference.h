@@ -18,7 +18,8 @@ struct ReferenceScene {
     glm::dvec4 nudge{0.0};
 };
 
-/// Visibility per pixel of the picture for light `index` of the plan. `layers`: of depth, of the light's view (lvsm).
+/// Visibility per pixel of the picture for light `index` of the plan: by its first view, or of a sun between two
+/// positions by the first two, which are one of each. `layers`: of depth, of the light's view (lvsm).
 [[nodiscard]] std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
                                                 const vulkan::FilterOptions& options,
                                                 std::span<const vulkan::DepthLayer> layers = {});

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mask that is drawn in strips because of a band between two positions of a sun, against the same mask drawn at once
+// with every pixel reading both positions' maps: the same bits.
+#include "stepping_suns.h"
+#include "write_pgm.h"
+
+#include "mask_regions.h"
+
+#include <gpu_structs.h>
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+namespace gnomon::test {
+namespace {
+
+/// Memory that the test hands out, so that it can write over the constants of a mask that has been recorded.
+class Memory {
+public:
+    [[nodiscard]] vulkan::MemoryHooks hooks() { return {this, allocate, release}; }
+    [[nodiscard]] shared::GpuMaskLayer& maskLayer() const { return *static_cast<shared::GpuMaskLayer*>(constants_); }
+
+private:
+    static VkResult allocate(void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
+                             const char* purpose, vulkan::MemoryBlock* block)
+    {
+        const vulkan::DeviceView view = gpu().view();
+        VkPhysicalDeviceMemoryProperties memory{};
+        vkGetPhysicalDeviceMemoryProperties(view.physical_device, &memory);
+        std::uint32_t type = 0;
+        while ((needs.memoryTypeBits & (1U << type)) == 0 ||
+               (memory.memoryTypes[type].propertyFlags & properties) != properties) {
+            if (++type == memory.memoryTypeCount) {
+                return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+            }
+        }
+        const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
+        VkResult result = vkAllocateMemory(view.device, &info, nullptr, &block->memory);
+        if (result == VK_SUCCESS && (properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+            result = vkMapMemory(view.device, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped);
+        }
+        if (purpose == std::string_view("constants")) {
+            static_cast<Memory*>(user)->constants_ = block->mapped;
+        }
+        return result;
+    }
+    static void release(void* /*user*/, const vulkan::MemoryBlock& block)
+    {
+        vkFreeMemory(gpu().view().device, block.memory, nullptr);
+    }
+
+    void* constants_ = nullptr;
+};
+
+/// Masks that are drawn at once: with bands wider than the picture, in place of which those that are wanted are put in.
+class AtOnce {
+public:
+    AtOnce(const Setting& setting, std::size_t lights) : suns_(setting, lights, memory_.hooks()) {}
+
+    [[nodiscard]] std::vector<Mask> maskOf(const std::vector<SunSteps>& steps)
+    {
+        std::vector<SunSteps> wide = steps;
+        for (SunSteps& one : wide) {
+            if (one.band > 0.0) {
+                one.band = 4.0;
+                one.edge = 2.0;
+            }
+        }
+        Bench& bench = suns_.bench;
+        bench.plan = suns_.planOf(wide);
+        EXPECT_EQ(vulkan::maskRegions(bench.plan, 0, kStepScreen.width).count, 1U);
+        bench.prepare();
+        const auto transforms = bench.scene.transforms();
+        gpu().run([&](VkCommandBuffer commands) {
+            bench.drawer.beginFrame(0, bench.plan, bench.mesh.geometry, transforms);
+            bench.renderer.recordMaps(commands, 0, bench.frame, bench.plan,
+                                      [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
+            bench.renderer.recordMask(commands, 0, bench.frame, bench.plan, bench.inputs);
+            for (std::size_t i = 0; i < steps.size(); ++i) {
+                memory_.maskLayer().steps[i] = vulkan::stepRule(steps[i]);
+            }
+        });
+        std::vector<Mask> masks;
+        for (std::uint32_t i = 0; i < steps.size(); ++i) {
+            masks.push_back(bench.readMask(i));
+        }
+        return masks;
+    }
+
+private:
+    Memory memory_;
+    Suns suns_;
+};
+
+SunSteps bandOf(double edge, double band, bool smooth)
+{
+    SunSteps steps = blendOf(0.5, smooth);
+    steps.band = band;
+    steps.edge = edge;
+    return steps;
+}
+
+struct Case {
+    const char* name;
+    Filter filter;
+    MapFormat format;
+    Slices slices;
+    bool paired_texels;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c)
+{
+    return out << c.name;
+}
+
+class MaskInStrips : public testing::TestWithParam<Case> {
+protected:
+    static Setting setting()
+    {
+        Setting setting;
+        setting.options.filter = GetParam().filter;
+        setting.options.format = GetParam().format;
+        setting.slices = GetParam().slices;
+        setting.paired_texels = GetParam().paired_texels;
+        return setting;
+    }
+};
+
+TEST_P(MaskInStrips, isTheMaskDrawnAtOnce)
+{
+    Suns suns(setting());
+    AtOnce at_once(setting(), 1);
+    // Edges amid pixels and between them, and a band that hangs out of the picture on either side.
+    for (const double edge : {0.13, 0.5, 0.6031, 1.1}) {
+        const std::vector<SunSteps> steps{bandOf(edge, 0.25, edge == 0.5)};
+        EXPECT_GT(vulkan::maskRegions(suns.planOf(steps), 0, kStepScreen.width).count, 1U);
+        const Mask strips = suns.maskOf(steps)[0];
+        EXPECT_EQ(countDifferent(strips, at_once.maskOf(steps)[0]), 0U) << edge;
+        writePgm(std::string("strips_") + GetParam().name, strips, kStepScreen);
+    }
+    // It must be possible to fail: a band a pixel further on gives other bits.
+    const Mask strips = suns.maskOf({bandOf(0.6, 0.25, false)})[0];
+    EXPECT_GT(countDifferent(strips, at_once.maskOf({bandOf(0.6 + 1.0 / kStepScreen.width, 0.25, false)})[0]), 0U);
+    expectSilence(gpu());
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, MaskInStrips,
+                         testing::Values(Case{"hard", Filter::hard, MapFormat::d32f, Slices::one, false},
+                                         Case{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
+                                         Case{"pcf_rgba8", Filter::pcf, MapFormat::rgba8, Slices::one, true},
+                                         Case{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
+                         [](const auto& test_case) { return std::string(test_case.param.name); });
+
+// Bands of several lights part the screen further.
+TEST(MaskInStripsOfManyLights, isTheMaskDrawnAtOnce)
+{
+    const Setting setting;
+    const std::vector<SunSteps> steps{bandOf(0.5, 0.3, true), bandOf(0.9, 0.5, false), blendOf(0.4, true)};
+    Suns suns(setting, steps.size());
+    EXPECT_EQ(vulkan::maskRegions(suns.planOf(steps), 0, kStepScreen.width).count, 5U);
+    EXPECT_EQ(suns.maskOf(steps), AtOnce(setting, steps.size()).maskOf(steps));
+    expectSilence(gpu());
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of boxes, with many more of them, under suns that have maps of two positions.
+#pragma once
+
+#include "fixture.h"
+
+#include <vector>
+
+namespace gnomon::test {
+
+inline constexpr VkExtent2D kStepScreen{160, 100};
+
+using Mask = std::vector<std::byte>;
+
+enum class Slices : std::uint8_t { one, two };
+
+struct Setting {
+    vulkan::FilterOptions options;
+    Slices slices = Slices::one;
+    bool paired_texels = false;
+};
+
+/// Suns, each with its positions as asked for; of the second one on they are the other way round.
+class Suns {
+public:
+    explicit Suns(const Setting& setting_in, std::size_t lights = 1, const vulkan::MemoryHooks& memory = {});
+
+    /// Every light by one position alone: not a stepping sun at all.
+    [[nodiscard]] std::vector<Mask> maskOf(SunPosition position);
+    /// Every light between its positions.
+    [[nodiscard]] std::vector<Mask> maskOf(const std::vector<SunSteps>& steps);
+    [[nodiscard]] Plan planOf(const std::vector<SunSteps>& steps) const;
+
+    Bench bench;
+    Setting setting;
+
+private:
+    [[nodiscard]] std::vector<Mask> draw(const Plan& plan);
+};
+
+/// How far the mask is from what both positions' masks make it, at most, in steps of 255.
+[[nodiscard]] double worstOff(const Mask& mask, const Mask& earlier, const Mask& later, const SunSteps& steps);
+[[nodiscard]] std::size_t countDifferent(const Mask& a, const Mask& b);
+[[nodiscard]] inline int steps255(const Mask& mask, std::size_t i)
+{
+    return std::to_integer<int>(mask[i]);
+}
+/// Both masks are rounded, and so is what is made of them; a bit more for single precision.
+inline constexpr double kRounding = 1.01;
+
+[[nodiscard]] SunSteps blendOf(double share, bool smooth);
+
+} // namespace gnomon::test
