@@ -3,7 +3,8 @@
 // Based on: S. Lloyd, "Least Squares Quantization in PCM", 1982, as A. Lauritzen, M. McCool, "Layered Variance Shadow
 // Maps", 2008, place layers with it. One group for a view: sums over bins are differences of running sums, so that a
 // step costs the same however much was drawn; they are whole numbers, and so exact.
-// Departure: layers that were there before move only a share of the way, and the sum over depths is one over bins.
+// Departure: layers that were there before move only a share of the way, or are held until they are off, and the sum
+// over depths is one over bins.
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/gpu_structs.h"
 #include "../shared/depth_layers.h"
@@ -28,7 +29,8 @@ layout(push_constant, std430) uniform Push
 
 shared uvec2 before[kDepthBins + 1]; // of all bins before this one: x: depths, y: times the number of their bin
 shared uvec2 sums[kThreads];
-shared float means[2][kDepthLayers];
+const int kHeld = 2; // of means: where they were
+shared float means[3][kDepthLayers];
 shared uint moved;
 
 // At most kMostSamplesAlong^2 = 2^18 depths, times a bin's number below 2^10.
@@ -116,6 +118,22 @@ float nextMean(int layer, int count, int turn)
     return target == mean ? mean : mean + push.how.y * (target - mean);
 }
 
+// The row of means to use: where the layers were, or if that is off, where they rest.
+int heldMeans(int thread, int count, int rest)
+{
+    if (thread == 0) {
+        moved = 0u;
+    }
+    barrier();
+    if (thread > 0 && thread < count &&
+        isSplitOff(beginOf(thread, count, kHeld), beginOf(thread, count, rest), means[kHeld][thread - 1],
+                   means[kHeld][thread])) {
+        atomicOr(moved, 1u);
+    }
+    barrier();
+    return moved == 0u ? kHeld : rest;
+}
+
 void main()
 {
     int thread = int(gl_LocalInvocationIndex);
@@ -123,6 +141,7 @@ void main()
     sumUp(thread);
     if (thread < count) {
         means[0][thread] = startOf(thread, count);
+        means[kHeld][thread] = means[0][thread];
     }
     int turn = 0;
     for (int step = 0; step < push.slot.z; ++step) {
@@ -144,6 +163,9 @@ void main()
         if (any == 0u) {
             break;
         }
+    }
+    if (push.how.w > 0.0) {
+        turn = heldMeans(thread, count, turn);
     }
     if (thread < kDepthLayers) {
         vec4 layer = noLayer();

@@ -11,6 +11,7 @@
 //   3. splits: for i = 1 .. count - 1: begins(i) = lloydSplit(i, count, mean(i - 1), mean(i), begins(i - 1))
 //   4. mean(i) = lloydMean(depths in the layer, their sum, mean(i)); a bin belongs to the layer that holds its centre
 //   5. again from 3, as often as wanted, ending with 3; then layerBetween() adds the overlap.
+// In maps that stand still from frame to frame layers do so too, until a split is off: isSplitOff().
 #ifndef GNOMON_DEPTH_LAYERS_H
 #define GNOMON_DEPTH_LAYERS_H
 #include "moment_rule.h"
@@ -107,6 +108,15 @@ GN_FN real lloydSplit(int i, int count, real mean_before, real mean_after, real 
 GN_FN real lloydMean(real depths, real sum, real mean_before)
 {
     return depths > real(0.0) ? clamp(sum / depths, real(0.0), real(1.0)) : mean_before;
+}
+
+// A split does its work while it lies well between the depths that it parts, however they change. So one that is held
+// is off only when it lies elsewhere than where it would rest by more than this share of the way between the two means
+// that it parts; halfway between them is where it came to rest.
+GN_CONST real kHeldShare = real(0.125);
+GN_FN bool isSplitOff(real held, real rest, real mean_before, real mean_after)
+{
+    return abs(rest - held) > kHeldShare * (mean_after - mean_before);
 }
 
 GN_END

@@ -25,9 +25,11 @@ struct GpuHistogramPush {
 
 struct GpuPlacePush {
     GN_IVEC4 slot; // x: of the layers, y: how many layers, z: most steps, w: MomentRule::flags
-    GN_VEC4 how;   // x: overlap, y: share of the way to the new means that a step goes, z: 1 to begin anew
-    GN_VEC4
-    carry; // last frame's depths to this one's metric: x times the linear depth plus y; near / far: z then, w now
+    // x: overlap, y: share of the way to the new means that a step goes, z: 1 to begin anew; w: 1 to hold them
+    // where they are until a split is off
+    GN_VEC4 how;
+    // Last frame's depths to this one's metric: x times the linear depth plus y; near / far: z then, w now.
+    GN_VEC4 carry;
 };
 
 #ifdef __cplusplus

@@ -202,6 +202,17 @@ TEST(LloydLayers, emptyAndSingleDepthsStillGiveLayers)
     EXPECT_EQ(lloydSplit(1, 2, 1.0, 1.0, 0.0), 1.0 - kLeastLayerWidth);
 }
 
+TEST(LloydLayers, aHeldSplitIsOffByAShareOfTheWayBetweenItsMeans)
+{
+    EXPECT_FALSE(isSplitOff(0.5, 0.5, 0.4, 0.6));
+    EXPECT_FALSE(isSplitOff(0.5, 0.524, 0.4, 0.6));
+    EXPECT_FALSE(isSplitOff(0.5, 0.476, 0.4, 0.6));
+    EXPECT_TRUE(isSplitOff(0.5, 0.526, 0.4, 0.6));
+    EXPECT_TRUE(isSplitOff(0.5, 0.474, 0.4, 0.6));
+    EXPECT_FALSE(isSplitOff(0.5, 0.526, 0.3, 0.7));
+    EXPECT_FALSE(isSplitOff(0.5, 0.5, 0.5, 0.5)) << "nothing to part";
+}
+
 TEST(LloydLayers, binsCoverTheRange)
 {
     EXPECT_EQ(binOf(0.0, 64), 0);

@@ -119,10 +119,11 @@ public:
         : device_(gpu().view()), placer_(device_, filter, VK_NULL_HANDLE)
     {
     }
-    std::vector<DepthLayer> place(const View& view, const std::vector<float>& depths)
+    std::vector<DepthLayer> place(const View& view, const std::vector<float>& depths, Motion motion = Motion::free)
     {
         const TestImage image = gpu().makeImage(VK_FORMAT_R32_SFLOAT, {kSide, kSide}, std::as_bytes(std::span(depths)));
-        const Plan plan = planOf({view});
+        Plan plan = planOf({view});
+        plan.technique.motion = motion;
         (void)placer_.prepare(plan);
         placer_.forgetDepth();
         gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0, image.view); });
@@ -263,6 +264,33 @@ TEST_F(LayersOfDepth, moveNoFasterThanWhatTheyHold)
         last = next;
     }
     EXPECT_GT(moved, 0.05); // and they do follow
+}
+
+// Maps that stand still have layers that do, whatever comes into view, until that gathers elsewhere.
+TEST_F(LayersOfDepth, standStillWhereAMotionHoldsMaps)
+{
+    for (const Motion motion : {Motion::snap, Motion::step_blend}) {
+        Placed placed(lvsm(LayerPlacement::lloyd, 2));
+        const auto first = placed.place(viewOf(kWhole), depthsOf(), motion);
+        const auto rest = lloydOnCpu(depthsOf(), 2);
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            EXPECT_NEAR(first[i].begins, rest[i], 1e-5) << i; // new ones rest at once
+        }
+        for (int frame = 1; frame <= 3; ++frame) {
+            const auto next = placed.place(viewOf(kWhole), depthsOf(0.02F * static_cast<float>(frame)), motion);
+            for (std::size_t i = 0; i < first.size(); ++i) {
+                EXPECT_EQ(next[i].begins, first[i].begins) << i;
+                EXPECT_EQ(next[i].near, first[i].near);
+                EXPECT_EQ(next[i].far, first[i].far);
+            }
+        }
+        const std::vector<float> sunk = depthsOf(0.1F);
+        const auto sunk_rest = lloydOnCpu(sunk, 2);
+        const auto after = placed.place(viewOf(kWhole), sunk, motion);
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            EXPECT_NEAR(after[i].begins, sunk_rest[i], 1e-5) << i; // off, and so at rest again
+        }
+    }
 }
 
 TEST_F(LayersOfDepth, keepTheirPlaceInTheWorldWhenTheLightIsBackedOut)

@@ -56,7 +56,9 @@ glm::dvec2 carryOver(const DepthMetric& from, const View& view)
 }
 
 // Layers that are new have all the steps that they need; those that were there go half way to where they would be in
-// each of a few steps, so that what changes of a sudden does not show of a sudden.
+// each of a few steps, so that what changes of a sudden does not show of a sudden. Where a motion holds maps still,
+// they stay until they are off, because whatever light bleeds within a layer would follow them. Then they go all the
+// way: such a map may not be drawn again for long.
 constexpr int kFirstSteps = 256;
 constexpr int kLaterSteps = 2;
 constexpr float kLaterShare = 0.5F;
@@ -161,15 +163,17 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
     return push;
 }
 
-shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t index) const
+shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t index, bool held) const
 {
     const Slot& slot = slots_[index];
     const bool anew = !slot.metric || slot.light != view.light;
     const DepthMetric& before = anew ? view.metric : *slot.metric;
     const glm::dvec2 carry = carryOver(before, view);
     shared::GpuPlacePush push;
-    push.slot = {index, filter_.moments.layers, anew ? kFirstSteps : kLaterSteps, depthFlags(filter_)};
-    push.how = {filter_.moments.layer_overlap, anew ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F, 0.0F};
+    const bool to_rest = anew || held;
+    push.slot = {index, filter_.moments.layers, to_rest ? kFirstSteps : kLaterSteps, depthFlags(filter_)};
+    push.how = {filter_.moments.layer_overlap, to_rest ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F,
+                held && !anew ? 1.0F : 0.0F};
     push.carry = {carry.x, carry.y, nearOverFar(view, before), nearOverFar(view, view.metric)};
     return push;
 }
@@ -181,7 +185,8 @@ void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32
     }
     const View& view = plan.views[view_index];
     const std::uint32_t index = slotOf(view_index);
-    relaxation_->record(commands, {depth, buffer_.buffer(), histogramPush(view), placePush(view, index)});
+    const bool held = plan.technique.motion != Motion::free;
+    relaxation_->record(commands, {depth, buffer_.buffer(), histogramPush(view), placePush(view, index, held)});
     slots_[index].light = view.light;
     slots_[index].metric = view.metric;
 }

@@ -46,7 +46,7 @@ private:
     void makeBuffer(std::uint32_t slots);
     [[nodiscard]] shared::GpuDepthLayers* entries() const;
     [[nodiscard]] shared::GpuHistogramPush histogramPush(const View& view) const;
-    [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot) const;
+    [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot, bool held) const;
 
     Device& device_;
     FilterOptions filter_;
