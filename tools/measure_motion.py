@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What motions win and cost, as Markdown on stdout: the tables of docs/measurements.md.
 
-usage: measure_motion.py [--tables LIST] [--only NAMES] [--size WxH] [--samples N] [--map-size N] [--repetitions N] GNOMON SHARED
+usage: measure_motion.py [--tables LIST] [--only NAMES] [--size WxH] [--samples N] [--map-size N] [--frames N] [--day N]
+                         [--repetitions N] GNOMON SHARED
 
 GNOMON is the program, SHARED the folder that holds scenes/. The tables, of which --tables picks some:
 
@@ -44,7 +45,8 @@ def by_choice(results, *choices):
 
 
 def share(value, base):
-    return f"{100.0 * value / base:.2g} %" if base else "–"
+    percent = 100.0 * value / base if base else None
+    return "–" if percent is None else f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
 def snap_table(options, view):
@@ -112,11 +114,13 @@ def cost_table(options, _):
     for motion in STEPPED:
         result = found[(motion,)]
         time, spread, reuse = (result[f"static_{part}"] for part in ["time_ms", "iqr_ms", "reuse"])
-        rows.append([motion, f"{time['frame']:.0f} ({spread['frame']:.0f})", f"{100.0 * (time['frame'] / base - 1.0):+.0f} %",
+        rows.append([motion, f"{time['frame']:.0f} ({spread['frame']:.0f})",
+                     f"{100.0 * (time['frame'] / base - 1.0):+.0f} %",
                      cell(time["maps"], 1), cell(time["mask"], 1),
                      cell(result["static_mean_texels_rendered"] / options.map_size ** 2, 2),
                      cell(sum(reuse[f"{which}_casters"] for which in ["still", "moving"]) + reuse["casters_at_once"], 0)])
-    columns = ["motion", "frame ms (iqr)", "against free", "maps ms", "mask ms", "maps drawn a frame", "casters drawn a frame"]
+    columns = ["motion", "frame ms (iqr)", "against free", "maps ms", "mask ms", "maps drawn a frame",
+               "casters drawn a frame"]
     text = "### What steps cost: sundial\n\n" + table(columns, rows)
     side = options.map_size // 2
     pair = bench(options, ["sundial", "--camera", "long", "--time", "120", "--repetitions", str(options.repetitions)],
