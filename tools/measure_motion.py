@@ -77,7 +77,7 @@ def steps_table(options, _):
             rows.append([name_of_filter, motion, cell(s["shimmer"], 5), share(s["shimmer"], free["shimmer"]),
                          cell(s["pop"], 5), share(s["pop"], jump["pop"]), cell(s["lag"]),
                          cell(found[(motion,)]["mean_texels_rendered"] / options.map_size ** 2, 2)])
-    columns = ["filter", "motion", "shimmer", "of free's", "pop", "of step-jump's", "lag", "maps drawn a frame"]
+    columns = ["filter", "motion", "shimmer", "of `free`'s", "pop", "of `step-jump`'s", "lag", "maps drawn a frame"]
     return "### A sun that moves: sundial\n\n" + table(columns, rows)
 
 
