@@ -15,7 +15,8 @@
 // depends on z_f / z_n alone and is less than 0.8: where view and light align, or all is about equally far, it comes
 // close to 0.8, n grows without bound and the warp fades into none, where the paper's trapezoid changes its shape at
 // once. With a z_f of its own, as lispsm has it, delta and lambda would change apart, and n with their difference,
-// several times as fast.
+// several times as fast. z_n fades into kSoftShare of z_f, below which it does not fall: where what is seen reaches to
+// the eye, n would follow the last decimetres before it, and texels change by half their size from frame to frame.
 #include "fit/view_slope.h"
 
 #include <limits>
@@ -25,6 +26,7 @@ namespace {
 
 constexpr double kFocusShare = 0.8;
 constexpr double kFocusLine = 1.0 - 2.0 * kFocusShare; // xi
+constexpr double kSoftShare = 1.0 / 1000.0;
 
 } // namespace
 
@@ -33,8 +35,9 @@ Warp fitTsm(const FitInput& input)
     const ViewSlope slope = slopeOfView(input);
     const double lambda = slope.length;
     const double base = slope.low + slope.slope * lambda;
-    const double focus = std::pow(slope.low, 1.0 - kFocusShare) * std::pow(base, kFocusShare);
-    const double delta = (focus - slope.low) / slope.slope;
+    const double low = std::hypot(slope.low, kSoftShare * base);
+    const double focus = std::pow(low, 1.0 - kFocusShare) * std::pow(base, kFocusShare);
+    const double delta = (focus - low) / slope.slope;
     const double rest = lambda - 2.0 * delta - lambda * kFocusLine;
     const double n = rest > 0.0 ? lambda * delta * (1.0 + kFocusLine) / rest : std::numeric_limits<double>::infinity();
     Warp warp = warpAlong(input, slope, n);
