@@ -23,6 +23,7 @@ OVERHEAD = ["--sun", "0,-1,0"]
 TOWN = ["--eye", "0,22,45", "--target", "2,8,5", "--fov", "50"]
 CITY = ["--eye", "3,3.2,6.5", "--target", "2.5,0.3,1.5", "--fov", "45"]
 SLOPE = ["--eye", "2,1.2,12", "--target=-1,0.5,2", "--fov", "45"]
+LOW = ["--eye", "6,0.5,8", "--target=-8,0.3,-7", "--fov", "45"]
 # Name, scene, options of its view. Those of the table of density.
 LONG_VIEWS = [
     ("sundial, long", "sundial", ["--camera", "long"]),
@@ -33,6 +34,8 @@ LONG_VIEWS = [
     ("rts, map", "rts", ["--camera", "map"]),
     ("terrain_lowpoly", "scenes/terrain_lowpoly/terrain.glb", [*SLOPE, "--sun=-0.4,-1,0.5"]),
     ("terrain_lowpoly, sun overhead", "scenes/terrain_lowpoly/terrain.glb", [*SLOPE, *OVERHEAD]),
+    ("terrain_lowpoly, low", "scenes/terrain_lowpoly/terrain.glb", [*LOW, "--sun=-0.4,-1,0.5"]),
+    ("terrain_lowpoly, low, sun overhead", "scenes/terrain_lowpoly/terrain.glb", [*LOW, *OVERHEAD]),
     ("truck_town", "scenes/truck_town/truck_town.gltf", [*TOWN, "--sun", "0.4967,-0.819,0.2868"]),
     ("truck_town, sun overhead", "scenes/truck_town/truck_town.gltf", [*TOWN, *OVERHEAD]),
 ]
