@@ -8,6 +8,25 @@
 #include <cassert>
 
 namespace gnomon {
+namespace {
+
+bool isDrawnAtOnce(const View& view, bool all)
+{
+    return (view.redraw || all) && view.kept_layer == kNoIndex && view.part == TexelPart::whole;
+}
+
+/// Can one pass draw `next`, `above` layers above `view`?
+bool goTogether(const View& view, const View& next, std::uint32_t above)
+{
+    const Tile& a = view.tile;
+    const Tile& b = next.tile;
+    const bool same_place =
+        b.layer == a.layer + above && b.x == a.x && b.y == a.y && b.width == a.width && b.height == a.height;
+    return same_place && next.light == view.light && next.sun == view.sun && next.orthographic == view.orthographic &&
+           next.clamp_near == view.clamp_near && (next.gpu_cascade == kNoIndex) == (view.gpu_cascade == kNoIndex);
+}
+
+} // namespace
 
 SunPosition strongerPosition(const SunSteps& steps)
 {
@@ -34,6 +53,21 @@ std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition
     const auto first = std::ranges::find(all, sun, &View::sun);
     const auto end = std::find_if(first, all.end(), [&](const View& view) { return view.sun != sun; });
     return {first, end};
+}
+
+std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all)
+{
+    const View& view = plan.views[first];
+    std::uint32_t count = 1;
+    if (!isDrawnAtOnce(view, all))
+        return count;
+    while (count < kMaxCascades && first + count < plan.views.size()) {
+        const View& next = plan.views[first + count];
+        if (!isDrawnAtOnce(next, all) || !goTogether(view, next, count))
+            break;
+        ++count;
+    }
+    return count;
 }
 
 } // namespace gnomon

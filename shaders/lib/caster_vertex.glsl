@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL only: body of the caster vertex shaders. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
+// LAYERED: several views are drawn in one pass, and an instance says to which of their layers it belongs.
+#ifdef LAYERED
+#extension GL_ARB_shader_viewport_layer_array : require
+#endif
 #include "caster.glsl"
 
 layout(location = 0) in vec3 position;
@@ -14,7 +18,16 @@ layout(location = 5) in vec4 row_metric;
 #else
 #define UV_LOCATION 4
 #endif
+#ifdef LAYERED
+layout(location = 7) in uint layer; // counted from the first view's
 #ifdef PLACED
+#include "../shared/gpu_cascades.h"
+layout(set = 1, binding = 0, std430) readonly buffer Places
+{
+    GpuFittedView fitted[]; // by view of the plan
+};
+#endif
+#elif defined(PLACED)
 layout(location = 7) in vec4 place; // the same for all
 #endif
 #ifdef METRIC
@@ -23,25 +36,34 @@ layout(location = 0) out float metric; // for fragment shaders that store it
 #ifdef MASKED
 layout(location = UV_LOCATION) in vec2 uv_in;
 layout(location = 1) out vec2 uv;
+#endif
+#if defined(MASKED) || (defined(LAYERED) && defined(PLACED))
 layout(push_constant) uniform Material
 {
     vec4 uv_u; // rows of the texture's transform: u = dot(uv_u.xyz, (uv, 1))
     vec4 uv_v;
     float cutoff;
+    int first_view; // of those that are drawn in one pass
 };
 #endif
 
 void main()
 {
     vec4 p = vec4(position, 1.0);
-    vec4 clip = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
+    precise vec4 clip; // a map is the same bit for bit whichever of these shaders draws it
+    clip = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
 #ifdef PERSPECTIVE
     clip.w = dot(row_w, p);
     metric = dot(row_metric, p);
 #elif defined(METRIC)
     metric = clip.z;
 #endif
-#ifdef PLACED
+#ifdef LAYERED
+    gl_Layer = int(layer);
+#endif
+#if defined(LAYERED) && defined(PLACED)
+    gl_Position = casterPlaced(clip, fitted[first_view + int(layer)].place);
+#elif defined(PLACED)
     gl_Position = casterPlaced(clip, place);
 #else
     gl_Position = clip;

@@ -115,11 +115,12 @@ void Gpu::makeDevice()
     if (missing[0] != '\0') {
         throw std::runtime_error(std::string("the device lacks ") + missing);
     }
+    layered_ = vulkan::supportsLayered(view());
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures()};
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures(layered_)};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     require(vkCreateDevice(physical_device_, &create, nullptr, &device_), "vkCreateDevice");
@@ -157,6 +158,7 @@ vulkan::DeviceView Gpu::view() const
     view.device = device_;
     view.get_instance_proc_addr = vkGetInstanceProcAddr;
     view.debug_labels = true;
+    view.layered = layered_;
     return view;
 }
 

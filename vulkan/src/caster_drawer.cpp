@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "caster_instances.h"
 #include "caster_pipelines.h"
 #include "draw_view.h"
 
+#include <gnomon/plan_views.h>
 #include <gnomon/vulkan/caster_drawer.h>
-
-#include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,6 @@ namespace gnomon::vulkan {
 namespace {
 
 constexpr VkDeviceSize kCommandBytes = sizeof(VkDrawIndexedIndirectCommand);
-constexpr VkDeviceSize kMostInstanceBytes = instanceRows(true) * sizeof(glm::vec4);
 
 CasterMaterial material(const CasterBatch& batch)
 {
@@ -28,13 +27,6 @@ CasterMaterial material(const CasterBatch& batch)
             batch.cutoff};
 }
 
-// Row vector of the map times an object's transform: what the vertex shader multiplies the object's own points by.
-glm::vec4 composed(const glm::dvec4& row, const Rows3x4& t)
-{
-    return {row.x * glm::dvec4(t.x) + row.y * glm::dvec4(t.y) + row.z * glm::dvec4(t.z) +
-            glm::dvec4(0.0, 0.0, 0.0, row.w)};
-}
-
 } // namespace
 
 struct CasterDrawer::Impl {
@@ -42,6 +34,8 @@ struct CasterDrawer::Impl {
     struct Slot {
         HostBuffer commands;
         HostBuffer instances;
+        VkDescriptorSet places = VK_NULL_HANDLE; // CasterPipelines::places()
+        bool places_written = false;             // in this frame
     };
 
     Impl(const DeviceView& view, const CasterDrawerOptions& options_in)
@@ -50,11 +44,12 @@ struct CasterDrawer::Impl {
     }
 
     void reserve(const Plan& plan);
-    void ensurePipelines(const Plan& plan);
-    void writeInstances(const View& view, std::span<const std::uint32_t> handles, glm::vec4* out) const;
-    void bindGeometry(VkCommandBuffer commands, VkDeviceSize instances_offset) const;
-    void drawBatch(VkCommandBuffer commands, const BatchDraws& draws, CasterPipelineKey key,
-                   VkDeviceSize commands_offset);
+    void ensurePipelines(const Plan& plan, bool all);
+    [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
+    void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
+    void bindGeometry(const MapPass& pass) const;
+    void bindPlaces(const MapPass& pass);
+    void drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key);
 
     Device device;
     CasterDrawerOptions options;
@@ -63,7 +58,9 @@ struct CasterDrawer::Impl {
     std::vector<CasterBatch> batches;
     std::vector<CasterMaterial> materials;
     std::vector<Slot> slots;
-    std::vector<std::uint32_t> handles; // of the instances of one view
+    std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
+    std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
+    bool together = false;              // CascadePass::layered
 
     // This frame's.
     Slot* slot = nullptr;
@@ -95,20 +92,46 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     }
 }
 
+void CasterDrawer::setCascadePass(CascadePass pass)
+{
+    const bool together = pass == CascadePass::layered;
+    if (together == impl_->together) {
+        return;
+    }
+    impl_->together = together;
+    if (together) {
+        impl_->pipelines.places().reset(static_cast<std::uint32_t>(impl_->slots.size()));
+    }
+    for (Impl::Slot& slot : impl_->slots) {
+        slot.places = together ? impl_->pipelines.places().take("caster places") : VK_NULL_HANDLE;
+        slot.instances = {}; // the other way has its own need of room
+    }
+}
+
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
 void CasterDrawer::Impl::reserve(const Plan& plan)
 {
     VkDeviceSize all_instances = 0;
     VkDeviceSize all_commands = 0;
     std::uint32_t most = 0;
-    for (const View& view : plan.views) {
-        // What stands still and what moves may be drawn apart.
-        for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
-            const std::uint32_t count = batcher.instanceCount(castersOf(plan, view, share));
-            all_instances += count;
-            all_commands += std::min(count, batcher.maxCommands());
+    std::size_t most_listed = 0;
+    for (std::uint32_t i = 0; i < plan.views.size();) {
+        const std::uint32_t end = i + (together ? viewsTogether(plan, i, true) : 1);
+        std::uint32_t in_pass = 0;
+        std::size_t listed_in_pass = 0;
+        for (; i < end; ++i) {
+            // What stands still and what moves may be drawn apart.
+            for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
+                const auto list = castersOf(plan, plan.views[i], share);
+                const std::uint32_t count = batcher.instanceCount(list);
+                all_instances += count;
+                all_commands += std::min(count, batcher.maxCommands());
+                in_pass += count;
+                listed_in_pass += list.size();
+            }
         }
-        most = std::max(most, batcher.instanceCount(castersOf(plan, view, CasterShare::all)));
+        most = std::max(most, in_pass);
+        most_listed = std::max(most_listed, listed_in_pass);
     }
     const auto grow = [&](HostBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose) {
         if (buffer.size() < bytes) {
@@ -117,19 +140,28 @@ void CasterDrawer::Impl::reserve(const Plan& plan)
         }
     };
     grow(slot->commands, all_commands * kCommandBytes, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "draw commands");
-    grow(slot->instances, all_instances * kMostInstanceBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "instances");
+    grow(slot->instances, all_instances * instanceBytes(true, together), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+         "instances");
     if (handles.size() < most) {
         handles.resize(most + most / 2);
     }
+    if (together) {
+        listed.reserve(most_listed + most_listed / 2);
+    }
 }
 
-void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
+/// `all`: for the case that the renderer draws all views whatever they say.
+void CasterDrawer::Impl::ensurePipelines(const Plan& plan, bool all)
 {
-    for (const View& view : plan.views) {
+    for (std::uint32_t i = 0; i < plan.views.size();) {
+        const View& view = plan.views[i];
+        const std::uint32_t count = together ? viewsTogether(plan, i, all) : 1;
         for (const CasterBatch& batch : batches) {
             pipelines.ensure({!view.orthographic, batch.texture != VK_NULL_HANDLE, view.clamp_near,
-                              options.cull_back_faces && !batch.two_sided, view.part, view.gpu_cascade != kNoIndex});
+                              options.cull_back_faces && !batch.two_sided, view.part, view.gpu_cascade != kNoIndex,
+                              count > 1});
         }
+        i += count;
     }
 }
 
@@ -143,101 +175,116 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     impl_->commands_used = 0;
     impl_->instances_used = 0;
     impl_->triangles = 0;
+    impl_->slot->places_written = false;
     impl_->reserve(plan);
-    impl_->ensurePipelines(plan);
-}
-
-void CasterDrawer::Impl::writeInstances(const View& view, std::span<const std::uint32_t> list, glm::vec4* out) const
-{
-    const glm::dvec4 x = glm::row(view.clip_from_world, 0);
-    const glm::dvec4 y = glm::row(view.clip_from_world, 1);
-    const glm::dvec4 metric = view.metric.metric_ws;
-    if (view.orthographic) {
-        for (const std::uint32_t handle : list) {
-            const Rows3x4& t = transforms[handle];
-            *out++ = composed(x, t);
-            *out++ = composed(y, t);
-            *out++ = composed(metric, t);
-        }
-        return;
-    }
-    const glm::dvec4 z = glm::row(view.clip_from_world, 2);
-    const glm::dvec4 w = glm::row(view.clip_from_world, 3);
-    for (const std::uint32_t handle : list) {
-        const Rows3x4& t = transforms[handle];
-        *out++ = composed(x, t);
-        *out++ = composed(y, t);
-        *out++ = composed(z, t);
-        *out++ = composed(w, t);
-        *out++ = composed(metric, t);
+    for (const bool all : {false, true}) {
+        impl_->ensurePipelines(plan, all);
     }
 }
 
-void CasterDrawer::Impl::bindGeometry(VkCommandBuffer commands, VkDeviceSize instances_offset) const
+/// The casters of all its views.
+std::span<const std::uint32_t> CasterDrawer::Impl::listOf(const MapPass& pass)
 {
-    device.vk.CmdBindIndexBuffer(commands, geometry.indices, geometry.indices_offset, VK_INDEX_TYPE_UINT32);
-    device.vk.CmdBindVertexBuffers(commands, 0, 1, &geometry.positions, &geometry.positions_offset);
+    if (pass.view_count == 1) {
+        return pass.casters;
+    }
+    listed.clear();
+    for (std::uint32_t i = 0; i < pass.view_count; ++i) {
+        const auto list = pass.castersOf(i);
+        listed.insert(listed.end(), list.begin(), list.end());
+    }
+    return listed;
+}
+
+void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uint32_t> instances)
+{
+    assert(instances_used + instances.size() * instanceBytes(!pass.view->orthographic, pass.view_count > 1) <=
+           slot->instances.size());
+    auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
+    if (pass.view_count > 1) {
+        writeLayeredInstances(pass, instances, transforms, out);
+    } else {
+        writeInstances(*pass.view, instances, transforms, out);
+    }
+}
+
+void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
+{
+    device.vk.CmdBindIndexBuffer(pass.commands, geometry.indices, geometry.indices_offset, VK_INDEX_TYPE_UINT32);
+    device.vk.CmdBindVertexBuffers(pass.commands, 0, 1, &geometry.positions, &geometry.positions_offset);
     if (geometry.uvs != VK_NULL_HANDLE) {
-        device.vk.CmdBindVertexBuffers(commands, 2, 1, &geometry.uvs, &geometry.uvs_offset);
+        device.vk.CmdBindVertexBuffers(pass.commands, 2, 1, &geometry.uvs, &geometry.uvs_offset);
     }
     const VkBuffer instances = slot->instances.buffer();
-    device.vk.CmdBindVertexBuffers(commands, 1, 1, &instances, &instances_offset);
+    device.vk.CmdBindVertexBuffers(pass.commands, 1, 1, &instances, &instances_used);
+    if (pass.placement != VK_NULL_HANDLE && pass.view_count == 1) {
+        device.vk.CmdBindVertexBuffers(pass.commands, kPlacementBinding, 1, &pass.placement, &pass.placement_offset);
+    }
 }
 
-void CasterDrawer::Impl::drawBatch(VkCommandBuffer commands, const BatchDraws& draws, CasterPipelineKey key,
-                                   VkDeviceSize commands_offset)
+void CasterDrawer::Impl::bindPlaces(const MapPass& pass)
+{
+    if (!slot->places_written) { // no command of this frame names the set yet
+        const DescriptorSets::Write places = DescriptorSets::buffer(0, pass.placement);
+        pipelines.places().write(slot->places, {&places, 1});
+        slot->places_written = true;
+    }
+    device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 1, 1,
+                                    &slot->places, 0, nullptr);
+    const auto first = static_cast<std::int32_t>(pass.placement_offset / kPlacementStride);
+    device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, offsetof(CasterMaterial, first_view),
+                               sizeof first, &first);
+}
+
+void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key)
 {
     const CasterBatch& batch = batches[draws.batch];
     key.masked = batch.texture != VK_NULL_HANDLE;
     key.cull = options.cull_back_faces && !batch.two_sided;
     if (const VkPipeline pipeline = pipelines.get(key); pipeline != bound) {
-        device.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
+            bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
+        }
         bound = pipeline;
     }
     if (key.masked) {
-        device.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0, 1,
+        device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0, 1,
                                         &batch.texture, 0, nullptr);
-        device.vk.CmdPushConstants(commands, pipelines.layout(), kMaterialStages, 0, sizeof(CasterMaterial),
-                                   &materials[draws.batch]);
+        device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, 0,
+                                   offsetof(CasterMaterial, first_view), &materials[draws.batch]);
     }
-    device.vk.CmdDrawIndexedIndirect(commands, slot->commands.buffer(),
-                                     commands_offset + draws.first_command * kCommandBytes, draws.command_count,
+    device.vk.CmdDrawIndexedIndirect(pass.commands, slot->commands.buffer(),
+                                     commands_used + draws.first_command * kCommandBytes, draws.command_count,
                                      static_cast<std::uint32_t>(kCommandBytes));
 }
 
 std::uint32_t CasterDrawer::draw(const MapPass& pass)
 {
     Impl& self = *impl_;
-    assert(self.slot != nullptr);
+    assert(self.slot != nullptr && (pass.view_count == 1 || self.together));
     const View& view = *pass.view;
-    if (self.batcher.instanceCount(pass.casters) == 0) {
+    const std::span<const std::uint32_t> list = self.listOf(pass);
+    if (self.batcher.instanceCount(list) == 0) {
         return 0;
     }
     Impl::Slot& slot = *self.slot;
+    const bool layered = pass.view_count > 1;
     auto* commands_out = reinterpret_cast<VkDrawIndexedIndirectCommand*>(static_cast<std::byte*>(slot.commands.data()) +
                                                                          self.commands_used);
     const std::size_t commands_left = (slot.commands.size() - self.commands_used) / kCommandBytes;
-    const DrawLists lists = self.batcher.build(pass.casters, 0, {commands_out, commands_left}, self.handles);
-    const VkDeviceSize instance_bytes =
-        VkDeviceSize{lists.instance_count} * instanceRows(!view.orthographic) * sizeof(glm::vec4);
-    assert(self.instances_used + instance_bytes <= slot.instances.size());
-    self.writeInstances(
-        view, std::span(self.handles).first(lists.instance_count),
-        reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot.instances.data()) + self.instances_used));
+    const DrawLists lists = self.batcher.build(list, 0, {commands_out, commands_left}, self.handles, layered);
+    self.writeRows(pass, std::span(self.handles).first(lists.instance_count));
 
     self.bound = VK_NULL_HANDLE;
-    self.bindGeometry(pass.commands, self.instances_used);
-    const bool placed = pass.placement != VK_NULL_HANDLE;
-    if (placed) {
-        self.device.vk.CmdBindVertexBuffers(pass.commands, kPlacementBinding, 1, &pass.placement,
-                                            &pass.placement_offset);
-    }
-    const CasterPipelineKey key{!view.orthographic, false, view.clamp_near, false, view.part, placed};
+    self.bindGeometry(pass);
+    const CasterPipelineKey key{
+        !view.orthographic, false, view.clamp_near, false, view.part, pass.placement != VK_NULL_HANDLE, layered};
     for (const BatchDraws& draws : lists.batches) {
-        self.drawBatch(pass.commands, draws, key, self.commands_used);
+        self.drawBatch(pass, draws, key);
     }
     self.commands_used += lists.command_count * kCommandBytes;
-    self.instances_used += instance_bytes;
+    self.instances_used += VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered);
     self.triangles += lists.index_count / 3;
     return lists.command_count;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "caster_pipelines.h"
 
+#include "caster_instances.h"
 #include "map_storage.h"
 #include "pipelines.h"
 
@@ -10,30 +11,46 @@
 namespace gnomon::vulkan {
 namespace {
 
-std::span<const std::uint32_t> placedVertexCode(const MapPassFormats& formats, CasterPipelineKey key)
+// What the key's other members choose from.
+struct VertexCodes {
+    std::span<const std::uint32_t> orthographic, orthographic_masked;
+    std::span<const std::uint32_t> metric, metric_masked;
+    std::span<const std::uint32_t> perspective, perspective_masked;
+};
+
+VertexCodes vertexCodes(CasterPipelineKey key)
 {
-    if (key.perspective) {
-        return key.masked ? spirv::caster_placed_perspective_masked_vert : spirv::caster_placed_perspective_vert;
+    using namespace spirv;
+    if (key.layered && key.placed) {
+        return {caster_layered_placed_orthographic_vert,        caster_layered_placed_orthographic_masked_vert,
+                caster_layered_placed_orthographic_metric_vert, caster_layered_placed_orthographic_metric_masked_vert,
+                caster_layered_placed_perspective_vert,         caster_layered_placed_perspective_masked_vert};
     }
-    if (formats.colour != VK_FORMAT_UNDEFINED) {
-        return key.masked ? spirv::caster_placed_orthographic_metric_masked_vert
-                          : spirv::caster_placed_orthographic_metric_vert;
+    if (key.layered) {
+        return {caster_layered_orthographic_vert,        caster_layered_orthographic_masked_vert,
+                caster_layered_orthographic_metric_vert, caster_layered_orthographic_metric_masked_vert,
+                caster_layered_perspective_vert,         caster_layered_perspective_masked_vert};
     }
-    return key.masked ? spirv::caster_placed_orthographic_masked_vert : spirv::caster_placed_orthographic_vert;
+    if (key.placed) {
+        return {caster_placed_orthographic_vert,        caster_placed_orthographic_masked_vert,
+                caster_placed_orthographic_metric_vert, caster_placed_orthographic_metric_masked_vert,
+                caster_placed_perspective_vert,         caster_placed_perspective_masked_vert};
+    }
+    return {caster_orthographic_vert,        caster_orthographic_masked_vert,
+            caster_orthographic_metric_vert, caster_orthographic_metric_masked_vert,
+            caster_perspective_vert,         caster_perspective_masked_vert};
 }
 
 std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, CasterPipelineKey key)
 {
-    if (key.placed) {
-        return placedVertexCode(formats, key);
-    }
+    const VertexCodes codes = vertexCodes(key);
     if (key.perspective) {
-        return key.masked ? spirv::caster_perspective_masked_vert : spirv::caster_perspective_vert;
+        return key.masked ? codes.perspective_masked : codes.perspective;
     }
     if (formats.colour != VK_FORMAT_UNDEFINED) {
-        return key.masked ? spirv::caster_orthographic_metric_masked_vert : spirv::caster_orthographic_metric_vert;
+        return key.masked ? codes.metric_masked : codes.metric;
     }
-    return key.masked ? spirv::caster_orthographic_masked_vert : spirv::caster_orthographic_vert;
+    return key.masked ? codes.orthographic_masked : codes.orthographic;
 }
 
 // Empty where the rasteriser alone does the work.
@@ -66,7 +83,8 @@ VertexInput vertexInput(CasterPipelineKey key)
     const std::uint32_t rows = instanceRows(key.perspective);
     VertexInput input;
     input.bindings[input.binding_count++] = {0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
-    input.bindings[input.binding_count++] = {1, rows * kRowBytes, VK_VERTEX_INPUT_RATE_INSTANCE};
+    input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered),
+                                             VK_VERTEX_INPUT_RATE_INSTANCE};
     input.attributes[input.attribute_count++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     for (std::uint32_t i = 0; i < rows; ++i) {
         input.attributes[input.attribute_count++] = {1 + i, 1, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
@@ -75,7 +93,9 @@ VertexInput vertexInput(CasterPipelineKey key)
         input.bindings[input.binding_count++] = {2, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
         input.attributes[input.attribute_count++] = {1 + rows, 2, VK_FORMAT_R32G32_SFLOAT, 0};
     }
-    if (key.placed) {
+    if (key.layered) {
+        input.attributes[input.attribute_count++] = {7, 1, VK_FORMAT_R32_UINT, rows * kRowBytes};
+    } else if (key.placed) {
         // A stride of 0: all instances read the same.
         input.bindings[input.binding_count++] = {kPlacementBinding, 0, VK_VERTEX_INPUT_RATE_INSTANCE};
         input.attributes[input.attribute_count++] = {7, kPlacementBinding, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
@@ -88,17 +108,14 @@ VertexInput vertexInput(CasterPipelineKey key)
 CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& options)
     : device_(device), options_(options)
 {
-    const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-                                               VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
-    const VkDescriptorSetLayoutCreateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0, 1,
-                                                   &binding};
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check(device.vk.CreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout),
-          "create a descriptor set layout");
-    set_layout_ = {device, set_layout};
+    constexpr std::array kTexture{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    constexpr std::array kPlaces{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    textures_ = DescriptorSets(device, kTexture, VK_SHADER_STAGE_FRAGMENT_BIT);
+    places_ = DescriptorSets(device, kPlaces, VK_SHADER_STAGE_VERTEX_BIT);
+    const std::array set_layouts{textures_.layout(), places_.layout()};
     const VkPushConstantRange range{kMaterialStages, 0, sizeof(CasterMaterial)};
     const VkPipelineLayoutCreateInfo layout_info{
-        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &set_layout, 1, &range};
+        VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, set_layouts.size(), set_layouts.data(), 1, &range};
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(device.vk.CreatePipelineLayout(device.handle(), &layout_info, nullptr, &layout), "create a pipeline layout");
     layout_ = {device, layout};

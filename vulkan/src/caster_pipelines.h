@@ -2,7 +2,7 @@
 // The pipelines that CasterDrawer draws with, made when a plan first needs them.
 #pragma once
 
-#include "device.h"
+#include "descriptors.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
 
@@ -17,27 +17,24 @@ struct CasterPipelineKey {
     bool clamp = true; // casters before the near plane are clamped onto it
     bool cull = false;
     TexelPart part = TexelPart::whole;
-    bool placed = false; // MapPass::placement
+    bool placed = false;  // MapPass::placement
+    bool layered = false; // MapPass::view_count above 1; then `part` is whole
     [[nodiscard]] std::size_t index() const
     {
-        const std::size_t parts = static_cast<std::size_t>(part) + (placed ? 3U : 0U);
+        const std::size_t parts = (layered ? 6U : static_cast<std::size_t>(part)) + (placed ? (layered ? 1U : 3U) : 0U);
         return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) | parts << 4;
     }
+    static constexpr std::size_t kCount = std::size_t{8} << 4;
 };
 
-/// Push constants of masked casters: caster_vertex.glsl, Material.
+/// Push constants: caster_vertex.glsl, Material.
 struct CasterMaterial {
     glm::vec4 uv_u{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec4 uv_v{0.0F, 1.0F, 0.0F, 0.0F};
     float cutoff = 0.5F;
+    std::int32_t first_view = 0; // of several that the GPU has placed; pushed apart from the rest
 };
 inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-
-/// Vec4s that an instance brings: rows x, y and metric; a perspective view adds rows z and w before the metric.
-[[nodiscard]] constexpr std::uint32_t instanceRows(bool perspective)
-{
-    return perspective ? 5 : 3;
-}
 
 /// Vertex buffer of MapPass::placement.
 inline constexpr std::uint32_t kPlacementBinding = 3;
@@ -49,16 +46,19 @@ public:
     /// Precondition: ensure(key).
     [[nodiscard]] VkPipeline get(CasterPipelineKey key) const { return pipelines_[key.index()].get(); }
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
-    [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const { return set_layout_.get(); }
+    [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const { return textures_.layout(); }
+    /// Set 1 of passes of several views that the GPU has placed: GpuFittedView by view of the plan.
+    [[nodiscard]] DescriptorSets& places() { return places_; }
 
 private:
     [[nodiscard]] Pipeline make(CasterPipelineKey key);
 
     Device& device_;
     CasterDrawerOptions options_;
-    SetLayout set_layout_;
+    DescriptorSets textures_; // for its layout: the host makes the sets
+    DescriptorSets places_;
     PipelineLayout layout_;
-    std::array<Pipeline, 96> pipelines_;
+    std::array<Pipeline, CasterPipelineKey::kCount> pipelines_;
 };
 
 } // namespace gnomon::vulkan

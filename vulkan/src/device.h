@@ -142,6 +142,8 @@ public:
     {
         return levels_[index].get();
     } // 2D array; of storage images
+    /// A further view, of the finest level of some layers: 2D array. To be gone before the image.
+    [[nodiscard]] ImageView range(Device& device, std::uint32_t first, std::uint32_t count) const;
     [[nodiscard]] const ImageInfo& info() const { return info_; }
     explicit operator bool() const { return static_cast<bool>(image_); }
 

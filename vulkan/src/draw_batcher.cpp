@@ -34,7 +34,8 @@ std::uint32_t DrawBatcher::instanceCount(std::span<const std::uint32_t> list) co
 }
 
 DrawLists DrawBatcher::build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
-                             std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances)
+                             std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances,
+                             bool places)
 {
     std::fill(cursor_.begin(), cursor_.end(), 0U);
     for (const std::uint32_t handle : list) {
@@ -67,13 +68,14 @@ DrawLists DrawBatcher::build(std::span<const std::uint32_t> list, std::uint32_t 
     }
     assert(result.instance_count <= instances.size());
 
-    for (const std::uint32_t handle : list) {
+    for (std::uint32_t place = 0; place < list.size(); ++place) {
+        const std::uint32_t handle = list[place];
         if (handle < objects_.size()) {
             const DrawObject object = objects_[handle];
             for (std::uint32_t i = 0; i < object.part_count; ++i) {
                 const std::uint32_t part = object.first_part + i;
                 if (parts_[part].mesh.index_count != 0) {
-                    instances[cursor_[part]++] = handle;
+                    instances[cursor_[part]++] = places ? place : handle;
                 }
             }
         }

@@ -40,8 +40,7 @@ std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, Cas
                                          : all.subspan(view.still_count);
 }
 
-void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, CasterShare share,
-              VkColorComponentFlags colour_mask, const DrawCasters& draw)
+MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, VkColorComponentFlags colour_mask)
 {
     const View& view = plan.views[index];
     MapPass pass;
@@ -50,9 +49,16 @@ void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, C
     pass.view = &view;
     pass.view_index = index;
     pass.colour_mask = colour_mask;
-    pass.casters = castersOf(plan, view, share);
     pass.clip_from_world = glm::mat4(view.clip_from_world);
     pass.metric_ws = glm::vec4(view.metric.metric_ws);
+    return pass;
+}
+
+void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, CasterShare share,
+              VkColorComponentFlags colour_mask, const DrawCasters& draw)
+{
+    MapPass pass = passOf(commands, plan, index, colour_mask);
+    pass.casters = castersOf(plan, plan.views[index], share);
     draw(pass);
 }
 

@@ -21,6 +21,9 @@ void beginViewLabel(const Device& device, VkCommandBuffer commands, const Plan& 
 /// Which casters of a view.
 enum class CasterShare : std::uint8_t { all, still, moving };
 [[nodiscard]] std::span<const std::uint32_t> castersOf(const Plan& plan, const View& view, CasterShare share);
+/// Of a view, but for the casters.
+[[nodiscard]] MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t view,
+                             VkColorComponentFlags colour_mask);
 /// Calls the host's callback for them. Rendering has begun.
 void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, CasterShare share,
               VkColorComponentFlags colour_mask, const DrawCasters& draw);

@@ -2,6 +2,7 @@
 // The device features that the backend uses: asked for, and looked for, from the same chain.
 #include "functions.h"
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 
@@ -74,19 +75,40 @@ constexpr Feature kFeatures[] = {
      }},
 };
 
+/// What is not there stays false.
+void query(const DeviceView& view, Chain& chain)
+{
+    const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+        view.get_instance_proc_addr(view.instance, "vkGetPhysicalDeviceFeatures2"));
+    if (get != nullptr) {
+        get(view.physical_device, &chain.core);
+    }
+}
+
 } // namespace
 
-const VkPhysicalDeviceFeatures2& requiredFeatures()
+const VkPhysicalDeviceFeatures2& requiredFeatures(bool layered)
 {
-    static Chain chain;
+    static Chain with;
+    static Chain without;
     static const bool filled = [] {
-        for (const Feature& feature : kFeatures) {
-            feature.of(chain) = VK_TRUE;
+        for (Chain* const chain : std::array{&with, &without}) {
+            for (const Feature& feature : kFeatures) {
+                feature.of(*chain) = VK_TRUE;
+            }
         }
+        with.v12.shaderOutputLayer = VK_TRUE; // the maps of cascades in one pass
         return true;
     }();
     (void)filled;
-    return chain.core;
+    return layered ? with.core : without.core;
+}
+
+bool supportsLayered(const DeviceView& view)
+{
+    Chain have;
+    query(view, have);
+    return have.v12.shaderOutputLayer == VK_TRUE;
 }
 
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
@@ -95,12 +117,8 @@ void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
         return;
     }
     text[0] = '\0';
-    const auto query = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
-        view.get_instance_proc_addr(view.instance, "vkGetPhysicalDeviceFeatures2"));
     Chain have;
-    if (query != nullptr) {
-        query(view.physical_device, &have.core);
-    }
+    query(view, have);
     std::uint32_t length = 0;
     for (const Feature& feature : kFeatures) {
         const char* separator = length == 0 ? "" : ", ";

@@ -4,6 +4,8 @@
 #include "draw_view.h"
 #include "timed.h"
 
+#include <gnomon/plan_views.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -31,6 +33,7 @@ DepthMaps::DepthMaps(Device& device, const ShadowRendererOptions& options, const
 void DepthMaps::makeMaps(const AtlasSize& size)
 {
     // Free the old images first, so that growing does not need room for both.
+    layers_.clear();
     maps_ = {};
     depth_ = {};
     kept_colours_ = {};
@@ -80,7 +83,47 @@ bool DepthMaps::prepare(const Plan& plan)
         changed = true;
     }
     redraw_all_ = redraw_all_ || changed;
+    prepareTogether(plan);
     return changed;
+}
+
+std::uint32_t DepthMaps::together(const Plan& plan, std::uint32_t first, bool all) const
+{
+    return pass_ == CascadePass::layered ? viewsTogether(plan, first, all) : 1;
+}
+
+const DepthMaps::Layers* DepthMaps::layersFrom(std::uint32_t first) const
+{
+    const auto found =
+        std::find_if(layers_.begin(), layers_.end(), [&](const Layers& one) { return one.first == first; });
+    return found != layers_.end() ? &*found : nullptr;
+}
+
+/// What passes of several views draw to: an image view of the layers from wherever one may begin, whichever views there
+/// are to be drawn, and as many layers of depth.
+void DepthMaps::prepareTogether(const Plan& plan)
+{
+    std::uint32_t most = 1;
+    for (std::uint32_t i = 0; i < plan.views.size();) {
+        const std::uint32_t count = together(plan, i, true);
+        for (std::uint32_t rest = count; rest > 1; --rest) {
+            const std::uint32_t first = plan.views[i].tile.layer + count - rest;
+            const Layers* const had = layersFrom(first);
+            if (had == nullptr || had->count < rest) {
+                std::erase_if(layers_, [&](const Layers& one) { return one.first == first; });
+                layers_.push_back({first, rest, maps_.image().range(device_, first, rest)});
+            }
+        }
+        most = std::max(most, count);
+        i += count;
+    }
+    const bool drops = pass_ != CascadePass::layered && depth_ && depth_.info().layers > 1;
+    if (depth_ && (depth_.info().layers < most || drops)) {
+        ImageInfo info = depth_.info();
+        info.layers = most;
+        depth_ = {};
+        depth_ = Image(device_, info);
+    }
 }
 
 MapPassFormats DepthMaps::formats(bool orthographic) const
@@ -93,18 +136,33 @@ DepthMaps::Target DepthMaps::mapTarget(const View& view) const
     const VkRect2D area = isKept(view) ? redrawnArea(view, redraw_all_) : areaOf(view.tile);
     const VkImageView layer = maps_.image().layer(view.tile.layer);
     if (storage_.depthOnly()) {
-        return {VK_NULL_HANDLE, layer, true, true, area};
+        return {VK_NULL_HANDLE, layer, true, true, area, 1};
     }
-    return {layer, depth_.layer(0), view.part == TexelPart::whole, false, area};
+    return {layer, depth_.layer(0), view.part == TexelPart::whole, false, area, 1};
+}
+
+/// Of `count` views with this tile in consecutive layers.
+DepthMaps::Target DepthMaps::targetOf(const Tile& tile, std::uint32_t count) const
+{
+    const Layers* const found = layersFrom(tile.layer);
+    assert(found != nullptr && found->count >= count);
+    if (storage_.depthOnly()) {
+        return {VK_NULL_HANDLE, found->view.get(), true, true, areaOf(tile), count};
+    }
+    return {found->view.get(), depth_.view(), true, false, areaOf(tile), count};
 }
 
 DepthMaps::Target DepthMaps::keptTarget(const View& view) const
 {
     return {storage_.depthOnly() ? VkImageView{VK_NULL_HANDLE} : kept_colours_.image().layer(view.kept_layer),
-            kept_depths_.image().layer(view.kept_layer), true, true, areaOf(view.tile)};
+            kept_depths_.image().layer(view.kept_layer),
+            true,
+            true,
+            areaOf(view.tile),
+            0};
 }
 
-void DepthMaps::beginRendering(VkCommandBuffer commands, const View& view, const Target& target)
+void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target)
 {
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     depth.imageView = target.depth;
@@ -122,13 +180,13 @@ void DepthMaps::beginRendering(VkCommandBuffer commands, const View& view, const
 
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea = target.area;
-    info.layerCount = 1;
+    info.layerCount = target.layer_count;
     info.colorAttachmentCount = storage_.depthOnly() ? 0U : 1U;
     info.pColorAttachments = storage_.depthOnly() ? nullptr : &colour;
     info.pDepthAttachment = &depth;
     device_.vk.CmdBeginRendering(commands, &info);
 
-    setViewport(device_, commands, view.tile);
+    setViewport(device_, commands, tile);
     device_.vk.CmdSetScissor(commands, 0, 1, &target.area);
 }
 
@@ -138,6 +196,7 @@ void DepthMaps::waitForDepth(VkCommandBuffer commands)
     ImageBarrier barrier;
     barrier.image = depth_.image();
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
+    barrier.layer_count = depth_.info().layers;
     barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.source_stages = kDepthStages;
     barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
@@ -161,7 +220,7 @@ void DepthMaps::drawKept(VkCommandBuffer commands, const Plan& plan, const DrawC
         if (kept_colours_) {
             kept_colours_.toAttachment(commands, view.kept_layer);
         }
-        beginRendering(commands, view, keptTarget(view));
+        beginRendering(commands, view.tile, keptTarget(view));
         drawView(commands, plan, i, CasterShare::still, colourMaskOf(storage_.colour, view.part), draw);
         device_.vk.CmdEndRendering(commands);
         kept_depths_.toReadable(commands, view.kept_layer);
@@ -186,31 +245,56 @@ void DepthMaps::drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawC
             maps_.toAttachment(commands, layer);
         }
     }
-    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        const View& view = plan.views[i];
-        if (!is_drawn(view)) {
-            continue;
+    for (std::uint32_t i = 0; i < plan.views.size();) {
+        const std::uint32_t count = together(plan, i, redraw_all_);
+        if (count > 1) {
+            drawTogether(commands, plan, i, count, draw);
+        } else if (is_drawn(plan.views[i])) {
+            drawMap(commands, plan, i, draw);
         }
-        assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
-               view.tile.y + view.tile.height <= maps_.image().info().extent.height);
-        beginViewLabel(device_, commands, plan, i);
-        if (!storage_.depthOnly()) {
-            waitForDepth(commands);
-        }
-        if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
-            maps_.waitForDrawing(commands, view.tile.layer);
-        }
-        beginRendering(commands, view, mapTarget(view));
-        if (isKept(view)) {
-            restorer_->restore(commands, view.part, view.kept_layer);
-        } else if (view.part != TexelPart::whole) {
-            restorer_->clear(commands, view.part);
-        }
-        drawView(commands, plan, i, isKept(view) ? CasterShare::moving : CasterShare::all,
-                 colourMaskOf(storage_.colour, view.part), draw);
-        device_.vk.CmdEndRendering(commands);
-        device_.endLabel(commands);
+        i += count;
     }
+}
+
+void DepthMaps::drawMap(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+{
+    const View& view = plan.views[index];
+    assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
+           view.tile.y + view.tile.height <= maps_.image().info().extent.height);
+    beginViewLabel(device_, commands, plan, index);
+    if (!storage_.depthOnly()) {
+        waitForDepth(commands);
+    }
+    if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
+        maps_.waitForDrawing(commands, view.tile.layer);
+    }
+    beginRendering(commands, view.tile, mapTarget(view));
+    if (isKept(view)) {
+        restorer_->restore(commands, view.part, view.kept_layer);
+    } else if (view.part != TexelPart::whole) {
+        restorer_->clear(commands, view.part);
+    }
+    drawView(commands, plan, index, isKept(view) ? CasterShare::moving : CasterShare::all,
+             colourMaskOf(storage_.colour, view.part), draw);
+    device_.vk.CmdEndRendering(commands);
+    device_.endLabel(commands);
+}
+
+void DepthMaps::drawTogether(VkCommandBuffer commands, const Plan& plan, std::uint32_t first, std::uint32_t count,
+                             const DrawCasters& draw)
+{
+    beginViewLabel(device_, commands, plan, first);
+    if (!storage_.depthOnly()) {
+        waitForDepth(commands);
+    }
+    const Tile& tile = plan.views[first].tile;
+    beginRendering(commands, tile, targetOf(tile, count));
+    MapPass pass = passOf(commands, plan, first, colourMaskOf(storage_.colour, TexelPart::whole));
+    pass.view_count = count;
+    pass.casters = pass.castersOf(0);
+    draw(pass);
+    device_.vk.CmdEndRendering(commands);
+    device_.endLabel(commands);
 }
 
 void DepthMaps::record(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot, const Plan& plan,

@@ -16,6 +16,9 @@ public:
 
     /// Makes the images and buffers if the plan does not fit; true when it did.
     virtual bool prepare(const Plan& plan) = 0;
+    /// See ShadowRenderer::setCascadePass. Never layered where drawsTogether() is false.
+    virtual void setPass(CascadePass /*pass*/) {}
+    [[nodiscard]] virtual bool drawsTogether() const { return false; }
     /// Every view is drawn at the next record(), whatever it says.
     virtual void forget() = 0;
     [[nodiscard]] virtual bool redrawsAll() const = 0;

@@ -18,6 +18,7 @@ DeviceView NullDriver::view()
     view.physical_device = reinterpret_cast<VkPhysicalDevice>(impl_.get());
     view.device = reinterpret_cast<VkDevice>(impl_.get());
     view.get_instance_proc_addr = nullInstanceProcAddr;
+    view.layered = true;
     return view;
 }
 

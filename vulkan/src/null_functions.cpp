@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <span>
+#include <utility>
 
 namespace gnomon::vulkan {
 namespace {
@@ -47,6 +48,7 @@ VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDevi
     properties->limits.maxImageDimension2D = driverOf(device).limits.max_image_size;
     properties->limits.maxImageArrayLayers = driverOf(device).limits.max_image_layers;
     properties->limits.minUniformBufferOffsetAlignment = 256;
+    properties->limits.maxStorageBufferRange = 1U << 27U;
     properties->limits.timestampPeriod = 1.0F;
 }
 
@@ -66,20 +68,19 @@ VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat, VkFormat
     properties->optimalTilingFeatures = ~driverOf(device).hidden_features;
 }
 
-// All that were asked for are there.
+// All that were asked for are there. A structure of features is its head and VkBool32s.
 VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features)
 {
-    const auto fill = [](VkBool32* first, const void* end) {
-        std::fill(first, const_cast<VkBool32*>(static_cast<const VkBool32*>(end)), VK_TRUE);
-    };
-    fill(&features->features.robustBufferAccess, &features->features + 1);
-    for (auto* next = static_cast<VkBaseOutStructure*>(features->pNext); next != nullptr; next = next->pNext) {
-        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
-            auto* v12 = reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(next);
-            fill(&v12->samplerMirrorClampToEdge, &v12->subgroupBroadcastDynamicId + 1);
-        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
-            auto* v13 = reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next);
-            fill(&v13->robustImageAccess, &v13->maintenance4 + 1);
+    constexpr std::pair<VkStructureType, std::size_t> kSizes[] = {
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, sizeof(VkPhysicalDeviceFeatures2)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, sizeof(VkPhysicalDeviceVulkan11Features)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, sizeof(VkPhysicalDeviceVulkan12Features)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, sizeof(VkPhysicalDeviceVulkan13Features)}};
+    for (auto* next = reinterpret_cast<VkBaseOutStructure*>(features); next != nullptr; next = next->pNext) {
+        for (const auto& [type, size] : kSizes) {
+            if (next->sType == type) {
+                std::fill_n(reinterpret_cast<VkBool32*>(next + 1), (size - sizeof *next) / sizeof(VkBool32), VK_TRUE);
+            }
         }
     }
 }
@@ -187,20 +188,9 @@ VKAPI_ATTR void VKAPI_CALL destroy(VkDevice device, Handle, const VkAllocationCa
     ++driverOf(device).counts.destroyed;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count,
-                                               const VkGraphicsPipelineCreateInfo*, const VkAllocationCallbacks*,
-                                               VkPipeline* pipelines)
-{
-    driverOf(device).counts.created += count;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        pipelines[i] = freshHandle<VkPipeline>(driverOf(device));
-    }
-    return VK_SUCCESS;
-}
-
-VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache, std::uint32_t count,
-                                                      const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
-                                                      VkPipeline* pipelines)
+template <class Info>
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count, const Info*,
+                                               const VkAllocationCallbacks*, VkPipeline* pipelines)
 {
     driverOf(device).counts.created += count;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -254,6 +244,7 @@ VKAPI_ATTR void VKAPI_CALL cmdBegin(VkCommandBuffer commands, const VkRenderingI
     NullEvent event;
     event.kind = NullEvent::Kind::begin_rendering;
     event.area = info->renderArea;
+    event.count = info->layerCount;
     log(driverOf(commands), event);
 }
 
@@ -351,7 +342,7 @@ const Entry kEntries[] = {
     GNOMON_NULL(CreatePipelineLayout, create),
     GNOMON_NULL(DestroyPipelineLayout, destroy),
     GNOMON_NULL(CreateGraphicsPipelines, createPipelines),
-    GNOMON_NULL(CreateComputePipelines, createComputePipelines),
+    GNOMON_NULL(CreateComputePipelines, createPipelines),
     GNOMON_NULL(DestroyPipeline, destroy),
     GNOMON_NULL(CreateDescriptorSetLayout, create),
     GNOMON_NULL(DestroyDescriptorSetLayout, destroy),

@@ -18,6 +18,8 @@
 namespace gnomon::vulkan {
 namespace {
 
+static_assert(kPlacementStride == sizeof(shared::GpuFittedView));
+
 constexpr const char* kCreating = "create the shadow renderer";
 
 const MapStorage& storageFor(const Device& device, const FilterOptions& filter)
@@ -62,7 +64,7 @@ struct ShadowRenderer::Impl {
         : device(view), storage(storageFor(device, options.filter)),
           placer(device, options.filter, options.pipeline_cache), maps(makeRecorder(device, options, storage, placer)),
           fitter(device, options), mask(device, options, storage.quantum),
-          filterable(isFilterable(options.filter.filter)), reuse(options.frames_in_flight)
+          filterable(isFilterable(options.filter.filter)), layered(view.layered), reuse(options.frames_in_flight)
     {
     }
 
@@ -73,6 +75,8 @@ struct ShadowRenderer::Impl {
     CascadeFitter fitter;
     MaskPassRecorder mask;
     bool filterable;
+    bool layered; // the device can
+    CascadePass pass = CascadePass::each;
     std::vector<MapReuse> reuse; // by slot
 };
 
@@ -102,6 +106,28 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     return maps_changed || mask_changed;
 }
 
+void ShadowRenderer::setCascadePass(CascadePass pass)
+{
+    if (pass == CascadePass::layered && !canDrawTogether()) {
+        throw Error("drawing cascades in one pass",
+                    impl_->layered ? "maps that are averaged are made one by one"
+                                   : "the device was made without shaderOutputLayer",
+                    "draw each in a pass of its own");
+    }
+    impl_->pass = pass == CascadePass::layered ? pass : CascadePass::each;
+    impl_->maps->setPass(impl_->pass);
+}
+
+CascadePass ShadowRenderer::cascadePass() const
+{
+    return impl_->pass;
+}
+
+bool ShadowRenderer::canDrawTogether() const
+{
+    return impl_->layered && impl_->maps->drawsTogether();
+}
+
 void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                   const MaskInputs& inputs, Profiler* profiler)
 {
@@ -114,13 +140,13 @@ void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, 
 void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
                                 const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
-    impl_->reuse[slot] = countReuse(plan, impl_->maps->redrawsAll(), impl_->filterable);
+    impl_->reuse[slot] = countReuse(plan, impl_->maps->redrawsAll(), impl_->filterable, impl_->pass);
     assert(impl_->fitter.isFitted(plan));
     const DrawCasters placed = [&](const MapPass& pass) {
         MapPass with = pass;
         if (pass.view->gpu_cascade != kNoIndex) {
             with.placement = impl_->fitter.views();
-            with.placement_offset = pass.view_index * sizeof(shared::GpuFittedView);
+            with.placement_offset = pass.view_index * kPlacementStride;
         }
         draw(with);
     };

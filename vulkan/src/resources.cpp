@@ -75,6 +75,11 @@ Image::Image(Device& device, const ImageInfo& info) : info_(info)
     }
 }
 
+ImageView Image::range(Device& device, std::uint32_t first, std::uint32_t count) const
+{
+    return makeView(device, image_.get(), info_, VK_IMAGE_VIEW_TYPE_2D_ARRAY, {info_.aspect, 0, 1, first, count});
+}
+
 Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags properties,
                const char* purpose)
     : size_(bytes)

@@ -3,9 +3,11 @@
 
 #include "draw_view.h"
 
+#include <gnomon/plan_views.h>
+
 namespace gnomon::vulkan {
 
-MapReuse countReuse(const Plan& plan, bool all, bool filterable)
+MapReuse countReuse(const Plan& plan, bool all, bool filterable, CascadePass pass)
 {
     MapReuse reuse;
     for (const View& view : plan.views) {
@@ -28,6 +30,11 @@ MapReuse countReuse(const Plan& plan, bool all, bool filterable)
             reuse.restored_texels += std::uint64_t{area.extent.width} * area.extent.height;
             reuse.moving_casters += count(CasterShare::moving);
         }
+    }
+    for (std::uint32_t i = 0; pass == CascadePass::layered && i < plan.views.size();) {
+        const std::uint32_t count = viewsTogether(plan, i, all);
+        reuse.together += count > 1 ? count : 0;
+        i += count;
     }
     return reuse;
 }

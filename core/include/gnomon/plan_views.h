@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a plan's views a picture is made of, for who asks what one pixel reads.
+// Which of a plan's views a picture is made of, for who asks what one pixel reads; and which of them one pass can draw,
+// for who draws them.
 #pragma once
 
 #include <gnomon/plan.h>
 
+#include <cstdint>
 #include <span>
 
 namespace gnomon {
@@ -18,5 +20,11 @@ namespace gnomon {
 /// The views of a light that belong to one of its sun's positions: a range of Plan::views, of which a receiver takes
 /// the first that has it. Empty where there is no map.
 [[nodiscard]] std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition sun);
+
+/// How many views from `first` on one pass can draw that says for each caster which layer it goes to, 1 to
+/// kMaxCascades: cascades of one light that are drawn whole and at once, at one place of consecutive layers and by the
+/// same pipelines. `all`: views that say they need not be drawn again are drawn too. 1 also where `first` itself is not
+/// to be drawn.
+[[nodiscard]] std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all = false);
 
 } // namespace gnomon

@@ -34,11 +34,15 @@ struct DeviceView {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     MemoryHooks memory;        // empty: a dedicated allocation per resource
     bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes
+    bool layered = false;      // the device has the feature shaderOutputLayer on, for CascadePass::layered
 };
 
 /// The features that the backend relies on, chained for VkDeviceCreateInfo::pNext. Static lifetime. Every desktop
-/// driver of Vulkan 1.3 and Mesa's lavapipe have them; vulkan/src/features.cpp says what each is for.
-[[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures();
+/// driver of Vulkan 1.3 and Mesa's lavapipe have them; vulkan/src/features.cpp says what each is for. `layered`: and
+/// shaderOutputLayer, which is optional.
+[[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures(bool layered = false);
+/// Has the physical device shaderOutputLayer?
+[[nodiscard]] bool supportsLayered(const DeviceView& view);
 /// Names of the required features that a physical device lacks, separated by ", "; empty when it has all. Writes at
 /// most `capacity` bytes and a zero to `text`.
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity);

@@ -61,9 +61,11 @@ public:
     /// consecutive and in the list's order. Command i of the result starts at instance `first_instance` + its place, so
     /// several lists can share one buffer. Handles beyond setScene()'s objects draw nothing. `commands` and `instances`
     /// must be large enough (assert); the caller binds instance data from them as it likes: as an instance-rate
-    /// attribute, or as a storage buffer read at gl_InstanceIndex.
+    /// attribute, or as a storage buffer read at gl_InstanceIndex. An object may be listed more than once. `places`:
+    /// for each instance where in the list it stands is written instead of its handle.
     DrawLists build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
-                    std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances);
+                    std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances,
+                    bool places = false);
 
 private:
     std::vector<DrawPart> parts_;

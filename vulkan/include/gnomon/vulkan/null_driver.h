@@ -45,9 +45,9 @@ struct NullEvent {
     std::uint32_t layer = 0;                              // barrier: the first layer
     VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
     VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED; // barrier
-    std::uint32_t count = 0;                              // draw_indirect: commands; dispatch: groups
-    VkPipelineStageFlags2 target_stages = 0;              // memory_barrier
-    VkAccessFlags2 target_access = 0;                     // memory_barrier
+    std::uint32_t count = 0;                 // draw_indirect: commands; dispatch: groups; begin_rendering: layers
+    VkPipelineStageFlags2 target_stages = 0; // memory_barrier
+    VkAccessFlags2 target_access = 0;        // memory_barrier
 };
 
 struct NullLimits {

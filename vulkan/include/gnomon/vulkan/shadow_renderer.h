@@ -7,6 +7,7 @@
 #include <gnomon/frame.h>
 #include <gnomon/moment_options.h>
 #include <gnomon/plan.h>
+#include <gnomon/vulkan/cascade_pass.h>
 #include <gnomon/vulkan/device_view.h>
 #include <gnomon/vulkan/profiler.h>
 
@@ -90,7 +91,20 @@ struct MapPass {
     /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0;
+    /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
+    /// view i of them, castersOf(i), is to be drawn to layer i (gl_Layer) with that view's own clip_from_world and
+    /// metric from `plan`; casters, clip_from_world, metric_ws and `view` are those of the first. With
+    /// View::gpu_cascade each has a placement of its own, kPlacementStride bytes after the one before it.
+    std::uint32_t view_count = 1;
+
+    /// Of view i of several.
+    [[nodiscard]] std::span<const std::uint32_t> castersOf(std::uint32_t i) const
+    {
+        const View& one = plan->views[view_index + i];
+        return std::span(plan->casters).subspan(one.first_caster, one.caster_count);
+    }
 };
+inline constexpr VkDeviceSize kPlacementStride = 48;
 using DrawCasters = std::function<void(const MapPass&)>;
 
 /// What the host's caster pipelines must be made for.
@@ -135,6 +149,7 @@ struct FilterCost {
 /// What one recordMaps() drew and what it did not have to.
 struct MapReuse {
     std::uint32_t drawn = 0;      // maps drawn at once
+    std::uint32_t together = 0;   // of these, in passes of several (CascadePass::layered)
     std::uint32_t kept_drawn = 0; // maps of what stands still, drawn into their kept layers
     std::uint32_t restored = 0;   // maps restored from a kept layer, and what moves drawn over that
     std::uint32_t held = 0;       // maps left as they were
@@ -167,6 +182,19 @@ public:
     /// tile, another screen, another motion, or more views, kept layers or lights than any before, everything that was
     /// recorded must have finished on the GPU. Throws Error for sizes beyond the device's limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
+
+    /// How cascades are drawn from the next prepare() on, which has to come before the next recordMaps(); at first
+    /// `each`. Nothing that was recorded may be pending on the GPU. Maps that were drawn stay as they are. layered: the
+    /// callback gets passes of several views (MapPass::view_count). Which is faster depends on the device and on the
+    /// scene: one pass has fewer commands and fewer beginnings and ends. A host can measure it by recording one plan's
+    /// maps both ways, which leaves them as they are.
+    /// Throws Error for layered on a device without it (DeviceView::layered) and for filterable maps, which are made
+    /// one by one from a depth image that they share.
+    void setCascadePass(CascadePass pass);
+    /// each or layered.
+    [[nodiscard]] CascadePass cascadePass() const;
+    /// Does setCascadePass() take layered?
+    [[nodiscard]] bool canDrawTogether() const;
 
     /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (assert there); does nothing
     /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose

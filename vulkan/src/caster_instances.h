@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the instances of casters bring to caster_vertex.glsl: rows that take an object's own points to a map, and of a
+// pass of several views the layer that the map is.
+#pragma once
+
+#include <gnomon/plan.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <gnomon/vulkan/caster_drawer.h>
+
+#include <cstdint>
+#include <span>
+
+namespace gnomon::vulkan {
+
+/// Vec4s that an instance brings: rows x, y and metric; a perspective view adds rows z and w before the metric.
+[[nodiscard]] constexpr std::uint32_t instanceRows(bool perspective)
+{
+    return perspective ? 5 : 3;
+}
+/// Bytes: the rows, and of several views one more vec4, whose first four bytes are the layer.
+[[nodiscard]] constexpr std::uint32_t instanceBytes(bool perspective, bool layered)
+{
+    return (instanceRows(perspective) + (layered ? 1U : 0U)) * static_cast<std::uint32_t>(sizeof(glm::vec4));
+}
+
+/// For each handle of `list`, an index into `transforms`.
+void writeInstances(const View& view, std::span<const std::uint32_t> list, std::span<const Rows3x4> transforms,
+                    glm::vec4* out);
+
+/// Of a pass of several views: `places` are those of casters in all their lists, one list after the other.
+void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places,
+                           std::span<const Rows3x4> transforms, glm::vec4* out);
+
+} // namespace gnomon::vulkan
