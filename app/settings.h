@@ -80,6 +80,7 @@ struct Settings {
     // technique
     PlanOptions plan;
     vulkan::FilterOptions filter;
+    vulkan::CascadePass cascade_pass = vulkan::CascadePass::automatic;
     bool format_given = false; // else the filter's own default
     std::string format_preset; // the preset that gave it; empty: none did, or it was given again
     bool border_given = false; // else what the kernel needs

@@ -11,6 +11,7 @@
 namespace gnomon::host {
 
 struct BlurChoices;
+class CascadeChoices;
 
 struct GpuOptions {
     /// Part of a device's name, "software" for a CPU rasteriser, or empty: the first real GPU, else software.
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] VkPipelineCache pipelineCache() const;
     /// What was found out about blurring on this device (host/src/blur_choice.h).
     [[nodiscard]] BlurChoices& blurChoices();
+    /// And about drawing cascades (host/src/cascade_choice.h).
+    [[nodiscard]] CascadeChoices& cascadeChoices();
 
 private:
     struct Impl;

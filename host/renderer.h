@@ -65,6 +65,9 @@ struct RenderOptions {
     std::uint32_t height = 720;
     PlanOptions plan;
     vulkan::FilterOptions filter;
+    /// automatic: `each` in the first frame that has cascades; before the next one its maps are drawn both ways, and
+    /// the faster one is kept. layered is refused (Error) where ShadowRenderer refuses it.
+    vulkan::CascadePass cascade_pass = vulkan::CascadePass::automatic;
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
@@ -149,6 +152,8 @@ public:
     [[nodiscard]] const Plan& plan() const;
     /// Bytes of every image and buffer, by purpose: the scene's, the host's own and the library's.
     [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
+    /// How the next frame's cascades will be drawn, if it has any; automatic while that is still to be found out.
+    [[nodiscard]] vulkan::CascadePass cascadePass() const;
     /// What making the last frame's maps filterable took; zeros without such passes. After draw().
     [[nodiscard]] vulkan::FilterCost filterCost() const;
     /// lvsm: the layers of depth of a view of plan(), nearest first, as the last frame used them; else empty.

@@ -43,6 +43,18 @@ std::string blurTable(const BenchResult& result)
     return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
 }
 
+/// How cascades were drawn: a line for each technique that has them.
+std::string cascadeTable(const BenchResult& result)
+{
+    TextTable table{{"cascades", "drawn"}, {}};
+    for (const BenchedTechnique& technique : result.techniques) {
+        if (const auto pass = cascadePassOf(technique.redrawn)) {
+            table.rows.push_back({describeTechnique(technique.settings), std::string(nameOf(*pass))});
+        }
+    }
+    return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
+}
+
 /// What frames along a path drew of their maps, and what they did not have to.
 std::string reuseTable(const BenchResult& result)
 {
@@ -76,6 +88,7 @@ Json techniqueJson(const BenchedTechnique& technique)
     json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
     json["counters"] = countersJson(technique.redrawn.counters);
     json["passes_ms"] = passesJson(technique.redrawn.samples);
+    json["cascade_pass"] = cascadePassJson(technique.redrawn);
     json["settings"] = settingsJson(technique.settings, kBench);
     json["settings"].erase("techniques"); // it is one of them
     return json;
@@ -143,7 +156,7 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
                             ratioCell(technique.reused),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
-    return text + blurTable(result) + (settings.path.empty() ? "" : reuseTable(result));
+    return text + blurTable(result) + cascadeTable(result) + (settings.path.empty() ? "" : reuseTable(result));
 }
 
 } // namespace gnomon::app

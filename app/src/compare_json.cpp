@@ -147,6 +147,7 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
     json["counters"] = countersJson(technique.timed.counters);
     json["reuse"] = reuseJson(technique.timed.samples);
     json["passes_ms"] = passesJson(technique.timed.samples);
+    json["cascade_pass"] = cascadePassJson(technique.timed);
     json["settings"] = settingsJson(technique.settings, kCompare);
     json["settings"].erase("techniques"); // it is one of them
     return json;

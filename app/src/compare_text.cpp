@@ -48,6 +48,18 @@ std::string equalErrorText(const CompareResult& result)
     return text;
 }
 
+/// Which techniques' cascades were drawn which way; empty where there are none.
+std::string cascadesText(const CompareResult& result)
+{
+    std::string text;
+    for (const ComparedTechnique& technique : result.techniques) {
+        if (const auto pass = cascadePassOf(technique.timed)) {
+            text += fmt::format("  {}: {}\n", technique.name, nameOf(*pass));
+        }
+    }
+    return text.empty() ? text : "\nmaps of cascades drawn:\n" + text;
+}
+
 std::string raysText(std::uint64_t rays)
 {
     return rays == 0 ? "no rays" : fmt::format("{} ray{}", rays, rays == 1 ? "" : "s");
@@ -221,7 +233,7 @@ std::string compareText(const CompareResult& result, const Shot& shot, const Set
                         result.path ? result.techniques.front().timed.samples.size() : settings.repetitions,
                         frameMedian(result.baseline.samples),
                         hasEqualError(result) ? ",\nequal: to the cheapest PCF that errs no more" : "");
-    text += fittedTableText(compareTable(result, true));
+    text += fittedTableText(compareTable(result, true)) + cascadesText(result);
     return text + (hasEqualError(result) ? equalErrorText(result) : "");
 }
 

@@ -46,6 +46,19 @@ void applyEnds(Settings& s, const Value& v)
     cascades.count = static_cast<std::uint32_t>(v.numbers.size()) + 1;
 }
 
+/// Filterable maps are made one by one.
+bool canDrawTogether(const Settings& s)
+{
+    const FilterTraits* const traits = filterTraits(s.plan.technique.filter);
+    return hasCascades(s) && traits != nullptr && !traits->filterable;
+}
+
+void applyPass(Settings& s, const Value& v)
+{
+    const auto names = enumNames<vulkan::CascadePass>(3);
+    s.cascade_pass = static_cast<vulkan::CascadePass>(std::find(names.begin(), names.end(), v.text) - names.begin());
+}
+
 const std::vector<Setting>& rows()
 {
     static const std::vector<Setting> table{
@@ -66,6 +79,8 @@ const std::vector<Setting>& rows()
         {.key = "cascades.blend", .group = Group::technique, .type = real, .form = "V", .unit = "of a cascade", .default_text = "0.1", .min = 0, .max = 0.5,
          .doc = "over which one fades into the next", .own_option = false, .used = hasCascades, .used_when = "partition cascades or sdsm",
          .apply = [](Settings& s, const Value& v) { s.plan.cascades.blend = v.real; }},
+        {.key = "cascades.pass", .group = Group::technique, .type = choice, .form = "PASS", .default_text = "auto", .choices = [] { return enumNames<vulkan::CascadePass>(3); },
+         .doc = "maps drawn each in a pass, or in one with layers; auto: the faster", .own_option = false, .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades or sdsm", .apply = applyPass},
         {.key = "border", .group = Group::technique, .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64,
          .doc = "room around the fitted map; else what the kernel needs", .own_option = false,
          .apply = [](Settings& s, const Value& v) { s.plan.border_texels = v.real; s.border_given = true; }},

@@ -354,6 +354,10 @@ host::RenderOptions renderOptions(const Settings& settings)
     options.height = settings.size_px.y;
     options.plan = settings.plan;
     options.filter = settings.filter;
+    const FilterTraits* const traits = filterTraits(settings.plan.technique.filter);
+    if (traits != nullptr && !traits->filterable) { // else maps are made one by one, whatever others in a list do
+        options.cascade_pass = settings.cascade_pass;
+    }
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;
     return options;

@@ -4,6 +4,8 @@
 #include "contestants.h"
 #include "lab/score/traffic.h"
 
+#include <gnomon/plan_views.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,6 +113,25 @@ double filterRatio(const vulkan::FilterCost& filter)
                : static_cast<double>(filter.bytes_moved) / static_cast<double>(filter.bytes_minimum);
 }
 
+std::optional<vulkan::CascadePass> cascadePassOf(const lab::Timed& timed)
+{
+    if (!timed.samples.empty() && timed.samples.back().reuse.together > 0) {
+        return vulkan::CascadePass::layered;
+    }
+    for (std::uint32_t i = 0; i < timed.plan.views.size(); ++i) {
+        if (viewsTogether(timed.plan, i, true) > 1) {
+            return vulkan::CascadePass::each;
+        }
+    }
+    return std::nullopt;
+}
+
+Json cascadePassJson(const lab::Timed& timed)
+{
+    const auto pass = cascadePassOf(timed);
+    return pass ? Json(nameOf(*pass)) : Json(nullptr);
+}
+
 Json passesJson(const std::vector<host::FrameTimes>& samples)
 {
     std::vector<std::string> names; // in the order of their first turn
@@ -151,6 +172,7 @@ Json sharedUnitsJson()
             {"eye.far_m", "metres; 0: behind everything"},
             {"map.texels", "places in all maps: texels of the finest level, however many image layers each takes"},
             {"map.bytes", "bytes of the maps' image: all image layers and mip levels"},
+            {"cascade_pass", "how cascades were drawn when the times were taken: each, layered; null: there are none"},
             {"counters.filter_bytes", "bytes that the blur reads and writes"},
             {"pixels", "pixels"}};
 }

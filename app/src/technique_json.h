@@ -47,6 +47,10 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 /// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went. Passes of one
 /// name are added up within each frame, as the stages are.
 [[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
+/// How the maps of cascades were drawn when these times were taken; nothing where there are none, or never two at once.
+[[nodiscard]] std::optional<vulkan::CascadePass> cascadePassOf(const lab::Timed& timed);
+/// That, by its name, or null.
+[[nodiscard]] Json cascadePassJson(const lab::Timed& timed);
 /// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.
 [[nodiscard]] double filterRatio(const vulkan::FilterCost& filter);
 [[nodiscard]] Json countersJson(const lab::Counters& counters);

@@ -2,6 +2,7 @@
 #include "host/gpu.h"
 
 #include "blur_choice.h"
+#include "cascade_choice.h"
 #include "check.h"
 #include "pipeline_cache.h"
 
@@ -147,6 +148,7 @@ struct Gpu::Impl {
     VkPipelineCache cache = VK_NULL_HANDLE;
     std::filesystem::path cache_file;
     BlurChoices blur_choices;
+    CascadeChoices cascade_choices;
     mutable std::mutex mutex; // validation may speak from any thread
     std::vector<std::string> messages;
 
@@ -231,7 +233,8 @@ void Gpu::Impl::makeDevice()
     queue_info.queueCount = 1;
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = &vulkan::requiredFeatures();
+    view.layered = vulkan::supportsLayered(view);
+    info.pNext = &vulkan::requiredFeatures(view.layered);
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     check(vkCreateDevice(view.physical_device, &info, nullptr, &view.device), "opening the Vulkan device");
@@ -309,6 +312,11 @@ VkPipelineCache Gpu::pipelineCache() const
 BlurChoices& Gpu::blurChoices()
 {
     return impl_->blur_choices;
+}
+
+CascadeChoices& Gpu::cascadeChoices()
+{
+    return impl_->cascade_choices;
 }
 
 std::vector<std::string> Gpu::messages() const

@@ -103,6 +103,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
         caster_wish.pipeline_cache = gpu.pipelineCache();
         casters.emplace(gpu.view(), caster_wish);
         draws.fillCasters(*casters);
+        setCascadePass(options.cascade_pass);
     }
 }
 
@@ -217,6 +218,16 @@ std::vector<vulkan::MemoryUse> Renderer::memory() const
         }
     }
     return uses;
+}
+
+vulkan::CascadePass Renderer::cascadePass() const
+{
+    const Impl& self = *impl_;
+    const bool open = self.options.cascade_pass == vulkan::CascadePass::automatic && !self.cascade_pass;
+    if (!self.shadows || (open && self.shadows->canDrawTogether())) {
+        return vulkan::CascadePass::automatic;
+    }
+    return self.shadows->cascadePass();
 }
 
 vulkan::FilterCost Renderer::filterCost() const

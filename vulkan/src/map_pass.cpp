@@ -159,7 +159,7 @@ DepthMaps::Target DepthMaps::keptTarget(const View& view) const
             true,
             true,
             areaOf(view.tile),
-            0};
+            1};
 }
 
 void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target)

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cascades drawn each in a pass of its own and in one pass: the same maps, bit for bit; and which way is chosen.
+#include "cascade_choice.h"
+#include "host/renderer.h"
+#include "scene/state.h"
+#include "small_scene.h"
+
+#include <gnomon/error.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+namespace gnomon::host::test {
+namespace {
+
+using vulkan::CascadePass;
+
+struct PassCase {
+    const char* name;
+    Partition partition;
+    Fit fit;
+    Filter filter;
+    MapFormat format;
+    std::uint32_t count;
+};
+
+struct Drawn {
+    std::vector<ImageF> maps;
+    std::vector<ImageF> masks;
+    std::uint32_t draws = 0; // of the maps
+    std::uint64_t vertices = 0;
+    std::uint32_t together = 0;
+    std::vector<std::string> messages;
+};
+
+class CascadePasses : public testing::TestWithParam<PassCase> {
+protected:
+    RenderOptions optionsWith(CascadePass pass) const
+    {
+        RenderOptions options;
+        options.width = 160;
+        options.height = 100;
+        options.plan.technique.partition = GetParam().partition;
+        options.plan.technique.fit = GetParam().fit;
+        options.plan.technique.filter = GetParam().filter;
+        options.plan.cascades.count = GetParam().count;
+        options.plan.map_size = 128;
+        options.filter.filter = GetParam().filter;
+        options.filter.format = GetParam().format;
+        options.cascade_pass = pass;
+        return options;
+    }
+    Drawn draw(CascadePass pass) const
+    {
+        Gpu gpu({.gpu = "software", .validate = true});
+        Renderer renderer(gpu, scene_, state_, optionsWith(pass));
+        EXPECT_EQ(renderer.cascadePass(), pass);
+        const FrameTimes times = renderer.draw(state_, smallEye(), lights_);
+        Drawn drawn;
+        drawn.together = times.reuse.together;
+        drawn.masks = renderer.read({.colour = false, .masks = true}).masks;
+        for (const View& view : renderer.plan().views) {
+            drawn.maps.push_back(renderer.readMap(view.tile.layer));
+        }
+        for (const vulkan::PassRecord& record : times.passes) {
+            if (std::string_view(record.name) == "shadow maps") {
+                drawn.draws += record.draws;
+                drawn.vertices += record.vertex_invocations;
+            }
+        }
+        drawn.messages = gpu.messages();
+        return drawn;
+    }
+
+    scene::Scene scene_ = smallScene(); // a masked caster is in it
+    scene::State state_ = scene::evaluate(scene_, 0.0);
+    std::vector<ShadedLight> lights_ = lightsOf(scene_, state_);
+};
+
+TEST_P(CascadePasses, GiveTheSameMapsBitForBit)
+{
+    const Drawn each = draw(CascadePass::each);
+    const Drawn layered = draw(CascadePass::layered);
+    ASSERT_GT(each.maps.size(), GetParam().count) << "a sun's, and some of the spot's";
+    ASSERT_EQ(layered.maps.size(), each.maps.size());
+    for (std::size_t view = 0; view < each.maps.size(); ++view) {
+        EXPECT_TRUE(each.maps[view].values == layered.maps[view].values) << "view " << view;
+    }
+    for (std::size_t light = 0; light < each.masks.size(); ++light) {
+        EXPECT_EQ(each.masks[light].values, layered.masks[light].values) << "light " << light;
+    }
+    EXPECT_EQ(each.together, 0U);
+    EXPECT_GE(layered.together, 2U);
+    EXPECT_LT(layered.draws, each.draws);
+    EXPECT_EQ(layered.vertices, each.vertices) << "what casts in a map is drawn to it, and no more";
+    EXPECT_EQ(each.messages, std::vector<std::string>{});
+    EXPECT_EQ(layered.messages, std::vector<std::string>{});
+}
+
+// Where it is left open, both ways are timed before the second frame, and what follows is the same whichever won.
+TEST_P(CascadePasses, AreChosenByTimingThemOnce)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    Renderer renderer(gpu, scene_, state_, optionsWith(CascadePass::automatic));
+    const FrameTimes first_times = renderer.draw(state_, smallEye(), lights_);
+    EXPECT_EQ(renderer.cascadePass(), CascadePass::automatic);
+    EXPECT_EQ(first_times.reuse.together, 0U);
+    const std::vector<ImageF> first = renderer.read({.colour = false, .masks = true}).masks;
+    renderer.draw(state_, smallEye(), lights_);
+    const CascadePass chosen = renderer.cascadePass();
+    EXPECT_NE(chosen, CascadePass::automatic);
+    const std::vector<ImageF> second = renderer.read({.colour = false, .masks = true}).masks;
+    for (std::size_t light = 0; light < first.size(); ++light) {
+        EXPECT_EQ(first[light].values, second[light].values);
+    }
+    Renderer again(gpu, scene_, state_, optionsWith(CascadePass::automatic));
+    again.draw(state_, smallEye(), lights_);
+    again.draw(state_, smallEye(), lights_);
+    EXPECT_EQ(again.cascadePass(), chosen) << "it was known already";
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CascadePasses,
+    testing::Values(PassCase{"pcf_d32f_2", Partition::cascades, Fit::uniform, Filter::pcf, MapFormat::d32f, 2},
+                    PassCase{"hard_r32f_4", Partition::cascades, Fit::uniform, Filter::hard, MapFormat::r32f, 4},
+                    PassCase{"pcf_lispsm_d16_6", Partition::cascades, Fit::lispsm, Filter::pcf, MapFormat::d16, 6},
+                    PassCase{"pcf_sdsm_d32f_4", Partition::sdsm, Fit::uniform, Filter::pcf, MapFormat::d32f, 4},
+                    PassCase{"hard_sdsm_tsm_r32f_3", Partition::sdsm, Fit::tsm, Filter::hard, MapFormat::r32f, 3}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST(CascadePassOptions, AreRefusedForMapsThatAreAveraged)
+{
+    const scene::Scene scene = smallScene();
+    const scene::State state = scene::evaluate(scene, 0.0);
+    Gpu gpu({.gpu = "software", .validate = true});
+    RenderOptions options;
+    options.width = 32;
+    options.height = 20;
+    options.plan.technique.filter = Filter::vsm;
+    options.filter.filter = Filter::vsm;
+    options.filter.format = MapFormat::rg16f;
+    options.cascade_pass = CascadePass::layered;
+    EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
+    options.cascade_pass = CascadePass::automatic;
+    EXPECT_EQ(Renderer(gpu, scene, state, options).cascadePass(), CascadePass::each);
+}
+
+// --- The choice, without a clock
+
+constexpr CascadeChoices::Drawn kDrawn{MapFormat::d32f, 1024, 4, 1000};
+
+/// The times of each way, turn after turn.
+class Times {
+public:
+    Times(std::vector<double> each, std::vector<double> layered) : times_{std::move(each), std::move(layered)} {}
+
+    CascadeChoices::TimeOf of()
+    {
+        return [this](CascadePass pass) {
+            const std::size_t way = pass == CascadePass::layered ? 1 : 0;
+            return times_[way].at(asked_[way]++);
+        };
+    }
+    [[nodiscard]] std::size_t asked() const { return asked_[0] + asked_[1]; }
+
+private:
+    std::vector<double> times_[2];
+    std::size_t asked_[2] = {0, 0};
+};
+
+TEST(CascadeChoice, TakesTheWayWhoseBestTurnIsShorter)
+{
+    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({9, 2, 3}, {1.9, 7, 8}).of()), CascadePass::layered);
+    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({9, 2, 3}, {2.1, 7, 8}).of()), CascadePass::each);
+    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({2, 2, 2}, {2, 2, 2}).of()), CascadePass::each) << "a tie";
+}
+
+TEST(CascadeChoice, IsEachWithoutAClock)
+{
+    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({0, 0, 0}, {0, 0, 0}).of()), CascadePass::each);
+    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({1, 1, 1}, {0, 0, 0}).of()), CascadePass::each);
+}
+
+TEST(CascadeChoice, IsKeptForTheSameAndTimedAnewForAnother)
+{
+    CascadeChoices choices;
+    Times first({2, 2, 2}, {1, 1, 1});
+    EXPECT_EQ(choices.settle(kDrawn, first.of()), CascadePass::layered);
+    EXPECT_EQ(first.asked(), 6U);
+    Times other({1, 1, 1}, {2, 2, 2});
+    EXPECT_EQ(choices.settle(kDrawn, other.of()), CascadePass::layered);
+    EXPECT_EQ(other.asked(), 0U) << "known";
+    for (int member = 0; member < 4; ++member) {
+        CascadeChoices::Drawn drawn = kDrawn;
+        drawn.format = member == 0 ? MapFormat::d16 : drawn.format;
+        drawn.map_size += member == 1 ? 1 : 0;
+        drawn.views += member == 2 ? 1 : 0;
+        drawn.triangles += member == 3 ? 1 : 0;
+        Times more({1, 1, 1}, {2, 2, 2});
+        EXPECT_EQ(choices.settle(drawn, more.of()), CascadePass::each) << member;
+    }
+}
+
+} // namespace
+} // namespace gnomon::host::test
