@@ -3,7 +3,8 @@
 // clip_from_world * p (of a MapPass with a `placement`: casterPlaced() of that) and pass on casterMetric(). In the
 // fragment shader of a map with a colour format write to it casterTexel(), with kDepthBytes for R8G8B8A8_UNORM and
 // kDepthAlone for all others; of a depth-only map that says MapPassFormats::write_frag_depth, write casterStored() to
-// gl_FragDepth; else nothing, because the rasteriser's depth is the metric then.
+// gl_FragDepth; else nothing, because the rasteriser's depth is the metric then. In a pass of several views (MapPass::
+// view_count) write the view's number to gl_Layer, too.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"

@@ -4,6 +4,7 @@
 #include "worlds.h"
 
 #include <cascade_fit.h>
+#include <gnomon/plan_views.h>
 #include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
@@ -195,6 +196,52 @@ TEST(Cascades, HoldWhatTheyServe)
         }
     }
     EXPECT_GT(checked, 5000);
+}
+
+TEST(ViewsTogether, AreThoseOfOneLightInConsecutiveLayersThatAreDrawnAtOnce)
+{
+    const Ground ground;
+    const Plan plan = ground.plan(cascades(4));
+    ASSERT_EQ(plan.views.size(), 4U);
+    EXPECT_EQ(viewsTogether(plan, 0), 4U);
+    EXPECT_EQ(viewsTogether(plan, 1), 3U);
+    EXPECT_EQ(viewsTogether(plan, 3), 1U);
+    const auto with = [&](auto change) {
+        Plan changed = plan;
+        change(changed.views[2]);
+        return viewsTogether(changed, 0);
+    };
+    EXPECT_EQ(with([](View&) {}), 4U);
+    EXPECT_EQ(with([](View& view) { view.redraw = false; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.light = 1; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.sun = SunPosition::later; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.kept_layer = 0; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.part = TexelPart::first; }), 2U);
+    EXPECT_EQ(with([](View& view) { ++view.tile.layer; }), 2U);
+    EXPECT_EQ(with([](View& view) { ++view.tile.x; }), 2U);
+    EXPECT_EQ(with([](View& view) { --view.tile.height; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.orthographic = !view.orthographic; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.clamp_near = !view.clamp_near; }), 2U);
+    EXPECT_EQ(with([](View& view) { view.gpu_cascade = 2; }), 2U);
+}
+
+TEST(ViewsTogether, OfAPlanThatIsDrawnWholeHoldViewsThatNeedNoDrawing)
+{
+    const Ground ground;
+    Plan plan = ground.plan(cascades(4));
+    plan.views[0].redraw = false;
+    plan.views[2].redraw = false;
+    EXPECT_EQ(viewsTogether(plan, 0), 1U);
+    EXPECT_EQ(viewsTogether(plan, 1), 1U);
+    EXPECT_EQ(viewsTogether(plan, 0, true), 4U);
+}
+
+TEST(ViewsTogether, AreAllCascadesThatTheGpuFits)
+{
+    const Ground ground;
+    PlanOptions options = cascades(6);
+    options.technique.partition = Partition::sdsm;
+    EXPECT_EQ(viewsTogether(ground.plan(options), 0), 6U);
 }
 
 } // namespace
