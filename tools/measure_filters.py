@@ -23,11 +23,11 @@ ratios to the frame without shadows of the same run; with --repetitions 1, which
 
 import argparse
 import functools
-import json
 import math
-import subprocess
 import sys
 from pathlib import Path
+
+from measuring import cell, run
 
 # Name, scene, options of its view, whether it is one of the scenes of overlapping casters.
 VIEWS = [
@@ -88,12 +88,7 @@ class Runner:
         self.options = options
 
     def run(self, command, scene, view, arguments):
-        line = [self.options.gnomon, command, scene, *view, *arguments, "--size", self.options.size, "--json", "-"]
-        print(" ".join(line), file=sys.stderr)
-        done = subprocess.run(line, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise SystemExit(f"{' '.join(line)}: {done.stderr.strip()}")
-        return json.loads(done.stdout)
+        return run(self.options.gnomon, command, [scene, *view, *arguments, "--size", self.options.size])
 
     def compare(self, scene, view, techniques, truth, repetitions):
         """The whole result, its techniques best first; `truth` is "hard" or "area"."""
@@ -180,10 +175,6 @@ def side_where(wanted, sides, frames):
             part = (wanted - frames[i - 1]) / (frames[i] - frames[i - 1])
             return even(math.sqrt((1.0 - part) * sides[i - 1] ** 2 + part * sides[i] ** 2))
     return sides[-1] if frames[-1] <= wanted else sides[0]
-
-
-def cell(value, digits=4):
-    return "–" if value is None else f"{value:.{digits}f}"
 
 
 def numbers_of(result, timed):

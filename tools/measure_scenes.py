@@ -10,10 +10,10 @@ status is then 1.
 """
 
 import argparse
-import json
-import subprocess
 import sys
 from pathlib import Path
+
+from measuring import cell, run
 
 # Name of the table, scene, options of its view. The files' views are those of their index.
 VIEWS = [
@@ -34,14 +34,8 @@ CLASSES = ["edge", "acne", "detached", "bleeding"]
 
 def compare(options, gnomon: str, scene: str, view: list[str], truth: list[str]):
     view = [o for i, o in enumerate(view) if truth[1] == "area" or o != "--light-size" and view[i - 1] != "--light-size"]
-    command = [gnomon, "compare", scene, *view, *truth, "--size", options.size, "--map-size", str(options.map_size),
-               "--techniques", options.techniques, "--repetitions", "1", "--warmup", "0", "--json", "-"]
-    print(" ".join(command), file=sys.stderr)
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-
-
-def cell(value, digits: int = 4) -> str:
-    return "–" if value is None else f"{value:.{digits}f}"
+    return run(gnomon, "compare", [scene, *view, *truth, "--size", options.size, "--map-size", str(options.map_size),
+                                   "--techniques", options.techniques, "--repetitions", "1", "--warmup", "0"])
 
 
 def class_cells(error) -> str:
@@ -57,7 +51,7 @@ def table(name: str, runs) -> str:
     lines = [f"### {name}", "", f"{counted} pixels count; the area truth's own noise is {main['truth']['standard_error']:.4f}.", "",
              f"| technique | {head} | bias | edge % | acne % | detached % | bleeding % | ssim | flip | fit efficiency |",
              "|---|" + "---|" * (len(runs) + 8)]
-    by_name = [{r["technique"]: r for r in run["results"]} for _, run in runs]
+    by_name = [{r["technique"]: r for r in one["results"]} for _, one in runs]
     for row in sorted(main["results"], key=lambda r: r["error"]["rmse"]):
         error = row["error"]
         rmses = " | ".join(cell(results[row["technique"]]["error"]["rmse"]) for results in by_name)
