@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What fits and partitions win and lose, as Markdown on stdout: the tables of docs/measurements.md.
+"""What fits and partitions win and lose, as Markdown on stdout: the tables of docs/which-fit.md and docs/measurements.md.
 
 usage: measure_fits.py [--tables LIST] [--only NAMES] [--size WxH] [--samples N] [--map-size N] GNOMON SHARED
 
 GNOMON is the program, SHARED the folder that holds scenes/. The tables, of which --tables picks some:
 
-density   texels per pixel along the worse axis, 1st and 50th percentile, of every fit with single maps and four cascades,
-          and what that is of uniform's; all techniques have the same number of texels in all
+density   texels per pixel along the worse axis, 1st and 50th percentile, of every fit with single maps, cascades and sdsm,
+          and of snap, and what that is of uniform's; all techniques have the same number of texels in all
 error     rmse against area truth of the sun's own size with hard and pcf, likewise, and the density beside it
 
-A technique of four cascades has maps of half the side. One that fell back says so. --only names scenes by words in their
+A technique of four maps has maps of half the side. One that fell back says so. --only names scenes by words in their
 names. A scene that is not there is named on stderr and left out, and the exit status is then 1.
 """
 

@@ -2,6 +2,8 @@
 // The options of what is planned: how far shadows reach, and how cascades divide the view. A new one is one row here.
 #include "setting_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gnomon::app {
@@ -24,11 +26,12 @@ bool hasDistance(const Settings& s)
     return s.plan.max_distance_m > 0.0;
 }
 
-/// Ends given before hold for their own number of cascades only.
+/// Ends hold for their own number of cascades only: of both what is said last holds, and the other says so too.
 void applyCount(Settings& s, const Value& v)
 {
     s.plan.cascades.count = static_cast<std::uint32_t>(v.integer);
     s.plan.cascades.ends_m = {};
+    s.values.erase("cascades.ends");
 }
 
 void applyEnds(Settings& s, const Value& v)
@@ -44,6 +47,7 @@ void applyEnds(Settings& s, const Value& v)
     cascades.ends_m = {};
     std::copy(v.numbers.begin(), v.numbers.end(), cascades.ends_m.begin());
     cascades.count = static_cast<std::uint32_t>(v.numbers.size()) + 1;
+    s.values["cascades.count"] = fmt::format("{}", cascades.count);
 }
 
 /// Filterable maps are made one by one.

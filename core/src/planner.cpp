@@ -50,10 +50,9 @@ struct Position {
     SunPosition sun = SunPosition::only;
     bool read = true; // in this frame
     TexelPart part = TexelPart::whole;
-    std::uint32_t first_layer = 0;
-    std::uint32_t layer_step = 1; // from slice to slice
+    std::uint32_t first_layer = 0; // its maps' layers follow each other, so that one pass can draw them
     std::uint32_t first_kept = kNoIndex;
-    std::uint32_t kept_step = 1;
+    std::uint32_t count = 1; // of maps
 };
 
 /// Of what becomes of a light's slices, the highest is what is said of the light.
@@ -227,14 +226,14 @@ std::optional<Position> Planner::Impl::takeRoom(const Light& light)
 {
     const auto count = static_cast<std::uint32_t>(slices.size()) * (fits_on_gpu ? options.cascades.count : 1);
     Position room;
-    room.kept_step = pairs(light) ? 2 : 1;
-    room.layer_step = pairs(light) && !options.paired_maps ? 2 : 1;
+    room.count = count;
     room.part = options.paired_maps ? TexelPart::first : TexelPart::whole;
-    const std::optional<std::uint32_t> first_layer = atlas.take(count * room.layer_step);
+    const std::optional<std::uint32_t> first_layer =
+        atlas.take(pairs(light) && !options.paired_maps ? 2 * count : count);
     if (!first_layer)
         return std::nullopt;
     room.first_layer = *first_layer;
-    const std::uint32_t kept = count * room.kept_step;
+    const std::uint32_t kept = pairs(light) ? 2 * count : count;
     if (keeps(light) && kept <= options.max_layers - std::min(plan.kept_layers, options.max_layers)) {
         room.first_kept = plan.kept_layers;
         plan.kept_layers += kept;
@@ -290,11 +289,11 @@ void Planner::Impl::planPositions(const Frame& frame, const Position& room, std:
         position.read = !steps.alternate || position.sun == steps.read;
         if (pair) {
             const std::uint32_t slot = later ? 1 - earlier_slot : earlier_slot;
-            position.first_kept = room.first_kept == kNoIndex ? kNoIndex : room.first_kept + slot;
+            position.first_kept = room.first_kept == kNoIndex ? kNoIndex : room.first_kept + slot * room.count;
             if (options.paired_maps)
                 position.part = slot == 0 ? TexelPart::first : TexelPart::second;
             else
-                position.first_layer += slot;
+                position.first_layer += slot * room.count;
         }
         planPosition(frame, position, best);
     }
@@ -375,11 +374,11 @@ Outcome Planner::Impl::planView(const Frame& frame, const Position& position, st
     made.metric.far_m = range.far_m - place_m;
     const glm::dvec4 depth(space.depth_ws, -glm::dot(space.depth_ws, space.origin_ws) - range.near_m);
     made.metric.metric_ws = depth / (range.far_m - range.near_m);
-    made.tile = atlas.tile(position.first_layer + slice_index * position.layer_step);
+    made.tile = atlas.tile(position.first_layer + slice_index);
     made.part = position.part;
     made.redraw = position.read;
     if (position.first_kept != kNoIndex)
-        made.kept_layer = position.first_kept + slice_index * position.kept_step;
+        made.kept_layer = position.first_kept + slice_index;
     made.first_caster = first_caster;
     made.caster_count = static_cast<std::uint32_t>(casters.size());
     plan.views.push_back(made);

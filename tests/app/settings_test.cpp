@@ -28,6 +28,29 @@ TEST(Settings, KeysAreUnique)
     }
 }
 
+/// Each is a number of cascades; the other says the same or nothing, so that a technique's text makes it again.
+TEST(Settings, OfCascadesEndsAndCountTheLastHolds)
+{
+    const std::string ends = "cascades.ends=10/40";
+    const std::string count = "cascades.count=5";
+    const auto with = [](const std::string& one, const std::string& two) {
+        return settingsOf({"plan", "--partition", "cascades", "--set", one, "--set", two});
+    };
+    const app::Settings by_ends = with(count, ends);
+    EXPECT_EQ(by_ends.plan.cascades.count, 3U);
+    EXPECT_TRUE(by_ends.plan.cascades.explicitEnds());
+    EXPECT_EQ(by_ends.values.at("cascades.count"), "3");
+    const app::Settings by_count = with(ends, count);
+    EXPECT_EQ(by_count.plan.cascades.count, 5U);
+    EXPECT_FALSE(by_count.plan.cascades.explicitEnds());
+    EXPECT_FALSE(by_count.values.contains("cascades.ends"));
+    for (const app::Settings& one : {by_ends, by_count}) {
+        const app::Settings again = app::parseTechnique(settingsOf({"plan"}), app::describeTechnique(one));
+        EXPECT_EQ(again.plan.cascades.count, one.plan.cascades.count);
+        EXPECT_EQ(again.plan.cascades.ends_m, one.plan.cascades.ends_m);
+    }
+}
+
 TEST(Settings, CompareIsAgainstAreaTruthUnlessTold)
 {
     EXPECT_EQ(settingsOf({"compare"}).truth, truth::Kind::area);

@@ -203,6 +203,9 @@ TEST(StepsPlan, PositionsOfOneLightAreTwoRangesOfViews)
     EXPECT_EQ(viewsOf(plan, 0, SunPosition::earlier).size(), 2U);
     EXPECT_EQ(viewsOf(plan, 0, SunPosition::later).data(), plan.views.data() + 2);
     EXPECT_EQ(viewsOf(plan, 0, SunPosition::later).size(), 2U);
+    // The maps of a position lie in layers that follow each other: they can be drawn in one pass, where none is kept.
+    for (const std::uint32_t first : {0U, 2U})
+        EXPECT_EQ(plan.views[first + 1].tile.layer, plan.views[first].tile.layer + 1);
     EXPECT_EQ(strongerPosition(plan.lights[0].steps), SunPosition::earlier);
     Plan none = plan;
     none.lights[0].outcome.kind = OutcomeKind::no_caster;

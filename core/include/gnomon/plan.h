@@ -134,7 +134,7 @@ struct View {
     std::uint32_t light = 0;         // index into Frame::lights
     glm::dmat4 clip_from_world{1.0}; // z in [0, w] in front of the near plane; y down, as Vulkan has it
     DepthMetric metric;
-    bool orthographic = true; // then the rasteriser's z is the metric itself, up to rounding
+    bool orthographic = true; // neither a lamp's nor warped; then the rasteriser's z is the metric, up to rounding
     bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
     /// Side of a texel: metres across a directional light, or metres at 1 m distance from a light with a place. Of a
     /// warped map it is the longest of what is seen and lit.

@@ -69,8 +69,7 @@ private:
 /// - A sun that turns back goes back along its way, and the share with it. When the share has come to 0, `later` is
 ///   foretold anew, but only a quarter of a step later: a sun that trembles would have a map drawn in each frame.
 /// - Of a sun that has left its way sideways, by a quarter of a step, neither position's weight is nothing. So the
-/// share
-///   goes to its nearer end, twice as fast as the sun goes, whichever way, and there a right `later` is foretold.
+///   share goes to its nearer end, twice as fast as the sun goes, whichever way, and there a right `later` is foretold.
 /// - A sun that jumps (a step or more in one frame, or off its way in one frame; by time: half a degree more than twice
 ///   what its speed lets expect, or time that goes backward or on by a whole step) stands alone at its own place: what
 ///   is seen then is the sun's own jump.

@@ -113,8 +113,8 @@ struct MapPassFormats {
     VkFormat colour = VK_FORMAT_UNDEFINED;
     VkFormat depth = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// Perspective view into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample, each
-    /// has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
+    /// View not orthographic, into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample,
+    /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
     /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
     bool write_frag_depth = false;
 };
@@ -211,7 +211,7 @@ public:
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
-    [[nodiscard]] MapPassFormats mapFormats(bool orthographic) const;
+    [[nodiscard]] MapPassFormats mapFormats(bool orthographic) const; // for views with this View::orthographic
     [[nodiscard]] ImageRef mask() const; // R8 for one light, else RGBA8, one layer per four lights
     [[nodiscard]] ImageRef maps() const;
     [[nodiscard]] std::span<const MemoryUse> memory() const;
