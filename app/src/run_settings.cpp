@@ -243,7 +243,7 @@ const std::vector<Setting>& rows()
         {.key = "limit", .group = Group::run, .type = text, .form = "NAME=N", .doc = "raise a limit of the scene reader, as its message says", .repeatable = true,
          .apply = applyLimit},
 
-        {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; gnomon.png), last of --frames; or folder for all",
+        {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; gnomon.png), last of --frames; folder for all",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
