@@ -64,9 +64,10 @@ std::string sentence(const Settings& settings, const Shot& shot, const RenderTar
 {
     const std::string size = fmt::format("{}x{}", size_px.x, size_px.y);
     const std::uint32_t frames = settings.frames ? settings.frames->last - settings.frames->first + 1 : 1;
-    const std::string what = !settings.frames      ? size
-                             : target.oneForEach() ? fmt::format("{} frames", frames)
-                                                   : fmt::format("{}, last of {} frame{}", size, frames, frames == 1 ? "" : "s");
+    const std::string what = !settings.frames ? size
+                             : target.oneForEach()
+                                 ? fmt::format("{} frames", frames)
+                                 : fmt::format("{}, last of {} frame{}", size, frames, frames == 1 ? "" : "s");
     return fmt::format("{}: {} of {}, camera {}, {}, in {:.2f} s\n", target.path().string(), what, settings.scene,
                        shot.camera, how, seconds);
 }
