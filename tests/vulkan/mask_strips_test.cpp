@@ -101,36 +101,12 @@ SunSteps bandOf(double edge, double band, bool smooth)
     return steps;
 }
 
-struct Case {
-    const char* name;
-    Filter filter;
-    MapFormat format;
-    Slices slices;
-    bool paired_texels;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c)
-{
-    return out << c.name;
-}
-
-class MaskInStrips : public testing::TestWithParam<Case> {
-protected:
-    static Setting setting()
-    {
-        Setting setting;
-        setting.options.filter = GetParam().filter;
-        setting.options.format = GetParam().format;
-        setting.slices = GetParam().slices;
-        setting.paired_texels = GetParam().paired_texels;
-        return setting;
-    }
-};
+class MaskInStrips : public testing::TestWithParam<StepCase> {};
 
 TEST_P(MaskInStrips, isTheMaskDrawnAtOnce)
 {
-    Suns suns(setting());
-    AtOnce at_once(setting(), 1);
+    Suns suns(settingOf(GetParam()));
+    AtOnce at_once(settingOf(GetParam()), 1);
     // Edges amid pixels and between them, and a band that hangs out of the picture on either side.
     for (const double edge : {0.13, 0.5, 0.6031, 1.1}) {
         const std::vector<SunSteps> steps{bandOf(edge, 0.25, edge == 0.5)};
@@ -146,10 +122,10 @@ TEST_P(MaskInStrips, isTheMaskDrawnAtOnce)
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, MaskInStrips,
-                         testing::Values(Case{"hard", Filter::hard, MapFormat::d32f, Slices::one, false},
-                                         Case{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
-                                         Case{"pcf_rgba8", Filter::pcf, MapFormat::rgba8, Slices::one, true},
-                                         Case{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
+                         testing::Values(StepCase{"hard", Filter::hard, MapFormat::d32f, Slices::one, false},
+                                         StepCase{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
+                                         StepCase{"pcf_rgba8", Filter::pcf, MapFormat::rgba8, Slices::one, true},
+                                         StepCase{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 // Bands of several lights part the screen further.

@@ -80,6 +80,21 @@ shared::real4 ruleOf(const SunSteps& s)
 
 } // namespace
 
+Setting settingOf(const StepCase& c)
+{
+    Setting setting;
+    setting.options.filter = c.filter;
+    setting.options.format = c.format;
+    setting.slices = c.slices;
+    setting.paired_texels = c.paired_texels;
+    return setting;
+}
+
+std::ostream& operator<<(std::ostream& out, const StepCase& c)
+{
+    return out << c.name;
+}
+
 Suns::Suns(const Setting& setting_in, std::size_t lights, const vulkan::MemoryHooks& memory)
     : bench(kStepScreen, setting_in.options, true, false, memory), setting(setting_in)
 {

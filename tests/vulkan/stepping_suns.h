@@ -4,6 +4,7 @@
 
 #include "fixture.h"
 
+#include <ostream>
 #include <vector>
 
 namespace gnomon::test {
@@ -19,6 +20,17 @@ struct Setting {
     Slices slices = Slices::one;
     bool paired_texels = false;
 };
+
+/// One of the settings that a test runs with.
+struct StepCase {
+    const char* name;
+    Filter filter;
+    MapFormat format;
+    Slices slices;
+    bool paired_texels;
+};
+[[nodiscard]] Setting settingOf(const StepCase& c);
+std::ostream& operator<<(std::ostream& out, const StepCase& c);
 
 /// Suns, each with its positions as asked for; of the second one on they are the other way round.
 class Suns {

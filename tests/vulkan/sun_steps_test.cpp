@@ -10,30 +10,7 @@
 namespace gnomon::test {
 namespace {
 
-struct Case {
-    const char* name;
-    Filter filter;
-    MapFormat format;
-    Slices slices;
-    bool paired_texels;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c)
-{
-    return out << c.name;
-}
-
-Setting settingOf(const Case& c)
-{
-    Setting setting;
-    setting.options.filter = c.filter;
-    setting.options.format = c.format;
-    setting.slices = c.slices;
-    setting.paired_texels = c.paired_texels;
-    return setting;
-}
-
-class SteppingSun : public testing::TestWithParam<Case> {};
+class SteppingSun : public testing::TestWithParam<StepCase> {};
 
 TEST_P(SteppingSun, isABlendOfBothPositions)
 {
@@ -80,11 +57,11 @@ TEST_P(SteppingSun, isOneOrTheOtherBesideTheBand)
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, SteppingSun,
-                         testing::Values(Case{"hard", Filter::hard, MapFormat::d32f, Slices::one, false},
-                                         Case{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
-                                         Case{"pcf_rg16_cascades", Filter::pcf, MapFormat::rg16, Slices::two, true},
-                                         Case{"hard_rgba8", Filter::hard, MapFormat::rgba8, Slices::one, true},
-                                         Case{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
+                         testing::Values(StepCase{"hard", Filter::hard, MapFormat::d32f, Slices::one, false},
+                                         StepCase{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
+                                         StepCase{"pcf_rg16_cascades", Filter::pcf, MapFormat::rg16, Slices::two, true},
+                                         StepCase{"hard_rgba8", Filter::hard, MapFormat::rgba8, Slices::one, true},
+                                         StepCase{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 // Lights of one layer whose bands lie elsewhere, one without a band and one that takes no steps part the screen
