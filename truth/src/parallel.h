@@ -16,9 +16,10 @@ struct Tile {
     glm::uvec2 max{0};
 };
 
-/// Calls `work` once for each tile of an image of `size_px`, in any order, from options.threads threads, which have
-/// denormal numbers off as Embree asks. The calling thread reports progress. Returns false when cancelled: then tiles
-/// were left out. Throws what `work` or options.progress throws.
+/// Calls `work` once for each tile of an image of `size_px`, in any order. The calling thread and options.threads - 1
+/// others take the tiles, with denormal numbers off as Embree asks; where the system gives fewer threads, fewer do. The
+/// calling thread reports progress after each tile of its own. Returns false when cancelled: then tiles were left out.
+/// Throws what `work` or options.progress throws.
 [[nodiscard]] bool forEachTile(const glm::uvec2& size_px, const Options& options,
                                const std::function<void(const Tile&)>& work);
 
