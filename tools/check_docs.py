@@ -5,7 +5,7 @@
 usage: check_docs.py [--write] ROOT [GNOMON]
 
 - links and pictures in every .md file lead to a file;
-- README's C++ block is what examples/readme_snippet.cpp has between "README begin" and "README end";
+- README's C++ block is what tests/docs/readme_snippet.cpp has between "README begin" and "README end";
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them.
 Exit status 1 when something is not so.
@@ -39,14 +39,14 @@ def broken_links(root: Path) -> list[str]:
 
 
 def snippet_differences(root: Path) -> list[str]:
-    source = (root / "examples/readme_snippet.cpp").read_text(encoding="utf-8")
+    source = (root / "tests/docs/readme_snippet.cpp").read_text(encoding="utf-8")
     marked = re.search(r"^[^\n]*README begin[^\n]*\n(.*?)^[^\n]*README end", source, re.DOTALL | re.MULTILINE)
     if not marked:
-        return ['examples/readme_snippet.cpp: no lines between "README begin" and "README end"']
+        return ['tests/docs/readme_snippet.cpp: no lines between "README begin" and "README end"']
     code = textwrap.dedent(marked.group(1)).strip()
     blocks = re.findall(r"```cpp\n(.*?)```", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
     if not any(block.strip() == code for block in blocks):
-        return ["README.md: no C++ block is what examples/readme_snippet.cpp has between its marks"]
+        return ["README.md: no C++ block is what tests/docs/readme_snippet.cpp has between its marks"]
     return []
 
 

@@ -2,9 +2,8 @@
 // Views that the GPU fits: what is recorded for them, on a driver that only keeps count. That nothing waits for the GPU
 // and nothing is read back, and that what it finds changes nothing that the CPU does.
 #include "allocation_count.h"
+#include "null_driver.h"
 #include "scene.h"
-
-#include <gnomon/vulkan/null_driver.h>
 
 #include <gtest/gtest.h>
 
@@ -17,8 +16,6 @@ namespace gnomon::test {
 namespace {
 
 using vulkan::MapPass;
-using vulkan::NullDriver;
-using vulkan::NullEvent;
 using vulkan::ShadowRenderer;
 using vulkan::ShadowRendererOptions;
 using Kind = NullEvent::Kind;
@@ -34,9 +31,6 @@ struct Blocks {
                              const char* /*purpose*/, vulkan::MemoryBlock* block)
     {
         auto& blocks = *static_cast<Blocks*>(user);
-        static int handle = 0;
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): a number that nobody follows.
-        block->memory = reinterpret_cast<VkDeviceMemory>(std::uintptr_t{16} * static_cast<unsigned>(++handle));
         if ((properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
             blocks.mapped.push_back(std::make_unique<std::vector<std::byte>>(needs.size));
             block->mapped = blocks.mapped.back()->data();

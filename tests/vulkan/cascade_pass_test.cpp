@@ -2,9 +2,9 @@
 // Cascades drawn each in a pass of its own and together in one: the same maps, bit for bit.
 #include "cpu_map.h"
 #include "fixture.h"
+#include "null_driver.h"
 
 #include <gnomon/error.h>
-#include <gnomon/vulkan/null_driver.h>
 
 #include <gtest/gtest.h>
 
@@ -221,9 +221,6 @@ INSTANTIATE_TEST_SUITE_P(Formats, CascadePasses,
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 // --- On the driver that only counts
-
-using vulkan::NullDriver;
-using vulkan::NullEvent;
 
 class NullCascades {
 public:

@@ -2,8 +2,7 @@
 // Where filterable maps end: the largest exponents that a format holds, and maps that hold, which cost nothing.
 #include "moment_bench.h"
 #include "moment_numbers.h"
-
-#include <gnomon/vulkan/null_driver.h>
+#include "null_driver.h"
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
@@ -74,8 +73,8 @@ TEST(MipLevels, areThoseThatATileCanHave)
 TEST(MomentCounts, areMadeVisibleToTheHostLast)
 {
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
-        using Kind = vulkan::NullEvent::Kind;
-        vulkan::NullDriver driver;
+        using Kind = NullEvent::Kind;
+        NullDriver driver;
         vulkan::ShadowRendererOptions options;
         options.filter = momentFilter(Filter::vsm, MapFormat::rg32f);
         options.filter.moments.blur = BlurKind::gaussian;
@@ -85,11 +84,11 @@ TEST(MomentCounts, areMadeVisibleToTheHostLast)
         (void)renderer.prepare(plan, {8, 8});
         renderer.recordMaps(driver.commands(), 0, Frame(), plan, [](const vulkan::MapPass&) {});
         const auto events = driver.events();
-        const auto last_work = std::find_if(events.rbegin(), events.rend(), [](const vulkan::NullEvent& event) {
+        const auto last_work = std::find_if(events.rbegin(), events.rend(), [](const NullEvent& event) {
             return event.kind == Kind::dispatch || event.kind == Kind::end_rendering;
         });
         ASSERT_NE(last_work, events.rend());
-        EXPECT_TRUE(std::any_of(events.rbegin(), last_work, [](const vulkan::NullEvent& event) {
+        EXPECT_TRUE(std::any_of(events.rbegin(), last_work, [](const NullEvent& event) {
             return event.kind == Kind::memory_barrier && event.target_stages == VK_PIPELINE_STAGE_2_HOST_BIT &&
                    event.target_access == VK_ACCESS_2_HOST_READ_BIT;
         })) << nameOf(path);

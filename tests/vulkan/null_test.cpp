@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is recorded, checked on a driver that only keeps count.
 #include "allocation_count.h"
+#include "null_driver.h"
 #include "scene.h"
 
 #include <gnomon/error.h>
-#include <gnomon/vulkan/null_driver.h>
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,6 @@ namespace {
 using vulkan::CasterDrawer;
 using vulkan::CasterDrawerOptions;
 using vulkan::MapPass;
-using vulkan::NullDriver;
-using vulkan::NullEvent;
 using vulkan::Profiler;
 using vulkan::ShadowRenderer;
 using vulkan::ShadowRendererOptions;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is recorded for a stepping sun and for kept maps, checked on a driver that only keeps count.
 #include "allocation_count.h"
+#include "null_driver.h"
 #include "scene.h"
-
-#include <gnomon/vulkan/null_driver.h>
 
 #include <gtest/gtest.h>
 
@@ -12,8 +11,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::NullDriver;
-using vulkan::NullEvent;
 using vulkan::ShadowRenderer;
 using Kind = NullEvent::Kind;
 

@@ -29,8 +29,8 @@ struct DeviceView {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    /// Where functions come from. All are looked up through it, so a host may hand in a loader, a layer or a mock
-    /// (null_driver.h). Not null.
+    /// Where functions come from. All are looked up through it, so a host may hand in a loader, a layer or a mock.
+    /// Not null.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     MemoryHooks memory;        // empty: a dedicated allocation per resource
     bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes

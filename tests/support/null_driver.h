@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Vulkan driver that does nothing but keep count: recording logic can be tested in milliseconds, without a GPU, and
-// made to run out of memory at will. It knows the functions that this library calls and no others.
+// made to run out of memory at will. It knows the functions that this library calls and no others. It also knows which
+// objects the commands of a frame in flight use, and counts what is freed or changed too early.
 #pragma once
 
 #include <gnomon/vulkan/device_view.h>
@@ -9,11 +10,12 @@
 #include <memory>
 #include <span>
 
-namespace gnomon::vulkan {
+namespace gnomon::test {
 
 struct NullCounts {
     std::uint64_t created = 0; // objects, command buffers and descriptor sets apart
     std::uint64_t destroyed = 0;
+    std::uint64_t pipelines = 0;   // created, of either kind
     std::uint64_t allocations = 0; // vkAllocateMemory
     std::uint64_t frees = 0;
     std::uint64_t bytes = 0;              // allocated now
@@ -23,6 +25,11 @@ struct NullCounts {
     std::uint64_t indirect_draws = 0;     // draw count of vkCmdDrawIndexedIndirect
     std::uint64_t instances = 0;          // of the indirect draws
     std::uint64_t indices = 0;            // of the indirect draws, over all instances
+    /// Mistakes. Objects, their memory included, that were destroyed while commands of a slot that has not come round
+    /// again use them; descriptor sets written while they are in such use; and commands that name what is destroyed.
+    std::uint64_t freed_in_use = 0;
+    std::uint64_t written_in_use = 0;
+    std::uint64_t used_after_free = 0;
 };
 
 struct NullEvent {
@@ -65,10 +72,18 @@ public:
     NullDriver(const NullDriver&) = delete;
     NullDriver& operator=(const NullDriver&) = delete;
 
-    [[nodiscard]] DeviceView view();
+    [[nodiscard]] vulkan::DeviceView view();
     [[nodiscard]] VkCommandBuffer commands(); // the only one
     [[nodiscard]] VkBuffer makeBuffer();      // some handle to bind; not counted
     [[nodiscard]] VkImageView makeView();     // likewise
+    /// Destroys a view of makeView() and makes another one that has the same handle, as a driver is free to.
+    void remakeView(VkImageView view);
+
+    /// The frame that was recorded with this slot has finished; what is recorded from here on is a new frame of it,
+    /// which is pending until the next call with the same slot. Slots below 32. At first, slot 0.
+    void beginSlot(std::uint32_t slot);
+    /// All frames have finished, the current one too.
+    void finishAll();
 
     [[nodiscard]] const NullCounts& counts() const;
     /// What was recorded since the last clearEvents(), the first 65536 of it; keeping it allocates nothing.
@@ -86,4 +101,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-} // namespace gnomon::vulkan
+} // namespace gnomon::test

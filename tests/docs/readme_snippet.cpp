@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The README's lines of library use, run against the driver that does nothing.
+#include "null_driver.h"
+
 #include <gnomon/planner.h>
-#include <gnomon/vulkan/null_driver.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,7 +11,7 @@
 
 int main()
 {
-    gnomon::vulkan::NullDriver engine;
+    gnomon::test::NullDriver engine;
     const VkCommandBuffer commands = engine.commands();
     const VkImageView depth_view = engine.makeView();
     const VkExtent2D screen{1280, 720};

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "null_driver.h"
+
+#include "null_state.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gnomon::test {
+
+void NullDriver::Impl::use(NullObject* object)
+{
+    if (object == nullptr) {
+        return;
+    }
+    counts.used_after_free += object->destroyed ? 1 : 0;
+    object->slots |= 1U << slot;
+    use(object->memory);
+    for (NullObject* const part : object->parts) {
+        use(part);
+    }
+}
+
+void NullDriver::Impl::destroy(NullObject* object)
+{
+    assert(!object->destroyed);
+    counts.freed_in_use += object->slots != 0 ? 1 : 0;
+    object->destroyed = true;
+}
+
+void NullDriver::Impl::log(const NullEvent& event)
+{
+    if (events.size() < kMostNullEvents) {
+        events.push_back(event);
+    }
+}
+
+NullDriver::NullDriver(const NullLimits& limits) : impl_(std::make_unique<Impl>())
+{
+    impl_->limits = limits;
+    impl_->events.reserve(kMostNullEvents);
+}
+
+NullDriver::~NullDriver() = default;
+
+vulkan::DeviceView NullDriver::view()
+{
+    vulkan::DeviceView view;
+    view.instance = reinterpret_cast<VkInstance>(impl_.get());
+    view.physical_device = reinterpret_cast<VkPhysicalDevice>(impl_.get());
+    view.device = reinterpret_cast<VkDevice>(impl_.get());
+    view.get_instance_proc_addr = nullInstanceProcAddr;
+    view.layered = true;
+    return view;
+}
+
+VkCommandBuffer NullDriver::commands()
+{
+    return reinterpret_cast<VkCommandBuffer>(impl_.get());
+}
+
+VkBuffer NullDriver::makeBuffer()
+{
+    return makeObject<VkBuffer>(*impl_);
+}
+
+VkImageView NullDriver::makeView()
+{
+    const auto view = makeObject<VkImageView>(*impl_);
+    objectOf(view)->parts.push_back(objectOf(makeObject<VkImage>(*impl_)));
+    return view;
+}
+
+void NullDriver::remakeView(VkImageView view)
+{
+    NullObject& object = *objectOf(view);
+    // What was written to a set is the view as it was; what it is a view of is gone.
+    impl_->destroy(object.parts.front());
+    for (const auto& other : impl_->objects) {
+        std::replace(other->parts.begin(), other->parts.end(), &object, object.parts.front());
+    }
+    object.parts = {objectOf(makeObject<VkImage>(*impl_))};
+    object.slots = 0;
+}
+
+void NullDriver::beginSlot(std::uint32_t slot)
+{
+    for (const auto& object : impl_->objects) {
+        object->slots &= ~(1U << slot);
+    }
+    impl_->slot = slot;
+}
+
+void NullDriver::finishAll()
+{
+    for (const auto& object : impl_->objects) {
+        object->slots = 0;
+    }
+}
+
+const NullCounts& NullDriver::counts() const
+{
+    return impl_->counts;
+}
+
+std::span<const NullEvent> NullDriver::events() const
+{
+    return impl_->events;
+}
+
+void NullDriver::clearEvents()
+{
+    impl_->events.clear();
+}
+
+void NullDriver::setMemory(std::uint64_t bytes)
+{
+    impl_->limits.memory_bytes = bytes;
+}
+
+void NullDriver::hideFormatFeatures(VkFormatFeatureFlags features)
+{
+    impl_->hidden_features = features;
+}
+
+void NullDriver::hideFunction(const char* name)
+{
+    impl_->hidden = name;
+}
+
+} // namespace gnomon::test

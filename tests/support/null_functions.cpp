@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// The null driver's functions for the device, its memory and its objects, and the look-up of all.
+#include "null_state.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace gnomon::test {
+namespace {
+
+// --- Instance and physical device
+
+VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
+{
+    *properties = {};
+    properties->apiVersion = VK_API_VERSION_1_3;
+    std::strcpy(properties->deviceName, "null");
+    properties->limits.maxImageDimension2D = driverOf(device).limits.max_image_size;
+    properties->limits.maxImageArrayLayers = driverOf(device).limits.max_image_layers;
+    properties->limits.minUniformBufferOffsetAlignment = 256;
+    properties->limits.maxStorageBufferRange = 1U << 27U;
+    properties->limits.timestampPeriod = 1.0F;
+}
+
+VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* properties)
+{
+    *properties = {};
+    properties->memoryTypeCount = 1;
+    properties->memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT |
+                                               VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                               VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    properties->memoryHeapCount = 1;
+}
+
+VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat, VkFormatProperties* properties)
+{
+    *properties = {};
+    properties->optimalTilingFeatures = ~driverOf(device).hidden_features;
+}
+
+// All that were asked for are there. A structure of features is its head and VkBool32s.
+VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features)
+{
+    constexpr std::pair<VkStructureType, std::size_t> kSizes[] = {
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, sizeof(VkPhysicalDeviceFeatures2)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, sizeof(VkPhysicalDeviceVulkan11Features)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, sizeof(VkPhysicalDeviceVulkan12Features)},
+        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, sizeof(VkPhysicalDeviceVulkan13Features)}};
+    for (auto* next = reinterpret_cast<VkBaseOutStructure*>(features); next != nullptr; next = next->pNext) {
+        for (const auto& [type, size] : kSizes) {
+            if (next->sType == type) {
+                std::fill_n(reinterpret_cast<VkBool32*>(next + 1), (size - sizeof *next) / sizeof(VkBool32), VK_TRUE);
+            }
+        }
+    }
+}
+
+// --- Memory, buffers, images
+
+VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                              const VkAllocationCallbacks*, VkDeviceMemory* memory)
+{
+    NullDriver::Impl& driver = driverOf(device);
+    if (driver.counts.bytes + info->allocationSize > driver.limits.memory_bytes) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    ++driver.counts.allocations;
+    driver.counts.bytes += info->allocationSize;
+    *memory = makeObject<VkDeviceMemory>(driver);
+    objectOf(*memory)->size = info->allocationSize;
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks*)
+{
+    NullObject* const object = objectOf(memory);
+    ++driverOf(device).counts.frees;
+    driverOf(device).counts.bytes -= object->size;
+    driverOf(device).destroy(object);
+    std::free(std::exchange(object->mapped, nullptr));
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize,
+                                         VkMemoryMapFlags, void** data)
+{
+    NullObject* const object = objectOf(memory);
+    if (object->mapped == nullptr) {
+        object->mapped = std::calloc(1, object->size);
+    }
+    *data = static_cast<char*>(object->mapped) + offset;
+    return object->mapped != nullptr ? VK_SUCCESS : VK_ERROR_MEMORY_MAP_FAILED;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
+                                            const VkAllocationCallbacks*, VkBuffer* buffer)
+{
+    ++driverOf(device).counts.created;
+    *buffer = makeObject<VkBuffer>(driverOf(device));
+    objectOf(*buffer)->size = info->size;
+    return VK_SUCCESS;
+}
+
+// An image has four bytes for each texel.
+VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks*,
+                                           VkImage* image)
+{
+    ++driverOf(device).counts.created;
+    *image = makeObject<VkImage>(driverOf(device));
+    objectOf(*image)->size = VkDeviceSize{info->extent.width} * info->extent.height * info->arrayLayers * 4;
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createView(VkDevice device, const VkImageViewCreateInfo* info,
+                                          const VkAllocationCallbacks*, VkImageView* view)
+{
+    ++driverOf(device).counts.created;
+    *view = makeObject<VkImageView>(driverOf(device));
+    objectOf(*view)->parts.push_back(objectOf(info->image));
+    return VK_SUCCESS;
+}
+
+template <class Handle>
+VKAPI_ATTR void VKAPI_CALL getNeeds(VkDevice, Handle resource, VkMemoryRequirements* needs)
+{
+    *needs = {objectOf(resource)->size, 16, 1};
+}
+
+template <class Handle>
+VKAPI_ATTR VkResult VKAPI_CALL bind(VkDevice, Handle resource, VkDeviceMemory memory, VkDeviceSize offset)
+{
+    objectOf(resource)->memory = objectOf(memory);
+    objectOf(resource)->offset = offset;
+    return VK_SUCCESS;
+}
+
+// --- Other objects
+
+template <class Info, class Handle>
+VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const Info*, const VkAllocationCallbacks*, Handle* handle)
+{
+    ++driverOf(device).counts.created;
+    *handle = makeObject<Handle>(driverOf(device));
+    return VK_SUCCESS;
+}
+
+template <class Handle>
+VKAPI_ATTR void VKAPI_CALL destroy(VkDevice device, Handle handle, const VkAllocationCallbacks*)
+{
+    ++driverOf(device).counts.destroyed;
+    driverOf(device).destroy(objectOf(handle));
+}
+
+template <class Info>
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count, const Info*,
+                                               const VkAllocationCallbacks*, VkPipeline* pipelines)
+{
+    driverOf(device).counts.created += count;
+    driverOf(device).counts.pipelines += count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        pipelines[i] = makeObject<VkPipeline>(driverOf(device));
+    }
+    return VK_SUCCESS;
+}
+
+// The first part of a set is its pool; the others are what was written to it, binding after binding.
+VKAPI_ATTR VkResult VKAPI_CALL allocateSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
+                                            VkDescriptorSet* sets)
+{
+    for (std::uint32_t i = 0; i < info->descriptorSetCount; ++i) {
+        sets[i] = makeObject<VkDescriptorSet>(driverOf(device));
+        objectOf(sets[i])->parts.push_back(objectOf(info->descriptorPool));
+    }
+    return VK_SUCCESS;
+}
+
+constexpr std::size_t kMostElements = 64; // of one binding
+
+NullObject* writtenObject(const VkWriteDescriptorSet& write, std::uint32_t i)
+{
+    switch (write.descriptorType) {
+    case VK_DESCRIPTOR_TYPE_SAMPLER:
+        return objectOf(write.pImageInfo[i].sampler);
+    case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
+    case VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE:
+    case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+        return objectOf(write.pImageInfo[i].imageView);
+    default:
+        return objectOf(write.pBufferInfo[i].buffer);
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL updateSets(VkDevice device, std::uint32_t count, const VkWriteDescriptorSet* writes,
+                                      std::uint32_t, const VkCopyDescriptorSet*)
+{
+    NullDriver::Impl& driver = driverOf(device);
+    ++driver.counts.descriptor_updates;
+    for (const VkWriteDescriptorSet& write : std::span(writes, count)) {
+        NullObject& set = *objectOf(write.dstSet);
+        driver.counts.written_in_use += set.slots != 0 ? 1 : 0;
+        for (std::uint32_t i = 0; i < write.descriptorCount; ++i) {
+            const std::size_t place = 1 + write.dstBinding * kMostElements + write.dstArrayElement + i;
+            set.parts.resize(std::max(set.parts.size(), place + 1));
+            set.parts[place] = writtenObject(write, i);
+        }
+    }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL getQueries(VkDevice, VkQueryPool, std::uint32_t, std::uint32_t, std::size_t bytes,
+                                          void* data, VkDeviceSize, VkQueryResultFlags)
+{
+    std::memset(data, 0, bytes);
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL resetQueries(VkDevice, VkQueryPool, std::uint32_t, std::uint32_t) {}
+
+// --- Look-up
+
+PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
+{
+    return nullInstanceProcAddr(reinterpret_cast<VkInstance>(device), name);
+}
+
+const NullEntry kEntries[] = {
+    GNOMON_NULL(GetDeviceProcAddr, getDeviceProcAddr),
+    GNOMON_NULL(GetPhysicalDeviceProperties, getProperties),
+    GNOMON_NULL(GetPhysicalDeviceMemoryProperties, getMemory),
+    GNOMON_NULL(GetPhysicalDeviceFormatProperties, getFormat),
+    GNOMON_NULL(GetPhysicalDeviceFeatures2, getFeatures),
+    GNOMON_NULL(AllocateMemory, allocateMemory),
+    GNOMON_NULL(FreeMemory, freeMemory),
+    GNOMON_NULL(MapMemory, mapMemory),
+    GNOMON_NULL(BindImageMemory, bind),
+    GNOMON_NULL(BindBufferMemory, bind),
+    GNOMON_NULL(CreateImage, createImage),
+    GNOMON_NULL(DestroyImage, destroy),
+    GNOMON_NULL(GetImageMemoryRequirements, getNeeds),
+    GNOMON_NULL(CreateImageView, createView),
+    GNOMON_NULL(DestroyImageView, destroy),
+    GNOMON_NULL(CreateBuffer, createBuffer),
+    GNOMON_NULL(DestroyBuffer, destroy),
+    GNOMON_NULL(GetBufferMemoryRequirements, getNeeds),
+    GNOMON_NULL(CreateSampler, create),
+    GNOMON_NULL(DestroySampler, destroy),
+    GNOMON_NULL(CreateShaderModule, create),
+    GNOMON_NULL(DestroyShaderModule, destroy),
+    GNOMON_NULL(CreatePipelineLayout, create),
+    GNOMON_NULL(DestroyPipelineLayout, destroy),
+    GNOMON_NULL(CreateGraphicsPipelines, createPipelines),
+    GNOMON_NULL(CreateComputePipelines, createPipelines),
+    GNOMON_NULL(DestroyPipeline, destroy),
+    GNOMON_NULL(CreateDescriptorSetLayout, create),
+    GNOMON_NULL(DestroyDescriptorSetLayout, destroy),
+    GNOMON_NULL(CreateDescriptorPool, create),
+    GNOMON_NULL(DestroyDescriptorPool, destroy),
+    GNOMON_NULL(AllocateDescriptorSets, allocateSets),
+    GNOMON_NULL(UpdateDescriptorSets, updateSets),
+    GNOMON_NULL(CreateQueryPool, create),
+    GNOMON_NULL(DestroyQueryPool, destroy),
+    GNOMON_NULL(GetQueryPoolResults, getQueries),
+    GNOMON_NULL(ResetQueryPool, resetQueries),
+};
+
+} // namespace
+
+PFN_vkVoidFunction VKAPI_CALL nullInstanceProcAddr(VkInstance instance, const char* name)
+{
+    const char* hidden = driverOf(instance).hidden;
+    if (hidden != nullptr && std::strcmp(hidden, name) == 0) {
+        return nullptr;
+    }
+    for (const std::span<const NullEntry> entries : {std::span<const NullEntry>(kEntries), nullCommandEntries()}) {
+        for (const NullEntry& entry : entries) {
+            if (std::strcmp(entry.name, name) == 0) {
+                return entry.function;
+            }
+        }
+    }
+    return nullptr;
+}
+
+} // namespace gnomon::test
