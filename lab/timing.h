@@ -74,7 +74,7 @@ struct Timed {
     std::vector<host::FrameTimes> samples;
     Counters counters; // of the last frame
     Plan plan;         // of the last frame; without shadows: empty
-    AtlasSize atlas;
+    MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
     double mean_texels_rendered = 0.0; // Counters::texels_rendered over the samples: less where maps are kept
     double baseline_ms = 0.0;          // median frame without shadows among the turns that these samples took

@@ -90,7 +90,7 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
     }
 }
 
-Json mapJson(const AtlasSize& atlas, const vulkan::FilterOptions& filter)
+Json mapJson(const MapPages& atlas, const vulkan::FilterOptions& filter)
 {
     const std::uint32_t image_layers = imageLayersPerMap(filter.filter, filter.moments);
     const std::uint32_t levels = vulkan::mipLevels(filter, atlas.width, atlas.height);

@@ -4,12 +4,14 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 namespace gnomon {
 namespace {
 
+std::atomic<ContentNumber> next_content{1};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool sameTile(const Tile& a, const Tile& b)
@@ -17,7 +19,7 @@ bool sameTile(const Tile& a, const Tile& b)
     return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
 
-bool sameSize(const AtlasSize& a, const AtlasSize& b)
+bool sameSize(const MapPages& a, const MapPages& b)
 {
     return a.width == b.width && a.height == b.height && a.layers == b.layers;
 }
@@ -80,6 +82,7 @@ void DrawnMaps::Record::fill(const View& view, std::span<const std::uint32_t> ca
     orthographic = view.orthographic;
     clamp_near = view.clamp_near;
     version = drawn_version;
+    content = next_content.fetch_add(1, std::memory_order_relaxed);
     still.assign(casters.begin(), casters.end());
     moving.clear();
 }
@@ -93,18 +96,18 @@ void DrawnMaps::forget()
 
 void DrawnMaps::begin(const Plan& plan, const ObjectSet& objects)
 {
-    if (!sameSize(plan.atlas, atlas_) || objects.identity() != identity_) {
+    if (!sameSize(plan.pages[0], atlas_) || objects.identity() != identity_) {
         forget();
-        if (!sameSize(plan.atlas, atlas_))
+        if (!sameSize(plan.pages[0], atlas_))
             maps_.clear();
     }
-    if (plan.kept_layers != kept_layers_) {
-        kept_.resize(plan.kept_layers);
+    if (plan.pages[0].kept_layers != kept_layers_) {
+        kept_.resize(plan.pages[0].kept_layers);
         for (Record& record : kept_)
             record.filled = false;
     }
-    atlas_ = plan.atlas;
-    kept_layers_ = plan.kept_layers;
+    atlas_ = plan.pages[0];
+    kept_layers_ = plan.pages[0].kept_layers;
     identity_ = objects.identity();
 }
 
@@ -166,13 +169,16 @@ void DrawnMaps::decideAtOnce(View& view, Record& map, std::span<const std::uint3
                              const ObjectSet& objects) const
 {
     view.redraw = !(map.shows(view, casters, objects.allChanges()) && map.moving.empty());
+    view.presumes = view.redraw ? 0 : map.content;
     if (view.redraw)
         map.fill(view, casters, objects.version());
+    view.makes = map.content;
 }
 
 void DrawnMaps::decide(View& view, std::uint32_t kept_layer, std::span<std::uint32_t> casters, const ObjectSet& objects)
 {
     Record& map = recordOf(view);
+    view.map = {2 * static_cast<std::uint32_t>(&map - maps_.data()), 0};
     if (kept_layer == kNoIndex) {
         decideAtOnce(view, map, casters, objects);
         return;
@@ -187,8 +193,11 @@ void DrawnMaps::decide(View& view, std::uint32_t kept_layer, std::span<std::uint
     const bool moves = std::ranges::any_of(moving_, [](const Mover& mover) { return !mover.texels.empty(); });
     const bool restores = map_holds && map.showsMovers() && kept_holds;
     view.redraw = !map_holds || !changed.empty();
+    view.presumes = map_holds ? map.content : 0;
     if (moves || restores) {
         view.kept_layer = kept_layer;
+        view.kept_map = {2 * kept_layer + 1, 0};
+        view.kept_presumes = kept_holds ? kept.content : 0;
         view.redraw_kept = view.redraw && !kept_holds;
         if (view.redraw)
             view.dirty = map_holds && kept_holds ? changed : wholeOf(view.tile);
@@ -198,10 +207,13 @@ void DrawnMaps::decide(View& view, std::uint32_t kept_layer, std::span<std::uint
     }
     if (view.redraw_kept)
         kept.fill(view, still_, objects.version());
+    if (view.kept_layer != kNoIndex)
+        view.kept_makes = kept_holds || view.redraw_kept ? kept.content : 0;
     if (view.redraw) {
         map.fill(view, still_, objects.version());
         map.moving.assign(moving_.begin(), moving_.end());
     }
+    view.makes = map.content;
 }
 
 } // namespace gnomon

@@ -37,6 +37,7 @@ private:
         glm::dvec4 metric_ws{0.0};
         bool orthographic = true;
         bool clamp_near = true;
+        ContentNumber content = 0;
         std::uint64_t version = 0;        // of the set when it was drawn
         std::vector<std::uint32_t> still; // casters; in a map that is drawn all at once, all of them
         std::vector<Mover> moving;        // those of a map with a kept layer; ascending, as `still`
@@ -53,7 +54,7 @@ private:
 
     std::vector<Record> maps_;
     std::vector<Record> kept_;
-    AtlasSize atlas_;
+    MapPages atlas_;
     std::uint32_t kept_layers_ = 0;
     std::uint64_t identity_ = 0;
     // Scratch: the casters of a view.

@@ -188,7 +188,31 @@ void writeLight(Writer& json, const LightPlan& light)
     json.value("view_count", light.view_count);
     json.value("mask_layer", light.mask_layer);
     json.value("mask_channel", light.mask_channel);
+    json.value("options", light.options);
     writeSteps(json, light.steps);
+    json.closeLine('}');
+}
+
+void writePages(Writer& json, const MapPages& pages)
+{
+    json.openLine({}, '{');
+    json.value("width", pages.width);
+    json.value("height", pages.height);
+    json.value("layers", pages.layers);
+    json.value("kept_layers", pages.kept_layers);
+    json.closeLine('}');
+}
+
+// Not what it holds: those numbers differ from planner to planner.
+void writeMap(Writer& json, const MapId& map)
+{
+    if (!map) {
+        json.nothing("map");
+        return;
+    }
+    json.openLine("map", '{');
+    json.value("index", map.index);
+    json.value("generation", map.generation);
     json.closeLine('}');
 }
 
@@ -200,6 +224,7 @@ void writeKept(Writer& json, const View& view)
         return;
     }
     json.openLine("kept", '{');
+    writeMap(json, view.kept_map);
     json.value("layer", view.kept_layer);
     json.flag("redraw", view.redraw_kept);
     json.value("still_count", view.still_count);
@@ -216,6 +241,7 @@ void writeView(Writer& json, const Plan& plan, const View& view)
 {
     json.open({}, '{');
     json.value("light", view.light);
+    writeMap(json, view.map);
     json.openLine("tile", '{');
     json.value("layer", view.tile.layer);
     json.value("x", view.tile.x);
@@ -330,12 +356,10 @@ std::string toJson(const Plan& plan)
     json.open({}, '{');
     json.value("frame", plan.frame);
     writeTechnique(json, plan.technique);
-    json.openLine("atlas", '{');
-    json.value("width", plan.atlas.width);
-    json.value("height", plan.atlas.height);
-    json.value("layers", plan.atlas.layers);
-    json.closeLine('}');
-    json.value("kept_layers", plan.kept_layers);
+    json.open("pages", '[');
+    for (const MapPages& pages : plan.pages)
+        writePages(json, pages);
+    json.close(']');
     json.value("mask_layers", plan.mask_layers);
     json.openLine("fade", '{');
     json.value("begin_m", plan.fade_begin_m);

@@ -160,7 +160,7 @@ const Plan& Planner::plan(const Frame& frame)
     plan.lights.clear();
     plan.views.clear();
     plan.casters.clear();
-    plan.kept_layers = 0;
+    plan.pages[0].kept_layers = 0;
     plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
 
     s.atlas.begin(s.options.map_size, s.options.max_layers);
@@ -170,7 +170,10 @@ const Plan& Planner::plan(const Frame& frame)
         s.planLight(frame, light);
     s.suns.end();
     ++s.frames;
-    plan.atlas = s.atlas.size();
+    const std::uint32_t kept_layers = plan.pages[0].kept_layers;
+    plan.pages[0] = s.atlas.size();
+    plan.pages[0].kept_layers = kept_layers;
+    plan.map_count = 2 * (plan.pages[0].layers * 2 + kept_layers) + 2;
     s.decideRedraws(frame);
     return plan;
 }
@@ -234,9 +237,9 @@ std::optional<Position> Planner::Impl::takeRoom(const Light& light)
         return std::nullopt;
     room.first_layer = *first_layer;
     const std::uint32_t kept = pairs(light) ? 2 * count : count;
-    if (keeps(light) && kept <= options.max_layers - std::min(plan.kept_layers, options.max_layers)) {
-        room.first_kept = plan.kept_layers;
-        plan.kept_layers += kept;
+    if (keeps(light) && kept <= options.max_layers - std::min(plan.pages[0].kept_layers, options.max_layers)) {
+        room.first_kept = plan.pages[0].kept_layers;
+        plan.pages[0].kept_layers += kept;
     }
     return room;
 }

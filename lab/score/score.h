@@ -69,7 +69,7 @@ struct Score {
     CountedPixels pixels;
     TexelDensity density;
     double fit_efficiency = 0.0;
-    AtlasSize atlas;
+    MapPages atlas;
 };
 /// `mask`: one channel, visibility in [0, 1], of the size of the truth, from the same camera through the same centres
 /// of pixels. `with_perception`: ssim and flip too, which take longer than all else. What tells of maps stays 0;

@@ -67,7 +67,7 @@ Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::
     const Camera camera = cameraOf(subject, sizeOf(truth.surfaces));
     const double reach_texels = vulkan::filterReachTexels(options.filter);
     score.outcome = plan.lights[subject.light].outcome;
-    score.atlas = plan.atlas;
+    score.atlas = plan.pages[0];
     score.density = texelDensity(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
     score.fit_efficiency = fitEfficiency(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
     return score;

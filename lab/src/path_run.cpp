@@ -193,7 +193,7 @@ PathRun::Result PathRun::finish(const Subject& last)
     for (Walker& walker : impl_->walkers) {
         Timed& timed = walker.timed;
         timed.plan = walker.renderer->plan();
-        timed.atlas = timed.plan.atlas;
+        timed.atlas = timed.plan.pages[0];
         timed.counters = countersOf(timed.samples.back(), timed.plan, !walker.options.reuse_maps);
         timed.counters.filter = walker.renderer->filterCost();
         timed.counters.bytes_minimum = leastBytes(*walker.renderer, last, walker.options);

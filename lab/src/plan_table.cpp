@@ -130,7 +130,7 @@ DrawnBelow drawAtlas(const Plan& plan, const PlanScene& scene, const PixelRect& 
 {
     constexpr double kGap_px = 8.0;
     constexpr std::uint32_t kAcross = 5;
-    const AtlasSize& atlas = plan.atlas;
+    const MapPages& atlas = plan.pages[0];
     const double side = (rect.width - (kAcross - 1) * kGap_px) / kAcross;
     const double scale = side / std::max({atlas.width, atlas.height, 1U});
     const std::uint32_t layers = std::min(atlas.layers, kMostLayers);

@@ -83,7 +83,7 @@ void timeGroup(host::Gpu& gpu, const SubjectAt& subject_at, std::span<const Cont
     for (Turn& turn : turns) {
         Timed& timed = turn.timed;
         timed.plan = turn.renderer->plan();
-        timed.atlas = timed.plan.atlas;
+        timed.atlas = timed.plan.pages[0];
         timed.counters = countersOf(timed.samples.back(), timed.plan, !turn.options.reuse_maps);
         timed.counters.filter = turn.renderer->filterCost();
         timed.added_memory = addedMemory(*turn.renderer, *turns.front().renderer);

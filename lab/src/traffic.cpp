@@ -34,7 +34,7 @@ std::uint64_t leastBytes(host::Renderer& renderer, const Subject& subject, const
     traffic.format = options.filter.format;
     traffic.reach_texels = leastReach(options.filter);
     traffic.image_layers = imageLayersPerMap(options.filter.filter, options.filter.moments);
-    const AtlasSize& atlas = renderer.plan().atlas;
+    const MapPages& atlas = renderer.plan().pages[0];
     traffic.mip_levels = vulkan::mipLevels(options.filter, atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;
     traffic.reads_object_ids = true;

@@ -114,7 +114,7 @@ TEST(Plan, IsTheSameBytesEveryTime)
         ASSERT_EQ(first.status, 0) << first.err;
         EXPECT_EQ(first.out, second.out) << world;
         const json plan = json::parse(first.out);
-        for (const char* key : {"views", "lights", "objects", "atlas", "technique", "settings"}) {
+        for (const char* key : {"views", "lights", "objects", "pages", "technique", "settings"}) {
             EXPECT_TRUE(plan.contains(key)) << world << " " << key;
         }
         EXPECT_FALSE(plan["views"].empty()) << world;

@@ -62,7 +62,7 @@ TEST(Cascades, ShareTheViewWithOverlapsOnly)
     const Ground ground;
     const Plan plan = ground.plan(cascades(4));
     ASSERT_EQ(plan.views.size(), 4U);
-    EXPECT_EQ(plan.atlas.layers, 4U);
+    EXPECT_EQ(plan.pages[0].layers, 4U);
     for (std::size_t i = 0; i + 1 < plan.views.size(); ++i) {
         const ViewSlice& here = plan.views[i].slice;
         const ViewSlice& next = plan.views[i + 1].slice;

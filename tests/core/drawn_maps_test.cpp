@@ -66,7 +66,7 @@ struct Draughtsman {
     using Place = std::tuple<std::uint32_t, TexelPart>;
     std::map<Place, Image> maps;
     std::map<std::uint32_t, Image> kept;
-    AtlasSize atlas;
+    MapPages atlas;
     std::uint32_t kept_layers = 0;
     std::uint64_t still_drawn = 0; // casters
     std::uint64_t moving_drawn = 0;
@@ -93,14 +93,14 @@ struct Draughtsman {
 
     void follow(const Plan& plan, const ObjectSet& set)
     {
-        if (std::memcmp(&plan.atlas, &atlas, sizeof atlas) != 0) {
+        if (std::memcmp(&plan.pages[0], &atlas, sizeof atlas) != 0) {
             maps.clear();
             kept.clear();
         }
-        if (plan.kept_layers != kept_layers)
+        if (plan.pages[0].kept_layers != kept_layers)
             kept.clear();
-        atlas = plan.atlas;
-        kept_layers = plan.kept_layers;
+        atlas = plan.pages[0];
+        kept_layers = plan.pages[0].kept_layers;
         for (const View& view : plan.views) {
             const std::span casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
             Image& map = maps[{view.tile.layer, view.part}];
@@ -155,7 +155,7 @@ void checkOrder(const Plan& plan, const ObjectSet& set)
     std::set<std::uint32_t> kept;
     for (const View& view : plan.views) {
         EXPECT_TRUE(places.insert({view.tile.layer, view.part}).second);
-        EXPECT_LT(view.tile.layer, plan.atlas.layers);
+        EXPECT_LT(view.tile.layer, plan.pages[0].layers);
         const auto first = plan.casters.begin() + view.first_caster;
         const auto end = first + view.caster_count;
         if (view.kept_layer == kNoIndex) {
@@ -165,7 +165,7 @@ void checkOrder(const Plan& plan, const ObjectSet& set)
             continue;
         }
         EXPECT_TRUE(kept.insert(view.kept_layer).second);
-        EXPECT_LT(view.kept_layer, plan.kept_layers);
+        EXPECT_LT(view.kept_layer, plan.pages[0].kept_layers);
         ASSERT_LE(view.still_count, view.caster_count);
         const auto moving = first + view.still_count;
         EXPECT_TRUE(std::is_sorted(first, moving));

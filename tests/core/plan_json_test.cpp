@@ -18,6 +18,7 @@ Plan tinyPlan()
     plan.lights[1].first_view = 1;
     plan.lights[1].mask_channel = 1;
     plan.lights[1].outcome = {OutcomeKind::no_caster, "nothing \"casts\""};
+    plan.lights[1].options = 1;
     SunSteps& steps = plan.lights[1].steps;
     steps.stepping = true;
     steps.paired = true;
@@ -26,8 +27,8 @@ Plan tinyPlan()
     steps.smooth = true;
     steps.band = 0.5;
     steps.edge = 0.375;
-    plan.atlas = {1024, 1024, 1};
-    plan.kept_layers = 2;
+    plan.pages[0] = {1024, 1024, 1};
+    plan.pages[0].kept_layers = 2;
     plan.mask_layers = 1;
     plan.casters = {4, 1}; // what moves comes last
     plan.receivers = {0, 4};
@@ -50,6 +51,7 @@ Plan tinyPlan()
     view.still_count = 1;
     view.kept_layer = 1;
     view.dirty = {3, 4, 5, 6};
+    view.map = {3, 2};
     plan.views = {view};
     return plan;
 }
@@ -57,22 +59,24 @@ Plan tinyPlan()
 constexpr const char* kGolden = R"({
   "frame": 7,
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
-  "atlas": {"width": 1024, "height": 1024, "layers": 1},
-  "kept_layers": 2,
+  "pages": [
+    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2}
+  ],
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [
-    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "steps": null},
-    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}}
+    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "options": 0, "steps": null},
+    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "options": 1, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}}
   ],
   "views": [
     {
       "light": 0,
+      "map": {"index": 3, "generation": 2},
       "tile": {"layer": 0, "x": 0, "y": 0, "width": 1024, "height": 1024},
       "part": "second",
       "sun": "later",
       "redraw": true,
-      "kept": {"layer": 1, "redraw": false, "still_count": 1, "dirty": {"x": 3, "y": 4, "width": 5, "height": 6}},
+      "kept": {"map": null, "layer": 1, "redraw": false, "still_count": 1, "dirty": {"x": 3, "y": 4, "width": 5, "height": 6}},
       "orthographic": true,
       "parallel": true,
       "clamp_near": true,
@@ -129,8 +133,9 @@ TEST(PlanJson, EmptyPlan)
     EXPECT_EQ(toJson(Plan{}), R"({
   "frame": 0,
   "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
-  "atlas": {"width": 0, "height": 0, "layers": 0},
-  "kept_layers": 0,
+  "pages": [
+    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0}
+  ],
   "mask_layers": 0,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [],

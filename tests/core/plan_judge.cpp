@@ -281,7 +281,7 @@ std::string bytesOf(const Plan& plan)
     for (const std::vector<std::uint32_t>* objects : {&plan.casters, &plan.receivers})
         for (const std::uint32_t object : *objects)
             append(out, object);
-    append(out, plan.atlas, plan.kept_layers);
+    append(out, plan.pages[0], plan.pages[0].kept_layers);
     return out;
 }
 

@@ -263,7 +263,7 @@ TEST(Outcome, EachCanBeProvoked)
     full.lights.insert(full.lights.begin(), 2, test::sun({0, -1, 0}));
     Planner planner({.max_layers = 2});
     EXPECT_EQ(full.plan(planner).lights[2].outcome.kind, OutcomeKind::atlas_full);
-    EXPECT_EQ(full.plan(planner).atlas.layers, 2U);
+    EXPECT_EQ(full.plan(planner).pages[0].layers, 2U);
 }
 
 TEST(Outcome, NumbersThatDescribeNothingAreDegenerate)
@@ -307,15 +307,15 @@ TEST(Plan, FourLightsShareAMaskLayer)
         EXPECT_EQ(plan.lights[i].mask_layer, i / 4);
         EXPECT_EQ(plan.lights[i].mask_channel, i % 4);
     }
-    EXPECT_EQ(plan.atlas.layers, 5U);
-    EXPECT_EQ(plan.atlas.width, 64U);
+    EXPECT_EQ(plan.pages[0].layers, 5U);
+    EXPECT_EQ(plan.pages[0].width, 64U);
     EXPECT_EQ(plan.views.size(), 5U);
     EXPECT_EQ(plan.views[4].light, 5U);
     EXPECT_EQ(plan.lights[5].first_view, 4U);
     EXPECT_EQ(plan.views[4].tile.layer, 4U);
     world.lights.clear();
     EXPECT_EQ(world.plan(planner).mask_layers, 0U);
-    EXPECT_EQ(world.plan(planner).atlas.layers, 0U);
+    EXPECT_EQ(world.plan(planner).pages[0].layers, 0U);
 }
 
 TEST(Plan, LightOutOfSightKeepsItsLayer)

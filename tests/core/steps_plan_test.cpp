@@ -153,8 +153,8 @@ TEST(StepsPlan, APositionKeepsItsPlace)
                 village.shine(0.11 * kStep * frame);
                 village.move(0.03 * frame, 0.0);
                 const Plan& plan = planner.plan(village.frame);
-                EXPECT_EQ(plan.atlas.layers, (paired_maps ? 1 : 2) * slices + slices);
-                EXPECT_EQ(plan.kept_layers, 2 * slices);
+                EXPECT_EQ(plan.pages[0].layers, (paired_maps ? 1 : 2) * slices + slices);
+                EXPECT_EQ(plan.pages[0].kept_layers, 2 * slices);
                 const SunSteps& steps = plan.lights[0].steps;
                 ASSERT_EQ(plan.lights[0].view_count, (steps.paired ? 2 : 1) * slices);
                 EXPECT_FALSE(plan.lights[1].steps.stepping);
@@ -281,7 +281,7 @@ TEST(KeptLayers, AreThereWhenAskedFor)
             const Plan& plan = planner.plan(village.frame);
             const bool kept =
                 keep == KeepStill::always || (keep == KeepStill::automatic && motion == Motion::step_blend);
-            EXPECT_EQ(plan.kept_layers, kept ? (motion == Motion::step_blend ? 2U : 1U) : 0U);
+            EXPECT_EQ(plan.pages[0].kept_layers, kept ? (motion == Motion::step_blend ? 2U : 1U) : 0U);
             EXPECT_EQ(plan.views.at(0).kept_layer, kept ? 0U : kNoIndex);
             if (motion == Motion::free)
                 continue; // the mover's box changes the map itself
@@ -342,7 +342,7 @@ TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
     options.max_layers = 5;
     Planner planner(options);
     const Plan& plan = planner.plan(village.frame);
-    EXPECT_EQ(plan.kept_layers, 4U);
+    EXPECT_EQ(plan.pages[0].kept_layers, 4U);
     ASSERT_EQ(plan.views.size(), 3U);
     EXPECT_NE(plan.views[1].kept_layer, kNoIndex);
     EXPECT_EQ(plan.views[2].kept_layer, kNoIndex); // drawn at once

@@ -281,7 +281,7 @@ TEST(Renderer, ReadsAMapBack)
     Stage stage(smallScene());
     stage.drawAndRead();
     const ImageF map = stage.renderer->readMap(0);
-    EXPECT_EQ(map.width, stage.renderer->plan().atlas.width);
+    EXPECT_EQ(map.width, stage.renderer->plan().pages[0].width);
     EXPECT_LT(*std::min_element(map.values.begin(), map.values.end()), 1.0F);
     EXPECT_THROW((void)stage.renderer->readMap(1000), Error);
 }

@@ -38,7 +38,7 @@ public:
         std::vector<CpuMap> layers;
         const vulkan::ImageRef image = renderer_.maps();
         for (std::uint32_t layer = 0; layer < image.layers; ++layer) {
-            layers.push_back(readCpuMap(gpu(), image, layer, levelsOf(filter_, plan.atlas)));
+            layers.push_back(readCpuMap(gpu(), image, layer, levelsOf(filter_, plan.pages[0])));
         }
         return layers;
     }

@@ -105,7 +105,7 @@ Bench::Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool revers
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
 }
 
-void Bench::setLights(std::vector<Light> new_lights, const std::vector<Tile>& tiles, AtlasSize atlas)
+void Bench::setLights(std::vector<Light> new_lights, const std::vector<Tile>& tiles, MapPages atlas)
 {
     lights = std::move(new_lights);
     frame.lights = lights;

@@ -25,7 +25,7 @@ public:
           const vulkan::MemoryHooks& memory = {});
 
     /// After changes to `scene`: makes plan, picture and mesh.
-    void setLights(std::vector<Light> lights, const std::vector<Tile>& tiles, AtlasSize atlas);
+    void setLights(std::vector<Light> lights, const std::vector<Tile>& tiles, MapPages atlas);
     /// Gives the boxes a texture whose left half is clear.
     void maskBoxes();
     /// Turns the ground's triangles over.

@@ -73,7 +73,7 @@ protected:
         const vulkan::ImageRef maps = renderer_->maps();
         const std::uint32_t bytes = texelBytes(maps.format);
         const Tile& tile = plan_.views[view].tile;
-        const std::uint32_t levels = levelsOf(options_, plan_.atlas);
+        const std::uint32_t levels = levelsOf(options_, plan_.pages[0]);
         for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
             for (std::uint32_t level = 0; level < levels; ++level) {
                 std::vector<std::byte> texels = gpu().read(maps, layer, bytes, VK_IMAGE_ASPECT_COLOR_BIT, level);

@@ -90,7 +90,7 @@ Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired
     plan.lights[0].steps.paired = true;
     plan.lights[0].steps.share = 0.5;
     plan.lights[1].first_view = 2;
-    plan.kept_layers = 3;
+    plan.pages[0].kept_layers = 3;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         plan.views[i].still_count = 1 + kStillBoxes;
         plan.views[i].kept_layer = 2 - i; // any order
@@ -105,7 +105,7 @@ Plan atOnce(Plan plan)
         view.kept_layer = kNoIndex;
         view.redraw_kept = false;
     }
-    plan.kept_layers = 0;
+    plan.pages[0].kept_layers = 0;
     return plan;
 }
 
@@ -221,7 +221,7 @@ TEST_P(KeptMaps, holdWhatMapsHoldThatAreDrawnAtOnce)
         view.redraw = false;
     }
     for (Bench* bench : {&pair.kept, &pair.whole}) {
-        bench->plan.atlas.width += kMapSize;
+        bench->plan.pages[0].width += kMapSize;
         bench->prepare();
     }
     pair.record();

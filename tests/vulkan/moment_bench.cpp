@@ -62,7 +62,7 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOpt
     DrawnMaps drawn;
     const vulkan::ImageRef maps = renderer.maps();
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
-        drawn.layers.push_back(readCpuMap(gpu(), maps, layer, levelsOf(filter, plan.atlas)));
+        drawn.layers.push_back(readCpuMap(gpu(), maps, layer, levelsOf(filter, plan.pages[0])));
     }
     drawn.cost = renderer.filterCost(0);
     for (std::uint32_t view = 0; view < plan.views.size(); ++view) {

@@ -33,7 +33,7 @@ MomentNumbers momentNumbers(const vulkan::FilterOptions& filter)
             r.anisotropy};
 }
 
-std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const AtlasSize& atlas)
+std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const MapPages& atlas)
 {
     return vulkan::mipLevels(filter, atlas.width, atlas.height);
 }

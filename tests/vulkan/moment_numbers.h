@@ -28,7 +28,7 @@ struct MomentNumbers {
 /// Zeros for a filter that is not filterable.
 [[nodiscard]] MomentNumbers momentNumbers(const vulkan::FilterOptions& filter);
 /// Mip levels of the maps' image.
-[[nodiscard]] std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const AtlasSize& atlas);
+[[nodiscard]] std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const MapPages& atlas);
 /// The last of them that a tile may be read at.
 [[nodiscard]] double coarsestOf(const Tile& tile, std::uint32_t levels);
 

@@ -214,7 +214,7 @@ TEST(NullRecording, everythingIsDestroyed)
         const Profiler profiler(driver.view(), 2, 8);
         (void)host.renderer.prepare(host.plan, kScreen);
         host.record(0);
-        host.plan.atlas.layers = 6; // grow
+        host.plan.pages[0].layers = 6; // grow
         EXPECT_TRUE(host.renderer.prepare(host.plan, {128, 96}));
         host.inputs.extent = {128, 96};
         host.record(1);
@@ -267,7 +267,7 @@ TEST(NullRecording, sizesBeyondTheDeviceAreRefusedWithBothSizes)
 {
     NullDriver driver({1024, 8, 1ULL << 40});
     NullHost host(driver);
-    host.plan.atlas.width = 2048;
+    host.plan.pages[0].width = 2048;
     try {
         (void)host.renderer.prepare(host.plan, kScreen);
         FAIL();
@@ -275,7 +275,7 @@ TEST(NullRecording, sizesBeyondTheDeviceAreRefusedWithBothSizes)
         EXPECT_NE(std::string(error.what()).find("2048"), std::string::npos);
         EXPECT_NE(std::string(error.what()).find("1024"), std::string::npos);
     }
-    host.plan.atlas = {256, 256, 9};
+    host.plan.pages[0] = {256, 256, 9};
     EXPECT_THROW((void)host.renderer.prepare(host.plan, kScreen), Error);
 }
 
@@ -332,7 +332,7 @@ TEST(NullRecording, lightsWithoutMapsStillHaveAMask)
     NullHost host(driver, MapFormat::d32f, 1);
     host.plan.views.clear();
     host.plan.casters.clear();
-    host.plan.atlas = {};
+    host.plan.pages[0] = {};
     host.plan.lights[0].view_count = 0;
     host.plan.lights[0].outcome = {OutcomeKind::no_caster, "nothing casts"};
     EXPECT_TRUE(host.renderer.prepare(host.plan, kScreen));

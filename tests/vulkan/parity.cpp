@@ -22,7 +22,7 @@ void readBack(const ShadowRenderer& renderer, const FilterOptions& options, Rend
 {
     const auto maps = renderer.maps();
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
-        r.maps.push_back(readCpuMap(gpu(), maps, layer, levelsOf(options, r.plan.atlas)));
+        r.maps.push_back(readCpuMap(gpu(), maps, layer, levelsOf(options, r.plan.pages[0])));
     }
     for (const LightPlan& light : r.plan.lights) {
         r.masks.push_back(readMaskChannel(gpu(), renderer.mask(), light));
@@ -77,7 +77,7 @@ void setLights(ParityLights lights, const FilterOptions& options, Rendered& r)
     const Light sun = makeSun({0.8, -0.9, -0.35});
     const Light spot = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
     std::vector<Tile> tiles{{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
-    AtlasSize atlas{512, 512, 2};
+    MapPages atlas{512, 512, 2};
     r.lights = {sun, spot};
     if (lights == ParityLights::sun_alone) {
         r.lights.pop_back();

@@ -205,7 +205,7 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const vulkan:
     input.kernel = shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.gaussian_sigma_texels));
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
-    input.coarsest = coarsestOf(view.tile, levelsOf(options, scene.plan.atlas));
+    input.coarsest = coarsestOf(view.tile, levelsOf(options, scene.plan.pages[0]));
     input.near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
     return input;
 }

@@ -209,10 +209,10 @@ View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile 
     return view;
 }
 
-Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles, AtlasSize atlas)
+Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles, MapPages atlas)
 {
     Plan plan;
-    plan.atlas = atlas;
+    plan.pages[0] = atlas;
     plan.mask_layers = static_cast<std::uint32_t>((lights.size() + 3) / 4);
     for (std::uint32_t i = 0; i <= scene.boxes.size(); ++i) {
         plan.casters.push_back(i);

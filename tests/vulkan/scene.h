@@ -68,6 +68,6 @@ struct Picture {
 [[nodiscard]] View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile tile);
 /// One view a light; casters: everything.
 [[nodiscard]] Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles,
-                            AtlasSize atlas);
+                            MapPages atlas);
 
 } // namespace gnomon::test

@@ -37,9 +37,9 @@ void addViews(const Setting& setting, const Scene& scene, const Camera& camera, 
     const std::uint32_t count = setting.slices == Slices::two ? 2 : 1;
     for (std::uint32_t i = 0; i < count; ++i) {
         const bool second = setting.paired_texels && position == SunPosition::later;
-        const std::uint32_t layer = second ? plan.atlas.layers - count + i : plan.atlas.layers;
+        const std::uint32_t layer = second ? plan.pages[0].layers - count + i : plan.pages[0].layers;
         View view = makeView(scene, makeSun(direction), light, {layer, 0, 0, kMapSize, kMapSize});
-        plan.atlas.layers += second ? 0 : 1;
+        plan.pages[0].layers += second ? 0 : 1;
         view.sun = position;
         if (setting.paired_texels) {
             view.part = second ? TexelPart::second : TexelPart::first;

@@ -44,7 +44,7 @@ public:
     /// From now on what stands still is kept.
     void keep()
     {
-        plan.kept_layers = 2;
+        plan.pages[0].kept_layers = 2;
         for (std::uint32_t i = 0; i < 2; ++i) {
             plan.views[i].kept_layer = i;
             plan.views[i].still_count = 3;

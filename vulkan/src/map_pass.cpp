@@ -30,7 +30,7 @@ DepthMaps::DepthMaps(Device& device, const ShadowRendererOptions& options, const
 {
 }
 
-void DepthMaps::makeMaps(const AtlasSize& size)
+void DepthMaps::makeMaps(const MapPages& size)
 {
     // Free the old images first, so that growing does not need room for both.
     layers_.clear();
@@ -68,18 +68,18 @@ void DepthMaps::makeKept(std::uint32_t layers)
 
 bool DepthMaps::prepare(const Plan& plan)
 {
-    const AtlasSize& atlas = plan.atlas;
-    const AtlasSize need{std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
+    const MapPages& atlas = plan.pages[0];
+    const MapPages need{std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
     bool changed = false;
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
         changed = true;
     }
-    if (!restorer_ && (plan.kept_layers > 0 || sharesTexels(plan))) {
+    if (!restorer_ && (plan.pages[0].kept_layers > 0 || sharesTexels(plan))) {
         restorer_.emplace(device_, storage_, cache_);
     }
-    if (plan.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, plan.kept_layers)) {
-        makeKept(plan.kept_layers);
+    if (plan.pages[0].kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, plan.pages[0].kept_layers)) {
+        makeKept(plan.pages[0].kept_layers);
         changed = true;
     }
     redraw_all_ = redraw_all_ || changed;

@@ -46,7 +46,7 @@ private:
         ImageView view;
     };
 
-    void makeMaps(const AtlasSize& size);
+    void makeMaps(const MapPages& size);
     void makeKept(std::uint32_t layers);
     void prepareTogether(const Plan& plan);
     [[nodiscard]] std::uint32_t together(const Plan& plan, std::uint32_t first, bool all) const;

@@ -54,7 +54,7 @@ MomentMaps::MomentMaps(Device& device, const ShadowRendererOptions& options, con
 
 MomentMaps::Need MomentMaps::needOf(const Plan& plan)
 {
-    const AtlasSize& atlas = plan.atlas;
+    const MapPages& atlas = plan.pages[0];
     Need need;
     need.atlas = {std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
     need.tile = {1, 1};
@@ -62,7 +62,7 @@ MomentMaps::Need MomentMaps::needOf(const Plan& plan)
         need.tile.width = std::max(need.tile.width, view.tile.width);
         need.tile.height = std::max(need.tile.height, view.tile.height);
     }
-    need.kept_layers = plan.kept_layers;
+    need.kept_layers = plan.pages[0].kept_layers;
     return need;
 }
 

@@ -35,7 +35,7 @@ public:
 
 private:
     struct Need {
-        AtlasSize atlas;
+        MapPages atlas;
         VkExtent2D tile{}; // that all tiles fit into
         std::uint32_t kept_layers = 0;
     };

@@ -83,6 +83,20 @@ struct TexelRect {
 /// Which half of a texel's bits holds a map: two may share one target (PlanOptions::paired_maps).
 enum class TexelPart : std::uint8_t { whole, first, second };
 
+/// Names a map: one square of the pages (and part of its texels), for as long as one frustum of a light has it. A map
+/// that its light gives up takes its name with it; the index is used again, with another generation.
+struct MapId {
+    std::uint32_t index = kNoIndex; // small and dense: less than Plan::map_count, so it may index a table
+    std::uint32_t generation = 0;
+
+    [[nodiscard]] explicit operator bool() const { return index != kNoIndex; }
+    friend bool operator==(const MapId&, const MapId&) = default;
+};
+
+/// Names what the texels of a map hold: all that its drawing depends on. No number is given twice, not even by two
+/// planners of one process. 0: nothing, or nothing that is known.
+using ContentNumber = std::uint64_t;
+
 /// How far from its tile's edge a receiver's place in the map must be, in texels, so that a filter which reads texels
 /// whose centres are up to `reach_texels` away (>= 0.5, along x and y each) reads none outside the tile: the centre of
 /// a texel at the edge is half a texel inside. The mask takes a view for a receiver that is so far inside its tile
@@ -93,9 +107,10 @@ enum class TexelPart : std::uint8_t { whole, first, second };
     return kRounding_texels + reach_texels - 0.5;
 }
 
-/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near), d in metres along the ray of
-/// light: from a plane across it, or one that leans with the receivers (PlanOptions::level_depth). Along each ray d'
-/// grows by 1 / (far - near) per metre.
+/// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near). Under parallel light d is metres
+/// along the ray, from a plane across it or one that leans with the receivers (level_depth): along each ray d' grows by
+/// 1 / (far - near) per metre. Of a light with a place d is metres along its axis, the map's middle: along a ray at an
+/// angle from that, d' grows by the angle's cosine / (far - near) per metre.
 struct DepthMetric {
     glm::dvec4 metric_ws{0.0};
     double near_m = 0.0;
@@ -146,12 +161,25 @@ struct View {
     std::uint32_t first_caster = 0;
     std::uint32_t caster_count = 0;
     std::uint32_t still_count = 0; // how many of them stand still; of use with a kept layer only
-    bool redraw = true;            // false: the map of the last frame still holds, or nobody reads it in this frame
+    MapId map;
+    /// What the map must hold for the drawing below to be enough, and what it holds afterwards. A backend that notes
+    /// for each MapId::index what it drew last, and finds another number there than `presumes`, draws all of the tile
+    /// from all casters, whatever `redraw` and `dirty` say; it then holds `makes` all the same. So a frame that was
+    /// skipped, an image that was lost and a second renderer mend themselves. Presumes 0: all is drawn in any case.
+    /// Makes 0: nobody reads the map in this frame; it is to be left as it is.
+    ContentNumber presumes = 0;
+    ContentNumber makes = 0;
+    bool redraw = true; // makes != presumes: something is to be drawn
     /// Layer of the images that hold maps of still casters alone (same size and place there as `tile`), from which the
     /// map is restored before those that move are drawn over it. Of the plan's views no other one has it. kNoIndex: the
     /// map is drawn all at once.
     std::uint32_t kept_layer = kNoIndex;
     bool redraw_kept = false; // draw the still casters into the kept layer first; then `dirty` is all of the tile
+    /// The square of the kept layer is a map like any other, with its own name and contents. Where it does not hold
+    /// what it should, the still casters are drawn into it first, and then all of the tile is dirty.
+    MapId kept_map;
+    ContentNumber kept_presumes = 0;
+    ContentNumber kept_makes = 0;
     /// With a kept layer and `redraw`: what has to be restored and drawn over, because something that moves is there or
     /// was when the map was drawn last.
     TexelRect dirty;
@@ -213,15 +241,18 @@ struct LightPlan {
     std::uint32_t view_count = 0;
     std::uint32_t mask_layer = 0;   // of the mask image
     std::uint32_t mask_channel = 0; // 0..3
+    std::uint32_t options = 0;      // Light::options
     Outcome outcome;
     SunSteps steps;
 };
 
-/// Size of the map image that all tiles are in.
-struct AtlasSize {
-    std::uint32_t width = 0;
+/// The images that the maps of one of the planner's options lie in. None of the numbers falls while a map is in use, so
+/// an image that grows can be copied into the larger one: the plan takes it that what was drawn is still there.
+struct MapPages {
+    std::uint32_t width = 0; // texels; a page is as large as the largest map
     std::uint32_t height = 0;
-    std::uint32_t layers = 0;
+    std::uint32_t layers = 0;      // pages of maps: Tile::layer is less
+    std::uint32_t kept_layers = 0; // pages of maps of still casters alone: View::kept_layer is less
 };
 
 struct Plan {
@@ -229,10 +260,11 @@ struct Plan {
     Technique technique;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
-    std::vector<std::uint32_t> casters;   // object handles, view after view
-    std::vector<std::uint32_t> receivers; // object handles that the camera sees, ascending
-    AtlasSize atlas;
-    std::uint32_t kept_layers = 0; // one past the largest View::kept_layer that any view of these lights may have
+    std::vector<std::uint32_t> casters;                     // object handles, view after view
+    std::vector<std::uint32_t> receivers;                   // object handles that the camera sees, ascending
+    std::vector<MapPages> pages = std::vector<MapPages>(1); // one for each of the planner's options
+    /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
+    std::uint32_t map_count = 0;
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
     /// For views with View::gpu_cascade: how the camera's depth is to be divided among a light's, and the room that is
     /// left for the filter's kernel around what a cascade's pixels lie in, texels.

@@ -19,7 +19,7 @@ std::optional<std::uint32_t> LayerAtlas::take(std::uint32_t count)
     return first;
 }
 
-AtlasSize LayerAtlas::size() const
+MapPages LayerAtlas::size() const
 {
     if (taken_ == 0)
         return {};

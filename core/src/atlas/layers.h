@@ -15,7 +15,7 @@ public:
     /// not push the others into new layers, or all of them would be drawn anew. None when there is no room.
     std::optional<std::uint32_t> take(std::uint32_t count);
     [[nodiscard]] Tile tile(std::uint32_t layer) const { return {layer, 0, 0, map_size_, map_size_}; }
-    [[nodiscard]] AtlasSize size() const;
+    [[nodiscard]] MapPages size() const;
 
 private:
     std::uint32_t map_size_ = 0;
