@@ -10,9 +10,6 @@
 
 namespace gnomon::host {
 
-struct BlurChoices;
-class CascadeChoices;
-
 struct GpuOptions {
     /// Part of a device's name, "software" for a CPU rasteriser, or empty: the first real GPU, else software.
     std::string gpu;
@@ -37,10 +34,6 @@ public:
     [[nodiscard]] std::vector<std::string> messages() const;
     /// On-disk pipeline cache, loaded from and stored to the user's cache folder; VK_NULL_HANDLE never.
     [[nodiscard]] VkPipelineCache pipelineCache() const;
-    /// What was found out about blurring on this device (host/src/blur_choice.h).
-    [[nodiscard]] BlurChoices& blurChoices();
-    /// And about drawing cascades (host/src/cascade_choice.h).
-    [[nodiscard]] CascadeChoices& cascadeChoices();
 
 private:
     struct Impl;

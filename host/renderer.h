@@ -65,8 +65,7 @@ struct RenderOptions {
     std::uint32_t height = 720;
     PlanOptions plan;
     vulkan::FilterOptions filter;
-    /// automatic: `each` in the first frame that has cascades; before the next one its maps are drawn both ways, and
-    /// the faster one is kept. layered is refused (Error) where ShadowRenderer refuses it.
+    /// layered is refused (Error) where ShadowRenderer refuses it.
     vulkan::CascadePass cascade_pass = vulkan::CascadePass::automatic;
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
@@ -152,7 +151,7 @@ public:
     [[nodiscard]] const Plan& plan() const;
     /// Bytes of every image and buffer, by purpose: the scene's, the host's own and the library's.
     [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
-    /// How the next frame's cascades will be drawn, if it has any; automatic while that is still to be found out.
+    /// How cascades are drawn, if there are any: each or layered.
     [[nodiscard]] vulkan::CascadePass cascadePass() const;
     /// What making the last frame's maps filterable took; zeros without such passes. After draw().
     [[nodiscard]] vulkan::FilterCost filterCost() const;
@@ -166,10 +165,6 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// The path that a Renderer with this filter blurs by: the filter's own, or if that is automatic and it blurs at all,
-/// the one that was faster when it was first asked on this device for such maps. Throws Error.
-[[nodiscard]] BlurPath chooseBlurPath(Gpu& gpu, const vulkan::FilterOptions& filter);
 
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);

@@ -101,16 +101,14 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
 
 } // namespace
 
-int runBench(const Settings& asked)
+int runBench(const Settings& settings)
 {
-    Settings settings = asked;
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    std::vector<Settings> techniques = contestants(settings);
+    const std::vector<Settings> techniques = contestants(settings);
     Shot shot = makeShot(settings);
     const auto gpu = openGpu(settings);
-    settleBlurPaths(*gpu, settings, techniques);
     for (const std::string& text : shot.notices) {
         notice(text);
     }

@@ -341,14 +341,13 @@ Settings firstOf(const std::optional<SweepPlan>& sweep, const Settings& settings
 
 } // namespace
 
-int runCompare(const Settings& asked)
+int runCompare(const Settings& settings)
 {
-    Settings settings = asked;
     validateSweep(settings);
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    std::vector<Settings> techniques = contestants(settings);
+    const std::vector<Settings> techniques = contestants(settings);
     std::optional<SweepPlan> sweep;
     if (settings.sweep) {
         sweep = planSweep(*settings.sweep, techniques);
@@ -367,10 +366,6 @@ int runCompare(const Settings& asked)
     requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
     requireMapsFit(*gpu, techniques, sweep);
-    settleBlurPaths(*gpu, settings, techniques);
-    if (sweep) {
-        sweep = planSweep(*settings.sweep, techniques);
-    }
     const Settings first = firstOf(sweep, settings);
     std::for_each(shot.notices.begin(), shot.notices.end(), notice);
     Comparison comparison(first, shot, *gpu, std::move(files));

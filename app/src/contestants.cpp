@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contestants.h"
 
-#include "compare_table.h"
-
 #include <gnomon/choices.h>
 
 #include <fmt/format.h>
@@ -85,24 +83,6 @@ std::vector<Settings> contestants(const Settings& settings)
         }
     }
     return made;
-}
-
-void settleBlurPaths(host::Gpu& gpu, Settings& settings, std::vector<Settings>& techniques)
-{
-    const bool is_one = settings.techniques.empty() && namesOneTechnique(settings);
-    std::vector<std::string> texts = techniqueList(settings);
-    for (std::size_t i = 0; i < techniques.size(); ++i) {
-        const BlurPath path = host::chooseBlurPath(gpu, techniques[i].filter);
-        if (path != techniques[i].filter.moments.blur_path) {
-            applySetting(techniques[i], "blur.path", nameOf(path));
-            texts[i] = withoutParts(texts[i], "blur.path=auto") + fmt::format("+blur.path={}", nameOf(path));
-        }
-    }
-    if (is_one) {
-        settings = techniques.front();
-    } else {
-        settings.techniques = std::move(texts);
-    }
 }
 
 } // namespace gnomon::app

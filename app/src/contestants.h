@@ -3,7 +3,6 @@
 #pragma once
 
 #include "app/settings.h"
-#include "host/gpu.h"
 
 #include <string>
 #include <vector>
@@ -23,10 +22,5 @@ namespace gnomon::app {
 /// hard, every kernel of pcf and every filterable map, less those that cannot have a map format that was given. Throws
 /// UsageError when two of them are the same.
 [[nodiscard]] std::vector<Settings> contestants(const Settings& settings);
-
-/// Writes what `blur.path=auto` comes to on this device into the techniques and, for whoever repeats the run, into the
-/// settings that made them. Else a second run could find the other path faster and differ in the last digits.
-/// Precondition: techniques is contestants(settings). Throws Error.
-void settleBlurPaths(host::Gpu& gpu, Settings& settings, std::vector<Settings>& techniques);
 
 } // namespace gnomon::app

@@ -110,7 +110,7 @@ void addMapRows(std::vector<Setting>& table)
          .doc = "of the kernel; else three sigma rounded up, 2 of a box", .own_option = false, .used = isBlurred, .used_when = "a filterable map and blur gaussian or box",
          .apply = [](Settings& s, const Value& v) { s.filter.moments.blur_radius_texels = static_cast<std::uint32_t>(v.integer); }},
         {.key = "blur.path", .group = Group::technique, .type = choice, .form = "PATH", .default_text = "auto", .choices = [] { return enumNames<BlurPath>(3); },
-         .doc = "which shaders blur; auto: the ones that are faster here", .own_option = false, .used = isBlurred, .used_when = "a filterable map and blur gaussian or box",
+         .doc = "which shaders blur; auto: compute", .own_option = false, .used = isBlurred, .used_when = "a filterable map and blur gaussian or box",
          .apply = [](Settings& s, const Value& v) { setNamed(s.filter.moments.blur_path, v, 3); }},
         {.key = "map-sampling", .group = Group::technique, .type = choice, .form = "KIND", .default_text = "bilinear", .choices = [] { return enumNames<MapSampling>(4); },
          .doc = "how the map is read; the last two have mip levels", .own_option = false, .used = isFilterable, .used_when = kFilterable,

@@ -84,7 +84,7 @@ const std::vector<Setting>& rows()
          .doc = "over which one fades into the next", .own_option = false, .used = hasCascades, .used_when = "partition cascades or sdsm",
          .apply = [](Settings& s, const Value& v) { s.plan.cascades.blend = v.real; }},
         {.key = "cascades.pass", .group = Group::technique, .type = choice, .form = "PASS", .default_text = "auto", .choices = [] { return enumNames<vulkan::CascadePass>(3); },
-         .doc = "maps drawn each in a pass, or in one with layers; auto: the faster", .own_option = false, .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades or sdsm", .apply = applyPass},
+         .doc = "maps drawn each in a pass, or in one with layers; auto: each", .own_option = false, .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades or sdsm", .apply = applyPass},
         {.key = "border", .group = Group::technique, .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64,
          .doc = "room around the fitted map; else what the kernel needs", .own_option = false,
          .apply = [](Settings& s, const Value& v) { s.plan.border_texels = v.real; s.border_given = true; }},

@@ -59,7 +59,6 @@ FrameTimes Renderer::Impl::drawFrame(const scene::State& state, const Eye& eye, 
                                      const std::vector<ImageF>* masks_instead, Maps maps)
 {
     const bool has_mask = masks_instead != nullptr || shadows.has_value();
-    chooseCascadePass();
     FrameTimes times;
     const Clock::time_point start = Clock::now();
     update(state);

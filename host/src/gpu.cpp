@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu.h"
 
-#include "blur_choice.h"
-#include "cascade_choice.h"
 #include "check.h"
 #include "pipeline_cache.h"
 
@@ -147,8 +145,6 @@ struct Gpu::Impl {
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     VkPipelineCache cache = VK_NULL_HANDLE;
     std::filesystem::path cache_file;
-    BlurChoices blur_choices;
-    CascadeChoices cascade_choices;
     mutable std::mutex mutex; // validation may speak from any thread
     std::vector<std::string> messages;
 
@@ -307,16 +303,6 @@ bool Gpu::software() const
 VkPipelineCache Gpu::pipelineCache() const
 {
     return impl_->cache;
-}
-
-BlurChoices& Gpu::blurChoices()
-{
-    return impl_->blur_choices;
-}
-
-CascadeChoices& Gpu::cascadeChoices()
-{
-    return impl_->cascade_choices;
 }
 
 std::vector<std::string> Gpu::messages() const

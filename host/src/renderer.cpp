@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "blur_choice.h"
 #include "renderer_impl.h"
 
 #include <gnomon/error.h>
@@ -92,7 +91,6 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     if (options.shadows) {
         vulkan::ShadowRendererOptions wish;
         wish.filter = options.filter;
-        wish.filter.moments.blur_path = chooseBlurPath(gpu, wish.filter);
         wish.frames_in_flight = 1; // draw() waits, so that its times are whole
         wish.pipeline_cache = gpu.pipelineCache();
         shadows.emplace(gpu.view(), wish);
@@ -103,7 +101,8 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
         caster_wish.pipeline_cache = gpu.pipelineCache();
         casters.emplace(gpu.view(), caster_wish);
         draws.fillCasters(*casters);
-        setCascadePass(options.cascade_pass);
+        shadows->setCascadePass(options.cascade_pass);
+        casters->setCascadePass(options.cascade_pass);
     }
 }
 
@@ -222,12 +221,7 @@ std::vector<vulkan::MemoryUse> Renderer::memory() const
 
 vulkan::CascadePass Renderer::cascadePass() const
 {
-    const Impl& self = *impl_;
-    const bool open = self.options.cascade_pass == vulkan::CascadePass::automatic && !self.cascade_pass;
-    if (!self.shadows || (open && self.shadows->canDrawTogether())) {
-        return vulkan::CascadePass::automatic;
-    }
-    return self.shadows->cascadePass();
+    return impl_->shadows ? impl_->shadows->cascadePass() : vulkan::CascadePass::each;
 }
 
 vulkan::FilterCost Renderer::filterCost() const

@@ -62,9 +62,8 @@ struct Renderer::Impl {
     std::optional<double> deformed_at_s;
     bool deform_now = false;
     std::size_t light_count = 0;
-    VkImageView mask_view = VK_NULL_HANDLE;          // as bound
-    bool mask_instead = false;                       // the last frame's mask is `instead`
-    std::optional<vulkan::CascadePass> cascade_pass; // once it was chosen
+    VkImageView mask_view = VK_NULL_HANDLE; // as bound
+    bool mask_instead = false;              // the last frame's mask is `instead`
 
     // Masks of someone else's.
     Image instead;
@@ -86,9 +85,6 @@ struct Renderer::Impl {
     void record(bool has_mask);
     void recordGBuffer(VkCommandBuffer cmd);
     void recordShadows(VkCommandBuffer cmd);
-    void setCascadePass(vulkan::CascadePass pass);
-    double timeCascadePass(vulkan::CascadePass pass, vulkan::Profiler& timer);
-    void chooseCascadePass();
     void recordInstead(VkCommandBuffer cmd) const;
     void recordLight(VkCommandBuffer cmd);
     void recordBloom(VkCommandBuffer cmd);

@@ -95,7 +95,7 @@ TEST(CompareTable, Fits120Columns)
     app::CompareResult result;
     for (app::Settings settings : app::contestants(app::defaultSettings())) {
         if (filterTraits(settings.filter.filter)->filterable) {
-            app::applySetting(settings, "blur.path", "fragment"); // as runs settle it
+            app::applySetting(settings, "blur.path", "fragment"); // the longest name
         }
         app::ComparedTechnique& technique = result.techniques.emplace_back();
         technique.settings = settings;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cascades drawn each in a pass of its own and in one pass: the same maps, bit for bit; and which way is chosen.
-#include "cascade_choice.h"
+// Cascades drawn each in a pass of its own and in one pass: the same maps, bit for bit.
 #include "host/renderer.h"
 #include "scene/state.h"
 #include "small_scene.h"
@@ -99,29 +98,6 @@ TEST_P(CascadePasses, GiveTheSameMapsBitForBit)
     EXPECT_EQ(layered.messages, std::vector<std::string>{});
 }
 
-// Where it is left open, both ways are timed before the second frame, and what follows is the same whichever won.
-TEST_P(CascadePasses, AreChosenByTimingThemOnce)
-{
-    Gpu gpu({.gpu = "software", .validate = true});
-    Renderer renderer(gpu, scene_, state_, optionsWith(CascadePass::automatic));
-    const FrameTimes first_times = renderer.draw(state_, smallEye(), lights_);
-    EXPECT_EQ(renderer.cascadePass(), CascadePass::automatic);
-    EXPECT_EQ(first_times.reuse.together, 0U);
-    const std::vector<ImageF> first = renderer.read({.colour = false, .masks = true}).masks;
-    renderer.draw(state_, smallEye(), lights_);
-    const CascadePass chosen = renderer.cascadePass();
-    EXPECT_NE(chosen, CascadePass::automatic);
-    const std::vector<ImageF> second = renderer.read({.colour = false, .masks = true}).masks;
-    for (std::size_t light = 0; light < first.size(); ++light) {
-        EXPECT_EQ(first[light].values, second[light].values);
-    }
-    Renderer again(gpu, scene_, state_, optionsWith(CascadePass::automatic));
-    again.draw(state_, smallEye(), lights_);
-    again.draw(state_, smallEye(), lights_);
-    EXPECT_EQ(again.cascadePass(), chosen) << "it was known already";
-    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
-}
-
 INSTANTIATE_TEST_SUITE_P(
     All, CascadePasses,
     testing::Values(PassCase{"pcf_d32f_2", Partition::cascades, Fit::uniform, Filter::pcf, MapFormat::d32f, 2},
@@ -146,62 +122,6 @@ TEST(CascadePassOptions, AreRefusedForMapsThatAreAveraged)
     EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
     options.cascade_pass = CascadePass::automatic;
     EXPECT_EQ(Renderer(gpu, scene, state, options).cascadePass(), CascadePass::each);
-}
-
-// --- The choice, without a clock
-
-constexpr CascadeChoices::Drawn kDrawn{MapFormat::d32f, 1024, 4, 1000};
-
-/// The times of each way, turn after turn.
-class Times {
-public:
-    Times(std::vector<double> each, std::vector<double> layered) : times_{std::move(each), std::move(layered)} {}
-
-    CascadeChoices::TimeOf of()
-    {
-        return [this](CascadePass pass) {
-            const std::size_t way = pass == CascadePass::layered ? 1 : 0;
-            return times_[way].at(asked_[way]++);
-        };
-    }
-    [[nodiscard]] std::size_t asked() const { return asked_[0] + asked_[1]; }
-
-private:
-    std::vector<double> times_[2];
-    std::size_t asked_[2] = {0, 0};
-};
-
-TEST(CascadeChoice, TakesTheWayWhoseBestTurnIsShorter)
-{
-    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({9, 2, 3}, {1.9, 7, 8}).of()), CascadePass::layered);
-    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({9, 2, 3}, {2.1, 7, 8}).of()), CascadePass::each);
-    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({2, 2, 2}, {2, 2, 2}).of()), CascadePass::each) << "a tie";
-}
-
-TEST(CascadeChoice, IsEachWithoutAClock)
-{
-    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({0, 0, 0}, {0, 0, 0}).of()), CascadePass::each);
-    EXPECT_EQ(CascadeChoices().settle(kDrawn, Times({1, 1, 1}, {0, 0, 0}).of()), CascadePass::each);
-}
-
-TEST(CascadeChoice, IsKeptForTheSameAndTimedAnewForAnother)
-{
-    CascadeChoices choices;
-    Times first({2, 2, 2}, {1, 1, 1});
-    EXPECT_EQ(choices.settle(kDrawn, first.of()), CascadePass::layered);
-    EXPECT_EQ(first.asked(), 6U);
-    Times other({1, 1, 1}, {2, 2, 2});
-    EXPECT_EQ(choices.settle(kDrawn, other.of()), CascadePass::layered);
-    EXPECT_EQ(other.asked(), 0U) << "known";
-    for (int member = 0; member < 4; ++member) {
-        CascadeChoices::Drawn drawn = kDrawn;
-        drawn.format = member == 0 ? MapFormat::d16 : drawn.format;
-        drawn.map_size += member == 1 ? 1 : 0;
-        drawn.views += member == 2 ? 1 : 0;
-        drawn.triangles += member == 3 ? 1 : 0;
-        Times more({1, 1, 1}, {2, 2, 2});
-        EXPECT_EQ(choices.settle(drawn, more.of()), CascadePass::each) << member;
-    }
 }
 
 } // namespace

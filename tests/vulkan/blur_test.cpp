@@ -2,8 +2,6 @@
 // The blur and the mip levels of filterable maps against plain sums on the CPU over the same map without them.
 #include "moment_bench.h"
 
-#include <gnomon/vulkan/blur_trial.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -255,22 +253,6 @@ TEST(MipLevels, areAveragesOfFour)
             }
         }
     }
-}
-
-TEST(BlurTrials, timeBothWays)
-{
-    FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
-    gaussian(filter.moments, 4);
-    vulkan::BlurTrial trial(gpu().view(), filter);
-    gpu().run([&](VkCommandBuffer commands) { trial.record(commands); });
-    const double compute = trial.milliseconds(BlurPath::compute);
-    const double fragment = trial.milliseconds(BlurPath::fragment);
-    EXPECT_GT(compute, 0.0);
-    EXPECT_GT(fragment, 0.0);
-    EXPECT_EQ(trial.faster(), fragment < compute ? BlurPath::fragment : BlurPath::compute);
-    RecordProperty("compute_ms", std::to_string(compute));
-    RecordProperty("fragment_ms", std::to_string(fragment));
-    expectSilence(gpu());
 }
 
 } // namespace

@@ -18,7 +18,7 @@ namespace gnomon {
 enum class DepthMetricKind : std::uint8_t { linear, z_over_w };
 /// Separable; `box` weighs all texels alike.
 enum class BlurKind : std::uint8_t { none, gaussian, box };
-/// Which shaders blur: `automatic` lets the device decide, by measurement (BlurTrial) or else compute.
+/// Which shaders blur. `automatic` is compute: the same frame gives the same bits on every run.
 enum class BlurPath : std::uint8_t { automatic, compute, fragment };
 /// How the map is read: `trilinear` at the level that the receiver's footprint asks for, `anisotropic` with several
 /// such reads along its longer side.

@@ -8,8 +8,7 @@
 namespace gnomon::vulkan {
 
 enum class CascadePass : std::uint8_t {
-    automatic, // the library: as `each`; a host may find out which is faster and say so
-               // (ShadowRenderer::setCascadePass)
+    automatic, // as `each`
     each,      // every map in a pass of its own
     layered,   // one pass for those that viewsTogether() puts together: what casts in a map is drawn to its layer
 };
