@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who draws as the plan says has the same maps as one who draws all of them in every frame. The draughtsman here keeps,
 // for each texel, the sum of marks of what was drawn there.
-#include "drawn_maps.h"
+#include "store/map_contents.h"
 #include "worlds.h"
 
 #include <gnomon/planner.h>
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <map>
 #include <set>
 #include <tuple>
@@ -66,7 +65,6 @@ struct Draughtsman {
     using Place = std::tuple<std::uint32_t, TexelPart>;
     std::map<Place, Image> maps;
     std::map<std::uint32_t, Image> kept;
-    MapPages atlas;
     std::uint32_t kept_layers = 0;
     std::uint64_t still_drawn = 0; // casters
     std::uint64_t moving_drawn = 0;
@@ -93,13 +91,6 @@ struct Draughtsman {
 
     void follow(const Plan& plan, const ObjectSet& set)
     {
-        if (std::memcmp(&plan.pages[0], &atlas, sizeof atlas) != 0) {
-            maps.clear();
-            kept.clear();
-        }
-        if (plan.pages[0].kept_layers != kept_layers)
-            kept.clear();
-        atlas = plan.pages[0];
         kept_layers = plan.pages[0].kept_layers;
         for (const View& view : plan.views) {
             const std::span casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);

@@ -31,9 +31,13 @@ struct Light {
     double range_m = 0.0;                       // spot, point: reach, > 0; 0 means "as far as the scene goes"
     double near_m = 0.0;                        // spot, point: nothing nearer casts; 0 picks 1/1000 of the reach
     double angular_diameter_rad =
-        0.00925025;           // directional: 0.53 degrees is the sun; for filters that know the light's size
-    double radius_m = 0.0;    // spot, point: radius of the emitting sphere
-    bool casts_shadow = true; // false: no map; its mask channel reads 1
+        0.00925025;            // directional: 0.53 degrees is the sun; for filters that know the light's size
+    double radius_m = 0.0;     // spot, point: radius of the emitting sphere
+    bool casts_shadow = true;  // false: no map; its mask channel reads 1
+    std::uint32_t options = 0; // which of the planner's options it is planned by; beyond them: Outcome refused
+    /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its
+    /// options say.
+    std::uint32_t map_size = 0;
 };
 
 /// How far along a spot or point light's rays things count.

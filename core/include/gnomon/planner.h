@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a Frame to a Plan. Keeps records of what the maps hold (to know what may be reused), how far suns that move in
-// steps have got, and its scratch memory; nothing else.
+// From a Frame to a Plan. Keeps which maps the lights have and what these hold, how far suns that move in steps have
+// got, and its scratch memory; nothing else.
 #pragma once
 
 #include <gnomon/choices.h>
@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace gnomon {
 
@@ -48,7 +49,8 @@ struct PlanOptions {
     /// level ground is level in depth whatever the sun's height. It is still metres along the ray. False: along the
     /// light's axis, as maps of bare depth always do.
     bool level_depth = true;
-    /// Layers that the atlas may have: 1 .. 2048. Lights that find none get Outcome atlas_full.
+    /// Pages that the maps of these options may take, and again those of still casters: 1 .. 2048. Lights that find no
+    /// room get Outcome atlas_full: first come, first served, and a light that is in every frame keeps its place.
     std::uint32_t max_layers = 64;
 };
 
@@ -58,17 +60,23 @@ public:
     /// Lights whose combination with the technique is refused (refusal()) get Outcome refused; that is no error.
     /// Precondition: map_size and the other options are in range (assert).
     explicit Planner(const PlanOptions& options);
+    /// Several options, of which each light names its own (Light::options). Precondition: at least one.
+    explicit Planner(std::span<const PlanOptions> options);
     ~Planner();
     Planner(Planner&&) noexcept;
     Planner& operator=(Planner&&) noexcept;
 
-    /// The plan holds until the next call. Allocates nothing once warm (same counts as before). View::redraw takes for
-    /// granted that the last plans were drawn: call reset() when one was not, or when the map image or that of the kept
-    /// layers was made anew (but not for another Plan::atlas or Plan::kept_layers, which the planner sees itself).
+    /// The plan holds until the next call. Allocates nothing once warm (same counts as before).
+    ///
+    /// The planner takes it that its plans are drawn, one after the other. A backend that compares View::presumes with
+    /// what it drew needs no more. One that doesn't says what it has not, or no longer: lost() or reset().
     [[nodiscard]] const Plan& plan(const Frame& frame);
-    /// Forgets what the maps hold: every view says `redraw` when it is read next. Suns go on in their steps.
+    /// A map's texels are gone, or were not drawn: it is drawn whole when it is read next. A name of old is no error.
+    void lost(const MapId& map);
+    /// All maps are lost. Suns go on in their steps.
     void reset();
-    [[nodiscard]] const PlanOptions& options() const;
+    /// Those that Light::options = `index` stands for.
+    [[nodiscard]] const PlanOptions& options(std::uint32_t index = 0) const;
 
 private:
     struct Impl;

@@ -22,18 +22,22 @@ struct Slice {
 
 struct PartitionInput {
     const Light& light;
-    const CameraView& view; // measured, where partitionMeasures() says so
+    const CameraView& view; // measured, where PartitionTraits::measures says so
     const CascadeOptions& cascades;
 };
 /// Appends the slices of a light; the count depends on the options and the light's type alone, so that tiles last.
 using PartitionFunction = void (*)(const PartitionInput& input, std::vector<Slice>& out);
 
+struct PartitionTraits {
+    Partition partition;
+    PartitionFunction divide;
+    bool measures; // it needs CameraView::near_m and far_m
+    /// Each of its slices is a base map, to be listed once for each cascade that the GPU fits to a part of it.
+    bool fits_on_gpu;
+    bool cascades; // one map for each of CascadeOptions::count, else one
+};
 /// Null for a partition that is not available.
-[[nodiscard]] PartitionFunction partitionFunction(Partition partition);
-/// Does it need CameraView::near_m and far_m?
-[[nodiscard]] bool partitionMeasures(Partition partition);
-/// Is each of its views a base map, to be listed once for each cascade that the GPU fits to a part of it?
-[[nodiscard]] bool partitionFitsOnGpu(Partition partition);
+[[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
 
 /// Plane z = depth of the view, which faces away from the eye or towards it.
 [[nodiscard]] Plane depthPlane(const CameraView& view, double depth_m, bool away);

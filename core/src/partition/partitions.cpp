@@ -4,42 +4,20 @@
 namespace gnomon {
 namespace {
 
-struct Row {
-    Partition partition;
-    PartitionFunction function;
-    bool measures;
-    bool fits_on_gpu;
-};
-constexpr Row kPartitions[] = {
-    {Partition::single, partitionSingle, false, false},
-    {Partition::cascades, partitionCascades, true, false},
-    {Partition::sdsm, partitionSdsm, true, true},
+constexpr PartitionTraits kPartitions[] = {
+    {Partition::single, partitionSingle, false, false, false},
+    {Partition::cascades, partitionCascades, true, false, true},
+    {Partition::sdsm, partitionSdsm, true, true, true},
 };
 
 } // namespace
 
-PartitionFunction partitionFunction(Partition partition)
+const PartitionTraits* partitionTraits(Partition partition)
 {
-    for (const Row& row : kPartitions)
+    for (const PartitionTraits& row : kPartitions)
         if (row.partition == partition)
-            return row.function;
+            return &row;
     return nullptr;
-}
-
-bool partitionMeasures(Partition partition)
-{
-    for (const Row& row : kPartitions)
-        if (row.partition == partition)
-            return row.measures;
-    return false;
-}
-
-bool partitionFitsOnGpu(Partition partition)
-{
-    for (const Row& row : kPartitions)
-        if (row.partition == partition)
-            return row.fits_on_gpu;
-    return false;
 }
 
 } // namespace gnomon

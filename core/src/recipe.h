@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one of a planner's options comes to: the functions of its choices, and what they mean for a light.
+#pragma once
+
+#include "fit/fit.h"
+#include "motion/motion.h"
+#include "partition/partition.h"
+#include "store/map_store.h"
+
+#include <gnomon/planner.h>
+
+namespace gnomon {
+
+struct Recipe {
+    PlanOptions options;
+    // Null where the choice is not available; then check() refuses every light.
+    const PartitionTraits* partition = nullptr;
+    FitFunction fit = nullptr;
+    const MotionTraits* motion = nullptr;
+    const FilterTraits* filter = nullptr;
+
+    /// Precondition: the options are in range (assert).
+    explicit Recipe(const PlanOptions& given);
+
+    /// ok, or why this light has no map whatever it shines on.
+    [[nodiscard]] Outcome check(const Light& light) const;
+
+    // Of lights that check() says ok to:
+
+    /// The light is a sun that moves in steps.
+    [[nodiscard]] bool steps(const Light& light) const;
+    /// It is one with maps of two positions.
+    [[nodiscard]] bool pairs(const Light& light) const;
+    /// It depends on the options and the light's own numbers alone, so that maps last.
+    [[nodiscard]] MapWish wishOf(const Light& light, std::uint32_t index) const;
+
+    /// Depth is measured from a plane that leans with what receives shadow.
+    [[nodiscard]] bool levelsDepth() const;
+    [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
+};
+
+} // namespace gnomon

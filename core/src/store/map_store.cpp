@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "store/map_store.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+
+namespace gnomon {
+namespace {
+
+/// Where a store's content numbers begin, so far from the next one's that they never meet.
+ContentNumber firstNumber()
+{
+    static std::atomic<ContentNumber> stores{0};
+    return (stores.fetch_add(1, std::memory_order_relaxed) << 40U) + 1;
+}
+
+} // namespace
+
+MapStore::MapStore() : next_number_(firstNumber()) {}
+
+void MapStore::addPages(std::uint32_t side, std::uint32_t most_pages)
+{
+    Pages& added = pages_.emplace_back();
+    added.maps.begin(side, most_pages);
+    added.kept.begin(side, most_pages);
+}
+
+// ---- Whose a square is
+
+void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint32_t> keys,
+                          std::span<const MapWish> wishes)
+{
+    assert(keys.size() == wishes.size());
+    if (objects.identity() != objects_identity_)
+        forget();
+    objects_identity_ = objects.identity();
+    rows_.follow(keys);
+    rooms_.resize(std::max<std::size_t>(rooms_.size(), rows_.end()));
+    for (const std::uint32_t row : rows_.gone())
+        clear(rooms_[row]);
+    for (std::size_t light = 0; light < wishes.size(); ++light)
+        if (Room& room = rooms_[rows_.rowOf(light)]; room.wish != wishes[light]) {
+            clear(room);
+            room.wish = wishes[light];
+        }
+    for (std::size_t light = 0; light < wishes.size(); ++light)
+        furnish(rooms_[rows_.rowOf(light)]);
+}
+
+/// Finds room for what a light wants and does not have yet.
+void MapStore::furnish(Room& room)
+{
+    const MapWish wish = room.wish;
+    if (wish.count == 0)
+        return;
+    PageSquares& pages = pages_[wish.options].maps;
+    if (room.places.empty()) {
+        const std::uint32_t level = pages.levelOf(wish.side);
+        // Each position's maps follow each other, so that one pass can draw them.
+        for (std::uint32_t position = 0; position < (wish.shares_texels ? 1 : wish.positions); ++position)
+            if (!pages.take(level, wish.count, room.squares)) {
+                clear(room);
+                room.wish = wish;
+                return;
+            }
+        name(room);
+    }
+    if (wish.keeps_still && room.kept_squares.empty() && takeKept(room))
+        for (std::size_t i = 0; i < room.places.size(); ++i) {
+            room.places[i].kept_map = freshMap();
+            room.places[i].kept_layer = room.kept_squares[i].page;
+        }
+}
+
+/// Gives the squares that were found names.
+void MapStore::name(Room& room)
+{
+    const MapWish& wish = room.wish;
+    for (std::uint32_t i = 0; i < wish.positions * wish.count; ++i) {
+        const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
+        MapPlace& place = room.places.emplace_back();
+        place.map = freshMap();
+        place.tile = pages_[wish.options].maps.tileOf(square, wish.side);
+        if (wish.shares_texels)
+            place.part = i < wish.count ? TexelPart::first : TexelPart::second;
+    }
+}
+
+/// A kept copy is at its map's place of its page. All of a light's maps have one, or none.
+bool MapStore::takeKept(Room& room)
+{
+    const MapWish& wish = room.wish;
+    PageSquares& pages = pages_[wish.options].kept;
+    for (std::uint32_t i = 0; i < wish.positions * wish.count; ++i) {
+        const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
+        if (pages.takeAt(square.level, square.place, 1, room.kept_squares))
+            continue;
+        for (const PageSquare& taken : room.kept_squares)
+            pages.give(taken);
+        room.kept_squares.clear();
+        return false;
+    }
+    return true;
+}
+
+/// Of a light that is gone or wants something else. Keeps its memory.
+void MapStore::clear(Room& room)
+{
+    for (const MapPlace& place : room.places) {
+        giveUp(place.map);
+        if (place.kept_map)
+            giveUp(place.kept_map);
+    }
+    for (const PageSquare& square : room.squares)
+        pages_[room.wish.options].maps.give(square);
+    for (const PageSquare& square : room.kept_squares)
+        pages_[room.wish.options].kept.give(square);
+    room.places.clear();
+    room.squares.clear();
+    room.kept_squares.clear();
+    room.wish = {};
+}
+
+MapId MapStore::freshMap()
+{
+    if (free_maps_.empty()) {
+        maps_.emplace_back();
+        return {static_cast<std::uint32_t>(maps_.size() - 1), 0};
+    }
+    const std::uint32_t index = free_maps_.back();
+    free_maps_.pop_back();
+    return {index, maps_[index].generation};
+}
+
+void MapStore::giveUp(const MapId& id)
+{
+    Map& map = maps_[id.index];
+    map.number = 0;
+    ++map.generation;
+    free_maps_.push_back(id.index);
+}
+
+void MapStore::report(Plan& plan) const
+{
+    plan.pages.resize(pages_.size());
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        const PageSquares& maps = pages_[i].maps;
+        const std::uint32_t side = maps.pages() == 0 ? 0 : maps.side();
+        plan.pages[i] = {side, side, maps.pages(), pages_[i].kept.pages()};
+    }
+    plan.map_count = static_cast<std::uint32_t>(maps_.size());
+}
+
+// ---- What it holds
+
+void MapStore::lost(const MapId& id)
+{
+    if (id.index < maps_.size() && maps_[id.index].generation == id.generation)
+        maps_[id.index].number = 0;
+}
+
+void MapStore::forget()
+{
+    for (Map& map : maps_)
+        map.number = 0;
+}
+
+void MapStore::fill(Map& map, const MapProjection& now, std::span<const std::uint32_t> casters,
+                    const ObjectSet& objects)
+{
+    map.contents.fill(now, casters, objects.version());
+    map.number = next_number_++;
+}
+
+void MapStore::draw(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects)
+{
+    if (place.kept_map)
+        drawOverKept(view, place, casters, objects);
+    else
+        drawAtOnce(view, maps_[view.map.index], casters, objects);
+    view.redraw = view.makes != view.presumes;
+}
+
+void MapStore::drawAnew(View& view)
+{
+    maps_[view.map.index].number = 0;
+    view.presumes = 0;
+    view.makes = next_number_++;
+    view.redraw = true;
+}
+
+void MapStore::drawAtOnce(View& view, Map& map, std::span<const std::uint32_t> casters, const ObjectSet& objects)
+{
+    const MapProjection projection = projectionOf(view);
+    const bool holds =
+        map.number != 0 && map.contents.show(projection, casters, objects.allChanges()) && map.contents.moving.empty();
+    view.presumes = holds ? map.number : 0;
+    if (!holds)
+        fill(map, projection, casters, objects);
+    view.makes = map.number;
+}
+
+void MapStore::split(std::span<const std::uint32_t> casters, const ObjectSet& objects)
+{
+    still_.clear();
+    moving_.clear();
+    for (const std::uint32_t object : casters) {
+        if (objects.flags(object).dynamic)
+            moving_.push_back({object, {}});
+        else
+            still_.push_back(object);
+    }
+}
+
+void MapStore::drawOverKept(View& view, const MapPlace& place, std::span<std::uint32_t> casters,
+                            const ObjectSet& objects)
+{
+    static const MapContents kNothing;
+    split(casters, objects);
+    view.still_count = static_cast<std::uint32_t>(still_.size());
+    Map& map = maps_[place.map.index];
+    Map& kept = maps_[place.kept_map.index];
+    const MapProjection projection = projectionOf(view);
+    const bool map_holds = map.number != 0 && map.contents.show(projection, still_, objects.allChanges());
+    const bool kept_holds = kept.number != 0 && kept.contents.show(projection, still_, objects.allChanges());
+    const TexelRect changed = placeMovers(view, map_holds ? map.contents : kNothing, objects, moving_);
+    const bool moves = std::ranges::any_of(moving_, [](const Mover& mover) { return !mover.texels.empty(); });
+    const bool restores = map_holds && map.contents.showMovers() && kept_holds;
+    const bool draws = !map_holds || !changed.empty();
+    view.presumes = map_holds ? map.number : 0;
+    // A copy that was lost comes back with the next drawing.
+    if ((moves || restores) && (draws || kept_holds)) {
+        view.kept_layer = place.kept_layer;
+        view.kept_map = place.kept_map;
+        view.kept_presumes = kept_holds ? kept.number : 0;
+        view.redraw_kept = draws && !kept_holds;
+        if (view.redraw_kept)
+            fill(kept, projection, still_, objects);
+        view.kept_makes = kept.number;
+        if (draws)
+            view.dirty = map_holds && kept_holds ? changed : TexelRect{0, 0, view.tile.width, view.tile.height};
+        std::ranges::copy(still_, casters.begin());
+        std::ranges::transform(moving_, casters.begin() + view.still_count,
+                               [](const Mover& mover) { return mover.object; });
+    }
+    if (draws) {
+        fill(map, projection, still_, objects);
+        map.contents.moving.assign(moving_.begin(), moving_.end());
+    }
+    view.makes = map.number;
+}
+
+} // namespace gnomon

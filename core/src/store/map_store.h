@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one owner of what maps are: which square of which page is whose, and what it holds.
+#pragma once
+
+#include "store/light_rows.h"
+#include "store/map_contents.h"
+#include "store/page_squares.h"
+
+#include <gnomon/object_set.h>
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// The maps that a light wants, whether it needs them in this frame or not. As long as it wants the same it has the
+/// same.
+struct MapWish {
+    std::uint32_t options = 0;   // whose pages
+    std::uint32_t side = 0;      // texels, of each map; not more than a page has
+    std::uint32_t count = 0;     // frustums that it is divided among; 0: it wants no map
+    std::uint32_t positions = 1; // that it shines from: 2 of a stepping sun
+    bool shares_texels = false;  // its two positions' maps share texels
+    bool keeps_still = false;    // each map has a copy of what stands still
+
+    friend bool operator==(const MapWish&, const MapWish&) = default;
+};
+
+/// Where one map is.
+struct MapPlace {
+    MapId map;
+    Tile tile;
+    TexelPart part = TexelPart::whole;
+    MapId kept_map; // none: the map is drawn all at once
+    std::uint32_t kept_layer = kNoIndex;
+};
+
+/// A map keeps its place and contents until
+/// - its light is gone, or wants other maps,
+/// - lost() or forget() is told, or another object set comes.
+/// Neither what other lights do nor the frame's order of lights counts, but for room: first come, first served.
+class MapStore {
+public:
+    MapStore();
+    /// One for each of the planner's options. Before the first frame.
+    void addPages(std::uint32_t side, std::uint32_t most_pages);
+
+    /// The lights of a frame, by key, and what each wants. Lights that are gone give up their maps before new ones look
+    /// for room.
+    void beginFrame(const ObjectSet& objects, std::span<const std::uint32_t> keys, std::span<const MapWish> wishes);
+    /// False: it wants no map, or there is no room for it.
+    [[nodiscard]] bool hasRoom(std::size_t light) const { return !rooms_[rows_.rowOf(light)].places.empty(); }
+    /// Of a frustum of a light at one of its positions (0 or 1). Precondition: hasRoom().
+    [[nodiscard]] const MapPlace& placeOf(std::size_t light, std::uint32_t position, std::uint32_t frustum) const
+    {
+        const Room& room = rooms_[rows_.rowOf(light)];
+        return room.places[position * room.wish.count + frustum];
+    }
+    void report(Plan& plan) const;
+
+    /// Says what of a view has to be drawn, and takes it for granted that it is. The view's `casters` are reordered,
+    /// those that stand still first, where the map is made of a kept copy.
+    void draw(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects);
+    /// A view of which nothing is known beforehand: drawn in each frame.
+    void drawAnew(View& view);
+
+    void lost(const MapId& id);
+    void forget();
+
+private:
+    struct Map {
+        std::uint32_t generation = 0;
+        ContentNumber number = 0; // of `contents`; 0: it holds nothing
+        MapContents contents;
+    };
+    struct Pages {
+        PageSquares maps;
+        PageSquares kept;
+    };
+    /// What a light has.
+    struct Room {
+        MapWish wish;
+        std::vector<MapPlace> places; // position after position, of each its frustums
+        std::vector<PageSquare> squares;
+        std::vector<PageSquare> kept_squares;
+    };
+
+    void furnish(Room& room);
+    bool takeKept(Room& room);
+    void name(Room& room);
+    void clear(Room& room);
+    MapId freshMap();
+    void giveUp(const MapId& id);
+    void fill(Map& map, const MapProjection& now, std::span<const std::uint32_t> casters, const ObjectSet& objects);
+    void drawAtOnce(View& view, Map& map, std::span<const std::uint32_t> casters, const ObjectSet& objects);
+    void drawOverKept(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects);
+    void split(std::span<const std::uint32_t> casters, const ObjectSet& objects);
+
+    LightRows rows_;
+    std::vector<Room> rooms_; // by row
+    std::vector<Pages> pages_;
+    std::vector<Map> maps_; // by MapId::index
+    std::vector<std::uint32_t> free_maps_;
+    std::uint64_t objects_identity_ = 0;
+    ContentNumber next_number_;
+    // Scratch: the casters of a view.
+    std::vector<std::uint32_t> still_;
+    std::vector<Mover> moving_;
+};
+
+} // namespace gnomon
