@@ -13,6 +13,38 @@
 namespace gnomon {
 namespace {
 
+/// Does the matrix say which end of the view has depth 1, and is it not what reversed_z says? Along the view's axis
+/// depth is (a t + b) / (c t + d), which grows if a d - b c > 0. Only what is beyond rounding counts.
+Outcome checkDirection(const Camera& camera)
+{
+    constexpr double kRounding = 1e-5; // the matrix may come from floats
+    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
+    const glm::dvec4 eye(camera.eye_ws, 1.0);
+    const double length = glm::length(glm::dvec3(rows[3]));
+    double growth = 0.0;
+    double rounding = 0.0;
+    if (length > 0.0) {
+        const double a = glm::dot(glm::dvec3(rows[2]), glm::dvec3(rows[3]) / length);
+        const double b = glm::dot(rows[2], eye);
+        const double d = glm::dot(rows[3], eye);
+        const glm::dvec4 magnitude = glm::abs(eye);
+        growth = a * d - b * length;
+        rounding = kRounding * (std::abs(a) * glm::dot(glm::abs(rows[3]), magnitude) +
+                                length * glm::dot(glm::abs(rows[2]), magnitude));
+    } else {
+        // Nothing but the eye tells an orthographic view's ends apart: it is not beyond the far one.
+        const double depth = glm::dot(rows[2], eye) / rows[3].w;
+        growth = depth >= 1.0 ? -1.0 : (depth <= 0.0 ? 1.0 : 0.0);
+    }
+    if (camera.reversed_z && growth > rounding)
+        return {OutcomeKind::degenerate,
+                "Camera::reversed_z is set, but the camera's matrix has depth 0 at the near plane"};
+    if (!camera.reversed_z && growth < -rounding)
+        return {OutcomeKind::degenerate,
+                "Camera::reversed_z is not set, but the camera's matrix has depth 1 at the near plane"};
+    return {};
+}
+
 Outcome checkCamera(const Camera& camera)
 {
     for (int column = 0; column < 4; ++column)
@@ -24,7 +56,7 @@ Outcome checkCamera(const Camera& camera)
     const double determinant = glm::determinant(camera.clip_from_world);
     if (!std::isfinite(determinant) || determinant == 0.0)
         return {OutcomeKind::degenerate, "the camera's matrix is singular"};
-    return {};
+    return checkDirection(camera);
 }
 
 /// Half-spaces around the ball of what is near enough to be shadowed.

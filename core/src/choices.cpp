@@ -36,7 +36,7 @@ constexpr std::array kValues{
     ChoiceValue{kLight, "directional", number(LightType::directional), true, "a sun: parallel rays", kMarinescu},
     ChoiceValue{kLight, "spot", number(LightType::spot), true, "a cone of at most 120 degrees, with a cookie texture",
                 kShastry},
-    ChoiceValue{kLight, "point", number(LightType::point), true, "shines all around", kForsyth},
+    ChoiceValue{kLight, "point", number(LightType::point), false, "shines all around", kForsyth},
 
     ChoiceValue{kPartition, "single", number(Partition::single), true, "one frustum for all receivers of a light",
                 kMarinescu},
@@ -159,10 +159,6 @@ struct Rule {
     std::string_view reason;
 };
 constexpr std::array kRules{
-    Rule{[](LightType light, const Technique& t) {
-             return light == LightType::point && t.partition != Partition::cube && t.partition != Partition::multi;
-         },
-         "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or multi"},
     Rule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
          "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs motion "
          "free"},

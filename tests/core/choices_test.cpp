@@ -76,9 +76,8 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
         else
             technique.motion = static_cast<Motion>(row.value);
         const auto reason = refusal(light, technique);
-        const bool refused_pair = row.name == "point"; // with partition single
-        EXPECT_EQ(reason.has_value(), !row.available || refused_pair) << row.name;
-        if (reason && !refused_pair) {
+        EXPECT_EQ(reason.has_value(), !row.available) << row.name;
+        if (reason) {
             EXPECT_NE(reason->find(row.name), std::string_view::npos) << *reason;
         }
     }
@@ -91,8 +90,7 @@ TEST(Choices, RefusalsAreSentences)
     EXPECT_EQ(refusal(LightType::spot, technique),
               "filter pcss is not in this version; it has hard, pcf, vsm, lvsm, esm, evsm and msm");
     EXPECT_EQ(refusal(LightType::point, Technique{}),
-              "a point light sees all around and one frustum holds at most 120 degrees; it needs partition cube or "
-              "multi");
+              "light point is not in this version; it has directional and spot");
 }
 
 TEST(Choices, EveryAvailableFilterHasTraits)

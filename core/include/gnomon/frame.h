@@ -18,7 +18,9 @@ namespace gnomon {
 struct Camera {
     glm::dvec3 eye_ws{0.0};
     glm::dmat4 clip_from_world{1.0};
-    bool reversed_z = true; // depth 1 at the near plane, 0 at the far plane and where nothing was drawn
+    /// Depth 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. Where the
+    /// matrix says otherwise, all lights get Outcome degenerate.
+    bool reversed_z = true;
 };
 
 /// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light.

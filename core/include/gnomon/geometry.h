@@ -16,6 +16,13 @@
 
 namespace gnomon {
 
+// A program that has glm align its types lays out the structs of these headers in another way than the library that it
+// is linked with.
+static_assert(sizeof(glm::vec3) == 12 && alignof(glm::vec3) == alignof(float) && alignof(glm::vec4) == alignof(float) &&
+                  sizeof(glm::dvec3) == 24 && alignof(glm::dvec4) == alignof(double) &&
+                  alignof(glm::dmat4) == alignof(double),
+              "gnomon needs glm's types packed: leave out GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+
 /// Axis-aligned box. Default-constructed it is empty (min > max) and is the identity of `merge`.
 struct Aabb {
     glm::vec3 min{std::numeric_limits<float>::infinity()};
