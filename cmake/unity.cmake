@@ -1,0 +1,46 @@
+# Sources compiled together, which halves the time of a build from nothing and lengthens that of a change. The option
+# GNOMON_UNITY turns it on; builds for development leave it off. tools/unity_groups.py keeps apart what would clash.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+function(gnomon_unity target)
+    get_target_property(listed ${target} SOURCES)
+    get_target_property(folder ${target} SOURCE_DIR)
+    set(sources)
+    foreach(source ${listed})
+        cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
+        # What is generated has the same names everywhere.
+        cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${source} generated)
+        if(source MATCHES "\\.cpp$" AND NOT generated)
+            list(APPEND sources ${source})
+        endif()
+    endforeach()
+    list(LENGTH sources count)
+    if(count LESS 2)
+        return()
+    endif()
+    execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tools/unity_groups.py ${sources}
+                    OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+    foreach(line ${lines})
+        string(REGEX MATCH "^([^ ]+) (.+)$" all "${line}")
+        set_source_files_properties(${CMAKE_MATCH_2} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    # A type of an unnamed namespace may be a member of another type of the same source; GCC takes the group for a header.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+# gnomon_unity_everywhere(FOLDER): for every target that FOLDER and those below it make.
+function(gnomon_unity_everywhere folder)
+    get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target ${targets})
+        get_target_property(type ${target} TYPE)
+        if(type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$")
+            gnomon_unity(${target})
+        endif()
+    endforeach()
+    get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+    foreach(one ${below})
+        gnomon_unity_everywhere(${one})
+    endforeach()
+endfunction()
