@@ -1,24 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "process.h"
 
+#include "app/command_line.h"
 #include "folder.h"
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
+#include <optional>
 #include <poll.h>
 #include <sstream>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace gnomon::test {
 namespace {
 
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+/// What a run's environment has besides ours.
+Variables variablesOf(const How& how)
+{
+    static const Folder cache;
+    // What Mesa compiles is kept from run to run: it is no part of what is tested, and dear.
+    Variables variables{{"XDG_CACHE_HOME", cache.path().string()}, {"MESA_SHADER_CACHE_DIR", GNOMON_DRIVER_CACHE}};
+    variables.insert(variables.end(), how.environment.begin(), how.environment.end());
+    return variables;
+}
+
 /// Our own variables with `changed` ones in the place of those of the same names; of one name the last counts.
-std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& changed)
+std::vector<std::string> environmentWith(const Variables& changed)
 {
     std::vector<std::string> lines;
     for (char** line = environ; *line != nullptr; ++line) {
@@ -91,33 +107,14 @@ void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const
     }
 }
 
-} // namespace
-
-std::vector<std::string> Ran::errorLines() const
-{
-    std::vector<std::string> lines;
-    std::istringstream in(err);
-    for (std::string line; std::getline(in, line);) {
-        if (line.find("no GPU found") == std::string::npos) {
-            lines.push_back(line);
-        }
-    }
-    return lines;
-}
-
-Ran gnomon(const std::vector<std::string>& arguments, const How& how)
+Ran spawn(const std::vector<std::string>& arguments, const How& how)
 {
     std::array<int, 2> out{};
     std::array<int, 2> err{};
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {
         throw std::runtime_error("no pipe");
     }
-    static const Folder cache;
-    // What Mesa compiles is kept from run to run: it is no part of what is tested, and dear.
-    std::vector<std::pair<std::string, std::string>> changed{{"XDG_CACHE_HOME", cache.path().string()},
-                                                             {"MESA_SHADER_CACHE_DIR", GNOMON_DRIVER_CACHE}};
-    changed.insert(changed.end(), how.environment.begin(), how.environment.end());
-    std::vector<std::string> environment = environmentWith(changed);
+    std::vector<std::string> environment = environmentWith(variablesOf(how));
     std::vector<std::string> words{GNOMON_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const std::vector<char*> argv = pointersTo(words);
@@ -147,6 +144,124 @@ Ran gnomon(const std::vector<std::string>& arguments, const How& how)
     }
     ran.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ran;
+}
+
+/// Sends what is written to a descriptor to memory, until it is taken or the object ends.
+class Caught {
+public:
+    Caught(int descriptor, std::FILE* stream)
+        : descriptor_(descriptor), stream_(stream), kept_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 0)),
+          memory_(::memfd_create("caught", MFD_CLOEXEC))
+    {
+        if (kept_ < 0 || memory_ < 0) {
+            throw std::runtime_error("no descriptor");
+        }
+        std::fflush(stream_);
+        ::dup2(memory_, descriptor_);
+    }
+    ~Caught()
+    {
+        std::fflush(stream_);
+        ::dup2(kept_, descriptor_);
+        ::close(kept_);
+        ::close(memory_);
+    }
+    Caught(const Caught&) = delete;
+    Caught& operator=(const Caught&) = delete;
+
+    [[nodiscard]] std::string take()
+    {
+        std::fflush(stream_);
+        std::string text;
+        std::array<char, 4096> buffer{};
+        for (ssize_t count = 0; (count = ::pread(memory_, buffer.data(), buffer.size(), ssize_t(text.size()))) > 0;) {
+            text.append(buffer.data(), static_cast<std::size_t>(count));
+        }
+        return text;
+    }
+
+private:
+    int descriptor_;
+    std::FILE* stream_;
+    int kept_;
+    int memory_;
+};
+
+/// Sets variables of our environment, and puts back what they were.
+class Environment {
+public:
+    explicit Environment(const Variables& variables)
+    {
+        for (const auto& [name, value] : variables) {
+            const char* was = std::getenv(name.c_str());
+            before_.emplace_back(name, was == nullptr ? std::nullopt : std::optional<std::string>(was));
+            ::setenv(name.c_str(), value.c_str(), 1);
+        }
+    }
+    ~Environment()
+    {
+        for (auto one = before_.rbegin(); one != before_.rend(); ++one) {
+            one->second ? ::setenv(one->first.c_str(), one->second->c_str(), 1) : ::unsetenv(one->first.c_str());
+        }
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+private:
+    std::vector<std::pair<std::string, std::optional<std::string>>> before_;
+};
+
+/// Puts back the working folder at its end.
+class WorkingFolder {
+public:
+    explicit WorkingFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path())
+    {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingFolder()
+    {
+        std::error_code ignored; // it was there before
+        std::filesystem::current_path(before_, ignored);
+    }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+private:
+    std::filesystem::path before_;
+};
+
+Ran call(const std::vector<std::string>& arguments, const How& how)
+{
+    const Environment environment(variablesOf(how));
+    const WorkingFolder folder(how.folder);
+    Caught out(STDOUT_FILENO, stdout);
+    Caught err(STDERR_FILENO, stderr);
+    Ran ran;
+    ran.status = app::runProgram(arguments);
+    ran.out = out.take();
+    ran.err = err.take();
+    return ran;
+}
+
+} // namespace
+
+std::vector<std::string> Ran::errorLines() const
+{
+    std::vector<std::string> lines;
+    std::istringstream in(err);
+    for (std::string line; std::getline(in, line);) {
+        if (line.find("no GPU found") == std::string::npos) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
+Ran gnomon(const std::vector<std::string>& arguments, const How& how)
+{
+    const bool needs_its_own =
+        how.max_file_bytes != RLIM_INFINITY || how.stdout_to != nullptr || how.signal != 0 || !how.in_process;
+    return needs_its_own ? spawn(arguments, how) : call(arguments, how);
 }
 
 } // namespace gnomon::test

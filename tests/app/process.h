@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the built program as a user would.
+// Runs the program: its entry in this process, or the built program as a user would.
 #pragma once
 
 #include <sys/resource.h>
@@ -23,6 +23,7 @@ struct Ran {
 struct How {
     std::filesystem::path folder;                                 // working folder
     std::vector<std::pair<std::string, std::string>> environment; // added to ours
+    bool in_process = true; // false: the built program; so too whenever one of the following asks for it
     rlim_t max_file_bytes = RLIM_INFINITY;
     const char* stdout_to = nullptr;   // a file to send standard output to instead of Ran::out
     int signal = 0;                    // 0: none is sent; else once both of these are so
@@ -30,7 +31,9 @@ struct How {
     std::filesystem::path signal_when; // there is such a file; empty: need not be
 };
 
-/// Truths are kept in a folder of the test program's own, never in the user's, unless the environment says where.
+/// In this process the working folder, the environment and the descriptors of standard output and error are the
+/// program's while it runs, so no other thread may need them. Truths are kept in a folder of the test program's own,
+/// never in the user's, unless the environment says where.
 [[nodiscard]] Ran gnomon(const std::vector<std::string>& arguments, const How& how);
 
 } // namespace gnomon::test

@@ -42,7 +42,7 @@ void expectOneLine(const test::Ran& ran, int status, const std::string& says)
     EXPECT_NE(lines[0].find(says), std::string::npos) << lines[0];
 }
 
-TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
+void expectOneLineAndNothingLeft(const Wrong& wrong, bool in_process)
 {
     const test::Folder folder;
     fs::create_directory(folder / "a_folder");
@@ -51,8 +51,22 @@ TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
     test::spill(folder / "wrong.json", R"({"filtre": "hard"})");
     test::spill(folder / "lights.gltf", test::kLightsAndCameras);
     const std::size_t before = folder.names().size();
-    expectOneLine(test::gnomon(GetParam().arguments, {.folder = folder.path()}), GetParam().status, GetParam().says);
+    expectOneLine(test::gnomon(wrong.arguments, {.folder = folder.path(), .in_process = in_process}), wrong.status,
+                  wrong.says);
     EXPECT_EQ(folder.names().size(), before);
+}
+
+TEST_P(WrongUsage, IsOneLineAndLeavesNothing)
+{
+    expectOneLineAndNothingLeft(GetParam(), true);
+}
+
+/// The same of the built program.
+class WrongUsageOfTheProgram : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongUsageOfTheProgram, IsOneLineAndLeavesNothing)
+{
+    expectOneLineAndNothingLeft(GetParam(), false);
 }
 
 const std::vector<Wrong> kWrong{
@@ -316,8 +330,20 @@ const std::vector<Wrong> kWrong{
     {"BenchJsonIsAFolder", {"bench", "planes", "--json=a_folder"}, 1, "directory"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong),
-                         [](const auto& test) { return std::string(test.param.name); });
+std::vector<Wrong> tenOfTheTable()
+{
+    std::vector<Wrong> ten;
+    for (std::size_t i = 0; i < 10; ++i) {
+        ten.push_back(kWrong[i * kWrong.size() / 10]);
+    }
+    return ten;
+}
+
+const auto kNameOfCase = [](const auto& test) {
+    return std::string(test.param.name);
+};
+INSTANTIATE_TEST_SUITE_P(Table, WrongUsage, testing::ValuesIn(kWrong), kNameOfCase);
+INSTANTIATE_TEST_SUITE_P(Ten, WrongUsageOfTheProgram, testing::ValuesIn(tenOfTheTable()), kNameOfCase);
 
 TEST(OutsideWorld, NoVulkanDriver)
 {
