@@ -4,11 +4,19 @@
 # JOBS=N       parallel jobs (default: all processors)
 # CMAKE_FLAGS  handed to the configure step, e.g. CMAKE_FLAGS=-DGNOMON_WERROR=ON
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
+# TIDY_FOLDERS what `make tidy` looks at, e.g. core/src (default: all sources)
 # FUZZ_SECONDS how long `make fuzz` runs (default 60)
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 JOBS ?= $(shell nproc)
 CTEST_JOBS ?= $(JOBS)
+# Most builds here are from nothing: many sources are compiled together. CMAKE_FLAGS=-DGNOMON_UNITY=OFF turns it off.
+CONFIGURE_RELEASE := cmake --preset release -DGNOMON_UNITY=ON
+# $(call RUN_TESTS,BUILD): every test that is configured there, then how many cases passed.
+RUN_TESTS = rm -rf $(1)/results && mkdir $(1)/results && status=0 && \
+    { ctest --test-dir $(1) --output-on-failure --no-tests=error -j $(CTEST_JOBS) \
+      --output-junit $(CURDIR)/$(1)/results/ctest.xml $(CTEST_FLAGS) || status=$$?; } && \
+    tools/cases.py count $(1)/results && exit $$status
 FUZZ_SECONDS ?= 60
 PICTURE := $(CURDIR)/out/rts.png
 COMPARISON := $(CURDIR)/out/compare
@@ -29,7 +37,7 @@ packages:
 
 .PHONY: configure
 configure: packages
-	@cmake --preset release $(CMAKE_FLAGS)
+	@$(CONFIGURE_RELEASE) $(CMAKE_FLAGS)
 
 .PHONY: demo
 demo: configure
@@ -48,29 +56,36 @@ build: configure
 
 .PHONY: test
 test: build
-	@ctest --test-dir build --output-on-failure --no-tests=error -j $(CTEST_JOBS) $(CTEST_FLAGS)
+	@$(call RUN_TESTS,build)
 
 .PHONY: check
 check: packages
 	@tools/check_format.sh
 	@tools/check_includes.py
 	@tools/check_text.py
-	@cmake --preset release $(CMAKE_FLAGS) >/dev/null
-	@cmake --build build -j $(JOBS) --target gnomon_spirv gnomon_host_spirv >/dev/null
-	@tools/check_headers.py --build build -j $(JOBS)
+	@$(MAKE) -s headers
+
+# Nothing is built in build-tidy: it holds each source's own command, and the headers that configuring generates.
+.PHONY: commands
+commands: packages
+	@cmake --preset release -B build-tidy $(CMAKE_FLAGS) >/dev/null
+
+.PHONY: headers
+headers: commands
+	@tools/check_headers.py --build build-tidy -j $(JOBS)
 
 .PHONY: tidy
-tidy: packages
-	@cmake --preset release $(CMAKE_FLAGS) >/dev/null
-	@cmake --build build -j $(JOBS) --target gnomon_spirv gnomon_host_spirv >/dev/null
-	@tools/tidy.py --build build -j $(JOBS)
+tidy: commands
+	@tools/tidy.py --build build-tidy -j $(JOBS) $(TIDY_FOLDERS)
 
-.PHONY: asan
-asan: packages
+.PHONY: build-asan
+build-asan: packages
 	@cmake --preset asan $(CMAKE_FLAGS)
 	@cmake --build build-asan -j $(JOBS)
-	@source tools/sanitizers.sh && ctest --test-dir build-asan --output-on-failure --no-tests=error \
-	    -j $(CTEST_JOBS) $(CTEST_FLAGS)
+
+.PHONY: asan
+asan: build-asan
+	@source tools/sanitizers.sh && $(call RUN_TESTS,build-asan)
 
 .PHONY: fuzz
 fuzz: packages
@@ -78,4 +93,4 @@ fuzz: packages
 
 .PHONY: clean
 clean:
-	rm -rf build build-asan build-ci build-debug build-fuzz out
+	rm -rf build build-asan build-ci build-debug build-fuzz build-tidy out

@@ -4,17 +4,12 @@
 
 usage: check_headers.py [--build DIR] [-j N] [ROOT]
 
-DIR is a configured build folder, for the generated shader headers that private headers of vulkan and host include. What
-it has compiled counts: a private header that a source includes before all else stood alone when that source compiled,
-with the same warnings and include folders. Only an object newer than every header counts. Public headers are always
-compiled here, since their users have fewer include folders than our sources.
+DIR is a configured build folder, for the generated shader headers that private headers of vulkan and host include.
 Exit status 1 when one does not compile.
 """
 
 import argparse
-import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -61,38 +56,6 @@ def compile_alone(root: Path, compiler: str, header: str, extra: list[str], scra
     return "" if result.returncode == 0 else f"{header} does not stand alone:\n{result.stderr}"
 
 
-def first_include(path: Path):
-    """What a source includes before all else, None unless it is a header of the project."""
-    found = re.search(r"^#include\s+(\S+)", path.read_text(encoding="utf-8"), re.MULTILINE)
-    return found[1].strip('"') if found and found[1].startswith('"') else None
-
-
-def stood_alone(root: Path, build: Path, headers: list[str]) -> set[str]:
-    """The private headers that an up-to-date object of `build` shows to stand alone, once and twice."""
-    newest = max((root / header).stat().st_mtime for header in headers)
-    private = {header for header in headers if "/src/" in header}
-    shown = set()
-    database = build / "compile_commands.json"
-    for entry in json.loads(database.read_text(encoding="utf-8")) if database.is_file() else []:
-        source, output = Path(entry["file"]), re.search(r" -o (\S+)", entry["command"])
-        built = build / output[1] if output else build
-        if not source.is_relative_to(root) or not built.is_file():
-            continue
-        name = source.relative_to(root).as_posix()
-        included = first_include(source) if folders_of(name) is not None else None
-        if included is None or built.stat().st_mtime <= max(newest, source.stat().st_mtime):
-            continue
-        for folder in [str(Path(name).parent), *folders_of(name)]:
-            header = os.path.normpath(f"{folder}/{included}")
-            if (root / header).is_file():
-                # Included twice it must be empty the second time.
-                if header in private and re.search(r"^#.*", (root / header).read_text(encoding="utf-8"),
-                                                   re.MULTILINE)[0] == "#pragma once":
-                    shown.add(header)
-                break
-    return shown
-
-
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("root", nargs="?", type=Path, default=project_root())
@@ -107,19 +70,17 @@ def main() -> int:
     # Generated headers, for private headers only: a public one that needed them could not be installed.
     generated = sorted({str(file.parent) for file in options.build.resolve().glob("*/*/gnomon_*spirv.h")}) \
         if options.build else []
-    shown = stood_alone(root, options.build.resolve(), headers) if options.build and headers else set()
     with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(options.jobs) as pool:
         complaints = list(pool.map(
             lambda header: compile_alone(root, compiler, header, generated if "/src/" in header else [], Path(scratch)),
-            [header for header in headers if header not in shown]))
+            headers))
     broken = [complaint for complaint in complaints if complaint]
     for complaint in broken:
         print(complaint, file=sys.stderr)
     if not headers:
         print("headers: found none", file=sys.stderr)
         return 1
-    print(f"headers: {len(headers)} stand alone, {len(shown)} of them as the build showed, {len(broken)} broken"
-          if not broken else f"headers: {len(broken)} of {len(headers)} broken")
+    print(f"headers: {len(headers)} stand alone" if not broken else f"headers: {len(broken)} of {len(headers)} broken")
     return 1 if broken else 0
 
 

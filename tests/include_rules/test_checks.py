@@ -3,7 +3,6 @@
 """The other checks of tools/ must be able to fail: plants one fault at a time. usage: test_checks.py TOOLS_FOLDER"""
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -42,25 +41,6 @@ class Headers(unittest.TestCase):
                                           "core/src/b.h": "#pragma once\n"})
         self.assertEqual(result.returncode, 1)
 
-    def test_object_shows_what_its_source_includes_first_unless_a_header_is_newer(self):
-        for guard, older, stands in (("#pragma once\n", True, True), ("#pragma once\n", False, False), ("", True, False)):
-            with self.subTest(guard=guard, older=older), tempfile.TemporaryDirectory() as folder:
-                root, build = Path(folder, "root").resolve(), Path(folder, "build").resolve()
-                header, source, made = root / "core/src/a.h", root / "core/src/a.cpp", build / "a.o"
-                header.parent.mkdir(parents=True)
-                build.mkdir()
-                # Only by taking the object's word can this header pass.
-                header.write_text(guard + "inline std::vector<int> a;\n", encoding="utf-8")
-                source.write_text('#include "a.h"\n', encoding="utf-8")
-                made.write_text("", encoding="utf-8")
-                for file, time in ((header, 1 if older else 3), (source, 1), (made, 2)):
-                    os.utime(file, (time, time))
-                (build / "compile_commands.json").write_text(json.dumps(
-                    [{"file": str(source), "command": "c++ -o a.o -c a.cpp"}]), encoding="utf-8")
-                result = subprocess.run([sys.executable, TOOLS / "check_headers.py", "--build", build, root],
-                                        capture_output=True, text=True, check=False)
-                self.assertEqual(result.returncode == 0, stands, result.stderr)
-
     def test_no_header_fails(self):
         self.assertEqual(run("check_headers.py", {"README.md": ""}).returncode, 1)
 
@@ -85,6 +65,83 @@ class Text(unittest.TestCase):
     def test_long_file_is_noticed(self):
         result = run("check_text.py", {"a.cpp": "int a;\n" * 401})
         self.assertIn("notice: a.cpp has 401 lines", result.stdout)
+
+
+class Cases(unittest.TestCase):
+    @staticmethod
+    def call(build: dict[str, str], *arguments: str) -> subprocess.CompletedProcess:
+        with tempfile.TemporaryDirectory() as root:
+            for name, text in build.items():
+                file = Path(root, name)
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(text, encoding="utf-8")
+                file.chmod(0o755)
+            return subprocess.run([sys.executable, TOOLS / "cases.py", *arguments], cwd=root, capture_output=True, text=True,
+                                  check=False)
+
+    @staticmethod
+    def results(*cases: dict) -> str:
+        return json.dumps({"testsuites": [{"name": "Suite", "testsuite": list(cases)}]})
+
+    LISTS_TWO = "#!/bin/sh\necho 'Suite.'\necho '  a'\necho '  b  # GetParam() = 1'\n"
+    A = {"name": "a", "status": "RUN", "result": "COMPLETED", "time": "0.5s"}
+    B = {"name": "b", "status": "RUN", "result": "SKIPPED", "time": "0s"}
+
+    def test_what_no_stage_ran_is_named(self):
+        build = {"build/test_one": self.LISTS_TWO, "release/one.1.json": self.results(self.A)}
+        result = self.call(build, "prove", "build", "release")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("one Suite.b was run by no stage", result.stderr)
+        self.assertNotIn("Suite.a", result.stderr)
+
+    def test_stages_together_run_everything(self):
+        build = {"build/test_one": self.LISTS_TWO, "release/one.1.json": self.results(self.A),
+                 "asan/one.1.json": self.results({**self.A, "status": "NOTRUN"}, self.B)}
+        self.assertNotIn("was run by no stage", self.call(build, "prove", "build", "release", "asan").stderr)
+
+    def test_pattern_of_nothing_is_named(self):
+        build = {"build/test_one": self.LISTS_TWO, "all/one.1.json": self.results(self.A, self.B)}
+        result = self.call(build, "prove", "build", "all")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("tests/stages.txt names what is not there", result.stderr)
+
+    def test_counts_cases_and_what_crashed(self):
+        ctest = ('<testsuite><testcase name="one.1" status="run"/><testcase name="two.1" status="fail"/>'
+                 '<testcase name="docs" status="run"/></testsuite>')
+        result = self.call({"r/one.1.json": self.results(self.A, self.B), "r/ctest.xml": ctest}, "count", "r")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("2 passed, 1 failed, 1 skipped", result.stdout)
+        self.assertIn("failed: two.1", result.stdout)
+
+
+class UnityGroups(unittest.TestCase):
+    @staticmethod
+    def groups(*sources: str) -> list[str]:
+        with tempfile.TemporaryDirectory() as root:
+            files = []
+            for number, text in enumerate(sources):
+                files.append(Path(root, f"{number}.cpp"))
+                files[-1].write_text(text, encoding="utf-8")
+            result = subprocess.run([sys.executable, TOOLS / "unity_groups.py", *files], capture_output=True, text=True,
+                                    check=True)
+        return [line.split()[0] for line in result.stdout.splitlines()]
+
+    UNNAMED = "namespace {\n%s\n} // namespace\n"
+
+    def test_sources_without_a_name_in_common_go_together(self):
+        self.assertEqual(self.groups(self.UNNAMED % "int a();", self.UNNAMED % "int b();", "int c();"), ["part1"] * 3)
+
+    def test_a_name_declared_twice_parts(self):
+        for one, other in (("int a(int);", "double a = 1;"), ("struct A {", "using A = int;"),
+                           ("std::vector<int> a{1};", "int a[3];")):
+            with self.subTest(one=one):
+                self.assertEqual(len(set(self.groups(self.UNNAMED % one, self.UNNAMED % other))), 2)
+
+    def test_a_name_that_another_uses_parts(self):
+        self.assertEqual(len(set(self.groups(self.UNNAMED % "struct Light {", "Light of();"))), 2)
+
+    def test_an_opened_namespace_is_alone(self):
+        self.assertEqual(len(set(self.groups("using namespace a;", "int b();"))), 2)
 
 
 if __name__ == "__main__":
