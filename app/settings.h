@@ -7,6 +7,7 @@
 #include "scene/load.h"
 #include "truth/visibility.h"
 
+#include <gnomon/option_table.h>
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -78,13 +79,8 @@ struct Settings {
     std::optional<double> sun_angle_deg; // of every directional light; else the light's own
     std::optional<double> light_size_m;  // diameter of every spot and point light; else the light's own
     // technique
-    PlanOptions plan;
-    vulkan::FilterOptions filter;
-    vulkan::CascadePass cascade_pass = vulkan::CascadePass::automatic;
-    bool format_given = false; // else the filter's own default
-    std::string format_preset; // the preset that gave it; empty: none did, or it was given again
-    bool border_given = false; // else what the kernel needs
-    std::uint32_t splits = 0;  // how many of filter.moments.splits were given
+    ShadowOptions shadow;
+    std::string format_preset; // the preset that gave the map's format; empty: none did, or it was given again
     // truth
     std::optional<truth::Kind> truth; // render: nothing unless given; compare: area
     std::uint32_t samples = 0;
@@ -128,14 +124,9 @@ struct Settings {
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };
 enum class SettingGroup : std::uint8_t { picture, camera, light, technique, truth, time, run, result };
 
-/// A parsed and range-checked value; the member of the setting's type holds.
-struct SettingValue {
-    bool flag = false;
-    std::int64_t integer = 0;
-    double real = 0.0;
-    std::vector<double> numbers; // numbers, size (2), range (2)
-    std::string text;            // choice, text
-};
+/// A parsed and range-checked value; the member of the setting's type holds: `numbers` also of a size and a range (2
+/// each), `text` also of a text.
+using SettingValue = OptionValue;
 
 inline constexpr std::uint32_t kRender = 1;
 inline constexpr std::uint32_t kPlan = 2;
@@ -168,10 +159,13 @@ struct Setting {
     bool (*used)(const Settings&) = nullptr;              // null: always has an effect
     std::string_view used_when;                           // the sentence for it: "filter pcf"
     void (*apply)(Settings&, const SettingValue&) = nullptr;
+    const OptionRow* option = nullptr; // a setting of the library's own: then neither `used` nor `apply`
 };
 
 [[nodiscard]] std::span<const Setting> settingTable();
 [[nodiscard]] const Setting* findSetting(std::string_view key);
+/// Has it an effect with these settings?
+[[nodiscard]] bool isUsed(const Setting& setting, const Settings& settings);
 /// What one types for it: "--size", "--set pcf.taps".
 [[nodiscard]] std::string spelled(const Setting& setting);
 
@@ -193,7 +187,8 @@ void requireOnePlacement(const Settings& settings, std::string_view key, std::st
 void forgetTechniques(Settings& settings);
 /// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.
 void validateSettings(const Settings& settings);
-/// Fills in what follows from other settings (map format, border). Throws UsageError when choices are refused.
+/// Notes in `values` what follows from other settings (map format, border). Throws UsageError when the library refuses
+/// the options.
 void completeTechnique(Settings& settings);
 
 /// "pcf+pcf.kernel=5x5+map-size=1024": values of the choices and KEY=VALUE of technique settings joined by +. Applies

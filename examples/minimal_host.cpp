@@ -240,7 +240,7 @@ int run(const std::string& folder)
     const Buffer pixels(d, vk::DeviceSize{4} * kSize.width * kSize.height, vk::BufferUsageFlagBits::eTransferDst);
     Prepass prepass(d);
 
-    gnomon::Planner planner(gnomon::PlanOptions{});
+    gnomon::Planner planner(gnomon::ShadowOptions{});
     gnomon::vulkan::ShadowRenderer shadows(d.view(), {}); // pcf with a 3 x 3 kernel, automatic bias
     gnomon::vulkan::CasterDrawer casters(d.view(), {shadows.mapFormats(true), shadows.mapFormats(false)});
     const gnomon::vulkan::DrawPart cube{{0, kIndices.size(), 0}, 0};

@@ -63,10 +63,7 @@ struct BloomOptions {
 struct RenderOptions {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    PlanOptions plan;
-    vulkan::FilterOptions filter;
-    /// layered is refused (Error) where ShadowRenderer refuses it.
-    vulkan::CascadePass cascade_pass = vulkan::CascadePass::automatic;
+    ShadowOptions shadow; // cascades.pass = layered is refused (Error) where ShadowRenderer refuses it
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)

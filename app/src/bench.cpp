@@ -47,7 +47,7 @@ void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, Benc
     const lab::Counted counted = lab::facingPixels(picture, camera, shot.lights.front().caster);
     for (BenchedTechnique& technique : result.techniques) {
         const Plan& plan = technique.redrawn.plan;
-        const double reach_texels = vulkan::filterReachTexels(technique.settings.filter);
+        const double reach_texels = reachTexels(technique.settings.shadow);
         technique.density = lab::texelDensity(picture, counted, camera, plan, 0, reach_texels);
         technique.fit_efficiency = lab::fitEfficiency(picture, counted, camera, plan, 0, reach_texels);
     }

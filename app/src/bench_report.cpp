@@ -75,8 +75,8 @@ std::string reuseTable(const BenchResult& result)
 Json techniqueJson(const BenchedTechnique& technique)
 {
     Json json{{"technique", describeTechnique(technique.settings)},
-              {"choices", choicesJson(technique.settings.plan.technique)},
-              {"map", mapJson(technique.redrawn.atlas, technique.settings.filter)}};
+              {"choices", choicesJson(technique.settings.shadow.technique)},
+              {"map", mapJson(technique.redrawn.atlas, technique.settings.shadow)}};
     addTimes(json, "", technique.redrawn.samples);
     json["frame_ratio"] = frameRatioJson(technique.redrawn);
     addTimes(json, "static_", technique.reused.samples);
@@ -138,7 +138,7 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
     std::string text = fmt::format(
         "{}, camera {}, {}x{}, map {}, on {} ({})\nmedian milliseconds of {} frames{}; static: "
         "maps that still hold are kept\n\n{:<{}}",
-        settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, settings.plan.map_size, result.device,
+        settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, settings.shadow.map_size, result.device,
         result.driver, result.techniques.front().redrawn.samples.size(), path, "technique", width);
     for (const Stage& stage : stages()) {
         text += fmt::format("{:>9}", stage.name);

@@ -42,7 +42,7 @@ void requireCaster(const host::ShadedLight& light, const std::vector<Settings>& 
 {
     std::optional<std::string_view> why;
     for (const Settings& technique : techniques) {
-        why = refusal(light.caster.type, technique.plan.technique);
+        why = refusal(light.caster.type, technique.shadow.technique);
         if (!why) {
             return;
         }
@@ -67,7 +67,7 @@ void requireMapFits(const host::Gpu& gpu, const Settings& technique)
     const VkPhysicalDeviceLimits& limits = gpu.properties().limits;
     const std::uint32_t max_side =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
-    if (technique.plan.map_size > max_side) {
+    if (technique.shadow.map_size > max_side) {
         throw Error("drawing " + describeTechnique(technique),
                     fmt::format("{} draws maps of at most {} texels on a side", gpu.properties().deviceName, max_side));
     }

@@ -121,8 +121,8 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
 {
     const lab::Score& score = technique.score;
     Json json{{"technique", technique.name},
-              {"choices", choicesJson(technique.settings.plan.technique)},
-              {"map", mapJson(score.atlas, technique.settings.filter)},
+              {"choices", choicesJson(technique.settings.shadow.technique)},
+              {"map", mapJson(score.atlas, technique.settings.shadow)},
               {"error", errorJson(score)}};
     if (path && path->frames.first != path->frames.last) {
         json["stability"] = stabilityJson(*technique.path, score);

@@ -34,7 +34,7 @@ std::vector<std::string> allOf(const Settings& settings)
     std::vector<std::string> texts;
     for (const std::string_view text : kAll) {
         const auto filter = static_cast<Filter>(findChoice("filter", text.substr(0, text.find('+')))->value);
-        if (!settings.format_given || !refusal(filter, settings.filter.format)) {
+        if (!settings.shadow.format || !refusal(filter, *settings.shadow.format)) {
             texts.emplace_back(text);
         }
     }
@@ -58,9 +58,9 @@ bool hasManyTechniques(const Settings& settings)
 std::vector<std::string> techniqueList(const Settings& settings)
 {
     if (settings.techniques.empty() && namesOneTechnique(settings)) {
-        std::string text(nameOf(settings.plan.technique.filter)); // the options say the rest
-        if (settings.plan.technique.filter == Filter::pcf) {
-            text += fmt::format("+pcf.kernel={}", nameOf(settings.filter.pcf_kernel));
+        std::string text(nameOf(settings.shadow.technique.filter)); // the options say the rest
+        if (settings.shadow.technique.filter == Filter::pcf) {
+            text += fmt::format("+pcf.kernel={}", nameOf(settings.shadow.pcf.kernel));
         }
         return {text};
     }

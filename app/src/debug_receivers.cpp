@@ -27,7 +27,7 @@ Camera cameraOf(const Drawn& drawn)
 
 double reachOf(const Drawn& drawn)
 {
-    return static_cast<double>(vulkan::filterReachTexels(drawn.settings.filter));
+    return static_cast<double>(reachTexels(drawn.settings.shadow));
 }
 
 ImageF sharesOf(const Drawn& drawn)

@@ -52,7 +52,7 @@ ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::
             const glm::dvec3 point_ws = glm::dvec3(place) / place.w;
             const std::uint32_t view = viewOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), point_ws);
             if (view != kNoIndex) {
-                const double d = storedDepth(drawn.plan.views[view], drawn.settings.filter.moments, point_ws);
+                const double d = storedDepth(drawn.plan.views[view], drawn.settings.shadow.moments, point_ws);
                 *kinds.pixel(x, y) = static_cast<std::uint8_t>(1 + layerOf(layers[view - light.first_view], d));
             }
         }
@@ -68,7 +68,7 @@ Image8 layersPicture(const Drawn& drawn)
     for (std::uint32_t i = 0; i < light.view_count; ++i) {
         layers.push_back(drawn.renderer.depthLayers(light.first_view + i));
     }
-    const MomentOptions& options = drawn.settings.filter.moments;
+    const MomentOptions& options = drawn.settings.shadow.moments;
     lab::TintLegend legend;
     legend.title =
         fmt::format("Layers of depth, placed {}", options.placement == LayerPlacement::by_hand ? "by hand"
@@ -93,7 +93,7 @@ Image8 layersPicture(const Drawn& drawn)
 Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
-    const vulkan::FilterOptions& filter = drawn.settings.filter;
+    const vulkan::FilterOptions filter = vulkan::filterOptionsOf(drawn.settings.shadow);
     const LightPlan& light = drawn.plan.lights[drawn.light];
     const auto views = viewsOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), strongerPosition(light.steps));
     const View& view = views.empty() ? drawn.plan.views[light.first_view] : views.front(); // a position may have none
@@ -141,13 +141,13 @@ bool always(const Settings&)
 
 bool steps(const Settings& s)
 {
-    const Motion motion = s.plan.technique.motion;
+    const Motion motion = s.shadow.technique.motion;
     return motion != Motion::free && motion != Motion::snap;
 }
 
 constexpr std::array kViews{
     DebugView{"density", always, "a technique that has a map", densityView},
-    DebugView{"layers", [](const Settings& s) { return s.filter.filter == Filter::lvsm; },
+    DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"map", always, "a technique that has a map", mapPicture},
     DebugView{"steps", steps, "a motion that steps", stepsView},

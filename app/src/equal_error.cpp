@@ -21,7 +21,7 @@ static_assert(kMapSizes.front() == kEqualErrorMinMap && kMapSizes.back() == kEqu
 /// Texels that one pixel reads.
 double tapsOf(const Settings& settings)
 {
-    switch (settings.filter.pcf_kernel) {
+    switch (settings.shadow.pcf.kernel) {
     case PcfKernel::bilinear_2x2:
         return 4.0;
     case PcfKernel::gaussian_3x3:
@@ -34,15 +34,15 @@ double tapsOf(const Settings& settings)
     case PcfKernel::vogel:
         break;
     }
-    return settings.filter.disc_taps;
+    return settings.shadow.pcf.taps;
 }
 
 /// What of the base would not let PCF be had is given up: a map format that only other filters store.
 Settings plainPcf(const Settings& base)
 {
     Settings plain = base;
-    if (plain.format_given && refusal(Filter::pcf, plain.filter.format)) {
-        plain.format_given = false;
+    if (plain.shadow.format && refusal(Filter::pcf, *plain.shadow.format)) {
+        plain.shadow.format.reset();
     }
     const Technique usual;
     applySetting(plain, "filter", nameOf(Filter::pcf));
@@ -82,7 +82,7 @@ std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side)
 
 bool isPlainPcf(const Settings& settings)
 {
-    const Technique& technique = settings.plan.technique;
+    const Technique& technique = settings.shadow.technique;
     const Technique usual;
     return technique.filter == Filter::pcf && technique.partition == usual.partition && technique.fit == usual.fit &&
            technique.soften == usual.soften && technique.motion == usual.motion;

@@ -97,10 +97,10 @@ void addRefusedMoments(std::vector<RefusedCombination>& refused)
                 const std::size_t equals = option.find('=');
                 const Setting& setting = *findSetting(option.substr(0, equals));
                 applySetting(settings, setting, option.substr(equals + 1));
-                if (!setting.used(settings)) {
+                if (!isUsed(setting, settings)) {
                     continue;
                 }
-                if (const auto reason = refusal(settings.filter.filter, format, settings.filter.moments)) {
+                if (const auto reason = refusal(settings.shadow.technique.filter, format, settings.shadow.moments)) {
                     refused.push_back({"any", fmt::format("{}+{}", text, option), *reason});
                 }
             }

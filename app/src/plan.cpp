@@ -66,7 +66,7 @@ Json objectsJson(const Shot& shot, const ObjectSet& objects)
 /// Frames and their plans, one after the other; the ones before it decide what is redrawn in a frame.
 class PlannedFrames {
 public:
-    PlannedFrames(Shot& shot, const Settings& settings) : shot_(shot), settings_(settings), planner_(settings.plan)
+    PlannedFrames(Shot& shot, const Settings& settings) : shot_(shot), settings_(settings), planner_(settings.shadow)
     {
         host::fillObjectSet(shot.state, objects_);
     }

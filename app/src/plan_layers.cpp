@@ -19,8 +19,8 @@ struct PlanLayers::Drawing {
 
 PlanLayers::PlanLayers(const Settings& settings, const Shot& shot) : settings_(settings)
 {
-    const vulkan::FilterOptions& filter = settings.filter;
-    if (filter.filter == Filter::lvsm && filter.moments.placement == LayerPlacement::lloyd) {
+    const ShadowOptions& options = settings.shadow;
+    if (options.technique.filter == Filter::lvsm && options.moments.placement == LayerPlacement::lloyd) {
         drawing_ = std::make_unique<Drawing>(settings, shot);
     }
 }
@@ -37,11 +37,11 @@ void PlanLayers::follow(const Shot& shot)
 
 void PlanLayers::describe(const Plan& plan, Json& views) const
 {
-    if (settings_.filter.filter != Filter::lvsm) {
+    if (settings_.shadow.technique.filter != Filter::lvsm) {
         return;
     }
     assert(views.size() == plan.views.size());
-    const MomentOptions& options = settings_.filter.moments;
+    const MomentOptions& options = settings_.shadow.moments;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const std::vector<vulkan::DepthLayer> layers =
             drawing_ != nullptr ? drawing_->renderer.depthLayers(i) : vulkan::fixedDepthLayers(options);

@@ -104,7 +104,7 @@ bool isArea(const Settings& s)
 bool draws(const Settings& s)
 {
     if (s.subcommand == kPlan) {
-        return s.filter.filter == Filter::lvsm && s.filter.moments.placement == LayerPlacement::lloyd;
+        return s.shadow.technique.filter == Filter::lvsm && s.shadow.moments.placement == LayerPlacement::lloyd;
     }
     return !(s.mask && s.truth.has_value());
 }

@@ -23,10 +23,7 @@ std::vector<std::string_view> enumNames(std::uint8_t count)
 inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has no use for a coordinate
 
 void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
-void addTechniqueRows(std::vector<Setting>& table); // the six choices and what belongs to them
-void addPlanRows(std::vector<Setting>& table);      // how far shadows reach, how the view is divided
-void addStepRows(std::vector<Setting>& table);      // a sun that moves in steps, what is kept of a map
-void addMomentRows(std::vector<Setting>& table);    // the filterable maps
+void addTechniqueRows(std::vector<Setting>& table); // the library's options
 void addRunRows(std::vector<Setting>& table);       // truth, time, run, result
 
 } // namespace gnomon::app

@@ -10,9 +10,6 @@ std::span<const Setting> settingTable()
         std::vector<Setting> made;
         addSceneRows(made);
         addTechniqueRows(made);
-        addPlanRows(made);
-        addStepRows(made);
-        addMomentRows(made);
         addRunRows(made);
         return made;
     }();

@@ -17,4 +17,7 @@ namespace gnomon::app {
 /// What such a value is kept and shown as: numbers and flags in one way, however they were typed.
 [[nodiscard]] std::string textOf(const Setting& setting, const SettingValue& value, std::string_view text);
 
+/// Applies it, without a word in Settings::values.
+void applyValue(Settings& settings, const Setting& setting, const SettingValue& value);
+
 } // namespace gnomon::app

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon::app {
@@ -54,34 +55,37 @@ bool isChoice(std::string_view key)
     return std::any_of(values.begin(), values.end(), [&](const ChoiceValue& row) { return row.choice == key; });
 }
 
+/// How many depths layers placed by hand were given.
+std::size_t splitCount(const MomentOptions& moments)
+{
+    return static_cast<std::size_t>(
+        std::count_if(moments.splits.begin(), moments.splits.end(), [](float split) { return split != 0.0F; }));
+}
+
 /// What the options of a filterable map may not be together.
 void requireMoments(const Settings& settings)
 {
-    const vulkan::FilterOptions& filter = settings.filter;
-    const MomentOptions& moments = filter.moments;
-    if (filter.filter == Filter::lvsm && moments.placement == LayerPlacement::by_hand &&
-        settings.splits + 1 != moments.layers) {
+    const Filter filter = settings.shadow.technique.filter;
+    const MapFormat format = formatOf(settings.shadow);
+    const MomentOptions& moments = settings.shadow.moments;
+    if (filter == Filter::lvsm && moments.placement == LayerPlacement::by_hand &&
+        splitCount(moments) + 1 != moments.layers) {
+        const std::size_t given = splitCount(moments);
         throw UsageError(fmt::format("--set lvsm.splits: {} layers placed by hand need {} of them; {} given",
                                      moments.layers, moments.layers - 1,
-                                     settings.splits == 1 ? "1 is" : fmt::format("{} are", settings.splits)));
+                                     given == 1 ? "1 is" : fmt::format("{} are", given)));
     }
-    if (const auto reason = refusal(filter.filter, filter.format, moments)) {
-        throw UsageError(
-            fmt::format("filter {} with map-format {}: {}", nameOf(filter.filter), nameOf(filter.format), *reason));
+    if (const auto reason = refusal(filter, format, moments)) {
+        throw UsageError(fmt::format("filter {} with map-format {}: {}", nameOf(filter), nameOf(format), *reason));
     }
 }
 
-/// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
-bool holdsTwoMaps(const vulkan::FilterOptions& filter)
+/// The border that nobody asked for.
+double usualBorder(ShadowOptions options)
 {
-    return !filterTraits(filter.filter)->filterable &&
-           (filter.format == MapFormat::rg16 || filter.format == MapFormat::rgba8);
-}
-
-/// Room around the fitted map for what the filter reads.
-double usualBorder(const vulkan::FilterOptions& filter)
-{
-    return std::max(PlanOptions{}.border_texels, std::ceil(static_cast<double>(vulkan::filterReachTexels(filter))));
+    options.border_texels.reset();
+    const Resolution resolution = resolve(options);
+    return resolution ? resolution->border_texels() : 0.0;
 }
 
 /// Whether a setting says what would hold without it, or what another one says already.
@@ -96,10 +100,10 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
         return false;
     }
     if (setting.key == "map-format") {
-        return settings.filter.format == filterTraits(settings.filter.filter)->formats.front();
+        return formatOf(settings.shadow) == filterTraits(settings.shadow.technique.filter)->formats.front();
     }
     if (setting.key == "border") {
-        return settings.plan.border_texels == usualBorder(settings.filter);
+        return !settings.shadow.border_texels || *settings.shadow.border_texels == usualBorder(settings.shadow);
     }
     if (setting.key == "bias" && value == "none") { // then its parts say it
         const auto part = settings.values.lower_bound("bias.");
@@ -112,7 +116,43 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
     return usual != defaults.values.end() && usual->second == value;
 }
 
+/// Of two settings that say one thing, the value of the other one after this one was applied: as the library has it.
+void noteTakenBack(Settings& settings, const Setting& setting)
+{
+    constexpr std::array<std::array<std::string_view, 2>, 2> kPairs{
+        {{"cascades.count", "cascades.ends"}, {"lvsm.placement", "lvsm.splits"}}};
+    for (const auto& [one, list] : kPairs) {
+        if (setting.key != one && setting.key != list) {
+            continue;
+        }
+        const OptionRow& other = *findOption(setting.key == one ? list : one);
+        const OptionValue value = other.get(settings.shadow);
+        if (value.none || value.numbers.empty() != (other.type != OptionType::numbers)) {
+            settings.values.erase(std::string(other.key));
+        } else {
+            settings.values[std::string(other.key)] = textOf(other, value);
+        }
+    }
+}
+
 } // namespace
+
+void applyValue(Settings& settings, const Setting& setting, const SettingValue& value)
+{
+    if (setting.option != nullptr) {
+        setting.option->set(settings.shadow, value);
+    } else {
+        setting.apply(settings, value);
+    }
+}
+
+bool isUsed(const Setting& setting, const Settings& settings)
+{
+    if (setting.option != nullptr) {
+        return setting.option->used == nullptr || setting.option->used(settings.shadow);
+    }
+    return setting.used == nullptr || setting.used(settings);
+}
 
 std::string spelled(const Setting& setting)
 {
@@ -143,7 +183,8 @@ Settings defaultSettings()
 void applySetting(Settings& settings, const Setting& setting, std::string_view text)
 {
     const SettingValue parsed = parseValue(setting, text);
-    setting.apply(settings, parsed);
+    applyValue(settings, setting, parsed);
+    noteTakenBack(settings, setting);
     std::string& value = settings.values[std::string(setting.key)];
     const std::string said = textOf(setting, parsed, text);
     value = setting.repeatable && !value.empty() ? fmt::format("{}{}{}", value, setting.separator, said) : said;
@@ -163,10 +204,6 @@ void applySetting(Settings& settings, const Setting& setting, std::string_view t
         }
     } else if (setting.key.starts_with("bias.") && settings.values["bias"] == "auto") {
         settings.values["bias"] = "none";
-    } else if (setting.key == "lvsm.splits") {
-        settings.values["lvsm.placement"] = nameOf(LayerPlacement::by_hand);
-    } else if (setting.key == "lvsm.placement" && settings.splits == 0) {
-        settings.values.erase("lvsm.splits"); // the placement said last needs none
     }
 }
 
@@ -239,8 +276,9 @@ void validateSettings(const Settings& settings)
             throw UsageError(
                 fmt::format("{} has no effect with --truth, which draws no shadow map", spelled(*setting)));
         }
-        if (given && setting != nullptr && setting->used != nullptr &&
-            std::none_of(techniques.begin(), techniques.end(), setting->used)) {
+        if (given && setting != nullptr &&
+            std::none_of(techniques.begin(), techniques.end(),
+                         [&](const Settings& technique) { return isUsed(*setting, technique); })) {
             throw UsageError(fmt::format("{} has an effect only with {}", spelled(*setting), setting->used_when));
         }
     }
@@ -248,27 +286,26 @@ void validateSettings(const Settings& settings)
 
 void completeTechnique(Settings& settings)
 {
+    const ShadowOptions& shadow = settings.shadow;
     // The light comes later; a directional one has no rules of its own, so this refuses what no light can have.
-    if (const auto reason = refusal(LightType::directional, settings.plan.technique)) {
+    if (const auto reason = refusal(LightType::directional, shadow.technique)) {
         throw UsageError(std::string(*reason));
     }
-    settings.filter.filter = settings.plan.technique.filter;
-    if (!settings.format_given) {
-        settings.filter.format = filterTraits(settings.filter.filter)->formats.front();
-        settings.values["map-format"] = nameOf(settings.filter.format);
-    } else if (const auto reason = refusal(settings.filter.filter, settings.filter.format)) {
-        const std::string refused = fmt::format("{} cannot be had with filter {}: {}", nameOf(settings.filter.format),
-                                                nameOf(settings.filter.filter), *reason);
+    const MapFormat format = formatOf(shadow);
+    if (const auto reason = refusal(shadow.technique.filter, format)) {
+        const std::string refused = fmt::format("{} cannot be had with filter {}: {}", nameOf(format),
+                                                nameOf(shadow.technique.filter), *reason);
         throw UsageError(settings.format_preset.empty() ? fmt::format("--map-format: {}", refused)
                                                         : fmt::format("preset {}: map-format {}; add --map-format",
                                                                       settings.format_preset, refused));
     }
     requireMoments(settings);
-    settings.plan.paired_maps = holdsTwoMaps(settings.filter);
-    if (!settings.border_given) {
-        settings.plan.border_texels = usualBorder(settings.filter);
-        settings.values["border"] = fmt::format("{}", settings.plan.border_texels);
+    const Resolution resolution = resolve(shadow);
+    if (!resolution) {
+        throw UsageError(resolution.refusal);
     }
+    settings.values["map-format"] = nameOf(format);
+    settings.values["border"] = fmt::format("{}", resolution->border_texels());
 }
 
 Settings parseTechnique(const Settings& base, std::string_view text)
@@ -315,7 +352,7 @@ Settings parseTechnique(const Settings& base, std::string_view text)
     completeTechnique(settings);
     for (const std::string_view key : seen) {
         const Setting* setting = findSetting(key);
-        if (setting->used != nullptr && !setting->used(settings)) {
+        if (!isUsed(*setting, settings)) {
             throw UsageError(
                 fmt::format("technique \"{}\": {} has an effect only with {}", text, key, setting->used_when));
         }
@@ -325,12 +362,11 @@ Settings parseTechnique(const Settings& base, std::string_view text)
 
 std::string describeTechnique(const Settings& settings)
 {
-    std::string text(nameOf(settings.plan.technique.filter));
+    std::string text(nameOf(settings.shadow.technique.filter));
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
         if (setting.group != SettingGroup::technique || setting.key == "filter" || value == settings.values.end() ||
-            (setting.used != nullptr && !setting.used(settings)) ||
-            goesWithoutSaying(settings, setting, value->second)) {
+            !isUsed(setting, settings) || goesWithoutSaying(settings, setting, value->second)) {
             continue;
         }
         text += isChoice(setting.key) ? fmt::format("+{}", value->second)

@@ -75,7 +75,7 @@ host::ShadedLight pointLight(const PointLight& point)
 std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings)
 {
     const bool traced_alone = settings.truth && settings.subcommand != kCompare;
-    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.plan.technique);
+    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.shadow.technique);
 }
 
 /// Lights of the command line; empty when it names none.
@@ -352,11 +352,10 @@ host::RenderOptions renderOptions(const Settings& settings)
     host::RenderOptions options;
     options.width = settings.size_px.x;
     options.height = settings.size_px.y;
-    options.plan = settings.plan;
-    options.filter = settings.filter;
-    const FilterTraits* const traits = filterTraits(settings.plan.technique.filter);
-    if (traits != nullptr && !traits->filterable) { // else maps are made one by one, whatever others in a list do
-        options.cascade_pass = settings.cascade_pass;
+    options.shadow = settings.shadow;
+    const FilterTraits* const traits = filterTraits(settings.shadow.technique.filter);
+    if (traits != nullptr && traits->filterable) { // made one by one, whatever others in a list do
+        options.shadow.cascades.pass = CascadePass::automatic;
     }
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;

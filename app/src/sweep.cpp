@@ -44,7 +44,7 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
 {
     applySetting(settings, setting, valueText(value));
     completeTechnique(settings);
-    return setting.used == nullptr || setting.used(settings);
+    return isUsed(setting, settings);
 }
 
 struct Column {
@@ -135,7 +135,7 @@ SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
                                                 plan.key, setting->used_when));
             continue;
         }
-        if (technique.filter.bias.automatic && !line.points.front().filter.bias.automatic) {
+        if (technique.shadow.bias.automatic && !line.points.front().shadow.bias.automatic) {
             plan.ends_automatic_bias = true;
         }
         line.technique = withoutParts(describeTechnique(line.points.front()),

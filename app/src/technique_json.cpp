@@ -90,8 +90,9 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
     }
 }
 
-Json mapJson(const MapPages& atlas, const vulkan::FilterOptions& filter)
+Json mapJson(const MapPages& atlas, const ShadowOptions& options)
 {
+    const vulkan::FilterOptions filter = vulkan::filterOptionsOf(options);
     const std::uint32_t image_layers = imageLayersPerMap(filter.filter, filter.moments);
     const std::uint32_t levels = vulkan::mipLevels(filter, atlas.width, atlas.height);
     std::uint64_t stored = 0; // texels of one layer
@@ -242,10 +243,10 @@ Json densityJson(const lab::TexelDensity& density)
 Json repeatJson(const Settings& settings, std::uint32_t subcommand)
 {
     Json json = settingsJson(settings, subcommand);
-    if (!settings.format_given) {
+    if (!settings.shadow.format) {
         json.erase("map-format");
     }
-    if (!settings.border_given) {
+    if (!settings.shadow.border_texels) {
         json.erase("border");
     }
     json.erase("json");

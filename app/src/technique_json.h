@@ -43,7 +43,7 @@ void addTimes(Json& json, const std::string& prefix, const std::vector<host::Fra
 void addMemory(Json& json, const MemoryByPurpose& memory);
 /// {"texels", "bytes", "format", "image_layers", "mip_levels"}: texels of all maps, bytes of their image with all that
 /// it has for each texel: image layers (lvsm) and mip levels.
-[[nodiscard]] Json mapJson(const MapPages& atlas, const vulkan::FilterOptions& filter);
+[[nodiscard]] Json mapJson(const MapPages& atlas, const ShadowOptions& options);
 /// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went. Passes of one
 /// name are added up within each frame, as the stages are.
 [[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a technique is made of. A new option of a technique is one row here.
+// What a technique is made of: the rows of the library's option table (gnomon/option_table.h), as settings of the
+// program. The library says their keys, ranges, units and defaults; here stands only what the program adds to them.
 #include "setting_rows.h"
 #include "setting_values.h"
 
 #include <gnomon/choices.h>
+#include <gnomon/option_table.h>
 
 #include <fmt/format.h>
 
@@ -12,128 +14,111 @@
 namespace gnomon::app {
 namespace {
 
-using enum SettingType;
-using Group = SettingGroup;
-using Value = SettingValue;
-
-std::vector<std::string_view> choiceNames(std::string_view choice)
+SettingType typeOf(OptionType type)
 {
-    std::vector<std::string_view> names;
-    for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice == choice) {
-            names.push_back(row.name);
-        }
+    switch (type) {
+    case OptionType::flag:
+        return SettingType::flag;
+    case OptionType::integer:
+        return SettingType::integer;
+    case OptionType::real:
+        return SettingType::real;
+    case OptionType::choice:
+        return SettingType::choice;
+    case OptionType::numbers:
+        return SettingType::numbers;
     }
-    return names;
+    return SettingType::text;
 }
 
-template <typename Enum>
-void setChoice(std::string_view choice, Enum& target, const Value& value)
+Setting settingOf(const OptionRow& row, std::string_view default_text)
 {
-    target = static_cast<Enum>(findChoice(choice, value.text)->value);
+    Setting setting;
+    setting.key = row.key;
+    setting.group = SettingGroup::technique;
+    setting.type = typeOf(row.type);
+    setting.form = row.form;
+    setting.unit = row.unit;
+    setting.default_text = default_text;
+    setting.min = row.min;
+    setting.max = row.max;
+    setting.count = row.count;
+    if (row.type == OptionType::numbers) { // lists of distances or depths, as 10/40
+        setting.min_count = 1;
+        setting.between = '/';
+    }
+    setting.choices = row.choices;
+    setting.doc = row.doc;
+    setting.own_option = row.own_option;
+    setting.used_when = row.used_when;
+    setting.option = &row;
+    return setting;
+}
+
+/// Reads PART=VALUE of --bias; `seen` has the parts before it.
+void applyBiasPart(Settings& s, std::string_view whole, std::string_view part, std::vector<std::string_view>& seen)
+{
+    const std::size_t equals = part.find('=');
+    const Setting* setting =
+        equals == std::string_view::npos ? nullptr : findSetting(fmt::format("bias.{}", part.substr(0, equals)));
+    if (setting == nullptr) {
+        throw UsageError(
+            fmt::format("--bias: \"{}\" is not auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1", whole));
+    }
+    if (std::find(seen.begin(), seen.end(), setting->key) != seen.end()) {
+        throw UsageError(fmt::format("--bias: \"{}\" gives {} twice", whole, part.substr(0, equals)));
+    }
+    seen.push_back(setting->key);
+    applyValue(s, *setting, parseValue(*setting, part.substr(equals + 1)));
 }
 
 /// auto | none | constant=M,slope=S,normal=T,receiver-plane=0|1, whose parts are settings of their own.
-void applyBias(Settings& s, const Value& v)
+void applyBias(Settings& s, const SettingValue& v)
 {
-    s.filter.bias = BiasOptions{};
+    s.shadow.bias = BiasOptions{};
     if (v.text == "auto") {
         return;
     }
-    s.filter.bias.automatic = false;
+    s.shadow.bias.automatic = false;
     if (v.text == "none") {
         return;
     }
     std::vector<std::string_view> seen;
     for (const std::string_view part : split(v.text, ',')) {
-        const std::size_t equals = part.find('=');
-        const Setting* setting =
-            equals == std::string_view::npos ? nullptr : findSetting(fmt::format("bias.{}", part.substr(0, equals)));
-        if (setting == nullptr) {
-            throw UsageError(fmt::format(
-                "--bias: \"{}\" is not auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1", v.text));
-        }
-        if (std::find(seen.begin(), seen.end(), setting->key) != seen.end()) {
-            throw UsageError(fmt::format("--bias: \"{}\" gives {} twice", v.text, part.substr(0, equals)));
-        }
-        seen.push_back(setting->key);
-        setting->apply(s, parseValue(*setting, part.substr(equals + 1)));
+        applyBiasPart(s, v.text, part, seen);
     }
 }
 
-bool isPcf(const Settings& s)
+Setting biasSetting()
 {
-    return s.plan.technique.filter == Filter::pcf;
-}
-bool isDisc(const Settings& s)
-{
-    return isPcf(s) && (s.filter.pcf_kernel == PcfKernel::poisson || s.filter.pcf_kernel == PcfKernel::vogel);
-}
-bool isGaussian(const Settings& s)
-{
-    return isPcf(s) && !isDisc(s) && s.filter.pcf_kernel != PcfKernel::bilinear_2x2;
-}
-
-void manualBias(Settings& s)
-{
-    s.filter.bias.automatic = false;
-}
-
-const std::vector<Setting>& rows()
-{
-    static const std::vector<Setting> table{
-        // clang-format off
-        {.key = "filter", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "pcf", .choices = [] { return choiceNames("filter"); },
-         .doc = "what a texel stores and how it is tested", .apply = [](Settings& s, const Value& v) { setChoice("filter", s.plan.technique.filter, v); }},
-        {.key = "fit", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "uniform", .choices = [] { return choiceNames("fit"); },
-         .doc = "how one frustum's projection is shaped", .apply = [](Settings& s, const Value& v) { setChoice("fit", s.plan.technique.fit, v); }},
-        {.key = "partition", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "single", .choices = [] { return choiceNames("partition"); },
-         .doc = "how a light's receivers are divided among frustums", .apply = [](Settings& s, const Value& v) { setChoice("partition", s.plan.technique.partition, v); }},
-        {.key = "soften", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "none", .choices = [] { return choiceNames("soften"); },
-         .doc = "what happens to the visibility in screen space", .apply = [](Settings& s, const Value& v) { setChoice("soften", s.plan.technique.soften, v); }},
-        {.key = "motion", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "free", .choices = [] { return choiceNames("motion"); },
-         .doc = "how the map follows a moving camera or sun", .apply = [](Settings& s, const Value& v) { setChoice("motion", s.plan.technique.motion, v); }},
-        {.key = "map-size", .group = Group::technique, .type = integer, .form = "N", .unit = "texels", .default_text = "2048", .min = 16, .max = 16384,
-         .doc = "side of one map", .apply = [](Settings& s, const Value& v) { s.plan.map_size = static_cast<std::uint32_t>(v.integer); }},
-        {.key = "map-format", .group = Group::technique, .type = choice, .form = "FORMAT", .choices = [] { return enumNames<MapFormat>(11); },
-         .doc = "what a texel is stored as; else the filter's own",
-         .apply = [](Settings& s, const Value& v) { s.filter.format = *findMapFormat(v.text); s.format_given = true; }},
-        {.key = "bias", .group = Group::technique, .type = text, .form = "BIAS", .default_text = "auto",
-         .doc = "auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1", .apply = applyBias},
-        {.key = "bias.constant", .group = Group::technique, .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6,
-         .doc = "towards the light; ends bias=auto", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { manualBias(s); s.filter.bias.constant_m = static_cast<float>(v.real); }},
-        {.key = "bias.slope", .group = Group::technique, .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16,
-         .doc = "times the depth that one texel spans; ends bias=auto", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { manualBias(s); s.filter.bias.slope = static_cast<float>(v.real); }},
-        {.key = "bias.normal", .group = Group::technique, .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16,
-         .doc = "receiver moved along its normal; ends bias=auto", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { manualBias(s); s.filter.bias.normal_texels = static_cast<float>(v.real); }},
-        {.key = "bias.receiver-plane", .group = Group::technique, .type = flag, .form = "0|1",
-         .doc = "each tap against the receiver's plane there; ends bias=auto", .own_option = false,
-         .apply = [](Settings& s, const Value& v) { manualBias(s); s.filter.bias.receiver_plane = v.flag; }},
-        {.key = "pcf.kernel", .group = Group::technique, .type = choice, .form = "NAME", .default_text = "3x3", .choices = [] { return enumNames<PcfKernel>(6); },
-         .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs", .own_option = false, .used = isPcf, .used_when = "filter pcf",
-         .apply = [](Settings& s, const Value& v) { s.filter.pcf_kernel = *findPcfKernel(v.text); }},
-        {.key = "pcf.taps", .group = Group::technique, .type = integer, .form = "N", .unit = "taps", .default_text = "16", .min = 4, .max = 64,
-         .doc = "of a disc", .own_option = false, .used = isDisc, .used_when = "pcf.kernel poisson or vogel",
-         .apply = [](Settings& s, const Value& v) { s.filter.disc_taps = static_cast<std::uint32_t>(v.integer); }},
-        {.key = "pcf.radius", .group = Group::technique, .type = real, .form = "R", .unit = "texels", .default_text = "2.5", .min = 0.5, .max = 16,
-         .doc = "of a disc", .own_option = false, .used = isDisc, .used_when = "pcf.kernel poisson or vogel",
-         .apply = [](Settings& s, const Value& v) { s.filter.disc_radius_texels = static_cast<float>(v.real); }},
-        {.key = "pcf.sigma", .group = Group::technique, .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4,
-         .doc = "of a Gaussian kernel; else its width / 4", .own_option = false, .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7",
-         .apply = [](Settings& s, const Value& v) { s.filter.gaussian_sigma_texels = static_cast<float>(v.real); }},
-        // clang-format on
-    };
-    return table;
+    Setting setting;
+    setting.key = "bias";
+    setting.group = SettingGroup::technique;
+    setting.form = "BIAS";
+    setting.default_text = "auto";
+    setting.doc = "auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1";
+    setting.apply = applyBias;
+    return setting;
 }
 
 } // namespace
 
 void addTechniqueRows(std::vector<Setting>& table)
 {
-    table.insert(table.end(), rows().begin(), rows().end());
+    static const std::vector<std::string> defaults = [] {
+        std::vector<std::string> texts;
+        for (const OptionRow& row : optionTable()) {
+            texts.push_back(textOf(row, row.get(ShadowOptions{})));
+        }
+        return texts;
+    }();
+    for (std::size_t i = 0; i < optionTable().size(); ++i) {
+        const OptionRow& row = optionTable()[i];
+        if (row.key == "bias.constant") { // the first of its parts
+            table.push_back(biasSetting());
+        }
+        table.push_back(settingOf(row, defaults[i]));
+    }
 }
 
 } // namespace gnomon::app

@@ -18,10 +18,10 @@ namespace {
 void noteLevels(const Settings& technique)
 {
     constexpr std::uint32_t kFew = 3;
-    const std::uint32_t side = technique.plan.map_size;
-    const MapSampling sampling = technique.filter.moments.sampling;
-    const std::uint32_t levels = vulkan::mipLevels(technique.filter, side, side);
-    const FilterTraits* traits = filterTraits(technique.filter.filter);
+    const std::uint32_t side = technique.shadow.map_size;
+    const MapSampling sampling = technique.shadow.moments.sampling;
+    const std::uint32_t levels = vulkan::mipLevels(vulkan::filterOptionsOf(technique.shadow), side, side);
+    const FilterTraits* traits = filterTraits(technique.shadow.technique.filter);
     if (levels < kFew && traits->filterable &&
         (sampling == MapSampling::trilinear || sampling == MapSampling::anisotropic)) {
         notice(
@@ -46,8 +46,8 @@ std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
                                 scale == 1 ? "" : ", each four times"),
                     fmt::format("{} draws at most {} on a side", gpu->properties().deviceName, max_side / scale));
     }
-    if (settings.plan.map_size > max_side) {
-        throw Error(fmt::format("drawing a map of {} texels", settings.plan.map_size),
+    if (settings.shadow.map_size > max_side) {
+        throw Error(fmt::format("drawing a map of {} texels", settings.shadow.map_size),
                     fmt::format("{} draws at most {} on a side", gpu->properties().deviceName, max_side));
     }
     if (gpu->software() && settings.gpu.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gnomon/moment_options.h>
+#include <gnomon/option_table.h>
 
 #include <algorithm>
 #include <charconv>
@@ -44,54 +44,11 @@ std::string textOf(float value)
     return {room.data(), std::to_chars(room.data(), room.data() + room.size(), value).ptr};
 }
 
-struct Range {
-    std::string_view name;
-    float value = 0.0F;
-    float least = 0.0F;
-    float most = 0.0F;
-    std::string_view unit;
-};
-
-std::optional<std::string> firstOutside(std::span<const Range> ranges)
-{
-    for (const Range& range : ranges) {
-        if (!(range.value >= range.least && range.value <= range.most)) { // what is not a number is outside, too
-            return std::string(range.name) + " is " + textOf(range.value) + "; it can be " + textOf(range.least) +
-                   " to " + textOf(range.most) + std::string(range.unit);
-        }
-    }
-    return std::nullopt;
-}
-
-std::optional<std::string> rangeRefusal(const MomentOptions& o)
-{
-    if (o.samples != 1 && o.samples != 4) {
-        return "samples are " + std::to_string(o.samples) + "; they can be 1 or 4";
-    }
-    const std::array ranges{
-        Range{"blur sigma", o.blur_sigma_texels, 0.3F, 10.0F, " texels"},
-        Range{"blur radius", static_cast<float>(o.blur_radius_texels), 0.0F, static_cast<float>(kMaxBlurRadius),
-              " texels"},
-        Range{"anisotropy", static_cast<float>(o.anisotropy), 2.0F, 16.0F, ""},
-        Range{"minimum variance", o.min_variance.value_or(0.0F), 0.0F, 1.0F, ""},
-        Range{"bleeding linstep", o.bleeding_linstep, 0.0F, 0.99F, ""},
-        Range{"bleeding power", o.bleeding_power, 0.1F, 16.0F, ""},
-        Range{"lighten", o.lighten, 0.0F, 1.0F, ""},
-        Range{"moment bias", o.moment_bias.value_or(0.0F), 0.0F, 0.1F, ""},
-        Range{"number of layers", static_cast<float>(o.layers), 2.0F, static_cast<float>(kMaxDepthLayers), ""},
-        Range{"layer overlap", o.layer_overlap, 0.0F, 0.5F, " of a layer"},
-    };
-    return firstOutside(ranges);
-}
-
 std::optional<std::string> exponentRefusal(std::string_view name, const std::optional<float>& wish, MapFormat format,
                                            double largest)
 {
     if (!wish) {
         return std::nullopt;
-    }
-    if (!(*wish > 0.0F) || !std::isfinite(*wish)) {
-        return std::string(name) + " is " + textOf(*wish) + "; it must be above 0 and finite";
     }
     if (static_cast<double>(*wish) > largest) {
         return std::string(name) + " " + textOf(*wish) + " would overflow " + std::string(nameOf(format)) +
@@ -193,7 +150,9 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     if (options.remap && isUnorm(format) && filter != Filter::msm) { // which has it in any case
         return std::string(nameOf(format)) + " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can";
     }
-    if (auto reason = rangeRefusal(options)) {
+    ShadowOptions checked;
+    checked.moments = options;
+    if (auto reason = firstOutOfRange(checked)) {
         return reason;
     }
     const double largest = largestExponent(filter, format, options);

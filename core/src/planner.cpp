@@ -19,7 +19,7 @@ namespace {
 
 /// One of a planner's options, and what the camera sees that they count for.
 struct Setup {
-    explicit Setup(const PlanOptions& options) : recipe(options) {}
+    explicit Setup(const ShadowOptions& options) : recipe(options) {}
 
     Recipe recipe;
     bool looked = false; // in this frame
@@ -75,15 +75,18 @@ struct Planner::Impl {
     void addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned);
 };
 
-Planner::Planner(const PlanOptions& options) : Planner(std::span(&options, 1)) {}
+Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
 
-Planner::Planner(std::span<const PlanOptions> options) : impl_(std::make_unique<Impl>())
+Planner::Planner(std::span<const ShadowOptions> options) : impl_(std::make_unique<Impl>())
 {
     assert(!options.empty());
-    for (const PlanOptions& one : options) {
-        impl_->setups.emplace_back(one);
-        impl_->store.addPages(one.map_size, one.max_layers);
+    auto resolved = std::make_shared<std::vector<ResolvedOptions>>();
+    for (const ShadowOptions& one : options) {
+        const Recipe& recipe = impl_->setups.emplace_back(one).recipe;
+        resolved->push_back(recipe.resolved);
+        impl_->store.addPages(recipe.options.map_size, recipe.options.max_layers);
     }
+    impl_->plan.options = std::move(resolved);
 }
 
 Planner::~Planner() = default;
@@ -100,9 +103,9 @@ void Planner::lost(const MapId& map)
     impl_->store.lost(map);
 }
 
-const PlanOptions& Planner::options(std::uint32_t index) const
+const ShadowOptions& Planner::options(std::uint32_t index) const
 {
-    return impl_->setups[index].recipe.options;
+    return impl_->setups[index].recipe.asked;
 }
 
 const Plan& Planner::plan(const Frame& frame)
@@ -124,13 +127,13 @@ const Plan& Planner::plan(const Frame& frame)
 
 void Planner::Impl::begin(const Frame& frame)
 {
-    const PlanOptions& options = setups[0].recipe.options;
+    const ShadowOptions& options = setups[0].recipe.options;
     plan.frame = frame.index;
     plan.technique = options.technique;
     plan.fade_end_m = options.max_distance_m;
     plan.fade_begin_m = options.max_distance_m * (1.0 - options.fade);
     plan.cascades = options.cascades;
-    plan.border_texels = usableBorder(options.border_texels, options.map_size);
+    plan.border_texels = setups[0].recipe.borderTexels(options.map_size);
     plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
     plan.lights.clear();
     plan.views.clear();
@@ -173,7 +176,7 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
         return;
     setup.looked = true;
     CameraView& camera = setup.camera;
-    const PlanOptions& options = setup.recipe.options;
+    const ShadowOptions& options = setup.recipe.options;
     camera.look(frame, options.max_distance_m, setup.receivers);
     if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty())
         return;

@@ -12,15 +12,16 @@
 namespace gnomon {
 
 struct Recipe {
-    PlanOptions options;
-    // Null where the choice is not available; then check() refuses every light.
+    ShadowOptions asked;
+    Resolution resolution;    // without a value check() refuses every light
+    ResolvedOptions resolved; // the default ones where what was asked for is refused
+    ShadowOptions options;    // of `resolved`
     const PartitionTraits* partition = nullptr;
     FitFunction fit = nullptr;
     const MotionTraits* motion = nullptr;
     const FilterTraits* filter = nullptr;
 
-    /// Precondition: the options are in range (assert).
-    explicit Recipe(const PlanOptions& given);
+    explicit Recipe(const ShadowOptions& given);
 
     /// ok, or why this light has no map whatever it shines on.
     [[nodiscard]] Outcome check(const Light& light) const;
@@ -36,6 +37,8 @@ struct Recipe {
 
     /// Depth is measured from a plane that leans with what receives shadow.
     [[nodiscard]] bool levelsDepth() const;
+    /// Room around a map of this side, texels.
+    [[nodiscard]] double borderTexels(std::uint32_t side) const;
     [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
 };
 

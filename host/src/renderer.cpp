@@ -75,7 +75,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
       targets(memory, drawnExtent(options), {options.width, options.height},
               options.anti_aliasing == AntiAliasing::fxaa),
       draws(memory, geometry, materials, the_scene, state), commands(the_gpu, memory.names(), "frame"),
-      profiler(the_gpu.view(), 1, kMaxPasses), planner(options.plan)
+      profiler(the_gpu.view(), 1, kMaxPasses), planner(options.shadow)
 {
     frame_buffer = memory.buffer("host frame data", sizeof(FrameData), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Place::host);
     uploader->flush();
@@ -90,7 +90,7 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     makeFrameSet();
     if (options.shadows) {
         vulkan::ShadowRendererOptions wish;
-        wish.filter = options.filter;
+        wish.filter = vulkan::filterOptionsOf(options.shadow);
         wish.frames_in_flight = 1; // draw() waits, so that its times are whole
         wish.pipeline_cache = gpu.pipelineCache();
         shadows.emplace(gpu.view(), wish);
@@ -101,8 +101,8 @@ Renderer::Impl::Impl(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
         caster_wish.pipeline_cache = gpu.pipelineCache();
         casters.emplace(gpu.view(), caster_wish);
         draws.fillCasters(*casters);
-        shadows->setCascadePass(options.cascade_pass);
-        casters->setCascadePass(options.cascade_pass);
+        shadows->setCascadePass(options.shadow.cascades.pass);
+        casters->setCascadePass(options.shadow.cascades.pass);
     }
 }
 

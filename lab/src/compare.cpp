@@ -65,7 +65,7 @@ Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::
 
     const Plan& plan = renderer.plan();
     const Camera camera = cameraOf(subject, sizeOf(truth.surfaces));
-    const double reach_texels = vulkan::filterReachTexels(options.filter);
+    const double reach_texels = reachTexels(options.shadow);
     score.outcome = plan.lights[subject.light].outcome;
     score.atlas = plan.pages[0];
     score.density = texelDensity(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);

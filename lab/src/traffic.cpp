@@ -31,11 +31,11 @@ std::uint64_t leastBytes(host::Renderer& renderer, const Subject& subject, const
         lights.push_back(light.caster);
     }
     TrafficOptions traffic;
-    traffic.format = options.filter.format;
-    traffic.reach_texels = leastReach(options.filter);
-    traffic.image_layers = imageLayersPerMap(options.filter.filter, options.filter.moments);
+    traffic.format = formatOf(options.shadow);
+    traffic.reach_texels = leastReach(vulkan::filterOptionsOf(options.shadow));
+    traffic.image_layers = imageLayersPerMap(options.shadow.technique.filter, options.shadow.moments);
     const MapPages& atlas = renderer.plan().pages[0];
-    traffic.mip_levels = vulkan::mipLevels(options.filter, atlas.width, atlas.height);
+    traffic.mip_levels = vulkan::mipLevels(vulkan::filterOptionsOf(options.shadow), atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;
     traffic.reads_object_ids = true;
     traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;

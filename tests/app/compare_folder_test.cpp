@@ -94,7 +94,7 @@ TEST(CompareTable, Fits120Columns)
 {
     app::CompareResult result;
     for (app::Settings settings : app::contestants(app::defaultSettings())) {
-        if (filterTraits(settings.filter.filter)->filterable) {
+        if (filterTraits(settings.shadow.technique.filter)->filterable) {
             app::applySetting(settings, "blur.path", "fragment"); // the longest name
         }
         app::ComparedTechnique& technique = result.techniques.emplace_back();

@@ -41,7 +41,7 @@ TEST(PcfLadder, HoldsEveryKernelAndSizeCheapestFirst)
 TEST(PcfLadder, StopsAtTheDevicesLargestMap)
 {
     for (const app::PcfSetting& rung : app::pcfLadder(base(), 2047)) {
-        EXPECT_LE(rung.settings.plan.map_size, 1448U);
+        EXPECT_LE(rung.settings.shadow.map_size, 1448U);
     }
     EXPECT_EQ(app::pcfLadder(base(), 2047).size(), 14U * 6U);
     EXPECT_TRUE(app::pcfLadder(base(), 15).empty());
@@ -51,8 +51,8 @@ TEST(PcfLadder, IsPlainWhateverTheBaseAsksFor)
 {
     for (const app::PcfSetting& rung : app::pcfLadder(base("hard+map-format=d16+bias=none"), 512)) {
         EXPECT_TRUE(app::isPlainPcf(rung.settings));
-        EXPECT_FALSE(rung.settings.filter.bias.automatic); // all else stays
-        EXPECT_FALSE(refusal(Filter::pcf, rung.settings.filter.format).has_value());
+        EXPECT_FALSE(rung.settings.shadow.bias.automatic); // all else stays
+        EXPECT_FALSE(refusal(Filter::pcf, formatOf(rung.settings.shadow)).has_value());
     }
     EXPECT_FALSE(app::isPlainPcf(base("hard")));
     EXPECT_TRUE(app::isPlainPcf(base("pcf+pcf.kernel=7x7")));

@@ -76,7 +76,7 @@ public:
         settings_ = app::parseCommandLine(arguments).settings;
         shot_ = app::makeShot(settings_);
         for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm}) {
-            PlanOptions options = settings_.plan;
+            ShadowOptions options = settings_.shadow;
             options.technique.fit = fit;
             planners_.emplace(fit, Planner(options));
         }

@@ -36,7 +36,7 @@ app::Settings technique(const std::string& text)
 
 TEST(MomentSettings, DefaultsAreThoseOfTheLibrary)
 {
-    const MomentOptions made = app::defaultSettings().filter.moments;
+    const MomentOptions made = app::defaultSettings().shadow.moments;
     const MomentOptions library;
     EXPECT_EQ(made.metric, library.metric);
     EXPECT_EQ(made.remap, library.remap);
@@ -70,7 +70,7 @@ TEST(MomentSettings, EachReachesTheLibrary)
         set("vsm", {"msaa=1", "blur=box", "blur.radius=7", "blur.path=fragment", "map-sampling=anisotropic",
                     "anisotropy=4", "depth-metric=z-over-w", "depth-remap=1", "min-variance=0.25",
                     "derivative-variance=1", "bleeding.linstep=0.5", "bleeding.power=2", "lighten=0.75"})
-            .filter.moments;
+            .shadow.moments;
     EXPECT_EQ(shared.samples, 1U);
     EXPECT_EQ(shared.blur, BlurKind::box);
     EXPECT_EQ(shared.blur_radius_texels, 7U);
@@ -84,22 +84,22 @@ TEST(MomentSettings, EachReachesTheLibrary)
     EXPECT_EQ(shared.bleeding_linstep, 0.5F);
     EXPECT_EQ(shared.bleeding_power, 2.0F);
     EXPECT_EQ(shared.lighten, 0.75F);
-    EXPECT_EQ(set("msm", {"blur.sigma=2.5"}).filter.moments.blur_sigma_texels, 2.5F);
+    EXPECT_EQ(set("msm", {"blur.sigma=2.5"}).shadow.moments.blur_sigma_texels, 2.5F);
 
     const MomentOptions layers =
-        set("lvsm", {"lvsm.splits=0.25/0.5", "lvsm.layers=3", "lvsm.overlap=0.125"}).filter.moments;
+        set("lvsm", {"lvsm.splits=0.25/0.5", "lvsm.layers=3", "lvsm.overlap=0.125"}).shadow.moments;
     EXPECT_EQ(layers.layers, 3U);
     EXPECT_EQ(layers.placement, LayerPlacement::by_hand);
     EXPECT_EQ(layers.splits, (std::array<float, 7>{0.25F, 0.5F}));
     EXPECT_EQ(layers.layer_overlap, 0.125F);
-    EXPECT_EQ(set("lvsm", {"lvsm.placement=uniform"}).filter.moments.placement, LayerPlacement::uniform);
+    EXPECT_EQ(set("lvsm", {"lvsm.placement=uniform"}).shadow.moments.placement, LayerPlacement::uniform);
 
-    EXPECT_EQ(set("esm", {"esm.exponent=30"}).filter.moments.esm_exponent, 30.0F);
-    const MomentOptions evsm = set("evsm", {"log-space=1", "evsm.positive=60", "evsm.negative=7"}).filter.moments;
+    EXPECT_EQ(set("esm", {"esm.exponent=30"}).shadow.moments.esm_exponent, 30.0F);
+    const MomentOptions evsm = set("evsm", {"log-space=1", "evsm.positive=60", "evsm.negative=7"}).shadow.moments;
     EXPECT_TRUE(evsm.log_space);
     EXPECT_EQ(evsm.evsm_positive, 60.0F);
     EXPECT_EQ(evsm.evsm_negative, 7.0F);
-    const MomentOptions msm = set("msm", {"msm.solver=hausdorff", "msm.bias=0.0625"}).filter.moments;
+    const MomentOptions msm = set("msm", {"msm.solver=hausdorff", "msm.bias=0.0625"}).shadow.moments;
     EXPECT_EQ(msm.solver, MomentSolver::hausdorff);
     EXPECT_EQ(msm.moment_bias, 0.0625F);
 }
@@ -113,10 +113,10 @@ TEST(MomentSettings, FiltersHaveTheirOwnFormatAndRoom)
                                                          {"msm", MapFormat::rgba16}};
     for (const auto& [name, format] : formats) {
         const app::Settings settings = technique(name);
-        EXPECT_EQ(settings.filter.format, format) << name;
+        EXPECT_EQ(formatOf(settings.shadow), format) << name;
         EXPECT_EQ(app::describeTechnique(settings), name); // neither is worth a word
     }
-    EXPECT_GE(technique("vsm+blur.radius=20").plan.border_texels, 20.0);
+    EXPECT_GE(resolvedOrThrow(technique("vsm+blur.radius=20").shadow).border_texels(), 20.0);
     EXPECT_EQ(app::describeTechnique(technique("vsm+blur.radius=20")), "vsm+blur.radius=20");
     EXPECT_EQ(app::describeTechnique(technique("vsm+map-format=rg32f")), "vsm");
     EXPECT_EQ(app::describeTechnique(technique("vsm+map-format=rg16f")), "vsm+map-format=rg16f");
@@ -153,7 +153,7 @@ TEST(MomentSettings, ResultsComeBackAsPresets)
         test::spill(folder / "a.json", app::settingsJson(settings, app::kRender).dump());
         const app::Settings again = settingsOf({"render", "--preset", (folder / "a.json").string()});
         EXPECT_EQ(app::describeTechnique(again), text);
-        EXPECT_EQ(again.filter.moments.splits, settings.filter.moments.splits);
+        EXPECT_EQ(again.shadow.moments.splits, settings.shadow.moments.splits);
     }
 }
 
@@ -169,9 +169,9 @@ TEST(MomentSettings, APlacementSaidLaterTakesSplitsBack)
     const test::Folder folder;
     test::spill(folder / "a.json", R"({"filter": "lvsm", "lvsm.splits": [0.25]})");
     const std::string preset = (folder / "a.json").string();
-    EXPECT_EQ(settingsOf({"plan", "--preset", preset}).filter.moments.splits[0], 0.25F);
+    EXPECT_EQ(settingsOf({"plan", "--preset", preset}).shadow.moments.splits[0], 0.25F);
     const app::Settings lloyd = settingsOf({"plan", "--preset", preset, "--set", "lvsm.placement=lloyd"});
-    EXPECT_EQ(lloyd.filter.moments.placement, LayerPlacement::lloyd);
+    EXPECT_EQ(lloyd.shadow.moments.placement, LayerPlacement::lloyd);
     EXPECT_FALSE(lloyd.values.contains("lvsm.splits"));
     EXPECT_EQ(app::describeTechnique(lloyd), "lvsm");
     const app::Settings base = settingsOf({"plan", "--preset", preset});
@@ -198,11 +198,11 @@ TEST(MomentSettings, NumbersCanBeSwept)
 TEST(MomentSettings, ThePresetIsThePapersSetUp)
 {
     const app::Settings settings = settingsOf({"render", "--preset", "rts-2011"});
-    const MomentOptions& moments = settings.filter.moments;
+    const MomentOptions& moments = settings.shadow.moments;
     EXPECT_EQ(settings.scene, "rts");
-    EXPECT_EQ(settings.plan.technique.filter, Filter::lvsm);
-    EXPECT_EQ(settings.plan.map_size, 1024U);
-    EXPECT_EQ(settings.filter.format, MapFormat::rgba16);
+    EXPECT_EQ(settings.shadow.technique.filter, Filter::lvsm);
+    EXPECT_EQ(settings.shadow.map_size, 1024U);
+    EXPECT_EQ(formatOf(settings.shadow), MapFormat::rgba16);
     EXPECT_EQ(moments.layers, 2U);
     EXPECT_EQ(moments.samples, 4U);
     EXPECT_EQ(moments.blur, BlurKind::gaussian);
@@ -240,7 +240,7 @@ TEST(CommandLine, ASceneMayFollowAnyOption)
     test::spill(folder / "a.json", R"({"scene": "rts", "filter": "vsm"})");
     const std::string preset = (folder / "a.json").string();
     EXPECT_EQ(settingsOf({"compare", "--preset", preset, "spotlit"}).scene, "spotlit");
-    EXPECT_EQ(settingsOf({"compare", "--preset", preset, "spotlit"}).plan.technique.filter, Filter::vsm);
+    EXPECT_EQ(settingsOf({"compare", "--preset", preset, "spotlit"}).shadow.technique.filter, Filter::vsm);
     EXPECT_EQ(settingsOf({"bench", "--techniques", "hard,pcf", "planes"}).scene, "planes");
     EXPECT_EQ(settingsOf({"plan", "--set", "map-size=64", "planes"}).scene, "planes");
     EXPECT_EQ(settingsOf({"compare", "--limit", "count=5", "planes"}).scene, "planes");

@@ -306,22 +306,22 @@ TEST(Technique, TextAndSettingsAgreeBothWays)
         EXPECT_EQ(once.values, twice.values) << text << " | " << described;
     }
     const app::Settings settings = app::parseTechnique(base, "map-size=64+uniform+hard+free");
-    EXPECT_EQ(settings.plan.technique.filter, Filter::hard);
-    EXPECT_EQ(settings.plan.map_size, 64U);
+    EXPECT_EQ(settings.shadow.technique.filter, Filter::hard);
+    EXPECT_EQ(settings.shadow.map_size, 64U);
 }
 
 TEST(Bias, TheListSetsItsParts)
 {
     app::Settings settings = app::defaultSettings();
-    EXPECT_TRUE(settings.filter.bias.automatic);
+    EXPECT_TRUE(settings.shadow.bias.automatic);
     app::applySetting(settings, "bias", "constant=0.5,slope=2,normal=1.5,receiver-plane=1");
-    EXPECT_FALSE(settings.filter.bias.automatic);
-    EXPECT_EQ(settings.filter.bias.constant_m, 0.5F);
-    EXPECT_EQ(settings.filter.bias.slope, 2.0F);
-    EXPECT_EQ(settings.filter.bias.normal_texels, 1.5F);
-    EXPECT_TRUE(settings.filter.bias.receiver_plane);
+    EXPECT_FALSE(settings.shadow.bias.automatic);
+    EXPECT_EQ(settings.shadow.bias.constant_m, 0.5F);
+    EXPECT_EQ(settings.shadow.bias.slope, 2.0F);
+    EXPECT_EQ(settings.shadow.bias.normal_texels, 1.5F);
+    EXPECT_TRUE(settings.shadow.bias.receiver_plane);
     app::applySetting(settings, "bias", "auto");
-    EXPECT_TRUE(settings.filter.bias.automatic);
+    EXPECT_TRUE(settings.shadow.bias.automatic);
     EXPECT_FALSE(settings.values.contains("bias.slope"));
 }
 
@@ -335,9 +335,9 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     app::Settings settings = app::defaultSettings();
     app::applyPreset(settings, "shastry-2005", app::kRender);
     app::completeTechnique(settings);
-    EXPECT_EQ(settings.plan.map_size, 1024U);
-    EXPECT_EQ(settings.filter.format, MapFormat::r32f);
-    EXPECT_EQ(settings.filter.bias.constant_m, 0.1F);
+    EXPECT_EQ(settings.shadow.map_size, 1024U);
+    EXPECT_EQ(formatOf(settings.shadow), MapFormat::r32f);
+    EXPECT_EQ(settings.shadow.bias.constant_m, 0.1F);
 }
 
 app::Settings settingsOf(const std::vector<std::string>& arguments)

@@ -24,7 +24,8 @@ TEST(Settings, KeysAreUnique)
     std::set<std::string_view> keys;
     for (const app::Setting& setting : app::settingTable()) {
         EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
-        EXPECT_EQ(setting.used == nullptr, setting.used_when.empty()) << setting.key;
+        const bool always = setting.option != nullptr ? setting.option->used == nullptr : setting.used == nullptr;
+        EXPECT_EQ(always, setting.used_when.empty()) << setting.key;
     }
 }
 
@@ -37,17 +38,17 @@ TEST(Settings, OfCascadesEndsAndCountTheLastHolds)
         return settingsOf({"plan", "--partition", "cascades", "--set", one, "--set", two});
     };
     const app::Settings by_ends = with(count, ends);
-    EXPECT_EQ(by_ends.plan.cascades.count, 3U);
-    EXPECT_TRUE(by_ends.plan.cascades.explicitEnds());
+    EXPECT_EQ(by_ends.shadow.cascades.count, 3U);
+    EXPECT_TRUE(by_ends.shadow.cascades.explicitEnds());
     EXPECT_EQ(by_ends.values.at("cascades.count"), "3");
     const app::Settings by_count = with(ends, count);
-    EXPECT_EQ(by_count.plan.cascades.count, 5U);
-    EXPECT_FALSE(by_count.plan.cascades.explicitEnds());
+    EXPECT_EQ(by_count.shadow.cascades.count, 5U);
+    EXPECT_FALSE(by_count.shadow.cascades.explicitEnds());
     EXPECT_FALSE(by_count.values.contains("cascades.ends"));
     for (const app::Settings& one : {by_ends, by_count}) {
         const app::Settings again = app::parseTechnique(settingsOf({"plan"}), app::describeTechnique(one));
-        EXPECT_EQ(again.plan.cascades.count, one.plan.cascades.count);
-        EXPECT_EQ(again.plan.cascades.ends_m, one.plan.cascades.ends_m);
+        EXPECT_EQ(again.shadow.cascades.count, one.shadow.cascades.count);
+        EXPECT_EQ(again.shadow.cascades.ends_m, one.shadow.cascades.ends_m);
     }
 }
 

@@ -22,15 +22,15 @@ Settings with(std::initializer_list<std::pair<const char*, const char*>> values)
 
 TEST(StepSettings, DefaultsAreThePlannersOwn)
 {
-    const PlanOptions ours = defaultSettings().plan;
-    const PlanOptions usual;
+    const ShadowOptions ours = defaultSettings().shadow;
+    const ShadowOptions usual;
     EXPECT_EQ(ours.steps.by, usual.steps.by);
     EXPECT_NEAR(ours.steps.angle_rad, usual.steps.angle_rad, 1e-9);
     EXPECT_EQ(ours.steps.interval_s, usual.steps.interval_s);
     EXPECT_EQ(ours.steps.smooth, usual.steps.smooth);
     EXPECT_EQ(ours.steps.band, usual.steps.band);
     EXPECT_EQ(ours.keep_still, usual.keep_still);
-    EXPECT_FALSE(ours.paired_maps);
+    EXPECT_FALSE(resolvedOrThrow(ours).paired_maps());
 }
 
 TEST(StepSettings, BecomeThePlanners)
@@ -41,14 +41,14 @@ TEST(StepSettings, BecomeThePlanners)
                                     {"step.fade", "smooth"},
                                     {"step.band", "0.5"},
                                     {"keep-still", "always"}});
-    EXPECT_EQ(settings.plan.steps.by, StepBy::time);
-    EXPECT_DOUBLE_EQ(settings.plan.steps.angle_rad, glm::radians(2.0));
-    EXPECT_EQ(settings.plan.steps.interval_s, 0.5);
-    EXPECT_TRUE(settings.plan.steps.smooth);
-    EXPECT_EQ(settings.plan.steps.band, 0.5);
-    EXPECT_EQ(settings.plan.keep_still, KeepStill::always);
-    EXPECT_EQ(with({{"keep-still", "never"}}).plan.keep_still, KeepStill::never);
-    EXPECT_EQ(with({{"keep-still", "never"}, {"keep-still", "auto"}}).plan.keep_still, KeepStill::automatic);
+    EXPECT_EQ(settings.shadow.steps.by, StepBy::time);
+    EXPECT_DOUBLE_EQ(settings.shadow.steps.angle_rad, glm::radians(2.0));
+    EXPECT_EQ(settings.shadow.steps.interval_s, 0.5);
+    EXPECT_TRUE(settings.shadow.steps.smooth);
+    EXPECT_EQ(settings.shadow.steps.band, 0.5);
+    EXPECT_EQ(settings.shadow.keep_still, KeepStill::always);
+    EXPECT_EQ(with({{"keep-still", "never"}}).shadow.keep_still, KeepStill::never);
+    EXPECT_EQ(with({{"keep-still", "never"}, {"keep-still", "auto"}}).shadow.keep_still, KeepStill::automatic);
 }
 
 TEST(StepSettings, AreWithinThePlannersRanges)
@@ -62,8 +62,8 @@ TEST(StepSettings, AreWithinThePlannersRanges)
     for (const char* wrong : {"0", "1.01"}) {
         EXPECT_THROW((void)with({{"step.band", wrong}}), UsageError) << wrong;
     }
-    EXPECT_GE(with({{"step.angle", "0.01"}}).plan.steps.angle_rad, 0.0001);
-    EXPECT_LE(with({{"step.angle", "28"}}).plan.steps.angle_rad, 0.5);
+    EXPECT_GE(with({{"step.angle", "0.01"}}).shadow.steps.angle_rad, 0.0001);
+    EXPECT_LE(with({{"step.angle", "28"}}).shadow.steps.angle_rad, 0.5);
 }
 
 /// What each motion asks of its options.
@@ -71,7 +71,7 @@ TEST(StepSettings, AreOfUseWithTheirMotionAlone)
 {
     const auto isUsed = [](const char* key, const char* motion, const char* by) {
         const Settings settings = with({{"motion", motion}, {"step.by", by}});
-        return findSetting(key)->used(settings);
+        return app::isUsed(*findSetting(key), settings);
     };
     for (const char* key : {"step.by", "step.angle", "step.interval", "step.fade", "step.band"}) {
         EXPECT_FALSE(isUsed(key, "free", "angle")) << key;
@@ -87,17 +87,18 @@ TEST(StepSettings, AreOfUseWithTheirMotionAlone)
         EXPECT_EQ(isUsed("step.fade", motion, "angle"), name != "step-jump");
         EXPECT_EQ(isUsed("step.band", motion, "angle"), name == "step-band");
     }
-    EXPECT_EQ(findSetting("keep-still")->used, nullptr);
+    EXPECT_TRUE(isUsed("keep-still", "free", "angle"));
 }
 
 /// Two moments of a filterable map in such a texel are one map.
 TEST(StepSettings, TwoMapsShareATexelOfAFormatOfTwo)
 {
-    EXPECT_FALSE(parseTechnique(defaultSettings(), "pcf").plan.paired_maps);
-    EXPECT_FALSE(parseTechnique(defaultSettings(), "vsm+map-format=rg16").plan.paired_maps);
-    EXPECT_FALSE(parseTechnique(defaultSettings(), "hard+map-format=r32f").plan.paired_maps);
-    EXPECT_TRUE(parseTechnique(defaultSettings(), "pcf+step-blend+map-format=rg16").plan.paired_maps);
-    EXPECT_TRUE(parseTechnique(defaultSettings(), "hard+map-format=rgba8").plan.paired_maps);
+    EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "pcf").shadow).paired_maps());
+    EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "vsm+map-format=rg16").shadow).paired_maps());
+    EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "hard+map-format=r32f").shadow).paired_maps());
+    EXPECT_TRUE(
+        resolvedOrThrow(parseTechnique(defaultSettings(), "pcf+step-blend+map-format=rg16").shadow).paired_maps());
+    EXPECT_TRUE(resolvedOrThrow(parseTechnique(defaultSettings(), "hard+map-format=rgba8").shadow).paired_maps());
 }
 
 } // namespace

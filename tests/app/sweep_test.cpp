@@ -30,7 +30,7 @@ TEST(SweepPlan, TakesValuesByEqualStepsOrFactors)
     const app::SweepPlan whole = app::planSweep({"pcf.taps", 4.0, 6.0, 5, true}, {technique("pcf+pcf.kernel=vogel")});
     EXPECT_EQ(whole.values, (std::vector<double>{4.0, 5.0, 6.0}));
     ASSERT_EQ(whole.lines.size(), 1U);
-    EXPECT_EQ(whole.lines[0].points[1].filter.disc_taps, 5U);
+    EXPECT_EQ(whole.lines[0].points[1].shadow.pcf.taps, 5U);
 }
 
 TEST(SweepPlan, SetsTheValueAndNamesTheTechniqueWithoutIt)
@@ -42,8 +42,8 @@ TEST(SweepPlan, SetsTheValueAndNamesTheTechniqueWithoutIt)
     EXPECT_EQ(plan.lines[1].technique, "pcf+bias=none+pcf.kernel=3x3");
     for (const app::SweepPlan::Line& line : plan.lines) {
         ASSERT_EQ(line.points.size(), 3U);
-        EXPECT_EQ(line.points[0].plan.map_size, 64U);
-        EXPECT_EQ(line.points[2].plan.map_size, 256U);
+        EXPECT_EQ(line.points[0].shadow.map_size, 64U);
+        EXPECT_EQ(line.points[2].shadow.map_size, 256U);
     }
 }
 
@@ -54,7 +54,8 @@ TEST(SweepPlan, LeavesOutTechniquesThatItDoesNotTouch)
     ASSERT_EQ(plan.lines.size(), 1U);
     ASSERT_EQ(plan.left_out.size(), 1U);
     EXPECT_TRUE(plan.left_out[0].starts_with("hard is left out: pcf.radius has an effect only with"));
-    EXPECT_EQ(plan.lines[0].points[2].plan.border_texels, 5.0); // the room that a disc of 4 texels needs
+    EXPECT_EQ(resolvedOrThrow(plan.lines[0].points[2].shadow).border_texels(),
+              5.0); // the room that a disc of 4 texels needs
     EXPECT_THROW((void)app::planSweep({"pcf.radius", 1.0, 4.0, 3, false}, {technique("hard")}), app::UsageError);
     EXPECT_THROW((void)app::planSweep({"map-size", 64.0, 128.0, 2, false},
                                       {technique("hard+map-size=64"), technique("hard+map-size=512")}),
@@ -64,8 +65,8 @@ TEST(SweepPlan, LeavesOutTechniquesThatItDoesNotTouch)
 TEST(SweepPlan, KeepsABorderThatIsSwept)
 {
     const app::SweepPlan plan = app::planSweep({"border", 0.0, 8.0, 3, false}, {technique("hard")});
-    EXPECT_EQ(plan.lines[0].points[0].plan.border_texels, 0.0);
-    EXPECT_EQ(plan.lines[0].points[2].plan.border_texels, 8.0);
+    EXPECT_EQ(plan.lines[0].points[0].shadow.border_texels, 0.0);
+    EXPECT_EQ(plan.lines[0].points[2].shadow.border_texels, 8.0);
 }
 
 TEST(SweepPlan, RoundsToMultiplesAndKnowsWhatMakesTheShotAnew)

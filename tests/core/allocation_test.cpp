@@ -36,7 +36,7 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     frame.lights = lights;
     frame.objects = &set;
     for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm}) {
-        PlanOptions options;
+        ShadowOptions options;
         options.technique.fit = fit;
         Planner planner(options);
         const auto play = [&](int step) {
@@ -76,7 +76,7 @@ TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
     frame.objects = &set;
     frame.camera = test::perspectiveCamera({150, 60, 0}, {0, 0, 0}, 1.0);
     for (const Motion motion : {Motion::step_jump, Motion::step_band, Motion::step_blend, Motion::step_alternate}) {
-        PlanOptions options;
+        ShadowOptions options;
         options.technique.motion = motion;
         options.keep_still = KeepStill::always;
         Planner planner(options);

@@ -45,12 +45,12 @@ struct Ground {
         frame.lights = lights;
         frame.objects = &set;
     }
-    Plan plan(PlanOptions options) const { return Planner(options).plan(frame); }
+    Plan plan(ShadowOptions options) const { return Planner(options).plan(frame); }
 };
 
-PlanOptions cascades(std::uint32_t count)
+ShadowOptions cascades(std::uint32_t count)
 {
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.partition = Partition::cascades;
     options.cascades.count = count;
     options.map_size = 1024;
@@ -77,7 +77,7 @@ TEST(Cascades, ShareTheViewWithOverlapsOnly)
 
 TEST(Cascades, EndWhereTheyAreToldTo)
 {
-    PlanOptions options = cascades(3);
+    ShadowOptions options = cascades(3);
     options.cascades.ends_m = {10.0, 40.0};
     options.cascades.blend = 0.0;
     const Plan plan = Ground().plan(options);
@@ -91,7 +91,7 @@ TEST(Cascades, EndWhereTheyAreToldTo)
 TEST(Cascades, OneIsAsGoodAsNone)
 {
     const Ground ground;
-    PlanOptions single;
+    ShadowOptions single;
     single.map_size = 1024;
     const Plan one = ground.plan(cascades(1));
     const Plan none = ground.plan(single);
@@ -111,7 +111,7 @@ TEST(Cascades, TheFirstWarpIsRuledByWhatThereIsToSee)
     ground.set.add(test::boxAt({100, 30, -180}, {5, 30, 5}), {true, true, false});
     ground.frame.camera = test::perspectiveCamera({0, 30, 0}, {0, 0, -60}, 0.9);
     const double nearest_m = 26.0 / std::sin(std::atan(0.5) + 0.45) * std::cos(0.45);
-    PlanOptions options = cascades(2);
+    ShadowOptions options = cascades(2);
     options.technique.fit = Fit::lispsm;
     const Plan plan = ground.plan(options);
     ASSERT_EQ(plan.views.size(), 2U);
@@ -126,7 +126,7 @@ TEST(Cascades, OfAnOrthographicCameraAreEven)
 {
     Ground ground;
     ground.frame.camera = test::orthographicCamera({0, 60, 100}, {0, 0, 0}, 60.0);
-    PlanOptions options = cascades(3);
+    ShadowOptions options = cascades(3);
     options.cascades.blend = 0.0;
     const Plan plan = ground.plan(options);
     ASSERT_EQ(plan.views.size(), 3U);
@@ -158,7 +158,7 @@ TEST(Cascades, HoldWhatTheyServe)
         const glm::dvec3 eye = random.inBox({-150, 0.5, -150}, {150, 30, 150});
         ground.frame.camera =
             test::perspectiveCamera(eye, random.inBox({-150, 0, -150}, {150, 5, 150}), random.uniform(0.2, 2.5));
-        PlanOptions options = cascades(1 + random.below(kMaxCascades));
+        ShadowOptions options = cascades(1 + random.below(kMaxCascades));
         options.technique.motion = random.below(2) == 0 ? Motion::free : Motion::snap;
         options.cascades.lambda = random.uniform();
         options.cascades.blend = random.uniform(0.0, 0.5);
@@ -239,7 +239,7 @@ TEST(ViewsTogether, OfAPlanThatIsDrawnWholeHoldViewsThatNeedNoDrawing)
 TEST(ViewsTogether, AreAllCascadesThatTheGpuFits)
 {
     const Ground ground;
-    PlanOptions options = cascades(6);
+    ShadowOptions options = cascades(6);
     options.technique.partition = Partition::sdsm;
     EXPECT_EQ(viewsTogether(ground.plan(options), 0), 6U);
 }

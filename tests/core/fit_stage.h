@@ -21,7 +21,7 @@ struct Stage {
     ObjectSet set;
     Camera camera;
     Light light = sun({0, -1, 0});
-    PlanOptions options;
+    ShadowOptions options;
 
     [[nodiscard]] Plan plan(Fit fit)
     {

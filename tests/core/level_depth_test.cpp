@@ -24,7 +24,7 @@ struct Ground {
         set.add({{-1, 0, -1}, {1, 4, 1}});
         set.add({{5, 0, 8}, {6, 3, 9}});
     }
-    Plan plan(PlanOptions options, Filter filter = Filter::vsm)
+    Plan plan(ShadowOptions options, Filter filter = Filter::vsm)
     {
         options.technique.filter = filter;
         Planner planner(options);
@@ -57,7 +57,7 @@ double spreadOverGround(const View& view)
 TEST(LevelDepth, LevelGroundIsLevelInDepthUnderASlantedSun)
 {
     Ground ground;
-    PlanOptions options;
+    ShadowOptions options;
     const View level = ground.plan(options).views.at(0);
     options.level_depth = false;
     const View along_axis = ground.plan(options).views.at(0);
@@ -130,7 +130,7 @@ TEST(LevelDepth, ReceiversAloneThrowNoShadow)
 {
     ObjectSet set;
     set.add({{-40, 0, -40}, {40, 0.01F, 40}}, {false, true, false});
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.filter = Filter::vsm;
     Planner planner(options);
     Frame frame;

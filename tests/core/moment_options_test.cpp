@@ -71,24 +71,25 @@ TEST(MomentOptions, LimitsHoldAndWhatIsJustBeyondIsRefused)
 {
     const std::vector<Limit> limits{
         {"sigma", [](MomentOptions& o, float v) { o.blur_sigma_texels = v; }, 0.3F, 10.0F, 0.29F, 10.01F,
-         "blur sigma is 0.29; it can be 0.3 to 10 texels", "blur sigma is 10.01; it can be 0.3 to 10 texels"},
+         "blur.sigma is 0.29; it can be 0.3 to 10 texels", "blur.sigma is 10.01; it can be 0.3 to 10 texels"},
         {"variance", [](MomentOptions& o, float v) { o.min_variance = v; }, 0.0F, 1.0F, -0.001F, 1.001F,
-         "minimum variance is -0.001; it can be 0 to 1", "minimum variance is 1.001; it can be 0 to 1"},
+         "min-variance is -0.001; it can be 0 to 1 depth^2", "min-variance is 1.001; it can be 0 to 1 depth^2"},
         {"linstep", [](MomentOptions& o, float v) { o.bleeding_linstep = v; }, 0.0F, 0.99F, -0.01F, 0.995F,
-         "bleeding linstep is -0.01; it can be 0 to 0.99", "bleeding linstep is 0.995; it can be 0 to 0.99"},
+         "bleeding.linstep is -0.01; it can be 0 to 0.99 visibility",
+         "bleeding.linstep is 0.995; it can be 0 to 0.99 visibility"},
         {"power", [](MomentOptions& o, float v) { o.bleeding_power = v; }, 0.1F, 16.0F, 0.09F, 16.5F,
-         "bleeding power is 0.09; it can be 0.1 to 16", "bleeding power is 16.5; it can be 0.1 to 16"},
+         "bleeding.power is 0.09; it can be 0.1 to 16", "bleeding.power is 16.5; it can be 0.1 to 16"},
         {"lighten", [](MomentOptions& o, float v) { o.lighten = v; }, 0.0F, 1.0F, -0.5F, 1.5F,
-         "lighten is -0.5; it can be 0 to 1", "lighten is 1.5; it can be 0 to 1"},
+         "lighten is -0.5; it can be 0 to 1 visibility", "lighten is 1.5; it can be 0 to 1 visibility"},
         {"bias", [](MomentOptions& o, float v) { o.moment_bias = v; }, 0.0F, 0.1F, -1e-6F, 0.101F,
-         "moment bias is -1e-06; it can be 0 to 0.1", "moment bias is 0.101; it can be 0 to 0.1"},
+         "msm.bias is -1e-06; it can be 0 to 0.1", "msm.bias is 0.101; it can be 0 to 0.1"},
         {"overlap", [](MomentOptions& o, float v) { o.layer_overlap = v; }, 0.0F, 0.5F, -0.01F, 0.501F,
-         "layer overlap is -0.01; it can be 0 to 0.5 of a layer",
-         "layer overlap is 0.501; it can be 0 to 0.5 of a layer"},
+         "lvsm.overlap is -0.01; it can be 0 to 0.5 of a layer",
+         "lvsm.overlap is 0.501; it can be 0 to 0.5 of a layer"},
         {"anisotropy", [](MomentOptions& o, float v) { o.anisotropy = static_cast<std::uint32_t>(v); }, 2.0F, 16.0F,
-         1.0F, 17.0F, "anisotropy is 1; it can be 2 to 16", "anisotropy is 17; it can be 2 to 16"},
+         1.0F, 17.0F, "anisotropy is 1; it can be 2 to 16 reads", "anisotropy is 17; it can be 2 to 16 reads"},
         {"layers", [](MomentOptions& o, float v) { o.layers = static_cast<std::uint32_t>(v); }, 2.0F, 8.0F, 1.0F, 9.0F,
-         "number of layers is 1; it can be 2 to 8", "number of layers is 9; it can be 2 to 8"},
+         "lvsm.layers is 1; it can be 2 to 8 layers", "lvsm.layers is 9; it can be 2 to 8 layers"},
     };
     for (const Limit& limit : limits) {
         const auto at = [&](float value) {
@@ -105,13 +106,13 @@ TEST(MomentOptions, CountsThatHaveNoRange)
 {
     EXPECT_EQ(vsmReason([](MomentOptions& o) { o.blur_radius_texels = 31; }), "");
     EXPECT_EQ(vsmReason([](MomentOptions& o) { o.blur_radius_texels = 32; }),
-              "blur radius is 32; it can be 0 to 31 texels");
+              "blur.radius is 32; it can be 1 to 31 texels");
     for (const std::uint32_t samples : {1U, 4U}) {
         EXPECT_EQ(vsmReason([&](MomentOptions& o) { o.samples = samples; }), "");
     }
     for (const std::uint32_t samples : {0U, 2U, 8U}) {
         EXPECT_EQ(vsmReason([&](MomentOptions& o) { o.samples = samples; }),
-                  "samples are " + std::to_string(samples) + "; they can be 1 or 4");
+                  "msaa is " + std::to_string(samples) + "; it can be 1 or 4");
     }
 }
 
@@ -181,7 +182,7 @@ TEST(MomentOptions, ExponentsEndWhereTheFormatDoes)
     EXPECT_EQ(esm(MapFormat::r16f, 11.1F, false),
               "exponent 11.1 would overflow r16f, which holds up to 11; in log space there is no such limit");
     EXPECT_EQ(esm(MapFormat::r16f, 500.0F, true), "");
-    EXPECT_EQ(esm(MapFormat::r32f, 0.0F, true), "exponent is 0; it must be above 0 and finite");
+    EXPECT_EQ(esm(MapFormat::r32f, 0.0F, true), "esm.exponent is 0; it can be 0.01 to 10000");
 
     const auto evsm = [](MapFormat format, float positive, float negative) {
         return reasonFor(Filter::evsm, format, [&](MomentOptions& o) {

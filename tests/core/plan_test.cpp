@@ -34,7 +34,7 @@ struct World {
         frame.lights = lights;
         return planner.plan(frame);
     }
-    OutcomeKind outcome(const PlanOptions& options = {})
+    OutcomeKind outcome(const ShadowOptions& options = {})
     {
         Planner planner(options);
         const Plan& made = plan(planner);
@@ -75,7 +75,7 @@ TEST(UniformFit, RectangleOfAKnownFloorUnderAVerticalSun)
 TEST(UniformFit, DepthsAreMetresAlongTheLight)
 {
     World world;
-    Planner planner(PlanOptions{});
+    Planner planner(ShadowOptions{});
     const View& view = world.plan(planner).views.at(0);
     // The particle at 100 m is clamped: what can be told apart starts three times the receivers' own range (the box's
     // top is at 3 m) above the highest of them.
@@ -95,7 +95,7 @@ TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
 {
     World world;
     world.set.remove(1); // the floor is all that receives, and has no depth range of its own
-    Planner planner(PlanOptions{});
+    Planner planner(ShadowOptions{});
     const View& view = world.plan(planner).views.at(0);
     const double floor = glm::dot(view.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
     EXPECT_GE(floor * (view.metric.far_m - view.metric.near_m), 60.0 * view.texel_m);
@@ -106,7 +106,7 @@ TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
 {
     World world;
     world.lights[0] = test::sun({0.5, -1, 0.25});
-    PlanOptions options;
+    ShadowOptions options;
     options.level_depth = false; // distances from the light's plane
     Planner planner(options);
     const Plan& plan = world.plan(planner);
@@ -133,7 +133,7 @@ TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
     const std::uint32_t shading = world.set.add({{-61, 60, -1}, {-59, 61, 1}}, {true, false, true});
     const std::uint32_t beside = world.set.add({{-61, 60, 30}, {-59, 61, 32}}, {true, false, true});
     const std::uint32_t below = world.set.add({{20, -22, -1}, {22, -20, 1}}, {true, false, true});
-    Planner planner(PlanOptions{});
+    Planner planner(ShadowOptions{});
     const Plan& plan = world.plan(planner);
     EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading));
     EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside));
@@ -154,7 +154,7 @@ TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)
 TEST(UniformFit, AxesDoNotTurnWithTheCameraNorJumpAtNoon)
 {
     World world;
-    Planner planner(PlanOptions{});
+    Planner planner(ShadowOptions{});
     glm::dvec3 last(0.0);
     for (int step = -20; step <= 20; ++step) {
         world.lights[0] = test::sun({1e-4 * step, -1, 5e-5 * step});
@@ -196,7 +196,7 @@ TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
     world.set.remove(1);
     world.set.add({{2, 0, -10}, {2.5F, 30, 10}}); // beside the light, from under it to far above
     world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(30.0));
-    Planner planner(PlanOptions{});
+    Planner planner(ShadowOptions{});
     const Plan& plan = world.plan(planner);
     const View& view = plan.views.at(0);
     EXPECT_EQ(plan.casters, (std::vector<std::uint32_t>{1}));
@@ -225,7 +225,7 @@ TEST(UniformFit, MaxDistanceCutsTheReceivers)
     World world;
     world.frame.camera = test::perspectiveCamera({0, 2, 30}, {0, 1, 0}, 1.0);
     world.set.add({{0, 8, 7}, {1, 9, 8}}, {true, false, false});
-    Planner all(PlanOptions{});
+    Planner all(ShadowOptions{});
     Planner near({.max_distance_m = 25.0});
     const double whole = world.plan(all).views.at(0).texel_xy_m.y;
     const Plan& cut = world.plan(near);

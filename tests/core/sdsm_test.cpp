@@ -29,9 +29,9 @@ struct Meadow {
     }
 };
 
-PlanOptions optionsOf(Partition partition, Fit fit, std::uint32_t count = 3)
+ShadowOptions optionsOf(Partition partition, Fit fit, std::uint32_t count = 3)
 {
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.partition = partition;
     options.technique.fit = fit;
     options.cascades.count = count;
@@ -43,7 +43,7 @@ TEST(Sdsm, ListsTheMapOfASingleCascadeOnceForEach)
 {
     const Meadow meadow;
     for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm}) {
-        const PlanOptions options = optionsOf(Partition::sdsm, fit);
+        const ShadowOptions options = optionsOf(Partition::sdsm, fit);
         Planner planner(options);
         Planner single(optionsOf(Partition::cascades, fit, 1));
         const Plan& plan = planner.plan(meadow.frame);
@@ -51,7 +51,7 @@ TEST(Sdsm, ListsTheMapOfASingleCascadeOnceForEach)
         ASSERT_EQ(base.views.size(), 2U);
         ASSERT_EQ(plan.views.size(), 6U);
         EXPECT_EQ(plan.cascades.count, 3U);
-        EXPECT_EQ(plan.border_texels, options.border_texels);
+        EXPECT_EQ(plan.border_texels, resolvedOrThrow(options).border_texels());
         for (std::uint32_t i = 0; i < 6; ++i) {
             const View& view = plan.views[i];
             const View& one = base.views[i / 3];

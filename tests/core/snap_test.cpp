@@ -35,9 +35,9 @@ struct Meadow {
     }
 };
 
-PlanOptions snapped(Partition partition = Partition::single)
+ShadowOptions snapped(Partition partition = Partition::single)
 {
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.motion = Motion::snap;
     options.technique.partition = partition;
     options.map_size = 512;
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(All, Snap,
 TEST(SnapOfWholeTexels, ChangesTheMapByNothingElse)
 {
     Meadow meadow(glm::dvec3(0.0));
-    const PlanOptions options = snapped();
+    const ShadowOptions options = snapped();
     meadow.look({0, 1.7, 0}, {0, -0.08, -1});
     const Plan before = Planner(options).plan(meadow.frame);
     const View& a = before.views[0];
@@ -172,7 +172,7 @@ TEST(Snap, IsStillWhereTheCameraOnlyTurnsALittle)
 TEST(Snap, SaysThatItDropsAWarp)
 {
     Meadow meadow(glm::dvec3(0.0));
-    PlanOptions options = snapped();
+    ShadowOptions options = snapped();
     options.technique.fit = Fit::lispsm;
     meadow.look({0, 1.7, 0}, {0, -0.08, -1});
     const Plan plan = Planner(options).plan(meadow.frame);

@@ -46,9 +46,9 @@ struct Village {
     }
 };
 
-PlanOptions stepped(Motion motion, std::uint32_t map_size = 256)
+ShadowOptions stepped(Motion motion, std::uint32_t map_size = 256)
 {
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.motion = motion;
     options.map_size = map_size;
     return options;
@@ -110,8 +110,8 @@ TEST(StepsPlan, DrawNothingWhereNothingMoves)
     for (const bool paired_maps : {false, true}) {
         Village village;
         village.set.remove(village.mover);
-        PlanOptions options = stepped(Motion::step_blend);
-        options.paired_maps = paired_maps;
+        ShadowOptions options = stepped(Motion::step_blend);
+        options.format = paired_maps ? MapFormat::rg16 : MapFormat::d32f;
         Planner planner(options);
         int drawn = 0;
         int steps = 0;
@@ -137,8 +137,8 @@ TEST(StepsPlan, APositionKeepsItsPlace)
     for (const bool paired_maps : {false, true})
         for (const Partition partition : {Partition::single, Partition::cascades}) {
             Village village;
-            PlanOptions options = stepped(Motion::step_blend, 64);
-            options.paired_maps = paired_maps;
+            ShadowOptions options = stepped(Motion::step_blend, 64);
+            options.format = paired_maps ? MapFormat::rg16 : MapFormat::d32f;
             options.technique.partition = partition;
             options.cascades.count = 2;
             options.cascades.ends_m[0] = 60.0;
@@ -188,7 +188,7 @@ TEST(StepsPlan, APositionKeepsItsPlace)
 TEST(StepsPlan, PositionsOfOneLightAreTwoRangesOfViews)
 {
     Village village;
-    PlanOptions options = stepped(Motion::step_blend, 64);
+    ShadowOptions options = stepped(Motion::step_blend, 64);
     options.technique.partition = Partition::cascades;
     options.cascades.count = 2;
     options.cascades.ends_m[0] = 60.0;
@@ -275,7 +275,7 @@ TEST(KeptLayers, AreThereWhenAskedFor)
     for (const Motion motion : {Motion::free, Motion::snap, Motion::step_blend})
         for (const KeepStill keep : {KeepStill::automatic, KeepStill::never, KeepStill::always}) {
             Village village;
-            PlanOptions options = stepped(motion, 64);
+            ShadowOptions options = stepped(motion, 64);
             options.keep_still = keep;
             Planner planner(options);
             const Plan& plan = planner.plan(village.frame);
@@ -297,7 +297,7 @@ TEST(KeptLayers, AreThereWhenAskedFor)
 TEST(KeptLayers, FollowWhatComesAndGoesAndStands)
 {
     Village village;
-    PlanOptions options = stepped(Motion::snap, 256);
+    ShadowOptions options = stepped(Motion::snap, 256);
     options.keep_still = KeepStill::always;
     village.frame.camera = test::orthographicCamera({0, 100, 0}, {0, 0, 0}, 20.0, 300.0);
     options.max_distance_m = 150.0;
@@ -337,8 +337,8 @@ TEST(KeptLayers, AreNoMoreThanTheAtlasMayHave)
     Village village;
     village.lights.resize(3, village.lights[0]);
     village.frame.lights = village.lights;
-    PlanOptions options = stepped(Motion::step_blend, 64);
-    options.paired_maps = true; // tiles of their own would run out first
+    ShadowOptions options = stepped(Motion::step_blend, 64);
+    options.format = MapFormat::rg16; // tiles of their own would run out first
     options.max_layers = 5;
     Planner planner(options);
     const Plan& plan = planner.plan(village.frame);
@@ -356,7 +356,7 @@ TEST(StepsPlan, AreTheSameEachTime)
         for (const StepBy by : {StepBy::angle, StepBy::time}) {
             Village one;
             Village two;
-            PlanOptions options = stepped(motion, 64);
+            ShadowOptions options = stepped(motion, 64);
             options.steps.by = by;
             Planner first(options);
             Planner second(options);

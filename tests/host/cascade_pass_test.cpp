@@ -41,14 +41,13 @@ protected:
         RenderOptions options;
         options.width = 160;
         options.height = 100;
-        options.plan.technique.partition = GetParam().partition;
-        options.plan.technique.fit = GetParam().fit;
-        options.plan.technique.filter = GetParam().filter;
-        options.plan.cascades.count = GetParam().count;
-        options.plan.map_size = 128;
-        options.filter.filter = GetParam().filter;
-        options.filter.format = GetParam().format;
-        options.cascade_pass = pass;
+        options.shadow.technique.partition = GetParam().partition;
+        options.shadow.technique.fit = GetParam().fit;
+        options.shadow.technique.filter = GetParam().filter;
+        options.shadow.cascades.count = GetParam().count;
+        options.shadow.map_size = 128;
+        options.shadow.format = GetParam().format;
+        options.shadow.cascades.pass = pass;
         return options;
     }
     Drawn draw(CascadePass pass) const
@@ -115,12 +114,11 @@ TEST(CascadePassOptions, AreRefusedForMapsThatAreAveraged)
     RenderOptions options;
     options.width = 32;
     options.height = 20;
-    options.plan.technique.filter = Filter::vsm;
-    options.filter.filter = Filter::vsm;
-    options.filter.format = MapFormat::rg16f;
-    options.cascade_pass = CascadePass::layered;
+    options.shadow.technique.filter = Filter::vsm;
+    options.shadow.format = MapFormat::rg16f;
+    options.shadow.cascades.pass = CascadePass::layered;
     EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
-    options.cascade_pass = CascadePass::automatic;
+    options.shadow.cascades.pass = CascadePass::automatic;
     EXPECT_EQ(Renderer(gpu, scene, state, options).cascadePass(), CascadePass::each);
 }
 

@@ -39,7 +39,7 @@ protected:
         RenderOptions options;
         options.width = 128;
         options.height = 96;
-        options.plan.map_size = 256;
+        options.shadow.map_size = 256;
         renderer_ = std::make_unique<Renderer>(gpu_, scene_, state_, options);
     }
     Picture draw(double time_s, const std::vector<ShadedLight>* lights = nullptr)

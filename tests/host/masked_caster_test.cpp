@@ -60,8 +60,8 @@ double shadowOf(Gpu& gpu, std::uint32_t map_size)
     RenderOptions options;
     options.width = 160;
     options.height = 120;
-    options.plan.map_size = map_size;
-    options.plan.border_texels = 2.0;
+    options.shadow.map_size = map_size;
+    options.shadow.border_texels = 2.0;
     Renderer renderer(gpu, scene, state, options);
     renderer.draw(state, {.position_ws = {0.0, 1.9, 0.01}, .target_ws = {0, 0, 0}, .fov_y_rad = 1.4},
                   lightsOf(scene, state));

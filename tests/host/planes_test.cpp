@@ -144,10 +144,9 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     RenderOptions options;
     options.width = 480;
     options.height = 360;
-    options.plan.map_size = GetParam().map_size;
-    options.filter.filter = Filter::hard;
-    options.plan.technique = GetParam().technique;
-    options.plan.technique.filter = Filter::hard;
+    options.shadow.map_size = GetParam().map_size;
+    options.shadow.technique.filter = Filter::hard;
+    options.shadow.technique = GetParam().technique;
     Gpu gpu({.gpu = "software", .validate = true});
     const bool plain = GetParam().technique.fit == Fit::uniform && GetParam().views == 1;
     // From above, as strategy games have it; or at a slant, so that warps and slices have something to do.
@@ -205,9 +204,9 @@ TEST(Fade, IsLinearInTheDistanceFromTheEye)
     RenderOptions options;
     options.width = 33;
     options.height = 33;
-    options.plan.map_size = 256;
-    options.plan.max_distance_m = 20.0;
-    options.plan.fade = 0.25;
+    options.shadow.map_size = 256;
+    options.shadow.max_distance_m = 20.0;
+    options.shadow.fade = 0.25;
     Gpu gpu({.gpu = "software", .validate = true});
     Renderer renderer(gpu, scene, state, options);
     const glm::vec3 middle = (PlanesWorld::box_min + PlanesWorld::box_max) * 0.5F;

@@ -28,7 +28,7 @@ RenderOptions smallOptions()
     RenderOptions options;
     options.width = kWidth;
     options.height = kHeight;
-    options.plan.map_size = 256;
+    options.shadow.map_size = 256;
     return options;
 }
 

@@ -63,16 +63,16 @@ protected:
     {
         options_.width = 320;
         options_.height = 200;
-        options_.plan.technique.partition = Partition::sdsm;
-        options_.plan.technique.fit = GetParam().fit;
-        options_.plan.technique.filter = Filter::pcf;
-        options_.plan.map_size = 256;
-        options_.plan.max_distance_m = GetParam().max_distance_m;
-        options_.plan.cascades.count = GetParam().count;
-        options_.plan.cascades.blend = GetParam().blend;
-        options_.plan.cascades.ends_m = GetParam().ends_m;
-        reach_ = vulkan::filterReachTexels(options_.filter);
-        options_.plan.border_texels = double{reach_};
+        options_.shadow.technique.partition = Partition::sdsm;
+        options_.shadow.technique.fit = GetParam().fit;
+        options_.shadow.technique.filter = Filter::pcf;
+        options_.shadow.map_size = 256;
+        options_.shadow.max_distance_m = GetParam().max_distance_m;
+        options_.shadow.cascades.count = GetParam().count;
+        options_.shadow.cascades.blend = GetParam().blend;
+        options_.shadow.cascades.ends_m = GetParam().ends_m;
+        reach_ = reachTexels(options_.shadow);
+        options_.shadow.border_texels = double{reach_};
         fillObjectSet(state_, objects_);
         frame_.camera = cameraOf(eye_, options_.width, options_.height, state_.bounds_ws);
         frame_.size_px = {options_.width, options_.height};
@@ -102,7 +102,7 @@ protected:
                 const glm::dvec3 p = glm::dvec3(h) / h.w;
                 const glm::dvec4 clip = base.clip_from_world * glm::dvec4(p, 1.0);
                 const double distance = glm::length(p - frame_.camera.eye_ws);
-                const double reach = options_.plan.max_distance_m > 0.0 ? options_.plan.max_distance_m : 1e30;
+                const double reach = options_.shadow.max_distance_m > 0.0 ? options_.shadow.max_distance_m : 1e30;
                 const bool served = clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) <= inside * clip.w;
                 if (served && distance <= reach) {
                     pixels.push_back({p, glm::dot(base.slice.axis, glm::dvec4(p, 1.0))});
@@ -232,7 +232,7 @@ TEST_P(Sdsm, FitsEachCascadeToThePixelsThatAreThere)
     Renderer renderer(gpu, scene_, state_, options_);
     renderer.draw(state_, eye_, lights_);
     const Picture picture = renderer.read({.colour = false, .masks = true, .geometry = true});
-    const Plan base_plan = Planner(options_.plan).plan(frame_);
+    const Plan base_plan = Planner(options_.shadow).plan(frame_);
     const Plan& plan = renderer.plan();
     ASSERT_EQ(plan.views.size(), base_plan.views.size());
     ASSERT_EQ(plan.lights.size(), 2U);
@@ -243,14 +243,14 @@ TEST_P(Sdsm, FitsEachCascadeToThePixelsThatAreThere)
         const View& base = base_plan.views[light.first_view];
         const std::vector<Pixel> pixels = pixelsOf(picture, base);
         ASSERT_GT(pixels.size(), 5000U);
-        expectSlices(views, pixels, options_.plan.cascades);
+        expectSlices(views, pixels, options_.shadow.cascades);
         bool finer = false;
         for (const View& view : views) {
             SCOPED_TRACE("cascade " + std::to_string(view.gpu_cascade));
             EXPECT_EQ(view.metric.metric_ws, base.metric.metric_ws);
             EXPECT_EQ(view.caster_count, base.caster_count);
             const double pad = double{shared::kDepthRounding};
-            expectPlace(view, base, options_.plan.border_texels, rectOf(base, pixels, view.slice, -pad),
+            expectPlace(view, base, *options_.shadow.border_texels, rectOf(base, pixels, view.slice, -pad),
                         rectOf(base, pixels, view.slice, 3.0 * pad));
             finer = finer || view.texel_xy_m.x * view.texel_xy_m.y < 0.7 * base.texel_xy_m.x * base.texel_xy_m.y;
             EXPECT_LE(view.texel_m, base.texel_m * (1.0 + 1e-6));
@@ -268,7 +268,7 @@ TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
     Renderer renderer(gpu, scene_, state_, options_);
     renderer.draw(state_, eye_, lights_);
     const Picture picture = renderer.read({.colour = false, .geometry = true});
-    const Plan base_plan = Planner(options_.plan).plan(frame_);
+    const Plan base_plan = Planner(options_.shadow).plan(frame_);
     const Plan& plan = renderer.plan();
     const double margin = tileMarginTexels(double{reach_});
     for (const LightPlan& light : plan.lights) {

@@ -30,9 +30,9 @@ host::RenderOptions vsm()
 host::RenderOptions lvsm(const std::vector<float>& splits)
 {
     host::RenderOptions options = filterOptions(Filter::lvsm, MapFormat::rgba16, kVsmSide);
-    options.filter.moments.layers = static_cast<std::uint32_t>(splits.size()) + 1;
-    options.filter.moments.placement = LayerPlacement::by_hand;
-    std::copy(splits.begin(), splits.end(), options.filter.moments.splits.begin());
+    options.shadow.moments.layers = static_cast<std::uint32_t>(splits.size()) + 1;
+    options.shadow.moments.placement = LayerPlacement::by_hand;
+    std::copy(splits.begin(), splits.end(), options.shadow.moments.splits.begin());
     return options;
 }
 
@@ -54,8 +54,8 @@ constexpr float kBelowAwning = -1.7F; // above the ground; see PlanesAcrossTheSu
 /// Without what widens a border beyond the class of edges.
 host::RenderOptions unblurred(host::RenderOptions options)
 {
-    options.filter.moments.blur = BlurKind::none;
-    options.filter.moments.sampling = MapSampling::bilinear;
+    options.shadow.moments.blur = BlurKind::none;
+    options.shadow.moments.sampling = MapSampling::bilinear;
     return options;
 }
 

@@ -48,7 +48,7 @@ struct Row {
     ObjectSet objects;
     Light light;
     Frame frame;
-    PlanOptions options;
+    ShadowOptions options;
     std::unique_ptr<Planner> planner;
 };
 

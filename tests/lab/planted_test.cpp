@@ -128,7 +128,7 @@ void expectPlanted(const Score& before, const Score& after, Class own, double fa
 
 host::RenderOptions withBias(host::RenderOptions options, float constant_m)
 {
-    options.filter.bias = {.automatic = false, .constant_m = constant_m};
+    options.shadow.bias = {.automatic = false, .constant_m = constant_m};
     return options;
 }
 

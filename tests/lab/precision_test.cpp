@@ -80,7 +80,7 @@ public:
     {
         options_.width = kSide_px;
         options_.height = kSide_px;
-        options_.filter.moments.remap = combination.remap;
+        options_.shadow.moments.remap = combination.remap;
         renderer_ = std::make_unique<host::Renderer>(gpu_, scene_, scene::evaluate(scene_, 0.0), options_);
     }
     ~Bench()

@@ -105,20 +105,18 @@ Score Stage::score(const host::RenderOptions& options, const truth::Traced& trut
 host::RenderOptions hardOptions(std::uint32_t map_size)
 {
     host::RenderOptions options;
-    options.plan.technique.filter = Filter::hard;
-    options.plan.map_size = map_size;
-    options.filter.filter = Filter::hard;
+    options.shadow.technique.filter = Filter::hard;
+    options.shadow.map_size = map_size;
     return options;
 }
 
 host::RenderOptions filterOptions(Filter filter, MapFormat format, std::uint32_t map_size)
 {
     host::RenderOptions options;
-    options.plan.technique.filter = filter;
-    options.plan.map_size = map_size;
-    options.filter.filter = filter;
-    options.filter.format = format;
-    options.plan.border_texels = std::ceil(static_cast<double>(vulkan::filterReachTexels(options.filter)));
+    options.shadow.technique.filter = filter;
+    options.shadow.map_size = map_size;
+    options.shadow.format = format;
+    options.shadow.border_texels = std::ceil(static_cast<double>(reachTexels(options.shadow)));
     return options;
 }
 

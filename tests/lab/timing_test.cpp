@@ -175,7 +175,7 @@ TEST(TimingGroups, AreSmallAndTheirMapsFitTogether)
 TEST_F(TimeInTurn, ManyHaveABaselineForEachGroup)
 {
     contestants.resize(kMaxTogether + 1, contestants[0]);
-    contestants.back().options.plan.map_size = 256;
+    contestants.back().options.shadow.map_size = 256;
     const TimingOptions options{.repetitions = 2, .warmup = 1};
     std::uint64_t steps = 0;
     const TimingResult result = timeInTurn(stage.gpu(), stage.subject(), contestants, options, [&] { ++steps; });

@@ -14,6 +14,8 @@ struct BiasOptions {
     float slope = 0.0F;          // times the depth that one texel spans on the receiver; 0 .. 16
     float normal_texels = 0.0F;  // receiver moved along its normal by this many texels' width; 0 .. 16
     bool receiver_plane = false; // each tap is compared with the receiver's plane at that tap
+
+    bool operator==(const BiasOptions&) const = default;
 };
 
 } // namespace gnomon

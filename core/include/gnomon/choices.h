@@ -30,6 +30,8 @@ struct Technique {
     Filter filter = Filter::pcf;
     Soften soften = Soften::none;
     Motion motion = Motion::free;
+
+    bool operator==(const Technique&) const = default;
 };
 
 /// One row of the table of all values: what `gnomon list` prints and every parser reads.

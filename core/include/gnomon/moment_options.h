@@ -65,7 +65,7 @@ struct MomentOptions {
     // esm, evsm
     /// Store logarithms, averaged as what they are logarithms of: any exponent fits any format.
     bool log_space = false;
-    /// Of depths 0 to 1. Above 0 and finite, at most largestExponent(); nothing: defaultExponent().
+    /// Of depths 0 to 1. 0.01 .. 10000, at most largestExponent(); nothing: defaultExponent().
     std::optional<float> esm_exponent;  // c
     std::optional<float> evsm_positive; // c+
     std::optional<float> evsm_negative; // c-; of four channels
@@ -75,6 +75,8 @@ struct MomentOptions {
     /// light through. Nothing: the least that keeps lit surfaces lit and single precision exact enough: 3e-5 at 16
     /// bits, 6e-5 for the Hausdorff bound, 3e-6 at 32 bits.
     std::optional<float> moment_bias;
+
+    bool operator==(const MomentOptions&) const = default;
 };
 
 [[nodiscard]] std::string_view nameOf(DepthMetricKind value);

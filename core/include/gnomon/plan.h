@@ -5,6 +5,7 @@
 
 #include <gnomon/choices.h>
 #include <gnomon/geometry.h>
+#include <gnomon/options.h>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,22 +25,6 @@
 namespace gnomon {
 
 inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU;
-
-inline constexpr std::uint32_t kMaxCascades = 6;
-
-/// How Partition::cascades and sdsm divide the camera's depth.
-struct CascadeOptions {
-    std::uint32_t count = 4; // 1 .. kMaxCascades
-    /// The practical split: 1 divides logarithmically, as perspective shrinks things, 0 evenly. F. Zhang, H. Sun,
-    /// L. Xu, L. K. Lun, "Parallel-split shadow maps for large-scale virtual environments", 2006, eq. 5.
-    double lambda = 0.75;
-    /// Where all cascades but the last end, metres from the eye along its view: > 0, ascending, count - 1 of them.
-    /// Zeros: the practical split.
-    std::array<double, kMaxCascades - 1> ends_m{};
-    double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
-
-    [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
-};
 
 /// What became of a light, as a value with a reason. Never an exception, never a silent fallback.
 enum class OutcomeKind : std::uint8_t {
@@ -80,7 +66,7 @@ struct TexelRect {
     [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
 };
 
-/// Which half of a texel's bits holds a map: two may share one target (PlanOptions::paired_maps).
+/// Which half of a texel's bits holds a map: two may share one target (ResolvedOptions::paired_maps).
 enum class TexelPart : std::uint8_t { whole, first, second };
 
 /// Names a map: one square of the pages (and part of its texels), for as long as one frustum of a light has it. A map
@@ -108,9 +94,9 @@ using ContentNumber = std::uint64_t;
 }
 
 /// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near). Under parallel light d is metres
-/// along the ray, from a plane across it or one that leans with the receivers (level_depth): along each ray d' grows by
-/// 1 / (far - near) per metre. Of a light with a place d is metres along its axis, the map's middle: along a ray at an
-/// angle from that, d' grows by the angle's cosine / (far - near) per metre.
+/// along the ray, from a plane across it or one that leans with the receivers (ShadowOptions::level_depth): along each
+/// ray d' grows by 1 / (far - near) per metre. Of a light with a place d is metres along its axis, the map's middle:
+/// along a ray at an angle from that, d' grows by the angle's cosine / (far - near) per metre.
 struct DepthMetric {
     glm::dvec4 metric_ws{0.0};
     double near_m = 0.0;
@@ -258,6 +244,9 @@ struct MapPages {
 struct Plan {
     std::uint64_t frame = 0;
     Technique technique;
+    /// Those of the planner, never null in a plan that it made: LightPlan::options is the index. The defaults stand for
+    /// options that are refused. They last as long as any copy of the plan.
+    std::shared_ptr<const std::vector<ResolvedOptions>> options;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
     std::vector<std::uint32_t> casters;                     // object handles, view after view

@@ -62,7 +62,7 @@ struct Ground {
         objects.add({{-1.0F, 0.0F, -20.0F}, {1.0F, 3.0F, -18.0F}});
         light.direction_ws = glm::normalize(glm::dvec3(0.2, -1.0, 0.1));
     }
-    [[nodiscard]] Plan plan(const PlanOptions& options) const
+    [[nodiscard]] Plan plan(const ShadowOptions& options) const
     {
         Frame frame;
         frame.camera = camera;
@@ -85,9 +85,9 @@ struct Ground {
     Light light;
 };
 
-PlanOptions cascades(double blend)
+ShadowOptions cascades(double blend)
 {
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.partition = Partition::cascades;
     options.cascades.count = 3;
     options.cascades.ends_m = {12.0, 20.0};

@@ -32,8 +32,10 @@ struct FilterOptions {
     BiasOptions bias;
     MomentOptions moments; // vsm, lvsm, esm, evsm, msm
 };
+/// What of the options the maps' making and reading depends on.
+[[nodiscard]] FilterOptions filterOptionsOf(const ShadowOptions& options);
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
-/// many texels away, along x and y each. What PlanOptions::border_texels should have room for. Of a filterable map it
+/// many texels away, along x and y each. What ShadowOptions::border_texels should have room for. Of a filterable map it
 /// is of reads at the finest level: those of coarser levels, of anisotropic sampling and esm's of the receiver's
 /// neighbourhood are moved inside the tile where they would leave it, and need no room.
 [[nodiscard]] float filterReachTexels(const FilterOptions& filter);
@@ -77,8 +79,8 @@ struct MapPass {
     const View* view = nullptr;
     std::uint32_t view_index = 0;
     /// What the pipeline must write of the colour attachment; 0 for depth-only maps. All of it unless two maps share
-    /// one target (PlanOptions::paired_maps): then the two halves of a texel get the same value and a part of them is
-    /// kept.
+    /// one target (ResolvedOptions::paired_maps): then the two halves of a texel get the same value and a part of them
+    /// is kept.
     VkColorComponentFlags colour_mask = 0;
     /// Object handles: all that must be drawn; of a map that is kept in two parts those that stand still, or those that
     /// move. Of a filterable map these are receivers, too, whether or not they cast

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every member of ShadowOptions as a row: the key that it is known by, its unit, range and one line about it. Parsers,
+// presets, help and documents read these rows, and resolve() checks by them; what a member is without a word from
+// anybody stands in options.h alone.
+#pragma once
+
+#include <gnomon/options.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+enum class OptionType : std::uint8_t { flag, integer, real, choice, numbers };
+
+/// A value of any row; the member of the row's type holds.
+struct OptionValue {
+    bool flag = false;
+    std::int64_t integer = 0;
+    double real = 0.0;
+    std::vector<double> numbers;
+    std::string text;  // choice: its name
+    bool none = false; // a member that may have no value has none
+};
+
+struct OptionRow {
+    std::string_view key;
+    OptionType type = OptionType::flag;
+    std::string_view form; // how its value is written, for help: "N"
+    std::string_view unit; // empty: none
+    double min = 0.0;      // of each number; inclusive
+    double max = 0.0;
+    std::uint32_t count = 1;                              // numbers: how many, at most
+    std::vector<std::string_view> (*choices)() = nullptr; // choice: what can be said
+    std::string_view doc;                                 // one line
+    bool own_option = false;                              // has a command line option of its own
+    bool (*used)(const ShadowOptions&) = nullptr;         // null: always has an effect
+    std::string_view used_when;                           // the words for it: "filter pcf"
+    OptionValue (*get)(const ShadowOptions&) = nullptr;
+    /// Members that cannot hold together with the new value are taken back to their defaults. The value is of the row's
+    /// type; one outside of its range is set as it is, and refused by resolve().
+    void (*set)(ShadowOptions&, const OptionValue&) = nullptr;
+};
+
+/// All rows, in the order in which help shows them.
+[[nodiscard]] std::span<const OptionRow> optionTable();
+/// Null for an unknown key.
+[[nodiscard]] const OptionRow* findOption(std::string_view key);
+/// As one would write it, in every locale; empty for none.
+[[nodiscard]] std::string textOf(const OptionRow& row, const OptionValue& value);
+/// The first member that is outside of its range, as a sentence; nothing when all are inside.
+[[nodiscard]] std::optional<std::string> firstOutOfRange(const ShadowOptions& options);
+
+} // namespace gnomon

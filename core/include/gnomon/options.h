@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a light's shadows are made: the one struct that planner, backend and program are configured by. resolve() checks
+// it and fills in what follows from it, so nobody has to compare two descriptions of one technique.
+// Keys, units and ranges of every member, as a table: option_table.h.
+#pragma once
+
+#include <gnomon/bias.h>
+#include <gnomon/choices.h>
+#include <gnomon/moment_options.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace gnomon {
+
+inline constexpr std::uint32_t kMaxCascades = 6;
+
+/// How the maps of one light's cascades are drawn. They are the same either way, bit for bit.
+enum class CascadePass : std::uint8_t {
+    automatic, // the backend's choice: `each`
+    each,      // every map in a pass of its own
+    layered,   // one pass for those that viewsTogether() puts together: what casts in a map is drawn to its layer
+};
+[[nodiscard]] std::string_view nameOf(CascadePass value);
+
+/// How Partition::cascades and sdsm divide the camera's depth.
+struct CascadeOptions {
+    std::uint32_t count = 4; // 1 .. kMaxCascades
+    /// The practical split: 1 divides logarithmically, as perspective shrinks things, 0 evenly. F. Zhang, H. Sun,
+    /// L. Xu, L. K. Lun, "Parallel-split shadow maps for large-scale virtual environments", 2006, eq. 5.
+    double lambda = 0.75;
+    /// Where all cascades but the last end, metres from the eye along its view: > 0, ascending, count - 1 of them.
+    /// Zeros: the practical split.
+    std::array<double, kMaxCascades - 1> ends_m{};
+    double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
+    CascadePass pass = CascadePass::automatic;
+
+    [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
+    bool operator==(const CascadeOptions&) const = default;
+};
+
+/// When a sun that moves in steps takes the next one.
+enum class StepBy : std::uint8_t { angle, time };
+[[nodiscard]] std::string_view nameOf(StepBy value);
+
+/// How the step motions divide a sun's course.
+struct StepOptions {
+    StepBy by = StepBy::angle;
+    double angle_rad = 0.008726646259971648; // by angle: 0.5 degrees, about the sun's own width; 0.01 .. 28 degrees
+    double interval_s = 2.0;                 // by time: 0.01 .. 86400, of Frame::time_s
+    bool smooth = false;                     // step-blend, -band, -alternate: the share as a cubic, else linear
+    double band = 0.25;                      // step-band: its width, share of the picture's: 0.01 .. 1
+
+    bool operator==(const StepOptions&) const = default;
+};
+
+/// Whether what stands still is drawn apart and kept, so that where something moves only that has to be drawn again.
+enum class KeepStill : std::uint8_t {
+    automatic, // where a motion holds a map for many frames under a moving sun: the step motions
+    never,
+    always,
+};
+[[nodiscard]] std::string_view nameOf(KeepStill value);
+
+/// The kernel of Filter::pcf.
+struct PcfOptions {
+    PcfKernel kernel = PcfKernel::gaussian_3x3;
+    std::uint32_t taps = 16;    // poisson, vogel: 4 .. 64
+    float radius_texels = 2.5F; // poisson, vogel: 0.5 .. 16
+    /// Gaussian kernels: standard deviation, 0.3 .. 4; nothing: a quarter of the kernel's width.
+    std::optional<float> sigma_texels;
+
+    bool operator==(const PcfOptions&) const = default;
+};
+/// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
+[[nodiscard]] int kernelWidth(PcfKernel kernel);
+
+struct ShadowOptions {
+    Technique technique;
+    std::optional<MapFormat> format; // what a texel is stored as; nothing: the filter's first format
+    std::uint32_t map_size = 2048;   // texels on a side of one map; 16 .. 16384
+    /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
+    double max_distance_m = 0.0;
+    double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
+    CascadeOptions cascades;
+    StepOptions steps;
+    KeepStill keep_still = KeepStill::automatic;
+    /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64. Nothing: what the kernel needs, at
+    /// least 4. At most a quarter of map_size is used, so that half of the map is left.
+    std::optional<double> border_texels;
+    /// Filterable maps under parallel light: measure depth from a plane that leans with what receives shadow, so that
+    /// level ground is level in depth whatever the sun's height. It is still metres along the ray. False: along the
+    /// light's axis, as maps of bare depth always do.
+    bool level_depth = true;
+    /// Layers that the image of these maps may have: 1 .. 2048. Lights that find none get Outcome atlas_full.
+    std::uint32_t max_layers = 64;
+    PcfOptions pcf;        // filter pcf
+    BiasOptions bias;      // filters hard and pcf
+    MomentOptions moments; // filters vsm, lvsm, esm, evsm, msm
+
+    bool operator==(const ShadowOptions&) const = default;
+};
+
+/// Options that were checked, with everything that follows from them. resolve() alone makes one.
+class ResolvedOptions {
+public:
+    [[nodiscard]] const ShadowOptions& asked() const { return asked_; }
+    [[nodiscard]] const Technique& technique() const { return asked_.technique; }
+    [[nodiscard]] Filter filter() const { return asked_.technique.filter; }
+    [[nodiscard]] const FilterTraits& traits() const { return *traits_; }
+    [[nodiscard]] MapFormat format() const { return format_; }
+    [[nodiscard]] const PcfOptions& pcf() const { return asked_.pcf; }
+    [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
+    [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
+    [[nodiscard]] double border_texels() const { return border_texels_; }
+    /// How far from a receiver's place in the map the filter reads, reachTexels().
+    [[nodiscard]] float reach_texels() const { return reach_texels_; }
+    /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
+    [[nodiscard]] bool paired_maps() const { return paired_maps_; }
+
+    bool operator==(const ResolvedOptions& other) const { return asked_ == other.asked_; }
+
+private:
+    friend struct Resolution resolve(const ShadowOptions& options);
+    ResolvedOptions() = default;
+
+    ShadowOptions asked_;
+    const FilterTraits* traits_ = nullptr;
+    MapFormat format_ = MapFormat::d32f;
+    double border_texels_ = 0.0;
+    float reach_texels_ = 0.0F;
+    bool paired_maps_ = false;
+};
+
+/// What became of options: a checked value, or the sentence that says why not.
+struct Resolution {
+    std::optional<ResolvedOptions> resolved;
+    std::string refusal; // empty when resolved
+
+    [[nodiscard]] explicit operator bool() const { return resolved.has_value(); }
+    [[nodiscard]] const ResolvedOptions& operator*() const { return *resolved; }
+    [[nodiscard]] const ResolvedOptions* operator->() const { return &*resolved; }
+};
+/// Refuses what lies outside its range, a combination that no light can have (refusal(LightType, Technique) for a
+/// directional one), a format that the filter cannot use and moments that do not go together. A light that has further
+/// rules gets its own Outcome from the planner.
+[[nodiscard]] Resolution resolve(const ShadowOptions& options);
+/// The same for a host whose options are its own constants. Throws Error with the sentence.
+[[nodiscard]] ResolvedOptions resolvedOrThrow(const ShadowOptions& options);
+
+/// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
+/// not available.
+[[nodiscard]] MapFormat formatOf(const ShadowOptions& options);
+/// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
+/// many texels away, along x and y each. What the border has room for. Of a filterable map it is of reads at the finest
+/// level: those of coarser levels, of anisotropic sampling and esm's of the receiver's neighbourhood are moved inside
+/// the tile where they would leave it, and need no room.
+[[nodiscard]] float reachTexels(const ShadowOptions& options);
+
+} // namespace gnomon

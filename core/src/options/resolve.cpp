@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/error.h>
+#include <gnomon/option_table.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+template <class Enum, std::size_t n>
+std::string_view nameIn(const std::array<std::string_view, n>& names, Enum value)
+{
+    const auto i = static_cast<std::size_t>(value);
+    return i < n ? names[i] : "?";
+}
+
+/// Where cascades end, if the host says so itself.
+std::optional<std::string> endsRefusal(const CascadeOptions& options)
+{
+    double last_m = 0.0;
+    for (std::uint32_t i = 0; options.explicitEnds() && i + 1 < options.count; ++i) {
+        if (!(options.ends_m[i] > last_m))
+            return "cascades.ends: distances ascend, from above 0, one fewer than there are cascades";
+        last_m = options.ends_m[i];
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> refusalOf(const ShadowOptions& options)
+{
+    if (const auto reason = refusal(LightType::directional, options.technique))
+        return std::string(*reason);
+    if (auto reason = firstOutOfRange(options))
+        return reason;
+    if (options.max_layers < 1 || options.max_layers > 2048)
+        return "max_layers is " + std::to_string(options.max_layers) + "; it can be 1 to 2048";
+    if (auto reason = endsRefusal(options.cascades))
+        return reason;
+    return refusal(options.technique.filter, formatOf(options), options.moments);
+}
+
+/// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
+bool holdsTwoMaps(const FilterTraits& traits, MapFormat format)
+{
+    return !traits.filterable && (format == MapFormat::rg16 || format == MapFormat::rgba8);
+}
+
+} // namespace
+
+std::string_view nameOf(CascadePass value)
+{
+    return nameIn(std::array<std::string_view, 3>{"auto", "each", "layered"}, value);
+}
+std::string_view nameOf(StepBy value)
+{
+    return nameIn(std::array<std::string_view, 2>{"angle", "time"}, value);
+}
+std::string_view nameOf(KeepStill value)
+{
+    return nameIn(std::array<std::string_view, 3>{"auto", "never", "always"}, value);
+}
+
+int kernelWidth(PcfKernel kernel)
+{
+    switch (kernel) {
+    case PcfKernel::bilinear_2x2:
+        return 1;
+    case PcfKernel::gaussian_3x3:
+        return 3;
+    case PcfKernel::gaussian_5x5:
+        return 5;
+    case PcfKernel::gaussian_7x7:
+        return 7;
+    case PcfKernel::poisson:
+    case PcfKernel::vogel:
+        return 0;
+    }
+    return 0;
+}
+
+MapFormat formatOf(const ShadowOptions& options)
+{
+    const FilterTraits* const traits = filterTraits(options.technique.filter);
+    return options.format ? *options.format : traits != nullptr ? traits->formats.front() : MapFormat::d32f;
+}
+
+float reachTexels(const ShadowOptions& options)
+{
+    const FilterTraits* const traits = filterTraits(options.technique.filter);
+    if (traits != nullptr && traits->filterable)
+        return static_cast<float>(blurRadius(options.moments)) + 1.0F; // and a bilinear read of what was blurred
+    if (options.technique.filter != Filter::pcf)
+        return 0.5F;
+    const int width = kernelWidth(options.pcf.kernel);
+    return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
+}
+
+Resolution resolve(const ShadowOptions& options)
+{
+    if (auto reason = refusalOf(options))
+        return {std::nullopt, std::move(*reason)};
+    constexpr double kLeastBorder_texels = 4.0;
+    ResolvedOptions made;
+    made.asked_ = options;
+    made.traits_ = filterTraits(options.technique.filter);
+    made.format_ = formatOf(options);
+    made.reach_texels_ = reachTexels(options);
+    made.border_texels_ = options.border_texels.value_or(
+        std::max(kLeastBorder_texels, std::ceil(static_cast<double>(made.reach_texels_))));
+    made.paired_maps_ = holdsTwoMaps(*made.traits_, made.format_);
+    return {made, {}};
+}
+
+ResolvedOptions resolvedOrThrow(const ShadowOptions& options)
+{
+    Resolution resolution = resolve(options);
+    if (!resolution)
+        throw Error("choose how shadows are made", resolution.refusal);
+    return *resolution;
+}
+
+} // namespace gnomon

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a technique is made of. A new option of a technique is one row here.
+#include "options/option_access.h"
+#include "options/option_rows.h"
+
+namespace gnomon {
+namespace {
+
+using enum OptionType;
+
+bool isPcf(const ShadowOptions& o)
+{
+    return o.technique.filter == Filter::pcf;
+}
+bool isDisc(const ShadowOptions& o)
+{
+    return isPcf(o) && kernelWidth(o.pcf.kernel) == 0;
+}
+bool isGaussian(const ShadowOptions& o)
+{
+    return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
+}
+
+/// What is said of a part of the bias ends the automatic one.
+template <auto path>
+void setBias(ShadowOptions& options, const OptionValue& value)
+{
+    options.bias.automatic = false;
+    assign(path(options.bias), value);
+}
+template <auto path>
+OptionValue getBias(const ShadowOptions& options)
+{
+    if (!options.bias.automatic)
+        return valueOf(path(options.bias));
+    OptionValue none;
+    none.none = true;
+    return none;
+}
+#define GNOMON_BIAS(PATH)                                                                                              \
+    .get = getBias < [](auto& b) -> auto&                                                                              \
+    {                                                                                                                  \
+        return b.PATH;                                                                                                 \
+    }                                                                                                                  \
+    >, .set = setBias < [](auto& b) -> auto&                                                                           \
+    {                                                                                                                  \
+        return b.PATH;                                                                                                 \
+    }                                                                                                                  \
+    >
+
+} // namespace
+
+void addTechniqueRows(std::vector<OptionRow>& table)
+{
+    const OptionRow rows[]{
+        // clang-format off
+        {.key = "filter", .type = choice, .form = "NAME", .choices = namesOf<Filter>, .doc = "what a texel stores and how it is tested", .own_option = true, GNOMON_MEMBER(technique.filter)},
+        {.key = "fit", .type = choice, .form = "NAME", .choices = namesOf<Fit>, .doc = "how one frustum's projection is shaped", .own_option = true, GNOMON_MEMBER(technique.fit)},
+        {.key = "partition", .type = choice, .form = "NAME", .choices = namesOf<Partition>, .doc = "how a light's receivers are divided among frustums", .own_option = true, GNOMON_MEMBER(technique.partition)},
+        {.key = "soften", .type = choice, .form = "NAME", .choices = namesOf<Soften>, .doc = "what happens to the visibility in screen space", .own_option = true, GNOMON_MEMBER(technique.soften)},
+        {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
+        {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .doc = "side of one map", .own_option = true, GNOMON_MEMBER(map_size)},
+        {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, GNOMON_MEMBER(format)},
+        {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", GNOMON_BIAS(constant_m)},
+        {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", GNOMON_BIAS(slope)},
+        {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", GNOMON_BIAS(normal_texels)},
+        {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", GNOMON_BIAS(receiver_plane)},
+        {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
+        {.key = "pcf.taps", .type = integer, .form = "N", .unit = "taps", .min = 4, .max = 64, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.taps)},
+        {.key = "pcf.radius", .type = real, .form = "R", .unit = "texels", .min = 0.5, .max = 16, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.radius_texels)},
+        {.key = "pcf.sigma", .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4, .doc = "of a Gaussian kernel; else its width / 4", .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7", GNOMON_MEMBER(pcf.sigma_texels)},
+        // clang-format on
+    };
+    table.insert(table.end(), std::begin(rows), std::end(rows));
+}
+
+} // namespace gnomon

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/error.h>
+#include <gnomon/option_table.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace gnomon {
+namespace {
+
+OptionValue numberOf(double number)
+{
+    OptionValue value;
+    value.real = number;
+    value.integer = static_cast<std::int64_t>(number);
+    value.numbers = {number};
+    return value;
+}
+
+bool isNumber(const OptionRow& row)
+{
+    return row.type == OptionType::integer || row.type == OptionType::real;
+}
+
+TEST(Options, DefaultsResolve)
+{
+    const Resolution resolution = resolve({});
+    ASSERT_TRUE(resolution) << resolution.refusal;
+    EXPECT_EQ(resolution->format(), MapFormat::d32f);
+    EXPECT_EQ(resolution->border_texels(), 4.0);
+    EXPECT_FALSE(resolution->paired_maps());
+}
+
+/// A host that says which filter it wants need not know what that stores.
+TEST(Options, AFilterAloneIsEnough)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.choice != "filter" || !row.available)
+            continue;
+        ShadowOptions options;
+        options.technique.filter = static_cast<Filter>(row.value);
+        const Resolution resolution = resolve(options);
+        ASSERT_TRUE(resolution) << row.name << ": " << resolution.refusal;
+        EXPECT_EQ(resolution->format(), resolution->traits().formats.front()) << row.name;
+        EXPECT_GE(resolution->border_texels(), double{resolution->reach_texels()}) << row.name;
+    }
+}
+
+TEST(Options, WhatCannotBePlannedIsRefused)
+{
+    EXPECT_EQ(resolve({.map_size = 0}).refusal, "map-size is 0; it can be 16 to 16384 texels");
+    EXPECT_EQ(resolve({.border_texels = std::numeric_limits<double>::quiet_NaN()}).refusal.substr(0, 6), "border");
+    EXPECT_EQ(resolve({.max_layers = 0}).refusal, "max_layers is 0; it can be 1 to 2048");
+    EXPECT_FALSE(resolve({.technique = {.partition = Partition::cube}}));
+    EXPECT_FALSE(resolve({.technique = {.filter = Filter::msm}, .format = MapFormat::d32f}));
+    ShadowOptions ends;
+    ends.cascades.ends_m = {20.0, 10.0};
+    EXPECT_FALSE(resolve(ends));
+    EXPECT_THROW(static_cast<void>(resolvedOrThrow({.map_size = 0})), Error);
+}
+
+TEST(OptionTable, KeysAreUniqueAndSayWhenTheyCount)
+{
+    std::set<std::string_view> keys;
+    for (const OptionRow& row : optionTable()) {
+        EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+        EXPECT_EQ(row.used == nullptr, row.used_when.empty()) << row.key;
+        EXPECT_EQ(findOption(row.key), &row);
+        EXPECT_EQ(row.type == OptionType::choice, row.choices != nullptr) << row.key;
+    }
+    EXPECT_EQ(findOption("no such"), nullptr);
+}
+
+/// What is read and written back is the same, and every choice can be said.
+TEST(OptionTable, ReadsWhatItWrites)
+{
+    for (const OptionRow& row : optionTable()) {
+        ShadowOptions options;
+        const OptionValue usual = row.get(options);
+        if (!usual.none && row.type != OptionType::numbers) {
+            row.set(options, usual);
+            EXPECT_EQ(textOf(row, row.get(options)), textOf(row, usual)) << row.key;
+        }
+        if (row.type == OptionType::choice) {
+            for (const std::string_view name : row.choices()) {
+                OptionValue value;
+                value.text = name;
+                row.set(options, value);
+                EXPECT_EQ(textOf(row, row.get(options)), name) << row.key;
+            }
+        }
+    }
+}
+
+TEST(OptionTable, NumbersEndWhereTheirRangesDo)
+{
+    for (const OptionRow& row : optionTable()) {
+        if (!isNumber(row))
+            continue;
+        const double step = row.type == OptionType::integer ? 1.0 : 0.01 * (row.max - row.min);
+        for (const double inside : {row.min, row.max}) {
+            ShadowOptions options;
+            row.set(options, numberOf(inside));
+            EXPECT_EQ(firstOutOfRange(options), std::nullopt) << row.key << " " << inside;
+        }
+        ShadowOptions options;
+        row.set(options, numberOf(row.max + step));
+        EXPECT_EQ(firstOutOfRange(options).value_or("").substr(0, row.key.size()), row.key);
+        if (row.type == OptionType::real) {
+            row.set(options, numberOf(std::numeric_limits<double>::quiet_NaN()));
+            EXPECT_NE(firstOutOfRange(options), std::nullopt) << row.key;
+        }
+    }
+}
+
+/// Of settings that say one thing in two ways, the last word holds.
+TEST(OptionTable, EndsAndCountOfCascadesAgree)
+{
+    const OptionRow& count = *findOption("cascades.count");
+    const OptionRow& ends = *findOption("cascades.ends");
+    ShadowOptions options;
+    OptionValue two;
+    two.numbers = {10.0, 40.0};
+    ends.set(options, two);
+    EXPECT_EQ(options.cascades.count, 3U);
+    EXPECT_EQ(textOf(ends, ends.get(options)), "10/40");
+    count.set(options, numberOf(5.0));
+    EXPECT_FALSE(options.cascades.explicitEnds());
+    EXPECT_TRUE(ends.get(options).none);
+}
+
+} // namespace
+} // namespace gnomon
