@@ -64,7 +64,7 @@ TEST(LightMaps, ALightThatComesOrGoesLeavesTheOthersAlone)
 {
     for (const Partition partition : {Partition::single, Partition::cascades}) {
         World world;
-        PlanOptions options;
+        ShadowOptions options;
         options.technique.partition = partition;
         options.technique.motion = Motion::snap;
         options.map_size = 64;
@@ -104,7 +104,7 @@ TEST(LightMaps, ALightThatComesOrGoesLeavesTheOthersAlone)
 TEST(LightMaps, ALightThatComesBackIntoSightHasItsMap)
 {
     World world;
-    PlanOptions options;
+    ShadowOptions options;
     options.technique.filter = Filter::lvsm;
     options.technique.motion = Motion::snap;
     options.map_size = 64;
@@ -134,8 +134,8 @@ TEST(LightMaps, NumbersOfTwoPlannersNeverMeet)
 {
     World world;
     world.addSpot(0);
-    Planner one(PlanOptions{.map_size = 64});
-    Planner two(PlanOptions{.map_size = 64});
+    Planner one(ShadowOptions{.map_size = 64});
+    Planner two(ShadowOptions{.map_size = 64});
     std::set<ContentNumber> numbers;
     for (int i = 0; i < 100; ++i) {
         world.set.touch(1 + i % 60);
@@ -150,7 +150,7 @@ TEST(LightMaps, WhatIsLostIsDrawnWhole)
     World world;
     world.addSpot(0);
     world.addSpot(1);
-    Planner planner(PlanOptions{.map_size = 64});
+    Planner planner(ShadowOptions{.map_size = 64});
     (void)world.plan(planner);
     const MapId lost = world.plan(planner).views.at(1).map;
     planner.lost(lost);
@@ -172,7 +172,7 @@ TEST(LightMaps, OptionsMayDifferFromLightToLight)
     world.lights[1].options = 1;
     world.lights[2].options = 2;
     world.lights[3].map_size = 64;
-    std::vector<PlanOptions> options(2);
+    std::vector<ShadowOptions> options(2);
     options[0].map_size = 128;
     options[1].map_size = 32;
     options[1].technique.filter = Filter::msm;
@@ -204,7 +204,7 @@ TEST(LightMaps, Of64LightsHave384Views)
             world.lights.back().map_size = map_size;
         }
         world.set.add({{-400, -1, -400}, {400, -0.6, 400}}); // so that each cascade sees something
-        PlanOptions options;
+        ShadowOptions options;
         options.map_size = 256;
         options.max_layers = 384;
         options.technique.partition = Partition::cascades;

@@ -25,18 +25,19 @@ struct Turmoil {
             add(i % 5 == 0);
         lights = {test::sun({0.4, -1, 0.3}), test::spot({0, 30, 0}, {0.1, -1, 0}, 0.6)};
         lights[1].key = 1;
-        for (PlanOptions& one : options)
+        for (ShadowOptions& one : options)
             choose(one);
         frame.objects = &set;
     }
-    void choose(PlanOptions& one)
+    void choose(ShadowOptions& one)
     {
         one.map_size = random.below(3) == 0 ? 36 : 16;
         one.max_layers = random.below(4) == 0 ? 3 : 12;
         one.border_texels = 1.0;
         one.technique.motion = static_cast<Motion>(random.below(6));
         one.keep_still = static_cast<KeepStill>(random.below(3));
-        one.paired_maps = random.below(3) == 0;
+        if (random.below(3) == 0)
+            one.format = MapFormat::rg16; // of pcf two maps a texel, of vsm two moments
         one.technique.filter = random.below(4) == 0 ? Filter::vsm : Filter::pcf;
         if (random.below(3) == 0) {
             one.technique.partition = Partition::cascades;
@@ -121,7 +122,7 @@ struct Turmoil {
     double hour = 0.3;
     double speed = 0.002;
     Frame frame;
-    std::array<PlanOptions, 2> options;
+    std::array<ShadowOptions, 2> options;
 };
 
 /// In 37,500 frames. A second draughtsman misses one frame in ten, and mends what it finds.
