@@ -230,8 +230,32 @@ private:
     std::filesystem::path before_;
 };
 
+/// Puts back what signals do, so that a test run can be interrupted after the program was.
+class Signals {
+public:
+    Signals()
+    {
+        for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+            ::sigaction(kNumbers[i], nullptr, &before_[i]);
+        }
+    }
+    ~Signals()
+    {
+        for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+            ::sigaction(kNumbers[i], &before_[i], nullptr);
+        }
+    }
+    Signals(const Signals&) = delete;
+    Signals& operator=(const Signals&) = delete;
+
+private:
+    static constexpr std::array kNumbers{SIGINT, SIGTERM, SIGPIPE, SIGXFSZ};
+    std::array<struct sigaction, kNumbers.size()> before_{};
+};
+
 Ran call(const std::vector<std::string>& arguments, const How& how)
 {
+    const Signals signals;
     const Environment environment(variablesOf(how));
     const WorkingFolder folder(how.folder);
     Caught out(STDOUT_FILENO, stdout);
