@@ -136,8 +136,9 @@ TEST(LightMaps, NumbersOfTwoPlannersNeverMeet)
     world.addSpot(0);
     Planner one(ShadowOptions{.map_size = 64});
     Planner two(ShadowOptions{.map_size = 64});
+    EXPECT_NE(world.plan(one).planner, world.plan(two).planner);
     std::set<ContentNumber> numbers;
-    for (int i = 0; i < 100; ++i) {
+    for (std::uint32_t i = 0; i < 100; ++i) {
         world.set.touch(1 + i % 60);
         world.lights[0].position_ws.x += 0.01;
         EXPECT_TRUE(numbers.insert(world.plan(one).views.at(0).makes).second);

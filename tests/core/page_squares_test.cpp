@@ -66,6 +66,7 @@ TEST(PageSquares, NeverOverlapAndComeBackWhole)
             const std::uint32_t count = 1 + random.below(4);
             if (!squares.take(level, count, one.squares)) {
                 EXPECT_TRUE(one.squares.empty());
+                EXPECT_EQ(squares.pages(), before);
                 ++refused;
                 continue;
             }

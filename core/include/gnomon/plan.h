@@ -243,6 +243,9 @@ struct MapPages {
 
 struct Plan {
     std::uint64_t frame = 0;
+    /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
+    /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
+    std::uint64_t planner = 0;
     Technique technique;
     /// Those of the planner, never null in a plan that it made: LightPlan::options is the index. The defaults stand for
     /// options that are refused. They last as long as any copy of the plan.

@@ -8,16 +8,16 @@
 namespace gnomon {
 namespace {
 
-/// Where a store's content numbers begin, so far from the next one's that they never meet.
-ContentNumber firstNumber()
+std::uint64_t freshIdentity()
 {
-    static std::atomic<ContentNumber> stores{0};
-    return (stores.fetch_add(1, std::memory_order_relaxed) << 40U) + 1;
+    static std::atomic<std::uint64_t> stores{0};
+    return stores.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
 } // namespace
 
-MapStore::MapStore() : next_number_(firstNumber()) {}
+// Each store's numbers begin so far from the next one's that they never meet.
+MapStore::MapStore() : identity_(freshIdentity()), next_number_(identity_ << 40U) {}
 
 void MapStore::addPages(std::uint32_t side, std::uint32_t most_pages)
 {
@@ -57,10 +57,12 @@ void MapStore::furnish(Room& room)
     PageSquares& pages = pages_[wish.options].maps;
     if (room.places.empty()) {
         const std::uint32_t level = pages.levelOf(wish.side);
+        const std::uint32_t pages_before = pages.pages();
         // Each position's maps follow each other, so that one pass can draw them.
         for (std::uint32_t position = 0; position < (wish.shares_texels ? 1 : wish.positions); ++position)
             if (!pages.take(level, wish.count, room.squares)) {
                 clear(room);
+                pages.dropPagesFrom(pages_before);
                 room.wish = wish;
                 return;
             }
@@ -92,12 +94,14 @@ bool MapStore::takeKept(Room& room)
 {
     const MapWish& wish = room.wish;
     PageSquares& pages = pages_[wish.options].kept;
+    const std::uint32_t pages_before = pages.pages();
     for (std::uint32_t i = 0; i < wish.positions * wish.count; ++i) {
         const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
         if (pages.takeAt(square.level, square.place, 1, room.kept_squares))
             continue;
         for (const PageSquare& taken : room.kept_squares)
             pages.give(taken);
+        pages.dropPagesFrom(pages_before);
         room.kept_squares.clear();
         return false;
     }
@@ -149,6 +153,7 @@ void MapStore::report(Plan& plan) const
         const std::uint32_t side = maps.pages() == 0 ? 0 : maps.side();
         plan.pages[i] = {side, side, maps.pages(), pages_[i].kept.pages()};
     }
+    plan.planner = identity_;
     plan.map_count = static_cast<std::uint32_t>(maps_.size());
 }
 

@@ -104,6 +104,7 @@ private:
     std::vector<Map> maps_; // by MapId::index
     std::vector<std::uint32_t> free_maps_;
     std::uint64_t objects_identity_ = 0;
+    std::uint64_t identity_;
     ContentNumber next_number_;
     // Scratch: the casters of a view.
     std::vector<std::uint32_t> still_;

@@ -103,6 +103,7 @@ bool PageSquares::take(std::uint32_t level, std::uint32_t count, std::vector<Pag
         return true;
     }
     const std::size_t before = out.size();
+    const std::uint32_t pages_before = pages_;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (findRun(level, 1, run)) {
             claimRun(level, 1, run, out);
@@ -110,6 +111,7 @@ bool PageSquares::take(std::uint32_t level, std::uint32_t count, std::vector<Pag
         }
         for (; out.size() > before; out.pop_back())
             give(out.back());
+        dropPagesFrom(pages_before);
         return false;
     }
     return true;
@@ -170,6 +172,12 @@ void PageSquares::give(const PageSquare& square)
         whole = around(whole, whole.level - 1);
         insert(whole);
     }
+}
+
+void PageSquares::dropPagesFrom(std::uint32_t pages)
+{
+    for (; pages_ > pages; --pages_)
+        erase({pages_ - 1, 0, 0});
 }
 
 void PageSquares::insert(const PageSquare& square)

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] bool takeAt(std::uint32_t level, std::uint32_t place, std::uint32_t count,
                               std::vector<PageSquare>& out);
     void give(const PageSquare& square);
+    /// After an attempt whose squares were given back: takes the pages away that it added. `pages` of before it.
+    void dropPagesFrom(std::uint32_t pages);
 
     /// How many pages there are. It falls only when no square is in use any more, then to 0.
     [[nodiscard]] std::uint32_t pages() const { return pages_; }
