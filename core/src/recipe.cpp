@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kSmallestMap = 16;
 
-
 /// Options that can be had, whatever was asked for: nobody plans by those that were refused.
 ResolvedOptions usable(const Resolution& resolution)
 {
