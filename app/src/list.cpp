@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon list`: every value of every choice, every refusal, every setting, preset and world.
+// `gnomon list`: every value of every choice, every rule that refuses, every setting, preset and world.
 #include "app/preset.h"
 #include "result_json.h"
 #include "subcommands.h"
 
-#include <gnomon/choices.h>
+#include <gnomon/choice_rules.h>
 
 #include <fmt/format.h>
 
@@ -16,83 +16,48 @@ constexpr std::string_view kTechniqueGrammar =
     "out has its "
     "default: hard, pcf+pcf.kernel=5x5+map-size=1024. Lists of techniques have commas between.";
 
-/// Refused combinations of values that are available one by one: one line for each reason and light.
-struct RefusedCombination {
-    std::string light;
-    std::string choices;
+/// What cannot be had of values that are available one by one, and why.
+struct Refused {
+    std::string technique;
     std::string reason;
 };
 
-std::vector<std::string_view> availableValues(std::string_view choice)
+std::vector<Filter> availableFilters()
 {
-    std::vector<std::string_view> names;
+    std::vector<Filter> filters;
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice == choice && row.available) {
-            names.push_back(row.name);
+        if (row.choice == "filter" && row.available) {
+            filters.push_back(static_cast<Filter>(row.value));
         }
     }
-    return names;
+    return filters;
 }
 
-template <typename Enum>
-Enum valueOf(std::string_view choice, std::string_view name)
+void addRefusedFormats(std::vector<Refused>& refused)
 {
-    return static_cast<Enum>(findChoice(choice, name)->value);
-}
-
-/// Visits every combination of available values.
-template <typename Visit>
-void forEachCombination(const Visit& visit)
-{
-    for (const auto light : availableValues("light")) {
-        for (const auto partition : availableValues("partition")) {
-            for (const auto fit : availableValues("fit")) {
-                for (const auto filter : availableValues("filter")) {
-                    for (const auto soften : availableValues("soften")) {
-                        for (const auto motion : availableValues("motion")) {
-                            visit(valueOf<LightType>("light", light),
-                                  Technique{valueOf<Partition>("partition", partition), valueOf<Fit>("fit", fit),
-                                            valueOf<Filter>("filter", filter), valueOf<Soften>("soften", soften),
-                                            valueOf<Motion>("motion", motion)});
-                        }
-                    }
-                }
+    for (const Filter filter : availableFilters()) {
+        Refused row;
+        for (auto format = MapFormat{}; format <= MapFormat::rgba8; format = MapFormat(std::uint8_t(format) + 1)) {
+            if (const auto reason = refusal(filter, format)) {
+                row.technique += fmt::format("{}{}", row.technique.empty() ? "" : "|", nameOf(format));
+                row.reason = *reason;
             }
         }
-    }
-}
-
-std::vector<MapFormat> allFormats()
-{
-    std::vector<MapFormat> formats;
-    for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(MapFormat::rgba8); ++i) {
-        formats.push_back(static_cast<MapFormat>(i));
-    }
-    return formats;
-}
-
-void addRefusedFormats(std::vector<RefusedCombination>& refused)
-{
-    for (const auto filter : availableValues("filter")) {
-        for (const MapFormat format : allFormats()) {
-            if (const auto reason = refusal(valueOf<Filter>("filter", filter), format)) {
-                refused.push_back(
-                    {"any", fmt::format("{}+map-format={}", filter, nameOf(format)), std::string(*reason)});
-            }
-        }
+        row.technique = fmt::format("{}+map-format={}", nameOf(filter), row.technique);
+        refused.push_back(std::move(row));
     }
 }
 
 /// What a filter's options may not be with a format that it can use: each at the end of its range.
-void addRefusedMoments(std::vector<RefusedCombination>& refused)
+void addRefusedMoments(std::vector<Refused>& refused)
 {
     constexpr std::string_view kOptions[] = {"depth-remap=1", "esm.exponent=10000", "evsm.positive=10000",
                                              "evsm.negative=10000"};
     const Settings defaults = defaultSettings();
-    for (const auto filter : availableValues("filter")) {
+    for (const Filter filter : availableFilters()) {
         for (const std::string_view option : kOptions) {
-            for (const MapFormat format : filterTraits(valueOf<Filter>("filter", filter))->formats) {
-                const std::string text = fmt::format("{}+map-format={}", filter, nameOf(format));
+            for (const MapFormat format : filterTraits(filter)->formats) {
+                const std::string text = fmt::format("{}+map-format={}", nameOf(filter), nameOf(format));
                 Settings settings = parseTechnique(defaults, text);
                 const std::size_t equals = option.find('=');
                 const Setting& setting = *findSetting(option.substr(0, equals));
@@ -101,42 +66,19 @@ void addRefusedMoments(std::vector<RefusedCombination>& refused)
                     continue;
                 }
                 if (const auto reason = refusal(settings.shadow.technique.filter, format, settings.shadow.moments)) {
-                    refused.push_back({"any", fmt::format("{}+{}", text, option), *reason});
+                    refused.push_back({fmt::format("{}+{}", text, option), *reason});
                 }
             }
         }
     }
 }
 
-/// Rows that differ in their last value alone, for one reason, as one: map-format=d16|d32f.
-std::vector<RefusedCombination> joined(const std::vector<RefusedCombination>& rows)
+std::vector<Refused> allRefused()
 {
-    std::vector<RefusedCombination> made;
-    for (const RefusedCombination& row : rows) {
-        const std::size_t value = row.choices.rfind('=') + 1; // 0: none
-        const bool follows = value != 0 && !made.empty() && made.back().light == row.light &&
-                             made.back().reason == row.reason &&
-                             made.back().choices.starts_with(std::string_view(row.choices).substr(0, value));
-        if (follows) {
-            made.back().choices += "|" + row.choices.substr(value);
-        } else {
-            made.push_back(row);
-        }
+    std::vector<Refused> refused;
+    for (const ChoiceRule& rule : choiceRules()) {
+        refused.push_back({std::string(rule.refuses), std::string(rule.reason)});
     }
-    return made;
-}
-
-std::vector<RefusedCombination> refusedCombinations()
-{
-    std::vector<RefusedCombination> refused;
-    forEachCombination([&](LightType light, const Technique& t) {
-        if (const auto reason = refusal(light, t)) {
-            refused.push_back({std::string(nameOf(light)),
-                               fmt::format("{}+{}+{}+{}+{}", nameOf(t.partition), nameOf(t.fit), nameOf(t.filter),
-                                           nameOf(t.soften), nameOf(t.motion)),
-                               std::string(*reason)});
-        }
-    });
     addRefusedFormats(refused);
     addRefusedMoments(refused);
     return refused;
@@ -181,9 +123,9 @@ std::string textList()
         }
         text += fmt::format("  {} {:<15} {}\n", row.available ? ' ' : '-', row.name, row.summary);
     }
-    text += "\nRefused combinations of values that are in this version:\n";
-    for (const RefusedCombination& row : joined(refusedCombinations())) {
-        text += fmt::format("  {} light, {}: {}\n", row.light, row.choices, row.reason);
+    text += "\nWhat cannot be had of values that are in this version:\n";
+    for (const Refused& row : allRefused()) {
+        text += fmt::format("  {}: {}\n", row.technique, row.reason);
     }
     text += "\nSettings (options of their own as --KEY; all by --set KEY=VALUE and in presets):\n";
     for (const Setting& setting : settingTable()) {
@@ -217,8 +159,8 @@ Json jsonList()
 {
     Json json{{"version", GNOMON_VERSION}, {"choices", choiceList()}, {"technique_grammar", kTechniqueGrammar}};
     json["refused"] = Json::array();
-    for (const RefusedCombination& row : refusedCombinations()) {
-        json["refused"].push_back({{"light", row.light}, {"technique", row.choices}, {"reason", row.reason}});
+    for (const Refused& row : allRefused()) {
+        json["refused"].push_back({{"technique", row.technique}, {"reason", row.reason}});
     }
     json["settings"] = Json::array();
     for (const Setting& setting : settingTable()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of all choices and what is made from it. To add a technique, turn its row to available here and give it
 // its line in the table of its folder (fit/fits.cpp, partition/partitions.cpp, motion/motions.cpp, kFilters below).
-#include <gnomon/choices.h>
+#include <gnomon/choice_rules.h>
 
 #include <array>
 #include <string>
@@ -153,15 +153,11 @@ constexpr std::string_view formatReason(Filter filter)
     }
 }
 
-/// A combination of available values that makes no sense.
-struct Rule {
-    bool (*applies)(LightType light, const Technique& technique);
-    std::string_view reason;
-};
 constexpr std::array kRules{
-    Rule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
-         "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs motion "
-         "free"},
+    ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
+               "partition sdsm with every motion but free",
+               "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
+               "motion free"},
 };
 
 template <class Enum>
@@ -240,6 +236,11 @@ std::span<const ChoiceValue> choiceValues()
     return kValues;
 }
 
+std::span<const ChoiceRule> choiceRules()
+{
+    return kRules;
+}
+
 const ChoiceValue* findChoice(std::string_view choice, std::string_view name)
 {
     for (const ChoiceValue& row : kValues)
@@ -313,7 +314,7 @@ std::optional<std::string_view> refusal(LightType light, const Technique& techni
         return reason;
     if (const auto reason = unavailable(kMotion, technique.motion))
         return reason;
-    for (const Rule& rule : kRules)
+    for (const ChoiceRule& rule : kRules)
         if (rule.applies(light, technique))
             return rule.reason;
     return std::nullopt;

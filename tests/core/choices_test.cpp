@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gnomon/choice_rules.h>
 #include <gnomon/choices.h>
 
 #include <gtest/gtest.h>
@@ -91,6 +92,23 @@ TEST(Choices, RefusalsAreSentences)
               "filter pcss is not in this version; it has hard, pcf, vsm, lvsm, esm, evsm and msm");
     EXPECT_EQ(refusal(LightType::point, Technique{}),
               "light point is not in this version; it has directional and spot");
+}
+
+TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
+{
+    ASSERT_EQ(choiceRules().size(), 1U);
+    const ChoiceRule& rule = choiceRules().front();
+    EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
+    for (const ChoiceValue& partition : choiceValues())
+        for (const ChoiceValue& motion : choiceValues()) {
+            if (partition.choice != "partition" || motion.choice != "motion" || !partition.available)
+                continue;
+            const Technique technique{.partition = static_cast<Partition>(partition.value),
+                                      .motion = static_cast<Motion>(motion.value)};
+            const bool refused = partition.name == "sdsm" && motion.name != "free";
+            EXPECT_EQ(rule.applies(LightType::spot, technique), refused) << partition.name << motion.name;
+            EXPECT_EQ(refusal(LightType::spot, technique), refused ? std::optional(rule.reason) : std::nullopt);
+        }
 }
 
 TEST(Choices, EveryAvailableFilterHasTraits)
