@@ -29,6 +29,21 @@ float riverDistance(glm::vec2 p)
     return std::abs(p.x - x);
 }
 
+/// Rise over run of a chunk's steepest triangle.
+float steepestOf(const Primitive& chunk, float cells_per_m)
+{
+    const auto rise = [&](std::uint32_t a, std::uint32_t b) {
+        return (chunk.positions[b].y - chunk.positions[a].y) * cells_per_m;
+    };
+    float steepest = 0.0F;
+    for (std::size_t i = 0; i < chunk.indices.size(); i += 6) { // a cell's two triangles: a c b, b c d
+        const std::uint32_t* const cell = &chunk.indices[i];
+        const auto [a, b, c, d] = std::array{cell[0], cell[2], cell[1], cell[5]};
+        steepest = std::max({steepest, std::hypot(rise(a, b), rise(a, c)), std::hypot(rise(c, d), rise(b, d))});
+    }
+    return steepest;
+}
+
 } // namespace
 
 std::span<const Site> villageSites()
@@ -37,27 +52,14 @@ std::span<const Site> villageSites()
 }
 
 Terrain::Terrain(std::uint64_t seed, std::span<const Loop> roads)
-    : noise_seed_(Rng(seed, 100).next()), heights_(static_cast<std::size_t>(kSide) * kSide),
-      roads_(static_cast<std::size_t>(kSide) * kSide, 0.0F)
+    : noise_seed_(Rng(seed, 100).next()), grid_(kCells, kMapSize_m), roads_(grid_.heights.size(), 0.0F)
 {
-    for (std::int32_t iz = 0; iz < kSide; ++iz) {
-        for (std::int32_t ix = 0; ix < kSide; ++ix) {
-            heights_[static_cast<std::size_t>(iz * kSide + ix)] = naturalHeight(gridPoint(ix, iz));
+    for (std::int32_t iz = 0; iz <= kCells; ++iz) {
+        for (std::int32_t ix = 0; ix <= kCells; ++ix) {
+            grid_.heights[grid_.index(ix, iz)] = naturalHeight(grid_.point(ix, iz));
         }
     }
     treadRoads(roads);
-}
-
-glm::vec2 Terrain::gridPoint(std::int32_t ix, std::int32_t iz)
-{
-    return glm::vec2(static_cast<float>(ix), static_cast<float>(iz)) / kCellsPerM - kMapSize_m * 0.5F;
-}
-
-float Terrain::heightAt(std::int32_t ix, std::int32_t iz) const
-{
-    ix = std::clamp(ix, 0, kCells);
-    iz = std::clamp(iz, 0, kCells);
-    return heights_[static_cast<std::size_t>(iz * kSide + ix)];
 }
 
 float Terrain::naturalHeight(glm::vec2 p) const
@@ -98,14 +100,14 @@ void Terrain::treadRoad(const Loop& road, std::vector<float>& nearest_m, std::ve
             sum += along[(i + n + k - kHalfWindow) % n];
         }
         const float even = sum / static_cast<float>(2 * kHalfWindow + 1);
-        const glm::vec2 grid = (places[i].position + kMapSize_m * 0.5F) * kCellsPerM;
+        const glm::vec2 grid = (places[i].position + kMapSize_m * 0.5F) * grid_.cellsPerM();
         constexpr std::int32_t kReach = 4; // cells
         for (std::int32_t dz = -kReach; dz <= kReach; ++dz) {
             for (std::int32_t dx = -kReach; dx <= kReach; ++dx) {
                 const std::int32_t ix = std::clamp(static_cast<std::int32_t>(grid.x) + dx, 0, kCells);
                 const std::int32_t iz = std::clamp(static_cast<std::int32_t>(grid.y) + dz, 0, kCells);
-                const auto cell = static_cast<std::size_t>(iz * kSide + ix);
-                const float d = glm::distance(gridPoint(ix, iz), places[i].position);
+                const std::size_t cell = grid_.index(ix, iz);
+                const float d = glm::distance(grid_.point(ix, iz), places[i].position);
                 if (d < nearest_m[cell]) {
                     nearest_m[cell] = d;
                     road_heights[cell] = even;
@@ -117,22 +119,22 @@ void Terrain::treadRoad(const Loop& road, std::vector<float>& nearest_m, std::ve
 
 void Terrain::treadRoads(std::span<const Loop> roads)
 {
-    std::vector<float> nearest_m(heights_.size(), 1e9F);
-    std::vector<float> road_heights(heights_.size(), 0.0F);
+    std::vector<float> nearest_m(grid_.heights.size(), 1e9F);
+    std::vector<float> road_heights(grid_.heights.size(), 0.0F);
     for (const Loop& road : roads) {
         treadRoad(road, nearest_m, road_heights);
     }
-    for (std::size_t i = 0; i < heights_.size(); ++i) {
-        heights_[i] = glm::mix(road_heights[i], heights_[i], smoothstep(3.0F, 8.0F, nearest_m[i]));
+    for (std::size_t i = 0; i < grid_.heights.size(); ++i) {
+        grid_.heights[i] = glm::mix(road_heights[i], grid_.heights[i], smoothstep(3.0F, 8.0F, nearest_m[i]));
         roads_[i] = 1.0F - smoothstep(1.8F, 4.4F, nearest_m[i]);
     }
 }
 
 float Terrain::road(float x, float z) const
 {
-    const auto ix = static_cast<std::int32_t>(clampToGrid((x + kMapSize_m * 0.5F) * kCellsPerM) + 0.5F);
-    const auto iz = static_cast<std::int32_t>(clampToGrid((z + kMapSize_m * 0.5F) * kCellsPerM) + 0.5F);
-    return roads_[static_cast<std::size_t>(iz * kSide + ix)];
+    const auto ix = static_cast<std::int32_t>(grid_.toCells(x) + 0.5F);
+    const auto iz = static_cast<std::int32_t>(grid_.toCells(z) + 0.5F);
+    return roads_[grid_.index(ix, iz)];
 }
 
 float Terrain::slope(float x, float z) const
@@ -142,19 +144,12 @@ float Terrain::slope(float x, float z) const
     return 0.5F * std::sqrt(dx * dx + dz * dz);
 }
 
-glm::vec3 Terrain::normal(std::int32_t ix, std::int32_t iz) const
-{
-    const float dx = (heightAt(ix + 1, iz) - heightAt(ix - 1, iz)) * kCellsPerM * 0.5F;
-    const float dz = (heightAt(ix, iz + 1) - heightAt(ix, iz - 1)) * kCellsPerM * 0.5F;
-    return glm::normalize(glm::vec3(-dx, 1.0F, -dz));
-}
-
 glm::vec4 Terrain::colour(std::int32_t ix, std::int32_t iz) const
 {
-    const glm::vec2 p = gridPoint(ix, iz);
+    const glm::vec2 p = grid_.point(ix, iz);
     const std::uint32_t s = noise_seed_ + 200;
-    const float h = heightAt(ix, iz);
-    const glm::vec3 n = normal(ix, iz);
+    const float h = grid_.at(ix, iz);
+    const glm::vec3 n = grid_.normal(ix, iz);
     const float steep = std::sqrt(1.0F - n.y * n.y) / n.y;
     const float broad = fractal(p / 38.0F, 4, s);
     const float fine = noise(p / 5.5F, s + 7);
@@ -168,44 +163,13 @@ glm::vec4 Terrain::colour(std::int32_t ix, std::int32_t iz) const
         bare = std::max(bare, 0.75F * (1.0F - smoothstep(site.radius_m * 0.4F, site.radius_m * 0.95F, d)));
     }
     c = glm::mix(c, glm::mix(rgb(0xA88A5C), rgb(0x8F7650), 0.5F + 0.5F * fine), bare);
-    c = glm::mix(c, rgb(0xC9A876), 0.92F * roads_[static_cast<std::size_t>(iz * kSide + ix)] * (0.9F + 0.1F * fine));
+    c = glm::mix(c, rgb(0xC9A876), 0.92F * roads_[grid_.index(ix, iz)] * (0.9F + 0.1F * fine));
     const float rock = smoothstep(0.50F, 0.85F, steep + 0.12F * fine);
     const float stratum = 0.5F + 0.5F * std::sin(h * 1.9F + 1.5F * broad);
     c = glm::mix(c, glm::mix(rgb(0x8A7B6C), rgb(0xB39B7E), stratum), rock);
     const float shore = 1.0F - smoothstep(0.2F, 1.8F, h - kWaterLevel_m + 0.5F * fine);
     c = glm::mix(c, rgb(0xD3C08F), shore * (1.0F - rock));
     return glm::mix(c, rgb(0x5D6650), 1.0F - smoothstep(-1.6F, -0.1F, h - kWaterLevel_m));
-}
-
-Primitive Terrain::chunk(std::int32_t cx, std::int32_t cz, float& steepest) const
-{
-    Primitive primitive;
-    constexpr std::int32_t kVertices = kChunkCells + 1;
-    for (std::int32_t j = 0; j < kVertices; ++j) {
-        for (std::int32_t i = 0; i < kVertices; ++i) {
-            const std::int32_t ix = cx * kChunkCells + i;
-            const std::int32_t iz = cz * kChunkCells + j;
-            const glm::vec2 p = gridPoint(ix, iz);
-            primitive.positions.emplace_back(p.x, heightAt(ix, iz), p.y);
-            primitive.normals.push_back(normal(ix, iz));
-            primitive.colours.push_back(colour(ix, iz));
-            primitive.uv0.emplace_back(p / 5.0F); // the detail image spans five metres
-        }
-    }
-    const auto rise = [&](std::uint32_t a, std::uint32_t b) {
-        return (primitive.positions[b].y - primitive.positions[a].y) * kCellsPerM;
-    };
-    for (std::int32_t j = 0; j < kChunkCells; ++j) {
-        for (std::int32_t i = 0; i < kChunkCells; ++i) {
-            const auto a = static_cast<std::uint32_t>(j * kVertices + i);
-            const std::uint32_t b = a + 1;
-            const std::uint32_t c = a + kVertices;
-            const std::uint32_t d = c + 1;
-            primitive.indices.insert(primitive.indices.end(), {a, c, b, b, c, d});
-            steepest = std::max({steepest, std::hypot(rise(a, b), rise(a, c)), std::hypot(rise(c, d), rise(b, d))});
-        }
-    }
-    return primitive;
 }
 
 Primitive Terrain::water(std::int32_t cx, std::int32_t cz) const
@@ -215,18 +179,18 @@ Primitive Terrain::water(std::int32_t cx, std::int32_t cz) const
         for (std::int32_t i = 0; i < kChunkCells; ++i) {
             const std::int32_t ix = cx * kChunkCells + i;
             const std::int32_t iz = cz * kChunkCells + j;
-            const float lowest = std::min(std::min(heightAt(ix, iz), heightAt(ix + 1, iz)),
-                                          std::min(heightAt(ix, iz + 1), heightAt(ix + 1, iz + 1)));
+            const float lowest = std::min(std::min(grid_.at(ix, iz), grid_.at(ix + 1, iz)),
+                                          std::min(grid_.at(ix, iz + 1), grid_.at(ix + 1, iz + 1)));
             if (lowest >= kWaterLevel_m) {
                 continue;
             }
             const auto first = static_cast<std::uint32_t>(primitive.positions.size());
             for (const auto& [dx, dz] : {std::pair{0, 0}, std::pair{0, 1}, std::pair{1, 1}, std::pair{1, 0}}) {
-                const glm::vec2 p = gridPoint(ix + dx, iz + dz);
+                const glm::vec2 p = grid_.point(ix + dx, iz + dz);
                 primitive.positions.emplace_back(p.x, kWaterLevel_m, p.y);
                 primitive.normals.emplace_back(0.0F, 1.0F, 0.0F);
                 primitive.uv0.emplace_back(p / 12.0F);
-                const float deep = smoothstep(0.1F, 1.9F, kWaterLevel_m - heightAt(ix + dx, iz + dz));
+                const float deep = smoothstep(0.1F, 1.9F, kWaterLevel_m - grid_.at(ix + dx, iz + dz));
                 primitive.colours.push_back(glm::mix(rgb(0x6FA39A), rgb(0x1F5666), deep));
             }
             for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
@@ -254,8 +218,8 @@ Primitive Terrain::border() const
     };
     constexpr float kHalf = kMapSize_m * 0.5F;
     for (std::int32_t i = 0; i < kCells; ++i) {
-        const float from = gridPoint(i, 0).x;
-        const float to = gridPoint(i + 1, 0).x;
+        const float from = grid_.point(i, 0).x;
+        const float to = grid_.point(i + 1, 0).x;
         strip({from, kHalf}, {to, kHalf});
         strip({to, -kHalf}, {from, -kHalf});
         strip({kHalf, to}, {kHalf, from});
@@ -274,11 +238,15 @@ void Terrain::addTo(Scene& scene, std::uint32_t ground_material, std::uint32_t w
         return addNode(scene, name, addMesh(scene, std::move(mesh)), {});
     };
     constexpr std::int32_t kChunks = kCells / kChunkCells;
+    constexpr float kImage_m = 5.0F;
+    const auto colour_at = [&](std::int32_t ix, std::int32_t iz) {
+        return colour(ix, iz);
+    };
     for (std::int32_t cz = 0; cz < kChunks; ++cz) {
         for (std::int32_t cx = 0; cx < kChunks; ++cx) {
             const std::string place = std::to_string(cx) + "," + std::to_string(cz);
-            float steepest = 0.0F;
-            Primitive primitive = chunk(cx, cz, steepest);
+            Primitive primitive = grid_.chunk(cx, cz, kImage_m, colour_at);
+            const float steepest = steepestOf(primitive, grid_.cellsPerM());
             const std::uint32_t node = add("terrain/" + place, std::move(primitive), ground_material);
             scene.nodes[node].casts = steepest > kFlatChunkSlope;
             Primitive wet = water(cx, cz);

@@ -2,6 +2,7 @@
 // The map of the world `rts`: a height field with a camp, a river, a lake, mesas and trodden roads.
 #pragma once
 
+#include "../height_grid.h"
 #include "loops.h"
 
 #include "scene/model.h"
@@ -32,20 +33,7 @@ public:
     Terrain(std::uint64_t seed, std::span<const Loop> roads);
 
     /// Height of the drawn triangles at x, z; beyond the border that of the border.
-    [[nodiscard]] float height(float x, float z) const
-    {
-        const float gx = clampToGrid((x + kMapSize_m * 0.5F) * kCellsPerM);
-        const float gz = clampToGrid((z + kMapSize_m * 0.5F) * kCellsPerM);
-        const auto ix = static_cast<std::int32_t>(gx);
-        const auto iz = static_cast<std::int32_t>(gz);
-        const float fx = gx - static_cast<float>(ix);
-        const float fz = gz - static_cast<float>(iz);
-        const float* h = &heights_[static_cast<std::size_t>(iz * kSide + ix)];
-        // The diagonal runs from (1, 0) to (0, 1), as addTo() draws it.
-        return fx + fz <= 1.0F
-                   ? h[0] + (h[1] - h[0]) * fx + (h[kSide] - h[0]) * fz
-                   : h[kSide + 1] + (h[kSide] - h[kSide + 1]) * (1.0F - fx) + (h[1] - h[kSide + 1]) * (1.0F - fz);
-    }
+    [[nodiscard]] float height(float x, float z) const { return grid_.height(x, z); }
     [[nodiscard]] glm::vec3 ground(glm::vec2 xz) const { return {xz.x, height(xz.x, xz.y), xz.y}; }
     /// Rise over run of the steepest way at a point.
     [[nodiscard]] float slope(float x, float z) const;
@@ -57,28 +45,17 @@ public:
 
 private:
     static constexpr std::int32_t kCells = 256;
-    static constexpr std::int32_t kSide = kCells + 1;
-    static constexpr std::int32_t kChunkCells = 16;
-    static constexpr float kCellsPerM = static_cast<float>(kCells) / kMapSize_m;
+    static constexpr std::int32_t kChunkCells = HeightGrid::kChunkCells;
 
-    static float clampToGrid(float g)
-    {
-        constexpr float kLast = static_cast<float>(kCells) - 0.001F;
-        return g > 0.0F ? (g < kLast ? g : kLast) : 0.0F;
-    }
-    [[nodiscard]] static glm::vec2 gridPoint(std::int32_t ix, std::int32_t iz);
-    [[nodiscard]] float heightAt(std::int32_t ix, std::int32_t iz) const;
     [[nodiscard]] float naturalHeight(glm::vec2 p) const;
     void treadRoads(std::span<const Loop> roads);
     void treadRoad(const Loop& road, std::vector<float>& nearest_m, std::vector<float>& road_heights) const;
-    [[nodiscard]] glm::vec3 normal(std::int32_t ix, std::int32_t iz) const;
     [[nodiscard]] glm::vec4 colour(std::int32_t ix, std::int32_t iz) const;
-    [[nodiscard]] Primitive chunk(std::int32_t cx, std::int32_t cz, float& steepest) const;
     [[nodiscard]] Primitive water(std::int32_t cx, std::int32_t cz) const;
     [[nodiscard]] Primitive border() const;
 
     std::uint32_t noise_seed_;
-    std::vector<float> heights_;
+    HeightGrid grid_;
     std::vector<float> roads_;
 };
 

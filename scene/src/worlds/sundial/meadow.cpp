@@ -52,25 +52,19 @@ Loop makePath()
 }
 
 Meadow::Meadow(std::uint64_t seed, const Loop& path)
-    : noise_seed_(Rng(seed, 700).next()), path_m_(static_cast<std::size_t>(kSide) * kSide, 1e3F),
-      heights_(static_cast<std::size_t>(kSide) * kSide)
+    : noise_seed_(Rng(seed, 700).next()), grid_(kCells, kMeadowSize_m), path_m_(grid_.heights.size(), 1e3F)
 {
-    for (std::int32_t iz = 0; iz < kSide; ++iz) {
-        for (std::int32_t ix = 0; ix < kSide; ++ix) {
-            const auto cell = static_cast<std::size_t>(iz * kSide + ix);
-            const glm::vec2 p = gridPoint(ix, iz);
+    for (std::int32_t iz = 0; iz <= kCells; ++iz) {
+        for (std::int32_t ix = 0; ix <= kCells; ++ix) {
+            const std::size_t cell = grid_.index(ix, iz);
+            const glm::vec2 p = grid_.point(ix, iz);
             for (const Loop::Place& place : path.samples()) {
                 path_m_[cell] = std::min(path_m_[cell], glm::distance(place.position, p));
             }
             // Feet have worn it down.
-            heights_[cell] = naturalHeight(p) - 0.07F * (1.0F - smoothstep(0.4F, 1.8F, path_m_[cell]));
+            grid_.heights[cell] = naturalHeight(p) - 0.07F * (1.0F - smoothstep(0.4F, 1.8F, path_m_[cell]));
         }
     }
-}
-
-glm::vec2 Meadow::gridPoint(std::int32_t ix, std::int32_t iz)
-{
-    return glm::vec2(static_cast<float>(ix), static_cast<float>(iz)) / kCellsPerM - kMeadowSize_m * 0.5F;
 }
 
 float Meadow::naturalHeight(glm::vec2 p) const
@@ -90,27 +84,6 @@ float Meadow::naturalHeight(glm::vec2 p) const
     return glm::mix(0.0F, h, smoothstep(kCourtRadius_m + 0.5F, kCourtRadius_m + 6.0F, glm::length(p)));
 }
 
-float Meadow::heightAt(std::int32_t ix, std::int32_t iz) const
-{
-    return heights_[static_cast<std::size_t>(std::clamp(iz, 0, kCells) * kSide + std::clamp(ix, 0, kCells))];
-}
-
-float Meadow::height(float x, float z) const
-{
-    constexpr float kLast = static_cast<float>(kCells) - 0.001F;
-    const float gx = std::clamp((x + kMeadowSize_m * 0.5F) * kCellsPerM, 0.0F, kLast);
-    const float gz = std::clamp((z + kMeadowSize_m * 0.5F) * kCellsPerM, 0.0F, kLast);
-    const auto ix = static_cast<std::int32_t>(gx);
-    const auto iz = static_cast<std::int32_t>(gz);
-    const float fx = gx - static_cast<float>(ix);
-    const float fz = gz - static_cast<float>(iz);
-    const float* h = &heights_[static_cast<std::size_t>(iz * kSide + ix)];
-    // The diagonal runs from (1, 0) to (0, 1), as chunk() draws it.
-    return fx + fz <= 1.0F
-               ? h[0] + (h[1] - h[0]) * fx + (h[kSide] - h[0]) * fz
-               : h[kSide + 1] + (h[kSide] - h[kSide + 1]) * (1.0F - fx) + (h[1] - h[kSide + 1]) * (1.0F - fz);
-}
-
 glm::vec3 Meadow::normal(glm::vec2 xz) const
 {
     const float dx = height(xz.x + 1.0F, xz.y) - height(xz.x - 1.0F, xz.y);
@@ -120,22 +93,15 @@ glm::vec3 Meadow::normal(glm::vec2 xz) const
 
 float Meadow::pathDistance(glm::vec2 xz) const
 {
-    const auto nearest = [](float v) {
-        return std::clamp(static_cast<std::int32_t>((v + kMeadowSize_m * 0.5F) * kCellsPerM + 0.5F), 0, kCells);
+    const auto nearest = [&](float v) {
+        return std::clamp(static_cast<std::int32_t>((v + kMeadowSize_m * 0.5F) * grid_.cellsPerM() + 0.5F), 0, kCells);
     };
-    return path_m_[static_cast<std::size_t>(nearest(xz.y) * kSide + nearest(xz.x))];
-}
-
-glm::vec3 Meadow::gridNormal(std::int32_t ix, std::int32_t iz) const
-{
-    const float dx = (heightAt(ix + 1, iz) - heightAt(ix - 1, iz)) * kCellsPerM * 0.5F;
-    const float dz = (heightAt(ix, iz + 1) - heightAt(ix, iz - 1)) * kCellsPerM * 0.5F;
-    return glm::normalize(glm::vec3(-dx, 1.0F, -dz));
+    return path_m_[grid_.index(nearest(xz.x), nearest(xz.y))];
 }
 
 glm::vec4 Meadow::colour(std::int32_t ix, std::int32_t iz) const
 {
-    const glm::vec2 p = gridPoint(ix, iz);
+    const glm::vec2 p = grid_.point(ix, iz);
     const std::uint32_t s = noise_seed_ + 200;
     const float broad = fractal(p / 34.0F, 3, s);
     const float fine = noise(p / 4.0F, s + 7);
@@ -143,47 +109,25 @@ glm::vec4 Meadow::colour(std::int32_t ix, std::int32_t iz) const
     c = glm::mix(c, rgb(0x566E3E), 0.65F * smoothstep(0.0F, 0.5F, fractal(p / 21.0F, 3, s + 11)));
     c = glm::mix(c, rgb(0xB2A66C), 0.55F * smoothstep(0.1F, 0.55F, fractal(p / 15.0F, 2, s + 21)));
     c = glm::mix(c, rgb(0x4B633A), 0.6F * smoothstep(kOpenRadius_m - 8.0F, kOpenRadius_m + 12.0F, glm::length(p)));
-    const float d = path_m_[static_cast<std::size_t>(iz * kSide + ix)] + 0.25F * fine;
+    const float d = path_m_[grid_.index(ix, iz)] + 0.25F * fine;
     const float court = glm::length(p) + 0.4F * fine;
     const float bare = std::max(1.0F - smoothstep(kPathHalfWidth_m, kPathHalfWidth_m + 0.9F, d),
                                 0.9F * (1.0F - smoothstep(kCourtRadius_m - 0.6F, kCourtRadius_m + 0.7F, court)));
     return glm::mix(c, glm::mix(rgb(0xB79B70), rgb(0xA0845C), 0.5F + 0.5F * fine), bare);
 }
 
-Primitive Meadow::chunk(std::int32_t cx, std::int32_t cz) const
-{
-    Primitive primitive;
-    constexpr std::int32_t kVertices = kChunkCells + 1;
-    for (std::int32_t j = 0; j < kVertices; ++j) {
-        for (std::int32_t i = 0; i < kVertices; ++i) {
-            const std::int32_t ix = cx * kChunkCells + i;
-            const std::int32_t iz = cz * kChunkCells + j;
-            const glm::vec2 p = gridPoint(ix, iz);
-            primitive.positions.emplace_back(p.x, heightAt(ix, iz), p.y);
-            primitive.normals.push_back(gridNormal(ix, iz));
-            primitive.colours.push_back(colour(ix, iz));
-            primitive.uv0.emplace_back(p / 4.0F); // the detail image spans four metres
-        }
-    }
-    for (std::int32_t j = 0; j < kChunkCells; ++j) {
-        for (std::int32_t i = 0; i < kChunkCells; ++i) {
-            const auto a = static_cast<std::uint32_t>(j * kVertices + i);
-            const std::uint32_t b = a + 1;
-            const std::uint32_t c = a + kVertices;
-            primitive.indices.insert(primitive.indices.end(), {a, c, b, b, c, c + 1});
-        }
-    }
-    return primitive;
-}
-
 void Meadow::addTo(Scene& scene, std::uint32_t material) const
 {
-    constexpr std::int32_t kChunks = kCells / kChunkCells;
+    constexpr std::int32_t kChunks = kCells / HeightGrid::kChunkCells;
+    constexpr float kImage_m = 4.0F;
+    const auto colour_at = [&](std::int32_t ix, std::int32_t iz) {
+        return colour(ix, iz);
+    };
     for (std::int32_t cz = 0; cz < kChunks; ++cz) {
         for (std::int32_t cx = 0; cx < kChunks; ++cx) {
             Mesh mesh;
             mesh.name = "ground/" + std::to_string(cx) + "," + std::to_string(cz);
-            mesh.primitives.push_back(chunk(cx, cz));
+            mesh.primitives.push_back(grid_.chunk(cx, cz, kImage_m, colour_at));
             mesh.primitives.back().material = material;
             const std::string name = mesh.name;
             addNode(scene, name, addMesh(scene, std::move(mesh)), {});

@@ -2,6 +2,7 @@
 // The ground of the world `sundial`: a shallow bowl of rolling grass with a trodden path, and hills about it.
 #pragma once
 
+#include "../height_grid.h"
 #include "../rts/loops.h"
 
 #include "scene/model.h"
@@ -30,7 +31,7 @@ public:
     Meadow(std::uint64_t seed, const Loop& path);
 
     /// Height of the drawn triangles at x, z; beyond the border that of the border.
-    [[nodiscard]] float height(float x, float z) const;
+    [[nodiscard]] float height(float x, float z) const { return grid_.height(x, z); }
     [[nodiscard]] glm::vec3 ground(glm::vec2 xz) const { return {xz.x, height(xz.x, xz.y), xz.y}; }
     [[nodiscard]] glm::vec3 normal(glm::vec2 xz) const;
     /// Metres to the middle of the path; large far away from it.
@@ -41,20 +42,13 @@ public:
 
 private:
     static constexpr std::int32_t kCells = 160;
-    static constexpr std::int32_t kSide = kCells + 1;
-    static constexpr std::int32_t kChunkCells = 16;
-    static constexpr float kCellsPerM = static_cast<float>(kCells) / kMeadowSize_m;
 
-    [[nodiscard]] static glm::vec2 gridPoint(std::int32_t ix, std::int32_t iz);
     [[nodiscard]] float naturalHeight(glm::vec2 p) const;
-    [[nodiscard]] float heightAt(std::int32_t ix, std::int32_t iz) const;
-    [[nodiscard]] glm::vec3 gridNormal(std::int32_t ix, std::int32_t iz) const;
     [[nodiscard]] glm::vec4 colour(std::int32_t ix, std::int32_t iz) const;
-    [[nodiscard]] Primitive chunk(std::int32_t cx, std::int32_t cz) const;
 
     std::uint32_t noise_seed_;
+    HeightGrid grid_;
     std::vector<float> path_m_;
-    std::vector<float> heights_;
 };
 
 /// Where the house's own point (x, z) is, seen from above.
