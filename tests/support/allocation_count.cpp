@@ -3,17 +3,24 @@
 // that the standard library uses: std::stable_sort takes its buffer by the one that must not throw.
 #include "allocation_count.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
 
 namespace {
 
 thread_local std::uint64_t t_count = 0;
+thread_local std::ptrdiff_t t_held = 0; // bytes
+thread_local std::ptrdiff_t t_peak = 0;
 
 void* allocate(std::size_t size) noexcept
 {
     ++t_count;
-    return std::malloc(size == 0 ? 1 : size);
+    void* memory = std::malloc(size == 0 ? 1 : size);
+    t_held += static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+    t_peak = std::max(t_peak, t_held);
+    return memory;
 }
 
 void* allocateOrThrow(std::size_t size)
@@ -24,11 +31,25 @@ void* allocateOrThrow(std::size_t size)
     throw std::bad_alloc();
 }
 
+void release(void* memory) noexcept
+{
+    t_held -= static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+    std::free(memory);
+}
+
 } // namespace
 
 std::uint64_t gnomon::test::heapAllocations()
 {
     return t_count;
+}
+
+std::size_t gnomon::test::heapPeakDuring(const std::function<void()>& work)
+{
+    const std::ptrdiff_t before = t_held;
+    t_peak = t_held;
+    work();
+    return static_cast<std::size_t>(t_peak - before);
 }
 
 void* operator new(std::size_t size)
@@ -49,25 +70,25 @@ void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
 }
 void operator delete(void* memory) noexcept
 {
-    std::free(memory);
+    release(memory);
 }
 void operator delete[](void* memory) noexcept
 {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept
 {
-    std::free(memory);
+    release(memory);
 }
 void operator delete[](void* memory, std::size_t) noexcept
 {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, const std::nothrow_t&) noexcept
 {
-    std::free(memory);
+    release(memory);
 }
 void operator delete[](void* memory, const std::nothrow_t&) noexcept
 {
-    std::free(memory);
+    release(memory);
 }

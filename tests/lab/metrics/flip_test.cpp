@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "allocation_count.h"
 #include "flip_images.h"
-#include "heap_peak.h"
 #include "lab/metrics/flip.h"
 
 #include <gtest/gtest.h>
@@ -240,7 +240,7 @@ TEST(Flip, TakesFewBytesForAPixel)
     const ImageF truth = noiseMask(96, 1600, 2);
     const Counted counted = countAll(96, 1600);
     std::optional<double> mean;
-    const std::size_t bytes = test::heapPeakDuring([&] { mean = flip(test, truth, counted); });
+    const std::size_t bytes = gnomon::test::heapPeakDuring([&] { mean = flip(test, truth, counted); });
     EXPECT_GT(mean.value(), 0.1);
     EXPECT_GT(bytes, test.values.size() * 8U); // of what is seen and of the differences
     EXPECT_LT(bytes, test.values.size() * 32U);
