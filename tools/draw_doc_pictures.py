@@ -5,11 +5,12 @@
 usage: draw_doc_pictures.py [--check] [--only TEXT] [--jobs N] GNOMON FOLDER
 
 Every command `build/gnomon render ... -o docs/images/NAME` or `build/gnomon plan ... --draw docs/images/NAME` of a .md
-file, in a code block or between backticks, is run with the program GNOMON and writes FOLDER/NAME; docs/images itself may be FOLDER. --only takes the pictures whose names
-hold TEXT, --jobs draws N at a time (default 1).
+file, in a code block or between backticks, is run with the program GNOMON and writes FOLDER/NAME; docs/images itself may
+be FOLDER. Where a document shows images/NAME.svg and names `build/gnomon compare ... --sweep ... --report out/NAME`, the
+picture is the report's sweep.svg. --only takes the pictures whose names hold TEXT, --jobs draws N at a time (default 1).
 
 --check then compares each with docs/images, byte for byte, and says which differ and by how much. Pictures are those of
-llvmpipe: another driver, or another version of it, may round otherwise.
+llvmpipe: another driver, or another version of it, may round otherwise. Plots are those of Debian's matplotlib.
 
 Exit status 1 when a command fails, when two commands draw one picture in different ways, when a picture is drawn that no
 document shows, or when --check finds a difference. Pictures for which no document names a command are listed at the end.
@@ -18,14 +19,17 @@ document shows, or when --check finds a difference. Pictures for which no docume
 import argparse
 import re
 import shlex
+import shutil
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from sources import project_files, project_root
 
 COMMAND = re.compile(r"build/gnomon (?:render [^`\n]*-o|plan [^`\n]*--draw) docs/images/[^`\s]+")
+PLOTTED = re.compile(r"build/gnomon compare [^`\n]*--sweep [^`\n]*--report out/[\w-]+$", re.MULTILINE)
 SHOWN = re.compile(r"images/([\w.-]+\.(?:png|exr|svg))")
 TARGET = {"render": "-o", "plan": "--draw"}  # the option that names the picture
 IMAGES = Path("docs/images")
@@ -58,11 +62,23 @@ def commands_of(texts: list[tuple[Path, str]]) -> tuple[dict[str, list[str]], li
     return commands, faults
 
 
+def plots_of(texts: list[tuple[Path, str]], shown: set[str]) -> dict[str, list[str]]:
+    """The arguments after the program for each plot that a document shows, --report last."""
+    lines = [shlex.split(line) for _, text in texts for line in PLOTTED.findall(text)]
+    plots = {Path(words[-1]).name + ".svg": words[1:-1] for words in lines}
+    return {name: arguments for name, arguments in plots.items() if name in shown}
+
+
 def draw(gnomon: Path, root: Path, folder: Path, name: str, arguments: list[str]) -> str | None:
     """Draws one picture; what went wrong, or None."""
-    run = subprocess.run([gnomon, *arguments, folder / name], cwd=root, capture_output=True, text=True, check=False)
-    if run.returncode == 0:
-        return None
+    with tempfile.TemporaryDirectory() as kept:
+        report = Path(kept) / "report"
+        target = report if arguments[-1] == "--report" else folder / name
+        run = subprocess.run([gnomon, *arguments, target], cwd=root, capture_output=True, text=True, check=False)
+        if run.returncode == 0 and (target != report or (report / "sweep.svg").is_file()):
+            if target == report:
+                shutil.copy(report / "sweep.svg", folder / name)
+            return None
     # The program's own sentence comes last, after what it says of the device.
     said = run.stderr.strip().splitlines()[-1:] or [f"exit status {run.returncode}"]
     return f"{name}: {said[0]} (gnomon {shlex.join(arguments)})"
@@ -102,6 +118,7 @@ def main() -> int:
     texts = documents(root)
     commands, faults = commands_of(texts)
     shown = {name for _, text in texts for name in SHOWN.findall(re.sub(r"(?:-o|--draw) docs/images/\S+", "", text))}
+    commands |= plots_of(texts, shown)
     faults += [f"{name}: drawn, but no document shows it" for name in sorted(commands.keys() - shown)]
     wanted = sorted(name for name in commands if options.only in name)
     if not wanted:
@@ -121,7 +138,7 @@ def main() -> int:
     kept = {file.name for file in (root / IMAGES).iterdir()}
     for name in sorted(kept | shown):
         if name.endswith(".svg") and name not in commands:
-            continue  # drawn by hand, or taken from a report
+            continue  # drawn by hand
         if name not in commands:
             print(f"notice: {name}: no document names the command that draws it")
         if name not in shown:

@@ -320,16 +320,19 @@ void put(const Comparison& comparison, const Shot& shot, const Settings& setting
 {
     const CompareResult& result = comparison.result();
     std::for_each(result.notes.begin(), result.notes.end(), notice);
-    const std::string json = jsonText(compareJson(result, shot, settings));
+    Json json = compareJson(result, shot, settings);
+    std::optional<std::string> no_plots;
     if (folder != nullptr) {
-        const std::size_t pages = result.sweep ? result.sweep->plan.lines.size() : result.techniques.size();
-        Progress progress("drawing the report", pages);
-        writeReport(*folder, result, shot, settings, json, [&] { progress.step(); });
+        Progress progress("drawing the report", result.techniques.size());
+        no_plots = writeReport(*folder, result, shot, settings, json, [&] { progress.step(); });
+    }
+    if (no_plots) {
+        notice(*no_plots);
     }
     if (settings.json.empty()) {
         writeStdout(compareText(result, shot, settings));
     } else {
-        writeResult(settings.json, json);
+        writeResult(settings.json, jsonText(json));
     }
 }
 

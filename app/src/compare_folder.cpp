@@ -2,9 +2,9 @@
 #include "compare_folder.h"
 
 #include "app/visual.h"
-#include "compare_path.h"
+#include "compare_json.h"
 #include "compare_text.h"
-#include "result_json.h"
+#include "report_plots.h"
 
 #include "image/image_io.h"
 #include "lab/report.h"
@@ -111,18 +111,15 @@ void writeTechnique(ReportFolder& folder, const CompareResult& result, std::size
 }
 
 /// First, middle and last frame of every technique, and curves over all frames.
-void writePath(ReportFolder& folder, const CompareResult& result, const Settings& settings, lab::Report& page,
-               const std::function<void()>& step)
+void writePath(ReportFolder& folder, const CompareResult& result, lab::Report& page, const std::function<void()>& step)
 {
     const PathResult& path = *result.path;
     const std::vector<std::string_view> moments = momentsOf(path.shown.size());
     for (std::size_t k = 0; k < moments.size(); ++k) {
         folder.write(pictureOf("truth", moments[k]), maskAs16Bit(path.truths[k]));
     }
-    folder.write(kReportError, lab::plotSvg(pathErrorPlot(result, settings.scene)));
     page.plots.push_back({kReportError, "Error of every technique over the frames."});
     if (path.frames.first != path.frames.last) {
-        folder.write(kReportChange, lab::plotSvg(pathChangePlot(result, settings.scene)));
         page.plots.push_back({kReportChange,
                               "How much the error of every technique changes from one frame to the next, "
                               "at the same points: level is steady, peaks are pops."});
@@ -149,25 +146,19 @@ void writePath(ReportFolder& folder, const CompareResult& result, const Settings
     }
 }
 
-void writeSweep(ReportFolder& folder, const SweepResult& sweep, const Settings& settings, lab::Report& page,
-                const std::function<void()>& step)
+void addSweep(lab::Report& page, const SweepResult& sweep)
 {
     const std::string& key = sweep.plan.key;
     page.table_caption = fmt::format("Every technique over {}.", key);
     if (sweep.plan.lines.size() == 1) {
-        folder.write(kReportSweep, lab::plotSvg(sweepClassPlot(sweep, 0, settings.scene)));
         page.plots.push_back({kReportSweep, fmt::format("Error over {}, and where it comes from.", key)});
-        step();
         return;
     }
-    folder.write(kReportSweep, lab::plotSvg(sweepPlot(sweep, settings.scene)));
     page.plots.push_back({kReportSweep, fmt::format("Error of every technique over {}.", key)});
     for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {
         const std::string file = numbered(i, "sweep.svg");
-        folder.write(file, lab::plotSvg(sweepClassPlot(sweep, i, settings.scene)));
         page.plots.push_back(
             {file, fmt::format("{}: where its error over {} comes from.", sweep.plan.lines[i].technique, key)});
-        step();
     }
 }
 
@@ -267,6 +258,11 @@ void ReportFolder::write(const std::string& name, std::string_view bytes)
     writeFile(fileFor(name), bytes);
 }
 
+std::optional<std::string> ReportFolder::writePlots()
+{
+    return drawPlots(fileFor(kReportResult), work_);
+}
+
 void ReportFolder::keep()
 {
     const auto move = [](const fs::path& from, const fs::path& to) {
@@ -296,14 +292,13 @@ void ReportFolder::keep()
     }
 }
 
-void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& shot, const Settings& settings,
-                 std::string_view json, const std::function<void()>& step)
+std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, const Shot& shot,
+                                       const Settings& settings, Json& json, const std::function<void()>& step)
 {
     lab::Report page;
     page.title = fmt::format("Shadows of {} against ray-traced truth", settings.scene);
     page.truth_file = kReportTruth;
     page.facts = facts(result, shot, settings);
-    page.notes = result.notes;
     if (!result.path) {
         folder.write(page.truth_file, maskAs16Bit(result.judged.truth.visibility.visibility));
     }
@@ -311,10 +306,10 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
     if (result.path) {
         table = compareTable(result, false);
         page.table_caption = "Best first; means over the frames.";
-        writePath(folder, result, settings, page, step);
+        writePath(folder, result, page, step);
     } else if (result.sweep) {
         table = sweepTable(*result.sweep);
-        writeSweep(folder, *result.sweep, settings, page, step);
+        addSweep(page, *result.sweep);
     } else {
         table = compareTable(result, false);
         for (std::size_t i = 0; i < result.techniques.size(); ++i) {
@@ -325,9 +320,22 @@ void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& 
     page.columns = table.columns;
     page.column_meanings = meaningsOf(table);
     page.rows = table.rows;
-    folder.write(kReportResult, json);
+    folder.write(kReportResult, jsonText(json));
+    std::optional<std::string> no_plots;
+    if (!page.plots.empty()) {
+        no_plots = folder.writePlots();
+    }
+    if (no_plots) {
+        page.plots.clear();
+        json["notes"].push_back(*no_plots);
+        Json::array_t& files = json["report_files"].get_ref<Json::array_t&>();
+        std::erase_if(files, [](const Json& name) { return name.get_ref<const std::string&>().ends_with(".svg"); });
+        folder.write(kReportResult, jsonText(json));
+    }
+    page.notes = json["notes"];
     folder.write(kReportPage, lab::reportPage(page));
     folder.keep();
+    return no_plots;
 }
 
 } // namespace gnomon::app

@@ -5,9 +5,11 @@
 #include "compare_result.h"
 #include "image/image.h"
 #include "report_names.h"
+#include "result_json.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +37,8 @@ public:
     void write(const std::string& name, const Image8& picture);
     void write(const std::string& name, const Image16& mask);
     void write(const std::string& name, std::string_view bytes);
+    /// By drawPlots(), from result.json as it was written.
+    [[nodiscard]] std::optional<std::string> writePlots();
     /// Puts what was written in its place, and removes what the earlier report had and this one has not.
     void keep();
 
@@ -49,8 +53,10 @@ private:
     std::filesystem::path work_;       // where files are written; empty until the first one is
 };
 
-/// Pictures of every technique, the page, result.json (`json`). `step` is called after every technique and may throw.
-void writeReport(ReportFolder& folder, const CompareResult& result, const Shot& shot, const Settings& settings,
-                 std::string_view json, const std::function<void()>& step);
+/// Pictures of every technique, plots, the page, result.json (`json`). Where plots cannot be drawn, `json` loses their
+/// files and has a note, which is given back. `step` is called after every technique and may throw.
+[[nodiscard]] std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result,
+                                                     const Shot& shot, const Settings& settings, Json& json,
+                                                     const std::function<void()>& step);
 
 } // namespace gnomon::app

@@ -127,19 +127,6 @@ private:
     std::size_t light_;
 };
 
-lab::Plot framePlot(const CompareResult& result, const std::string& scene)
-{
-    lab::Plot plot;
-    plot.x_label = "frame";
-    for (std::uint32_t frame = result.path->frames.first; frame <= result.path->frames.last; ++frame) {
-        plot.x.push_back(static_cast<double>(frame));
-    }
-    plot.title = fmt::format("{} along {}", scene, result.path->name);
-    return plot;
-}
-
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-
 } // namespace
 
 std::uint64_t pathSteps(const Settings& settings, const std::vector<Settings>& techniques)
@@ -196,37 +183,6 @@ std::vector<std::string> pathNotes(const CompareResult& result)
                                     first.rmse.size()));
     }
     return notes;
-}
-
-lab::Plot pathErrorPlot(const CompareResult& result, const std::string& scene)
-{
-    lab::Plot plot = framePlot(result, scene);
-    plot.title = "Error: " + plot.title;
-    plot.y_label = "rmse";
-    for (const ComparedTechnique& technique : result.techniques) {
-        lab::PlotLine line{technique.name, {}};
-        for (const std::optional<double>& rmse : technique.path->rmse) {
-            line.values.push_back(rmse.value_or(kGap));
-        }
-        plot.lines.push_back(std::move(line));
-    }
-    return plot;
-}
-
-lab::Plot pathChangePlot(const CompareResult& result, const std::string& scene)
-{
-    lab::Plot plot = framePlot(result, scene);
-    plot.title = "Unsteadiness: " + plot.title;
-    plot.y_label = "mean |D|";
-    plot.x.erase(plot.x.begin()); // the first frame has none before it
-    for (const ComparedTechnique& technique : result.techniques) {
-        lab::PlotLine line{technique.name, {}};
-        for (const lab::StabilityMeter::Step& frame : technique.path->steps) {
-            line.values.push_back(frame.matched == 0 ? kGap : frame.mean_abs);
-        }
-        plot.lines.push_back(std::move(line));
-    }
-    return plot;
 }
 
 } // namespace gnomon::app

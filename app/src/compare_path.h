@@ -4,7 +4,6 @@
 
 #include "app/shot.h"
 #include "compare_result.h"
-#include "lab/plot.h"
 
 #include <functional>
 #include <vector>
@@ -21,9 +20,5 @@ void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std
                  CompareResult& result, const std::function<void()>& step);
 /// Sentences on what a path could not tell.
 [[nodiscard]] std::vector<std::string> pathNotes(const CompareResult& result);
-
-/// The rmse of every technique over the frames, and the mean change of its error from frame to frame.
-[[nodiscard]] lab::Plot pathErrorPlot(const CompareResult& result, const std::string& scene);
-[[nodiscard]] lab::Plot pathChangePlot(const CompareResult& result, const std::string& scene);
 
 } // namespace gnomon::app

@@ -11,7 +11,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace gnomon::app {
 namespace {
@@ -48,9 +47,8 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
 }
 
 struct Column {
-    std::string_view name; // as JSON and plots have it
+    std::string_view name;
     std::optional<double> (*value)(const SweepResult::Point& point);
-    std::optional<lab::ErrorClass> error_class = {};
 };
 
 template <double lab::ClassErrors::*member>
@@ -66,49 +64,9 @@ std::optional<double> numberOf(const SweepResult::Point& point)
 constexpr std::array kNumbers{
     Column{"rmse", numberOf<&lab::ErrorNumbers::rmse>}, Column{"mae", numberOf<&lab::ErrorNumbers::mae>},
     Column{"bias", numberOf<&lab::ErrorNumbers::bias>}, Column{"p99", numberOf<&lab::ErrorNumbers::p99>}};
-constexpr std::array kClasses{Column{"edge", classOf<&lab::ClassErrors::edge>, lab::ErrorClass::edge},
-                              Column{"acne", classOf<&lab::ClassErrors::acne>, lab::ErrorClass::acne},
-                              Column{"detached", classOf<&lab::ClassErrors::detached>, lab::ErrorClass::detached},
-                              Column{"bleeding", classOf<&lab::ClassErrors::bleeding>, lab::ErrorClass::bleeding}};
-
-std::string labelOf(const SweepPlan& plan)
-{
-    return plan.unit.empty() ? plan.key : fmt::format("{} ({})", plan.key, plan.unit);
-}
-
-/// Plots want ascending values.
-template <typename T>
-std::vector<T> ascending(const SweepPlan& plan, std::vector<T> values)
-{
-    if (plan.values.front() > plan.values.back()) {
-        std::reverse(values.begin(), values.end());
-    }
-    return values;
-}
-
-lab::Plot emptyPlot(const SweepPlan& plan, std::string title)
-{
-    lab::Plot plot;
-    plot.title = std::move(title);
-    plot.x_label = labelOf(plan);
-    plot.y_label = "root of the mean squared error";
-    plot.x = ascending(plan, plan.values);
-    plot.x_logarithmic = plan.logarithmic;
-    return plot;
-}
-
-lab::PlotLine lineOf(const SweepResult& result, std::size_t line, const Column& column, bool root, std::string name)
-{
-    lab::PlotLine made;
-    made.name = std::move(name);
-    for (const SweepResult::Point& point : result.points[line]) {
-        const std::optional<double> value = column.value(point);
-        const double shown = value.value_or(std::numeric_limits<double>::quiet_NaN());
-        made.values.push_back(root ? std::sqrt(shown) : shown);
-    }
-    made.values = ascending(result.plan, std::move(made.values));
-    return made;
-}
+constexpr std::array kClasses{
+    Column{"edge", classOf<&lab::ClassErrors::edge>}, Column{"acne", classOf<&lab::ClassErrors::acne>},
+    Column{"detached", classOf<&lab::ClassErrors::detached>}, Column{"bleeding", classOf<&lab::ClassErrors::bleeding>}};
 
 } // namespace
 
@@ -238,28 +196,6 @@ TextTable sweepTable(const SweepResult& result)
         }
     }
     return table;
-}
-
-lab::Plot sweepPlot(const SweepResult& result, const std::string& scene)
-{
-    lab::Plot plot = emptyPlot(result.plan, fmt::format("{}: error over {}", scene, result.plan.key));
-    for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
-        plot.lines.push_back(lineOf(result, i, kNumbers[0], false, result.plan.lines[i].technique));
-    }
-    return plot;
-}
-
-lab::Plot sweepClassPlot(const SweepResult& result, std::size_t line, const std::string& scene)
-{
-    lab::Plot plot = emptyPlot(result.plan, fmt::format("{}, {}: where the error over {} comes from", scene,
-                                                        result.plan.lines[line].technique, result.plan.key));
-    plot.lines.push_back(lineOf(result, line, kNumbers[0], false, "all (rmse)"));
-    plot.lines.back().emphasised = true;
-    for (const Column& column : kClasses) {
-        plot.lines.push_back(lineOf(result, line, column, true, std::string(column.name)));
-        plot.lines.back().error_class = column.error_class;
-    }
-    return plot;
 }
 
 } // namespace gnomon::app

@@ -7,7 +7,6 @@
 #include "compare_judged.h"
 #include "compare_table.h"
 #include "lab/compare.h"
-#include "lab/plot.h"
 #include "result_json.h"
 
 #include <functional>
@@ -68,9 +67,5 @@ using JudgedAt = std::function<const Judged&(std::size_t value)>;
 /// A row for each technique and value: the error and where it comes from; where the shot is made anew, the truth's
 /// standard error and the pixels that count, too.
 [[nodiscard]] TextTable sweepTable(const SweepResult& result);
-/// The rmse of every technique over the value.
-[[nodiscard]] lab::Plot sweepPlot(const SweepResult& result, const std::string& scene);
-/// One technique's rmse and the root of each class's mean squared error.
-[[nodiscard]] lab::Plot sweepClassPlot(const SweepResult& result, std::size_t line, const std::string& scene);
 
 } // namespace gnomon::app

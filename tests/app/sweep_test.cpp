@@ -86,23 +86,13 @@ TEST(SweepPlan, RoundsToMultiplesAndKnowsWhatMakesTheShotAnew)
     EXPECT_EQ(app::settingsAt(seeds, 1, techniques[0]).seed, 9000000000000000U);
 }
 
-TEST(SweepPlot, RunsUpwardAndLeavesGaps)
+TEST(Sweep, HasNoNumbersWhereNoPixelCounts)
 {
     app::SweepResult result;
     result.plan = app::planSweep({"map-size", 256.0, 64.0, 3, true}, {technique("hard")});
     result.points = {{{lab::ErrorNumbers{0.1, 0.0, 0.0, 0.0}, lab::ClassErrors{0.0075, 0.0025, 0.0, 0.0}, {}},
                       {std::nullopt, {}, {}},
                       {lab::ErrorNumbers{0.4, 0.0, 0.0, 0.0}, lab::ClassErrors{0.16, 0.0, 0.0, 0.0}, {}}}};
-    const lab::Plot plot = app::sweepPlot(result, "planes");
-    EXPECT_EQ(plot.x, (std::vector<double>{64.0, 128.0, 256.0}));
-    ASSERT_EQ(plot.lines.size(), 1U);
-    EXPECT_EQ(plot.lines[0].values[0], 0.4);
-    EXPECT_TRUE(std::isnan(plot.lines[0].values[1]));
-    EXPECT_TRUE(plot.x_logarithmic);
-    const lab::Plot classes = app::sweepClassPlot(result, 0, "planes");
-    ASSERT_EQ(classes.lines.size(), 5U);
-    EXPECT_NEAR(classes.lines[1].values[2], std::sqrt(0.0075), 1e-12); // edge
-    EXPECT_NEAR(classes.lines[2].values[2], 0.05, 1e-12);              // acne
     const app::Json json = app::sweepJson(result);
     EXPECT_TRUE(json["results"][0]["rmse"][1].is_null());
     EXPECT_TRUE(json["results"][0]["acne"][1].is_null());
@@ -145,7 +135,30 @@ TEST(Sweep, ErrorFallsAsTheMapGrows)
     EXPECT_EQ(names, (std::vector<std::string>{"01_sweep.svg", "02_sweep.svg", "index.html", "result.json", "sweep.svg",
                                                "truth.png"}));
     EXPECT_TRUE(test::slurp(folder / "out/sweep.svg").find("<svg") != std::string::npos);
+    EXPECT_TRUE(result["notes"].empty());
     EXPECT_TRUE(test::slurp(folder / "out/index.html").find("sweep.svg") != std::string::npos);
+}
+
+/// The error plots are drawn by python3; without it there is all else, and a sentence.
+TEST(Sweep, ReportDoesWithoutPlots)
+{
+    const test::Folder folder;
+    const test::Folder cache;
+    // An interpreter that is sent elsewhere for its own modules does not start.
+    const test::Ran ran = test::gnomon(
+        {"compare", "planes", "--size", "80x45", "--truth", "hard", "--light", "sun", "--techniques", "hard,pcf",
+         "--sweep", "map-size=64:128:2", "--report", "out", "--json"},
+        {.folder = folder.path(),
+         .environment = {{"XDG_CACHE_HOME", cache.path().string()}, {"PYTHONHOME", folder.path().string()}}});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("the report has no plots; tools/plot.py draws them"), std::string::npos) << ran.err;
+    const nlohmann::json result = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(result, nlohmann::json::parse(test::slurp(folder / "out/result.json")));
+    EXPECT_EQ(result["report_files"], (std::vector<std::string>{"truth.png", "index.html", "result.json"}));
+    ASSERT_EQ(result["notes"].size(), 1U);
+    const std::string page = test::slurp(folder / "out/index.html");
+    EXPECT_EQ(page.find("sweep.svg"), std::string::npos);
+    EXPECT_NE(page.find("the report has no plots"), std::string::npos);
 }
 
 /// One truth cache for all its runs.

@@ -27,6 +27,7 @@ PROGRAM = """#!/bin/sh
 case "$*" in
     metrics*) echo "rmse 0.5";;
     *--bad*) echo "gnomon: no GPU found" >&2; echo "gnomon: --bad is unknown" >&2; exit 2;;
+    compare*) for last; do :; done; mkdir "$last"; echo "$*" | sed 's/ --report .*//' > "$last/sweep.svg";;
     *) for last; do :; done; echo "$*" | sed 's/ \\(-o\\|--draw\\) .*//' > "$last";;
 esac
 """
@@ -74,6 +75,16 @@ class Pictures(unittest.TestCase):
         result = run({**tree, "docs/images/s.svg": "plan rts --fit psm\n"}, "--check")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("s.svg: differs", result.stderr)
+
+    def test_plots_are_those_of_reports(self):
+        page = ("![p](images/p.svg)\n```\nbuild/gnomon compare rts --sweep fov=1:2:2 --report out/p\n"
+                "build/gnomon compare rts --sweep fov=1:2:2 --report out/shown-nowhere\n```\n")
+        tree = {**TREE, "docs/plot.md": page, "docs/images/p.svg": "compare rts --sweep fov=1:2:2\n"}
+        result = run(tree, "--check")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 drawn, 0 faults", result.stdout)
+        result = run({**tree, "docs/images/p.svg": "compare rts --sweep fov=1:3:2\n"}, "--check")
+        self.assertIn("p.svg: differs", result.stderr)
 
     def test_without_check_nothing_is_compared(self):
         result = run({**TREE, KEPT: "another"})

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers in SVG, and the check that other tests hold whole pictures to.
+#include "lab/src/svg_text.h"
+
+#include "xml.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::lab {
+namespace {
+
+TEST(WellFormedness, IsNoticedWhenItIsMissing)
+{
+    EXPECT_EQ(whyNotWellFormed("<a b=\"1\"><c/>x &amp; y</a>"), "");
+    for (const char* bad : {"<a>", "</a>", "<a></b>", "<a", "<a>&x;</a>", "<a b=\"&\"/>", "<a b=1/>",
+                            "<a b=\"1\" b=\"2\"/>", "<a b=\"<\"/>", "<a><b></a></b>", "a & b"}) {
+        EXPECT_NE(whyNotWellFormed(bad), "") << bad;
+    }
+}
+
+TEST(SvgText, CutsBetweenCharacters)
+{
+    EXPECT_EQ(svgText("abcdef", 6), "abcdef");
+    EXPECT_EQ(svgText("abcdefg", 6), "abcde\xE2\x80\xA6");
+    EXPECT_EQ(svgText("\xC3\xA4\xC3\xB6\xC3\xBC", 2), "\xC3\xA4\xE2\x80\xA6");
+    EXPECT_EQ(columnsOf("\xE5\xBD\xB1"), 2U); // one character, as wide as two letters
+    EXPECT_EQ(svgText("a<b", 3), "a&lt;b");
+    EXPECT_EQ(svgText("\xF0\x9F\x8C\x9E", 9), "\xF0\x9F\x8C\x9E");
+    EXPECT_EQ(svgText("\xE5\xBD", 9), "\xEF\xBF\xBD\xEF\xBF\xBD"); // torn
+}
+
+TEST(SvgText, NumbersHaveNoNeedlessDigits)
+{
+    EXPECT_EQ(svgNumber(12.0), "12");
+    EXPECT_EQ(svgNumber(0.1 + 0.2), "0.3");
+    EXPECT_EQ(svgNumber(-0.001), "0");
+    EXPECT_EQ(svgNumber(100.0), "100");
+    EXPECT_EQ(svgNumber(-3.456), "-3.46");
+}
+
+} // namespace
+} // namespace gnomon::lab
