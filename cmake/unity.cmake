@@ -3,6 +3,11 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 function(gnomon_unity target)
+    # A target that says so itself compiles each source alone.
+    get_property(says_so TARGET ${target} PROPERTY UNITY_BUILD SET)
+    if(says_so)
+        return()
+    endif()
     get_target_property(listed ${target} SOURCES)
     get_target_property(folder ${target} SOURCE_DIR)
     set(sources)
