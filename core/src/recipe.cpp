@@ -5,11 +5,23 @@
 #include "light_space.h"
 
 #include <algorithm>
+#include <mutex>
+#include <set>
+#include <string>
 
 namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kSmallestMap = 16;
+
+/// A copy that lasts as long as the program, as Outcome::reason must: plans outlive their planners.
+std::string_view lasting(const std::string& sentence)
+{
+    static std::mutex mutex;
+    static std::set<std::string> sentences;
+    const std::lock_guard lock(mutex);
+    return *sentences.insert(sentence).first;
+}
 
 /// Options that can be had, whatever was asked for: nobody plans by those that were refused.
 ResolvedOptions usable(const Resolution& resolution)
@@ -20,9 +32,10 @@ ResolvedOptions usable(const Resolution& resolution)
 } // namespace
 
 Recipe::Recipe(const ShadowOptions& given)
-    : asked(given), resolution(resolve(given)), resolved(usable(resolution)), options(resolved.asked()),
-      partition(partitionTraits(options.technique.partition)), fit(fitFunction(options.technique.fit)),
-      motion(motionTraits(options.technique.motion)), filter(filterTraits(options.technique.filter))
+    : asked(given), resolution(resolve(given)), refusal_reason(lasting(resolution.refusal)),
+      resolved(usable(resolution)), options(resolved.asked()), partition(partitionTraits(options.technique.partition)),
+      fit(fitFunction(options.technique.fit)), motion(motionTraits(options.technique.motion)),
+      filter(filterTraits(options.technique.filter))
 {
 }
 
@@ -33,7 +46,7 @@ Outcome Recipe::check(const Light& light) const
     if (const auto reason = refusal(light.type, asked.technique))
         return {OutcomeKind::refused, *reason};
     if (!resolution)
-        return {OutcomeKind::refused, resolution.refusal};
+        return {OutcomeKind::refused, refusal_reason};
     return checkLight(light);
 }
 

@@ -13,7 +13,8 @@ namespace gnomon {
 
 struct Recipe {
     ShadowOptions asked;
-    Resolution resolution;    // without a value check() refuses every light
+    Resolution resolution; // without a value check() refuses every light
+    std::string_view refusal_reason;
     ResolvedOptions resolved; // the default ones where what was asked for is refused
     ShadowOptions options;    // of `resolved`
     const PartitionTraits* partition = nullptr;

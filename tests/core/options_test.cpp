@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/error.h>
 #include <gnomon/option_table.h>
+#include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,24 @@ TEST(Options, WhatCannotBePlannedIsRefused)
     ends.cascades.ends_m = {20.0, 10.0};
     EXPECT_FALSE(resolve(ends));
     EXPECT_THROW(static_cast<void>(resolvedOrThrow({.map_size = 0})), Error);
+}
+
+/// Plans are copied for reports, and outlive their planner.
+TEST(Options, ARefusalOutlivesThePlanner)
+{
+    ObjectSet objects;
+    objects.add({{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}});
+    const Light sun;
+    Frame frame;
+    frame.lights = {&sun, 1};
+    frame.objects = &objects;
+    Plan kept;
+    {
+        Planner planner(ShadowOptions{.map_size = 0});
+        kept = planner.plan(frame);
+    }
+    EXPECT_EQ(kept.lights.at(0).outcome.kind, OutcomeKind::refused);
+    EXPECT_EQ(kept.lights[0].outcome.reason, "map-size is 0; it can be 16 to 16384 texels");
 }
 
 TEST(OptionTable, KeysAreUniqueAndSayWhenTheyCount)

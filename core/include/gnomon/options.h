@@ -94,7 +94,8 @@ struct ShadowOptions {
     /// level ground is level in depth whatever the sun's height. It is still metres along the ray. False: along the
     /// light's axis, as maps of bare depth always do.
     bool level_depth = true;
-    /// Layers that the image of these maps may have: 1 .. 2048. Lights that find none get Outcome atlas_full.
+    /// Pages that the maps of these options may take, and again those of still casters: 1 .. 2048. Lights that find no
+    /// room get Outcome atlas_full: first come, first served, and a light that is in every frame keeps its place.
     std::uint32_t max_layers = 64;
     PcfOptions pcf;        // filter pcf
     BiasOptions bias;      // filters hard and pcf
