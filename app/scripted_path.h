@@ -5,7 +5,7 @@
 
 #include "app/keyframes.h"
 #include "app/settings.h"
-#include "host/renderer.h"
+#include "host/view.h"
 #include "scene/model.h"
 #include "scene/state.h"
 

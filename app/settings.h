@@ -3,7 +3,7 @@
 // one table that settingTable() returns.
 #pragma once
 
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/load.h"
 #include "truth/visibility.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/scripted_path.h"
 #include "app/settings.h"
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/model.h"
 #include "scene/state.h"
 

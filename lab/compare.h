@@ -22,11 +22,11 @@ namespace gnomon::lab {
 /// looks through the middle of each pixel only.
 [[nodiscard]] host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2 size_px);
 /// Holds the mask that `renderer`, made with judgedOptions(), drew last against the truth of the same subject.
-[[nodiscard]] Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::Traced& truth,
+[[nodiscard]] Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const truth::Traced& truth,
                                const host::RenderOptions& options, bool with_perception = true);
 /// Draws the subject with one technique, at the truth's size and without anti-aliasing whatever `options` say, and
 /// holds its mask against the truth. `with_perception`: ssim and flip too, which take longer than all else.
-[[nodiscard]] Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
+[[nodiscard]] Score scoreTechnique(const host::SceneOnGpu& scene, const Subject& subject, const truth::Traced& truth,
                                    const host::RenderOptions& options, bool with_perception = true);
 /// The same for any mask of the truth's size, with the geometry of `picture`; what tells of maps stays 0.
 [[nodiscard]] Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::Picture& picture,

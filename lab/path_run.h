@@ -36,7 +36,7 @@ struct PathTechnique {
 class PathRun {
 public:
     /// `first` as in add(). Pictures are of `size_px`, without anti-aliasing whatever options say. Throws Error.
-    PathRun(host::Gpu& gpu, const Subject& first, glm::uvec2 size_px, const std::vector<Contestant>& contestants);
+    PathRun(const host::SceneOnGpu& scene, glm::uvec2 size_px, const std::vector<Contestant>& contestants);
     ~PathRun();
     PathRun(const PathRun&) = delete;
     PathRun& operator=(const PathRun&) = delete;
@@ -49,7 +49,7 @@ public:
     /// The frame added last once more, from where the next one is seen: its own moment, `subject` with another eye
     /// alone, and the truth of that. To be called before add() where the camera moves, so that what changes at a point
     /// of the world is known at that point and not from pixels around it. Nothing comes of it for techniques that
-    /// cannot be drawn again (host::Renderer::drawAgain()).
+    /// cannot be drawn again (host::FrameRenderer::drawAgain()).
     void revisit(const Subject& subject, const truth::Traced& truth);
 
     /// Noise of the truths: the root of the mean over the frames of its square; nothing when in none a pixel counts.

@@ -2,7 +2,8 @@
 // lab/score/texel_density.h for pictures of our host: depth and normals read back.
 #pragma once
 
-#include "host/renderer.h"
+#include "host/present.h"
+#include "host/view.h"
 #include "lab/score/texel_density.h"
 
 namespace gnomon::lab {

@@ -2,7 +2,7 @@
 // Times of techniques that take turns in one process, so that whatever slows the machine down hits all alike.
 #pragma once
 
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/model.h"
 #include "scene/state.h"
 
@@ -17,7 +17,8 @@
 
 namespace gnomon::lab {
 
-/// What is looked at: one frame of a scene. `scene` and `state` outlive it.
+/// What is looked at: one frame of a scene. `scene` and `state` outlive it. Where it is drawn, the SceneOnGpu beside it
+/// is of the same scene.
 struct Subject {
     const scene::Scene* scene = nullptr;
     const scene::State* state = nullptr;
@@ -100,10 +101,10 @@ inline constexpr std::uint64_t kMaxTexelsTogether = std::uint64_t{1} << 29U;
 [[nodiscard]] std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants, std::size_t lights);
 
 /// Bytes of every image and buffer of a renderer.
-[[nodiscard]] std::uint64_t totalBytes(const host::Renderer& renderer);
+[[nodiscard]] std::uint64_t totalBytes(const host::FrameRenderer& renderer);
 /// What one technique needs beyond the frame without shadows, by purpose.
-[[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
-                                                                             const host::Renderer& baseline);
+[[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::FrameRenderer& technique,
+                                                                             const host::FrameRenderer& baseline);
 /// Of the whole frame, ms; 0 without samples.
 [[nodiscard]] double medianFrame(const Timed& timed);
 
@@ -118,11 +119,11 @@ using SubjectAt = std::function<const Subject&(std::uint32_t round)>;
 /// turn, again and again, in the order of turnsOf(), so that none always follows the same one; the frame without
 /// shadows has place 0. Then the next of timingGroups(), with a frame without shadows of its own. `step` is called
 /// after every frame drawn and may throw to stop; it may be empty. Precondition: one contestant at least.
-[[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject,
+[[nodiscard]] TimingResult timeInTurn(const host::SceneOnGpu& scene, const Subject& subject,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);
 /// The same with something else to draw in each round: frames of a path. Every group begins with round 0.
-[[nodiscard]] TimingResult timeInTurn(host::Gpu& gpu, const SubjectAt& subject_at,
+[[nodiscard]] TimingResult timeInTurn(const host::SceneOnGpu& scene, const SubjectAt& subject_at,
                                       const std::vector<Contestant>& contestants, const TimingOptions& options,
                                       const std::function<void()>& step);
 /// How often timeInTurn() calls `step`.

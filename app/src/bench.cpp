@@ -36,11 +36,11 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
 }
 
 /// What the maps of the last frame give to the picture, which is the same for every technique.
-void measureFit(host::Gpu& gpu, const Shot& shot, const Settings& settings, BenchResult& result)
+void measureFit(const host::SceneOnGpu& scene, const Shot& shot, const Settings& settings, BenchResult& result)
 {
     host::RenderOptions options = renderOptions(settings);
     options.shadows = false;
-    host::Renderer renderer(gpu, shot.scene, shot.state, options);
+    host::FrameRenderer renderer(scene, options);
     renderer.draw(shot.state, shot.eye, shot.lights);
     const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});
     const Camera camera = host::cameraOf(shot.eye, settings.size_px.x, settings.size_px.y, shot.state.bounds_ws);
@@ -68,6 +68,7 @@ lab::TimingOptions timingOptions(const Settings& settings)
 BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques)
 {
     const lab::TimingOptions options = timingOptions(settings);
+    const host::SceneOnGpu scene(gpu, shot.scene, shot.state);
     lab::Subject subject = subjectOf(shot);
     const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
     Progress progress("timing", lab::timingSteps(subject, contestants, options));
@@ -78,7 +79,7 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
         }
         return subject;
     };
-    lab::TimingResult timing = lab::timeInTurn(gpu, subject_at, contestants, options, [&] {
+    lab::TimingResult timing = lab::timeInTurn(scene, subject_at, contestants, options, [&] {
         requireSilence(gpu);
         progress.step();
     });
@@ -92,7 +93,7 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
         benched.reused = std::move(timing.techniques[2 * i + 1]);
         result.techniques.push_back(std::move(benched));
     }
-    measureFit(gpu, shot, settings, result);
+    measureFit(scene, shot, settings, result);
     if (!settings.path.empty()) {
         moveShot(shot, settings, settings.frames->first); // whose camera and lights the result tells
     }

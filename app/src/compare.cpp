@@ -89,7 +89,7 @@ void requireMapsFit(const host::Gpu& gpu, const std::vector<Settings>& technique
 class Comparison {
 public:
     Comparison(const Settings& settings, Shot& shot, host::Gpu& gpu, std::vector<std::string> report_files)
-        : settings_(settings), shot_(shot), gpu_(gpu)
+        : settings_(settings), shot_(shot), gpu_(gpu), scene_(gpu, shot.scene, shot.state)
     {
         result_.report_files = std::move(report_files);
         result_.device = gpu.properties().deviceName;
@@ -121,6 +121,7 @@ private:
     const Settings& settings_;
     Shot& shot_;
     host::Gpu& gpu_;
+    host::SceneOnGpu scene_;
     CompareResult result_;
 };
 
@@ -133,7 +134,7 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
         compared.settings = technique;
         compared.name = describeTechnique(technique);
         compared.score =
-            lab::scoreTechnique(gpu_, result_.judged.subject, result_.judged.truth, renderOptions(technique));
+            lab::scoreTechnique(scene_, result_.judged.subject, result_.judged.truth, renderOptions(technique));
         if (result_.techniques.empty()) {
             result_.pixels = compared.score.pixels.counts;
             result_.standard_error = lab::truthNoise(result_.judged.truth.visibility, compared.score.pixels.counted);
@@ -156,7 +157,7 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
 void Comparison::walk(const std::vector<Settings>& techniques)
 {
     Progress progress("comparing", pathSteps(settings_, techniques));
-    comparePath(gpu_, shot_, settings_, techniques, result_, [&] { step(progress); });
+    comparePath(scene_, shot_, settings_, techniques, result_, [&] { step(progress); });
     putBestFirst();
 }
 
@@ -180,7 +181,7 @@ void Comparison::timeAll()
         .repetitions = settings_.repetitions, .warmup = settings_.warmup, .reuse_maps = false};
     const lab::Subject& subject = result_.judged.subject;
     Progress progress("timing", lab::timingSteps(subject, contestants, options));
-    lab::TimingResult timed = lab::timeInTurn(gpu_, subject, contestants, options, [&] { step(progress); });
+    lab::TimingResult timed = lab::timeInTurn(scene_, subject, contestants, options, [&] { step(progress); });
     result_.baseline = std::move(timed.baseline);
     result_.baseline_bytes = timed.baseline_bytes;
     for (std::size_t i = 0; i < result_.techniques.size(); ++i) {
@@ -197,7 +198,7 @@ void Comparison::matchAll()
     const std::function<void()> after = [&] {
         step(progress);
     };
-    EqualErrorSearch search(gpu_, result_.judged.subject, result_.judged.truth, settings_, after);
+    EqualErrorSearch search(scene_, result_.judged.subject, result_.judged.truth, settings_, after);
     for (ComparedTechnique& technique : result_.techniques) {
         const auto& error = technique.score.error;
         technique.equal_error = search.match(technique.settings, error ? std::optional(error->rmse) : std::nullopt);
@@ -216,7 +217,7 @@ void Comparison::sweep(const SweepPlan& plan)
         other = judgeShot(settingsAt(plan, value, settings_));
         return other->judged;
     };
-    result_.sweep = runSweep(gpu_, plan, judged_at, [&] { step(progress); });
+    result_.sweep = runSweep(scene_, plan, judged_at, [&] { step(progress); });
     result_.pixels = result_.sweep->places.front().pixels;
     result_.standard_error = result_.sweep->places.front().standard_error;
 }

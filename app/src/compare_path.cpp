@@ -40,8 +40,8 @@ bool isSameEye(const host::Eye& a, const host::Eye& b)
 /// One walk of a group of techniques along the path.
 class Walk {
 public:
-    Walk(host::Gpu& gpu, Shot& shot, const Settings& settings, CompareResult& result, bool first)
-        : gpu_(gpu), shot_(shot), settings_(settings), result_(result), first_(first),
+    Walk(const host::SceneOnGpu& scene, Shot& shot, const Settings& settings, CompareResult& result, bool first)
+        : scene_(scene), shot_(shot), settings_(settings), result_(result), first_(first),
           light_(lightIndex(shot, settings))
     {
     }
@@ -60,7 +60,7 @@ public:
             TruthRun truth = tracer.trace(light_);
             const lab::Subject subject = subjectNow();
             if (!run) {
-                run.emplace(gpu_, subject, settings_.size_px,
+                run.emplace(scene_, settings_.size_px,
                             std::vector<lab::Contestant>(contestants.begin(), contestants.end()));
             }
             const std::vector<std::uint32_t>& shown = result_.path->shown;
@@ -119,7 +119,7 @@ private:
         }
     }
 
-    host::Gpu& gpu_;
+    const host::SceneOnGpu& scene_;
     Shot& shot_;
     const Settings& settings_;
     CompareResult& result_;
@@ -135,8 +135,8 @@ std::uint64_t pathSteps(const Settings& settings, const std::vector<Settings>& t
     return frames * techniques.size();
 }
 
-void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques,
-                 CompareResult& result, const std::function<void()>& step)
+void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& settings,
+                 const std::vector<Settings>& techniques, CompareResult& result, const std::function<void()>& step)
 {
     result.path.emplace();
     result.path->name = settings.path;
@@ -145,7 +145,7 @@ void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std
     const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
     std::size_t next = 0;
     for (const std::size_t count : lab::timingGroups(contestants, 1)) {
-        Walk walk(gpu, shot, settings, result, next == 0);
+        Walk walk(scene, shot, settings, result, next == 0);
         lab::PathRun::Result walked = walk.run(std::span(contestants).subspan(next, count), step);
         for (std::size_t i = 0; i < count; ++i, ++next) {
             lab::PathTechnique& one = walked.techniques[i];

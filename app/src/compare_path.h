@@ -16,8 +16,8 @@ namespace gnomon::app {
 /// first, PathResult, and what is of the truth; the shot is back at the first frame afterwards, which
 /// CompareResult::judged is of. Techniques walk in lab::timingGroups(); each group meets the truths anew, through the
 /// cache. Pictures are kept for a report only. Throws as judge() does.
-void comparePath(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques,
-                 CompareResult& result, const std::function<void()>& step);
+void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& settings,
+                 const std::vector<Settings>& techniques, CompareResult& result, const std::function<void()>& step);
 /// Sentences on what a path could not tell.
 [[nodiscard]] std::vector<std::string> pathNotes(const CompareResult& result);
 

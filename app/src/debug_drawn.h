@@ -12,7 +12,7 @@ namespace gnomon::app {
 struct Drawn {
     const host::Picture& picture; // colour and geometry
     const Plan& plan;
-    host::Renderer& renderer;
+    host::FrameRenderer& renderer;
     const Shot& shot;
     const Settings& settings;
     std::size_t light;

@@ -190,7 +190,7 @@ void requireDebugView(const Settings& settings)
     }
 }
 
-Image8 debugPicture(host::Renderer& renderer, const Shot& shot, const Settings& settings, std::size_t light)
+Image8 debugPicture(host::FrameRenderer& renderer, const Shot& shot, const Settings& settings, std::size_t light)
 {
     const host::Picture picture = renderer.read({.colour = true, .linear = false, .masks = false, .geometry = true});
     return findView(settings.debug)->paint({picture, renderer.plan(), renderer, shot, settings, light});

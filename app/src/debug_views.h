@@ -15,7 +15,7 @@ namespace gnomon::app {
 void requireDebugView(const Settings& settings);
 /// The last frame as that view shows it, RGB. Precondition: requireDebugView() held and it is not "none". Throws Error
 /// when the light has no map.
-[[nodiscard]] Image8 debugPicture(host::Renderer& renderer, const Shot& shot, const Settings& settings,
+[[nodiscard]] Image8 debugPicture(host::FrameRenderer& renderer, const Shot& shot, const Settings& settings,
                                   std::size_t light);
 
 } // namespace gnomon::app

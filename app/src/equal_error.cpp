@@ -102,10 +102,10 @@ std::optional<std::size_t> firstWithin(std::size_t count, double rmse,
     return std::nullopt;
 }
 
-EqualErrorSearch::EqualErrorSearch(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth,
-                                   const Settings& base, const std::function<void()>& step)
-    : gpu_(gpu), subject_(subject), truth_(truth), base_(base), step_(step),
-      ladder_(pcfLadder(base, gpu.properties().limits.maxImageDimension2D)), rmse_(ladder_.size())
+EqualErrorSearch::EqualErrorSearch(const host::SceneOnGpu& scene, const lab::Subject& subject,
+                                   const truth::Traced& truth, const Settings& base, const std::function<void()>& step)
+    : scene_(scene), subject_(subject), truth_(truth), base_(base), step_(step),
+      ladder_(pcfLadder(base, scene.gpu().properties().limits.maxImageDimension2D)), rmse_(ladder_.size())
 {
 }
 
@@ -113,7 +113,7 @@ std::optional<double> EqualErrorSearch::rmseOf(std::size_t rung)
 {
     if (!rmse_[rung]) {
         const lab::Score score =
-            lab::scoreTechnique(gpu_, subject_, truth_, renderOptions(ladder_[rung].settings), false);
+            lab::scoreTechnique(scene_, subject_, truth_, renderOptions(ladder_[rung].settings), false);
         rmse_[rung] = score.error ? std::optional(score.error->rmse) : std::nullopt;
         step_();
     }
@@ -134,7 +134,7 @@ EqualError EqualErrorSearch::match(const Settings& technique, const std::optiona
     const auto rung = firstWithin(
         ladder_.size(), *rmse, [&](std::size_t i) { return rmseOf(i); }, result.tried);
     if (!rung) {
-        const std::uint32_t largest = std::min(kEqualErrorMaxMap, gpu_.properties().limits.maxImageDimension2D);
+        const std::uint32_t largest = std::min(kEqualErrorMaxMap, scene_.gpu().properties().limits.maxImageDimension2D);
         result.reason = fmt::format("no PCF on a map of {} to {} texels errs as little", kEqualErrorMinMap, largest);
         return result;
     }
@@ -158,7 +158,7 @@ void EqualErrorSearch::time(const Settings& technique, const Settings& pcf, Equa
     const std::vector<lab::Contestant> pair{{describeTechnique(technique), renderOptions(technique)},
                                             {result.pcf, renderOptions(pcf)}};
     const lab::TimingResult timed = lab::timeInTurn(
-        gpu_, subject_, pair, {.repetitions = base_.repetitions, .warmup = base_.warmup, .reuse_maps = false}, step_);
+        scene_, subject_, pair, {.repetitions = base_.repetitions, .warmup = base_.warmup, .reuse_maps = false}, step_);
     const double technique_ms = frameMedian(timed.techniques[0].samples);
     const double pcf_ms = frameMedian(timed.techniques[1].samples);
     const double without_ms = frameMedian(timed.baseline.samples);

@@ -53,8 +53,8 @@ struct EqualError {
 class EqualErrorSearch {
 public:
     /// `step` is called after every frame or so and may throw to stop. All must outlive the search.
-    EqualErrorSearch(host::Gpu& gpu, const lab::Subject& subject, const truth::Traced& truth, const Settings& base,
-                     const std::function<void()>& step);
+    EqualErrorSearch(const host::SceneOnGpu& scene, const lab::Subject& subject, const truth::Traced& truth,
+                     const Settings& base, const std::function<void()>& step);
     /// `rmse`: of the technique against the truth; nothing when no pixel counts.
     [[nodiscard]] EqualError match(const Settings& technique, const std::optional<double>& rmse);
 
@@ -62,7 +62,7 @@ private:
     [[nodiscard]] std::optional<double> rmseOf(std::size_t rung);
     void time(const Settings& technique, const Settings& pcf, EqualError& result);
 
-    host::Gpu& gpu_;
+    const host::SceneOnGpu& scene_;
     const lab::Subject& subject_;
     const truth::Traced& truth_;
     const Settings& base_;

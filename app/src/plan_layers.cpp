@@ -10,11 +10,12 @@ namespace gnomon::app {
 
 struct PlanLayers::Drawing {
     Drawing(const Settings& settings, const Shot& shot)
-        : gpu(openGpu(settings)), renderer(*gpu, shot.scene, shot.state, renderOptions(settings))
+        : gpu(openGpu(settings)), scene(*gpu, shot.scene, shot.state), renderer(scene, renderOptions(settings))
     {
     }
     std::unique_ptr<host::Gpu> gpu;
-    host::Renderer renderer;
+    host::SceneOnGpu scene;
+    host::FrameRenderer renderer;
 };
 
 PlanLayers::PlanLayers(const Settings& settings, const Shot& shot) : settings_(settings)

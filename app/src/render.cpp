@@ -35,7 +35,7 @@ void writeMask(const fs::path& file, const ImageF& mask)
     isExr(file) ? writeExr(file, mask) : writePng(file, maskAs16Bit(mask));
 }
 
-void writePicture(const fs::path& file, host::Renderer& renderer, const Settings& settings, std::size_t light)
+void writePicture(const fs::path& file, host::FrameRenderer& renderer, const Settings& settings, std::size_t light)
 {
     const bool exr = isExr(file);
     const host::Picture picture = renderer.read(
@@ -94,7 +94,8 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
 {
     const auto gpu = openGpu(settings);
     {
-        host::Renderer renderer(*gpu, shot.scene, shot.state, renderOptions(settings));
+        const host::SceneOnGpu scene(*gpu, shot.scene, shot.state);
+        host::FrameRenderer renderer(scene, renderOptions(settings));
         forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
             renderer.draw(shot.state, shot.eye, shot.lights);
             requireSilence(*gpu);
@@ -136,7 +137,8 @@ std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target
     {
         host::RenderOptions options = renderOptions(settings);
         options.shadows = false;
-        host::Renderer renderer(*gpu, shot.scene, shot.state, options);
+        const host::SceneOnGpu scene(*gpu, shot.scene, shot.state);
+        host::FrameRenderer renderer(scene, options);
         forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
             if (first) {
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);

@@ -125,17 +125,22 @@ std::string placeText(const SweepPlan& plan, std::size_t value)
     return fmt::format("{}={}", plan.key, valueText(plan.values[value]));
 }
 
-SweepResult runSweep(host::Gpu& gpu, SweepPlan plan, const JudgedAt& judged_at, const std::function<void()>& step)
+SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,
+                     const std::function<void()>& step)
 {
     SweepResult result;
     result.plan = std::move(plan);
     result.points.resize(result.plan.lines.size());
     for (std::size_t value = 0; value < result.plan.values.size(); ++value) {
         const Judged& judged = judged_at(value);
+        std::optional<host::SceneOnGpu> other; // of a shot that the value has made anew
+        if (value > 0 && result.plan.remakes_shot) {
+            other.emplace(scene.gpu(), *judged.subject.scene, *judged.subject.state);
+        }
         for (std::size_t line = 0; line < result.plan.lines.size(); ++line) {
             const Settings& settings = result.plan.lines[line].points[value];
-            const lab::Score score =
-                lab::scoreTechnique(gpu, judged.subject, judged.truth, renderOptions(settings), false);
+            const lab::Score score = lab::scoreTechnique(other ? *other : scene, judged.subject, judged.truth,
+                                                         renderOptions(settings), false);
             result.points[line].push_back(
                 {score.error, score.classification ? score.classification->errors : lab::ClassErrors{}, score.outcome});
             if (line == 0 && (value == 0 || result.plan.remakes_shot)) {

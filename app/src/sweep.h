@@ -59,7 +59,7 @@ struct SweepResult {
 /// What holds at a value, by its index. Asked for in order, each once; must hold until the next is asked for.
 using JudgedAt = std::function<const Judged&(std::size_t value)>;
 /// `step` is called after every technique drawn and may throw to stop.
-[[nodiscard]] SweepResult runSweep(host::Gpu& gpu, SweepPlan plan, const JudgedAt& judged_at,
+[[nodiscard]] SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,
                                    const std::function<void()>& step);
 
 /// {"key", "unit", "values", "results": [{"technique", "rmse", ...}]}, each list as long as the values.

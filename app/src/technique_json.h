@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/settings.h"
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "lab/texel_density.h"
 #include "lab/timing.h"
 #include "result_json.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bloom.h"
 
-#include "gnomon_host_spirv.h"
 #include "pipelines.h"
+#include "shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -108,24 +108,24 @@ void Bloom::makeSteps(const BloomOptions& options, const Image& light, bool aver
     const std::array<std::uint32_t, 3> first{average_four ? VK_TRUE : VK_FALSE, bits(options.threshold),
                                              bits(options.knee)};
     const std::array<std::uint32_t, 1> up{bits(options.radius)};
-    steps_.push_back({makePipeline("bloom first", spirv::bloom_first_comp, first),
+    steps_.push_back({makePipeline("bloom first", "bloom_first.comp", first),
                       makeSet(light.view, kSampledByAll.layout, linear, levels_[0].view), 0, false});
     if (levels_.size() == 1) {
         return;
     }
-    VkPipeline halve = makePipeline("bloom down", spirv::bloom_down_comp, {});
+    VkPipeline halve = makePipeline("bloom down", "bloom_down.comp", {});
     for (std::size_t i = 1; i < levels_.size(); ++i) {
         steps_.push_back({halve, makeSet(levels_[i - 1].view, kLevelRead.layout, linear, levels_[i].view), i, false});
     }
-    VkPipeline enlarge = makePipeline("bloom up", spirv::bloom_up_comp, up);
+    VkPipeline enlarge = makePipeline("bloom up", "bloom_up.comp", up);
     for (std::size_t i = levels_.size() - 1; i-- > 0;) {
         steps_.push_back({enlarge, makeSet(levels_[i + 1].view, kLevelRead.layout, linear, levels_[i].view), i, true});
     }
 }
 
-VkPipeline Bloom::makePipeline(const char* name, std::span<const std::uint32_t> words,
-                               std::span<const std::uint32_t> constants)
+VkPipeline Bloom::makePipeline(const char* name, std::string_view shader, std::span<const std::uint32_t> constants)
 {
+    const std::span<const std::uint32_t> words = shaderWords(shader);
     VkDevice device = gpu_.view().device;
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module.codeSize = words.size_bytes();
@@ -176,9 +176,8 @@ VkDescriptorSet Bloom::makeSet(VkImageView source, VkImageLayout layout, VkSampl
 
 void Bloom::record(VkCommandBuffer commands) const
 {
-    // The last frame has been waited for, so what the images held needs no waiting.
     for (const Image& level : levels_) {
-        barrier(commands, level, kDiscard, kLevelWrite);
+        barrier(commands, level, discardAfter(kSampledByAll), kLevelWrite);
     }
     VkPipeline bound = VK_NULL_HANDLE;
     for (const Step& step : steps_) {

@@ -4,8 +4,9 @@
 
 #include "commands.h"
 
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 
+#include <string_view>
 #include <vector>
 
 namespace gnomon::host {
@@ -41,8 +42,7 @@ private:
     void makeImages(Memory& memory, VkExtent2D shown, std::uint32_t count);
     void makeLayouts();
     void makeSteps(const BloomOptions& options, const Image& light, bool average_four, VkSampler linear);
-    VkPipeline makePipeline(const char* name, std::span<const std::uint32_t> words,
-                            std::span<const std::uint32_t> constants);
+    VkPipeline makePipeline(const char* name, std::string_view shader, std::span<const std::uint32_t> constants);
     VkDescriptorSet makeSet(VkImageView source, VkImageLayout layout, VkSampler sampler, VkImageView target);
 
     const Gpu& gpu_;

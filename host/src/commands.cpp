@@ -29,6 +29,9 @@ Commands::Commands(const Gpu& gpu, const DebugNames& names, const char* name)
 
 Commands::~Commands()
 {
+    if (pending_) {
+        vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
+    }
     vkDestroyFence(device_, fence_, nullptr);
     vkDestroyCommandPool(device_, pool_, nullptr);
 }
@@ -42,7 +45,7 @@ VkCommandBuffer Commands::begin()
     return commands_;
 }
 
-void Commands::finish()
+void Commands::submit()
 {
     check(vkEndCommandBuffer(commands_), "ending a command buffer");
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -52,7 +55,21 @@ void Commands::finish()
     info.pCommandBufferInfos = &buffer;
     check(vkResetFences(device_, 1, &fence_), "resetting a fence");
     check(vkQueueSubmit2(queue_, 1, &info, fence_), "handing work to the GPU");
-    check(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the GPU");
+    pending_ = true;
+}
+
+void Commands::wait()
+{
+    if (pending_) {
+        check(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the GPU");
+        pending_ = false;
+    }
+}
+
+void Commands::finish()
+{
+    submit();
+    wait();
 }
 
 void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, const Access& from, const Access& to,
@@ -97,6 +114,7 @@ Uploader::Uploader(const Gpu& gpu, Memory& memory)
 
 Uploader::~Uploader()
 {
+    commands_.wait();
     memory_.release(staging_);
 }
 
@@ -167,6 +185,13 @@ void Uploader::finishImage(const Image& image)
         barrier(recording_, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, kCopySource, kSampled, mip - 1, 1);
     }
     barrier(recording_, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, kCopyTarget, kSampled, image.mips - 1, 1);
+}
+
+void Uploader::submit()
+{
+    const Access all{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
+    memoryBarrier(recording_, kCopyTarget, all);
+    commands_.submit();
 }
 
 void Uploader::flush()

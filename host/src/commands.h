@@ -6,7 +6,7 @@
 
 namespace gnomon::host {
 
-/// One command buffer and its fence; reused for ever.
+/// One command buffer and its fence; reused for ever. Waits when it is destroyed.
 class Commands {
 public:
     Commands(const Gpu& gpu, const DebugNames& names, const char* name);
@@ -14,8 +14,13 @@ public:
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
+    /// Precondition: what was submitted has been waited for.
     VkCommandBuffer begin();
-    /// Submits and waits for the GPU. Throws Error (lost device).
+    /// Throws Error (lost device).
+    void submit();
+    /// Until the GPU has finished what was submitted; at once when nothing was. Throws Error (lost device).
+    void wait();
+    /// Both.
     void finish();
 
 private:
@@ -24,6 +29,7 @@ private:
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
+    bool pending_ = false;
 };
 
 /// One side of a barrier.
@@ -32,7 +38,12 @@ struct Access {
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // images only
 };
-inline constexpr Access kDiscard{};
+inline constexpr Access kDiscard{}; // of an image that was never used
+/// Of an image whose content is not wanted any more, once those have finished who read it last or copied it.
+constexpr Access discardAfter(const Access& read)
+{
+    return {read.stages | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
+}
 inline constexpr Access kColourWrite{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
                                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -74,6 +85,8 @@ public:
     void toImage(const Image& target, std::uint32_t layer, const void* texels, std::uint32_t texel_bytes);
     /// Makes the smaller mips of a one-layer image by halving, and all of it readable by shaders.
     void finishImage(const Image& image);
+    /// Hands over what is left. All that is submitted afterwards sees it; nothing else may be uploaded.
+    void submit();
     /// Waits until everything is there.
     void flush();
 

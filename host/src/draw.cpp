@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame, from the scene's state to the picture.
-#include "renderer_impl.h"
+// One frame, from the scene's state to its submission.
+#include "frame_renderer_impl.h"
 
 #include <gnomon/error.h>
 
@@ -13,135 +13,140 @@
 namespace gnomon::host {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start)
+double millisecondsSince(std::chrono::steady_clock::time_point start)
 {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load)
+vulkan::ImageRef refOf(const Image& image, const Access& last)
 {
-    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = image.view;
-    info.imageLayout = layout;
-    info.loadOp = load;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info;
-}
-
-void beginRendering(VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colours,
-                    const VkRenderingAttachmentInfo* depth)
-{
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, extent};
-    info.layerCount = 1;
-    info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
-    info.pColorAttachments = colours.data();
-    info.pDepthAttachment = depth;
-    vkCmdBeginRendering(cmd, &info);
+    return {image.handle, image.view, image.format, image.extent, image.layers, last.layout};
 }
 
 } // namespace
 
-FrameTimes Renderer::draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
-                          const std::vector<ImageF>* masks_instead)
+void FrameRenderer::submit(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                           Present* present, const std::vector<ImageF>* masks_instead)
 {
-    return impl_->drawFrame(state, eye, lights, masks_instead, Maps::planned);
+    impl_->drawFrame(state, eye, lights, present, masks_instead, Maps::planned);
 }
 
-void Renderer::drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
+FrameTimes FrameRenderer::finish()
 {
-    impl_->drawFrame(state, eye, lights, nullptr, Maps::kept);
+    Impl& self = *impl_;
+    self.finish();
+    self.times.frame_ms = millisecondsSince(self.start);
+    self.times.passes = {};
+    for (const vulkan::PassRecord& pass : self.profiler.results(self.slot)) {
+        self.times.passes.push_back(pass);
+    }
+    self.times.reuse = self.plan != nullptr ? self.now().shadows->renderer.reuse(self.slot) : vulkan::MapReuse{};
+    return self.times;
 }
 
-FrameTimes Renderer::Impl::drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
-                                     const std::vector<ImageF>* masks_instead, Maps maps)
+FrameTimes FrameRenderer::draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                               const std::vector<ImageF>* masks_instead)
 {
-    const bool has_mask = masks_instead != nullptr || shadows.has_value();
-    FrameTimes times;
-    const Clock::time_point start = Clock::now();
-    update(state);
-    look(state, eye, lights);
-    times.advance_ms = millisecondsSince(start);
-
-    const Clock::time_point plan_start = Clock::now();
-    mask_instead = masks_instead != nullptr;
-    if (maps == Maps::kept) {
-        keepPlan();
-    } else {
-        makePlan();
-    }
-    times.plan_ms = millisecondsSince(plan_start);
-
-    const Clock::time_point record_start = Clock::now();
-    draws.build(state, sight.eye_ws, visible);
-    if (masks_instead != nullptr) {
-        writeInstead(*masks_instead);
-    }
-    writeFrameData(state, lights, has_mask);
-    record(has_mask);
-    times.record_ms = millisecondsSince(record_start);
-
-    commands.finish();
-    times.frame_ms = millisecondsSince(start);
-    for (const vulkan::PassRecord& pass : profiler.results(0)) {
-        times.passes.push_back(pass);
-    }
-    if (shadows && masks_instead == nullptr) {
-        times.reuse = shadows->reuse(0);
-    }
-    return times;
+    submit(state, eye, lights, nullptr, masks_instead);
+    return finish();
 }
 
-void Renderer::Impl::keepPlan()
+void FrameRenderer::drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
 {
-    if (plan != nullptr && plan != &kept_plan) {
-        kept_plan = *plan;
-        plan = &kept_plan;
-    }
-    for (View& view : kept_plan.views) {
-        view.redraw = false;
-        view.redraw_kept = false;
-    }
+    impl_->drawFrame(state, eye, lights, nullptr, nullptr, Maps::kept);
+    impl_->finish();
 }
 
-void Renderer::Impl::update(const scene::State& state)
-{
-    deform_now = geometry.deforms() && deformed_at_s != state.time_s;
-    if (deform_now) {
-        geometry.writeDeformed(scene, state);
-        deformed_at_s = state.time_s;
-    }
-    draws.update(state, objects, deform_now);
-}
-
-void Renderer::Impl::look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
+void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                                    Present* present, const std::vector<ImageF>* masks_instead, Maps maps)
 {
     if (lights.size() > kMaxLights) {
         throw Error("lighting the scene", std::to_string(lights.size()) + " lights",
                     "use at most " + std::to_string(kMaxLights));
     }
-    sight = sightOf(eye, options.width, options.height, state.bounds_ws);
+    start = Clock::now();
+    beginSlot();
+    update(state);
+    look(state, eye, lights);
+    times.advance_ms = millisecondsSince(start);
+
+    const Clock::time_point plan_start = Clock::now();
+    makePlan(maps, masks_instead != nullptr);
+    times.plan_ms = millisecondsSince(plan_start);
+
+    const Clock::time_point record_start = Clock::now();
+    draws.build(slot, state, sight.eye_ws, visible);
+    if (masks_instead != nullptr) {
+        writeInstead(*masks_instead);
+    }
+    describeFrame();
+    writeFrameData(state, lights);
+    record(present);
+    now().commands->submit();
+    times.record_ms = millisecondsSince(record_start);
+}
+
+/// The oldest frame is waited for, and lets go of what it alone used.
+void FrameRenderer::Impl::beginSlot()
+{
+    slot = static_cast<std::uint32_t>(next_index % slots.size());
+    now().commands->wait();
+    if (next_index >= slots.size()) {
+        scene.finishUpload(); // which came before the frame that has been waited for
+    }
+    now().screen = screen;
+    now().shadows = shadows;
+}
+
+void FrameRenderer::Impl::finish()
+{
+    now().commands->wait();
+    scene.finishUpload(); // which came before
+}
+
+void FrameRenderer::Impl::update(const scene::State& state)
+{
+    if (objects.size() == 0) {
+        fillObjectSet(state, objects);
+    }
+    const bool deforms = scene.geometry.deforms();
+    const bool deformed = deforms && deformed_at_s != state.time_s;
+    deformed_at_s = state.time_s;
+    // Another renderer may have left the shared vertices as they are at another time.
+    deform_now = deforms && scene.deformed_at_s != state.time_s;
+    if (deform_now) {
+        scene.geometry.writeDeformed(scene.scene, state, now().deformed);
+        scene.deformed_at_s = state.time_s;
+    }
+    draws.update(state, objects, deformed);
+}
+
+void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
+{
+    const VkExtent2D shown = screen->targets.shown;
+    const VkExtent2D drawn = screen->targets.drawn;
+    sight = sightOf(eye, shown.width, shown.height, state.bounds_ws);
     frame.index = next_index++;
     frame.time_s = state.time_s;
-    frame.camera = cameraOf(eye, options.width, options.height, state.bounds_ws);
-    frame.size_px = {targets.drawn.width, targets.drawn.height};
+    frame.camera = cameraOf(eye, shown.width, shown.height, state.bounds_ws);
+    frame.size_px = {drawn.width, drawn.height};
     frame_lights.clear();
     for (const ShadedLight& light : lights) {
         frame_lights.push_back(light.caster);
     }
     frame.lights = frame_lights;
     frame.objects = &objects;
-    light_count = lights.size();
     visible.clear();
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
     objects.query(frustum.planes, ObjectSet::Want::all, visible);
     sortNearestFirst();
+    const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
+                                             [](const Light& l) { return l.type == LightType::directional; });
+    shade = scene.pipelines.shadeFor(lights.size(), all_directional);
 }
 
 // Instances of a part are drawn in this order, so that near ones hide far ones before those are shaded.
-void Renderer::Impl::sortNearestFirst()
+void FrameRenderer::Impl::sortNearestFirst()
 {
     const glm::vec3 eye(sight.eye_ws);
     by_distance.clear();
@@ -153,66 +158,66 @@ void Renderer::Impl::sortNearestFirst()
     std::transform(by_distance.begin(), by_distance.end(), visible.begin(), [](const auto& one) { return one.second; });
 }
 
-void Renderer::Impl::makePlan()
+void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
 {
-    if (!shadows || mask_instead) {
-        plan = nullptr;
+    instead = nullptr;
+    plan = nullptr;
+    if (!shadows || masked_instead) {
         return;
     }
-    if (!options.reuse_maps) {
-        planner.reset();
+    if (maps == Maps::kept) {
+        plan = &shadows->planAgain();
+    } else {
+        if (!options.reuse_maps) {
+            shadows->planner.reset();
+        }
+        plan = shadows->plan = &shadows->planner.plan(frame);
     }
-    plan = &planner.plan(frame);
-    if (shadows->prepare(*plan, targets.drawn)) {
-        mask_view = VK_NULL_HANDLE; // a new view may have an old one's handle
+    if (shadows->outgrownBy(*plan, screen->targets.drawn)) {
+        for (Slot& one : slots) {
+            one.commands->wait();
+        }
     }
+    (void)shadows->renderer.prepare(*plan, screen->targets.drawn);
 }
 
-void Renderer::Impl::writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights, bool has_mask)
+void FrameRenderer::Impl::writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights)
 {
     cookie_layers.clear();
     for (const ShadedLight& light : lights) {
-        cookie_layers.push_back(light.cookie == scene::kNone ? -1 : textures.cookieLayer(light.cookie));
+        cookie_layers.push_back(light.cookie == scene::kNone ? -1 : scene.textures.cookieLayer(light.cookie));
     }
     const double exposure = exposureOf(lights, state.bounds_ws, state.environment);
-    auto& data = *static_cast<FrameData*>(frame_buffer.mapped);
-    fillFrameData(data, sight, targets.drawn.width, targets.drawn.height, lights, cookie_layers, exposure,
-                  state.environment, has_mask && !lights.empty());
+    auto& data = *static_cast<FrameData*>(now().frame_data.mapped);
+    const VkExtent2D drawn = screen->targets.drawn;
+    fillFrameData(data, sight, drawn.width, drawn.height, lights, cookie_layers, exposure, state.environment,
+                  finished.masks.image != VK_NULL_HANDLE);
     for (std::size_t i = 0; plan != nullptr && i < lights.size(); ++i) {
         data.lights[i].right.w = static_cast<float>(plan->lights[i].mask_layer * 4 + plan->lights[i].mask_channel);
     }
 }
 
-void Renderer::Impl::writeInstead(const std::vector<ImageF>& masks)
+void FrameRenderer::Impl::writeInstead(const std::vector<ImageF>& masks)
 {
     const auto refuse = [](const std::string& found) {
         throw Error("using other masks", found);
     };
-    if (masks.size() != light_count) {
-        refuse(std::to_string(masks.size()) + " masks for " + std::to_string(light_count) + " lights");
+    if (masks.size() != frame_lights.size()) {
+        refuse(std::to_string(masks.size()) + " masks for " + std::to_string(frame_lights.size()) + " lights");
     }
-    const auto layers = static_cast<std::uint32_t>(std::max<std::size_t>((masks.size() + 3) / 4, 1));
-    if (instead.handle == VK_NULL_HANDLE || instead.layers < layers) {
-        ImageWish wish;
-        wish.name = "masks instead";
-        wish.purpose = "host pictures";
-        wish.format = VK_FORMAT_R8G8B8A8_UNORM;
-        wish.extent = targets.drawn;
-        wish.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        wish.layers = layers;
-        wish.array_view = true;
-        instead = memory.image(wish);
-    }
-    const std::uint32_t width = targets.drawn.width;
-    const std::uint32_t height = targets.drawn.height;
+    const VkExtent2D shown = screen->targets.shown;
+    const std::uint32_t width = screen->targets.drawn.width;
+    const std::uint32_t height = screen->targets.drawn.height;
+    instead = &screen->insteadFor(static_cast<std::uint32_t>(std::max<std::size_t>((masks.size() + 3) / 4, 1)));
     const std::size_t layer_bytes = std::size_t{4} * width * height;
-    memory.grow(instead_staging, layer_bytes * instead.layers, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "host pictures");
-    auto* const bytes = static_cast<std::uint8_t*>(instead_staging.mapped);
-    std::memset(bytes, 255, layer_bytes * instead.layers);
-    const std::uint32_t scale = width / options.width;
+    Buffer& staging = now().instead_staging;
+    memory.grow(staging, layer_bytes * instead->layers, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "host pictures");
+    auto* const bytes = static_cast<std::uint8_t*>(staging.mapped);
+    std::memset(bytes, 255, layer_bytes * instead->layers);
+    const std::uint32_t scale = width / shown.width;
     for (std::size_t light = 0; light < masks.size(); ++light) {
         const ImageF& mask = masks[light];
-        if (mask.width != options.width || mask.height != options.height) {
+        if (mask.width != shown.width || mask.height != shown.height) {
             refuse("a mask of " + std::to_string(mask.width) + "x" + std::to_string(mask.height));
         }
         std::uint8_t* out = bytes + layer_bytes * (light / 4) + light % 4;
@@ -225,160 +230,23 @@ void Renderer::Impl::writeInstead(const std::vector<ImageF>& masks)
     }
 }
 
-void Renderer::Impl::record(bool has_mask)
+void FrameRenderer::Impl::describeFrame()
 {
-    if (has_mask && light_count > 0) {
-        bindMask(mask_instead ? instead.view : shadows->mask().view);
-    } else {
-        bindMask(textures.cookies().imageView); // an array that is always there, and not read then
+    const Targets& targets = screen->targets;
+    finished = {};
+    finished.drawn = targets.drawn;
+    finished.shown = targets.shown;
+    finished.picture = refOf(targets.picture, kCopySource);
+    finished.light = refOf(targets.light, kSampled);
+    finished.glow = screen->bloom ? refOf(screen->bloom->result(), kSampled) : vulkan::ImageRef{};
+    finished.depth = refOf(targets.depth, kDepthRead);
+    finished.normals = refOf(targets.normals(), kSampled);
+    finished.ids = refOf(targets.ids(), kSampled);
+    finished.light_count = frame_lights.size();
+    finished.plan = plan;
+    if (!frame_lights.empty() && (plan != nullptr || instead != nullptr)) {
+        finished.masks = instead != nullptr ? refOf(*instead, kSampled) : shadows->renderer.mask();
     }
-    VkCommandBuffer cmd = commands.begin();
-    profiler.beginFrame(cmd, 0);
-    if (deform_now) {
-        profiler.beginPass(cmd, "deform");
-        geometry.recordDeformed(cmd);
-        profiler.endPass(cmd);
-    }
-    recordGBuffer(cmd);
-    if (mask_instead) {
-        recordInstead(cmd);
-    } else if (plan != nullptr) {
-        recordShadows(cmd);
-    }
-    recordLight(cmd);
-    if (bloom) {
-        recordBloom(cmd);
-    }
-    recordPicture(cmd);
-}
-
-void Renderer::Impl::setViewport(VkCommandBuffer cmd, VkExtent2D extent) const
-{
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0F, 1.0F};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &scissor);
-}
-
-void Renderer::Impl::recordGBuffer(VkCommandBuffer cmd)
-{
-    memory.names().begin(cmd, "g-buffer");
-    profiler.beginPass(cmd, "g-buffer");
-    std::array<VkRenderingAttachmentInfo, 4> colours{};
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-        barrier(cmd, targets.gbuffer[i], kDiscard, kColourWrite);
-        // Where nothing is drawn only depth and ids are looked at.
-        const VkAttachmentLoadOp load = i == 3 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        colours[i] = attachment(targets.gbuffer[i], kColourWrite.layout, load);
-    }
-    barrier(cmd, targets.depth, kDiscard, kDepthWrite);
-    VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthWrite.layout, VK_ATTACHMENT_LOAD_OP_CLEAR);
-    depth.clearValue.depthStencil.depth = 0.0F;
-    beginRendering(cmd, targets.drawn, colours, &depth);
-    setViewport(cmd, targets.drawn);
-    profiler.addDraws(draws.recordOpaque(cmd, pipelines, frame_set));
-    vkCmdEndRendering(cmd);
-    for (const Image& image : targets.gbuffer) {
-        barrier(cmd, image, kColourWrite, kSampledByAll);
-    }
-    barrier(cmd, targets.depth, kDepthWrite, kDepthRead);
-    profiler.endPass(cmd);
-    memory.names().end(cmd);
-}
-
-void Renderer::Impl::recordShadows(VkCommandBuffer cmd)
-{
-    vulkan::MaskInputs inputs;
-    inputs.extent = targets.drawn;
-    inputs.depth = targets.depth.view;
-    inputs.depth_layout = kDepthRead.layout;
-    inputs.normal = targets.normals().view;
-    inputs.object_id = targets.ids().view;
-    shadows->recordBounds(cmd, 0, frame, *plan, inputs, &profiler);
-    casters->beginFrame(0, *plan, draws.casterGeometry(), draws.transforms());
-    shadows->recordMaps(
-        cmd, 0, frame, *plan, [this](const vulkan::MapPass& pass) { profiler.addDraws(casters->draw(pass)); },
-        &profiler);
-    if (light_count > 0) {
-        shadows->recordMask(cmd, 0, frame, *plan, inputs, &profiler);
-    }
-}
-
-void Renderer::Impl::recordInstead(VkCommandBuffer cmd) const
-{
-    barrier(cmd, instead, kDiscard, kCopyTarget);
-    VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, instead.layers};
-    copy.imageExtent = {targets.drawn.width, targets.drawn.height, 1};
-    vkCmdCopyBufferToImage(cmd, instead_staging.handle, instead.handle, kCopyTarget.layout, 1, &copy);
-    barrier(cmd, instead, kCopyTarget, kSampled);
-}
-
-void Renderer::Impl::recordLight(VkCommandBuffer cmd)
-{
-    memory.names().begin(cmd, "light");
-    profiler.beginPass(cmd, "light");
-    barrier(cmd, targets.light, kDiscard, kColourWrite);
-    const VkRenderingAttachmentInfo colour =
-        attachment(targets.light, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
-    beginRendering(cmd, targets.drawn, {&colour, 1}, &depth);
-    setViewport(cmd, targets.drawn);
-    const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
-                                             [](const Light& l) { return l.type == LightType::directional; });
-    for (VkPipeline pipeline : {pipelines.shadeFor(light_count, all_directional), pipelines.sky}) {
-        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
-                                nullptr);
-        vkCmdDraw(cmd, 3, 1, 0, 0);
-    }
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set, 0, nullptr);
-    draws.bindStreams(cmd);
-    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
-    vkCmdEndRendering(cmd);
-    barrier(cmd, targets.light, kColourWrite, bloom ? kSampledByAll : kSampled);
-    profiler.endPass(cmd);
-    memory.names().end(cmd);
-}
-
-void Renderer::Impl::recordBloom(VkCommandBuffer cmd)
-{
-    memory.names().begin(cmd, "bloom");
-    profiler.beginPass(cmd, "bloom");
-    bloom->record(cmd);
-    profiler.endPass(cmd);
-    memory.names().end(cmd);
-}
-
-void Renderer::Impl::screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target)
-{
-    memory.names().begin(cmd, name);
-    profiler.beginPass(cmd, name);
-    barrier(cmd, target, kDiscard, kColourWrite);
-    const VkRenderingAttachmentInfo colour = attachment(target, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    beginRendering(cmd, targets.shown, {&colour, 1}, nullptr);
-    setViewport(cmd, targets.shown);
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
-                            nullptr);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
-    vkCmdEndRendering(cmd);
-    profiler.addDraws(1);
-    profiler.endPass(cmd);
-    memory.names().end(cmd);
-}
-
-void Renderer::Impl::recordPicture(VkCommandBuffer cmd)
-{
-    const bool smooth = options.anti_aliasing == AntiAliasing::fxaa;
-    screenPass(cmd, "tone", pipelines.tone, smooth ? targets.toned : targets.picture);
-    if (smooth) {
-        barrier(cmd, targets.toned, kColourWrite, kSampled);
-        screenPass(cmd, "fxaa", pipelines.fxaa, targets.picture);
-    }
-    barrier(cmd, targets.picture, kColourWrite, kCopySource);
 }
 
 } // namespace gnomon::host

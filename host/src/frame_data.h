@@ -2,7 +2,7 @@
 // The uniform buffer of a frame, and what it is made from: camera, lights, exposure, sky.
 #pragma once
 
-#include "host/renderer.h"
+#include "host/view.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -65,11 +65,6 @@ Geometry::Geometry(Memory& memory, Uploader& uploader, const scene::Scene& scene
     attributes = memory.buffer("scene attributes", vertices * sizeof(VertexAttributes), kVertex, Place::device);
     indices = memory.buffer("scene indices", VkDeviceSize{index_total_} * 4,
                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Place::device);
-    if (deforms()) {
-        staging_ = memory.buffer("scene deformed vertices",
-                                 VkDeviceSize{deformed_vertices_} * (sizeof(glm::vec3) + sizeof(VertexAttributes)),
-                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Place::host);
-    }
     upload(uploader, scene, state);
 }
 
@@ -173,9 +168,17 @@ vulkan::MeshRange Geometry::range(const scene::Object& object) const
     return {ranges_[which].first_index, index_counts_[which], static_cast<std::int32_t>(vertex)};
 }
 
-void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& state)
+Buffer Geometry::makeStaging(Memory& memory) const
 {
-    auto* const all_positions = static_cast<glm::vec3*>(staging_.mapped);
+    return memory.buffer("scene deformed vertices",
+                         VkDeviceSize{deformed_vertices_} * (sizeof(glm::vec3) + sizeof(VertexAttributes)),
+                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Place::host);
+}
+
+// Positions, then attributes.
+void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& state, const Buffer& staging) const
+{
+    auto* const all_positions = static_cast<glm::vec3*>(staging.mapped);
     auto* const all_attributes = reinterpret_cast<VertexAttributes*>(all_positions + deformed_vertices_);
     for (std::size_t d = 0; d < state.deformed.size(); ++d) {
         const scene::DeformedPrimitive& now = state.deformed[d];
@@ -192,16 +195,17 @@ void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& stat
     }
 }
 
-void Geometry::recordDeformed(VkCommandBuffer commands) const
+void Geometry::recordDeformed(VkCommandBuffer commands, const Buffer& staging) const
 {
+    const Access read{VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT};
+    memoryBarrier(commands, read, kCopyTarget); // frames before this one may still read them
     const VkDeviceSize position_bytes = VkDeviceSize{deformed_vertices_} * sizeof(glm::vec3);
     const VkDeviceSize attribute_bytes = VkDeviceSize{deformed_vertices_} * sizeof(VertexAttributes);
     const VkBufferCopy to_positions{0, VkDeviceSize{static_vertices_} * sizeof(glm::vec3), position_bytes};
     const VkBufferCopy to_attributes{position_bytes, VkDeviceSize{static_vertices_} * sizeof(VertexAttributes),
                                      attribute_bytes};
-    vkCmdCopyBuffer(commands, staging_.handle, positions.handle, 1, &to_positions);
-    vkCmdCopyBuffer(commands, staging_.handle, attributes.handle, 1, &to_attributes);
-    const Access read{VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT};
+    vkCmdCopyBuffer(commands, staging.handle, positions.handle, 1, &to_positions);
+    vkCmdCopyBuffer(commands, staging.handle, attributes.handle, 1, &to_attributes);
     memoryBarrier(commands, kCopyTarget, read);
 }
 

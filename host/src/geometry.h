@@ -30,10 +30,12 @@ public:
 
     /// Where the triangles of an object are.
     [[nodiscard]] vulkan::MeshRange range(const scene::Object& object) const;
-    /// Takes the deformed vertices of `state` over, and records their copy when there are any.
-    void writeDeformed(const scene::Scene& scene, const scene::State& state);
-    void recordDeformed(VkCommandBuffer commands) const;
     [[nodiscard]] bool deforms() const { return deformed_vertices_ > 0; }
+    /// A buffer for one frame's deformed vertices.
+    [[nodiscard]] Buffer makeStaging(Memory& memory) const;
+    /// Writes the deformed vertices of `state` to `staging`, from where recordDeformed() copies them to their ranges.
+    void writeDeformed(const scene::Scene& scene, const scene::State& state, const Buffer& staging) const;
+    void recordDeformed(VkCommandBuffer commands, const Buffer& staging) const;
 
     Buffer positions;
     Buffer uvs;
@@ -58,7 +60,6 @@ private:
     std::uint32_t static_vertices_ = 0;
     std::uint32_t deformed_vertices_ = 0;
     std::uint32_t index_total_ = 0;
-    Buffer staging_; // deformed positions, then deformed attributes
 };
 
 } // namespace gnomon::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the scene's model to the frame's: lights and object bounds.
-#include "host/renderer.h"
+#include "host/view.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "pipelines.h"
 
 #include "geometry.h"
-#include "gnomon_host_spirv.h"
+#include "shaders.h"
 
 #include <algorithm>
 #include <bit>
@@ -86,8 +86,8 @@ struct FixedState {
 
 struct Pipelines::Wish {
     const char* name = "";
-    std::span<const std::uint32_t> vertex;
-    std::span<const std::uint32_t> fragment;
+    std::string_view vertex; // shaders
+    std::string_view fragment;
     std::array<VkBool32, 4> constants{}; // specialization constants 0 to 3; floats by their bits
     std::span<const VkFormat> colours;
     bool scene = false; // vertex streams, dynamic culling; else one full-screen triangle
@@ -97,15 +97,13 @@ struct Pipelines::Wish {
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
 };
 
-Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const ToneFacts& tone_facts)
-    : gpu_(gpu), names_(names)
+Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials) : gpu_(gpu), names_(names)
 {
     makeLayouts(materials.layout());
     physical_only_ =
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
     makeScene(materials);
-    makeScreen(tone_facts);
-    destroyModules();
+    makeSky();
 }
 
 void Pipelines::destroyModules()
@@ -152,8 +150,9 @@ void Pipelines::makeLayouts(VkDescriptorSetLayout material)
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout, "screen");
 }
 
-VkShaderModule Pipelines::module(std::span<const std::uint32_t> words)
+VkShaderModule Pipelines::module(std::string_view name)
 {
+    const std::span<const std::uint32_t> words = shaderWords(name);
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = words.size_bytes();
     info.pCode = words.data();
@@ -206,6 +205,7 @@ VkPipeline Pipelines::make(const Wish& wish)
           "compiling shaders");
     all_.push_back(pipeline);
     names_.name(VK_OBJECT_TYPE_PIPELINE, pipeline, wish.name);
+    destroyModules();
     return pipeline;
 }
 
@@ -215,11 +215,11 @@ void Pipelines::makeScene(const Materials& materials)
         return std::any_of(materials.all().begin(), materials.all().end(), says);
     };
     Wish wish;
-    wish.vertex = spirv::scene_vert;
+    wish.vertex = "scene.vert";
     wish.scene = true;
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    wish.fragment = spirv::gbuffer_frag;
+    wish.fragment = "gbuffer.frag";
     wish.colours = kGBufferFormats;
     wish.depth_write = true;
     wish.name = "g-buffer";
@@ -232,7 +232,7 @@ void Pipelines::makeScene(const Materials& materials)
             gbuffer_[i] = make(wish);
         }
     }
-    wish.fragment = spirv::forward_frag;
+    wish.fragment = "forward.frag";
     wish.colours = {&kLightFormat, 1};
     wish.depth_write = false;
     wish.blend = true;
@@ -248,26 +248,45 @@ void Pipelines::makeScene(const Materials& materials)
     }
 }
 
-void Pipelines::makeScreen(const ToneFacts& tone_facts)
+void Pipelines::makeSky()
 {
     Wish wish;
-    wish.vertex = spirv::fullscreen_vert;
+    wish.vertex = "fullscreen.vert";
     wish.colours = {&kLightFormat, 1};
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_EQUAL;
     wish.name = "sky";
-    wish.fragment = spirv::sky_frag;
+    wish.fragment = "sky.frag";
     sky = make(wish);
-    wish.depth = false;
-    wish.colours = {&kPictureFormat, 1};
+}
+
+VkPipeline Pipelines::toneFor(const ToneFacts& facts)
+{
+    const auto found = std::find_if(tone_.begin(), tone_.end(), [&](const auto& one) { return one.first == facts; });
+    if (found != tone_.end()) {
+        return found->second;
+    }
+    Wish wish;
     wish.name = "tone";
-    wish.fragment = spirv::tone_frag;
-    wish.constants = {tone_facts.average_four, tone_facts.bloom > 0.0F, std::bit_cast<VkBool32>(tone_facts.bloom),
-                      std::bit_cast<VkBool32>(tone_facts.bloom_radius)};
-    tone = make(wish);
-    wish.name = "fxaa";
-    wish.fragment = spirv::fxaa_frag;
-    fxaa = make(wish);
+    wish.vertex = "fullscreen.vert";
+    wish.fragment = "tone.frag";
+    wish.colours = {&kPictureFormat, 1};
+    wish.constants = {facts.average_four, facts.bloom > 0.0F, std::bit_cast<VkBool32>(facts.bloom),
+                      std::bit_cast<VkBool32>(facts.bloom_radius)};
+    return tone_.emplace_back(facts, make(wish)).second;
+}
+
+VkPipeline Pipelines::fxaa()
+{
+    if (fxaa_ == VK_NULL_HANDLE) {
+        Wish wish;
+        wish.name = "fxaa";
+        wish.vertex = "fullscreen.vert";
+        wish.fragment = "fxaa.frag";
+        wish.colours = {&kPictureFormat, 1};
+        fxaa_ = make(wish);
+    }
+    return fxaa_;
 }
 
 VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional)
@@ -277,14 +296,13 @@ VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional)
     if (pipeline == VK_NULL_HANDLE) {
         Wish wish;
         wish.name = "shade";
-        wish.vertex = spirv::fullscreen_vert;
-        wish.fragment = spirv::shade_frag;
+        wish.vertex = "fullscreen.vert";
+        wish.fragment = "shade.frag";
         wish.constants = {static_cast<VkBool32>(fixed), all_directional, physical_only_, VK_FALSE};
         wish.colours = {&kLightFormat, 1};
         wish.depth = true;
         wish.compare = VK_COMPARE_OP_LESS;
         pipeline = make(wish);
-        destroyModules();
     }
     return pipeline;
 }

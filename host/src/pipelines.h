@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's own graphics pipelines. All are made before the first frame.
+// The graphics pipelines that draw a scene, shared by all who do: each is made once, and only where it is needed.
 #pragma once
 
 #include "materials.h"
 
 #include <array>
-#include <initializer_list>
 #include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace gnomon::host {
 
@@ -33,11 +35,13 @@ struct ToneFacts {
     bool average_four = false;
     float bloom = 0.0F; // what the bloom's sum is multiplied by; 0: none
     float bloom_radius = 1.0F;
+
+    bool operator==(const ToneFacts&) const = default;
 };
 
 class Pipelines {
 public:
-    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const ToneFacts& tone_facts);
+    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials);
     ~Pipelines();
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
@@ -45,29 +49,33 @@ public:
     [[nodiscard]] VkPipeline gbuffer(SurfaceKind kind) const { return gbuffer_[static_cast<std::size_t>(kind)]; }
     VkPipeline blended = VK_NULL_HANDLE;  // null when the scene has no such surface
     VkPipeline emissive = VK_NULL_HANDLE; // likewise
-    /// The shading pass made for this many lights; compiled when first asked for, so a change in the number or kind of
-    /// lights costs a moment once. Phong and unlit surfaces are left out where the scene has none.
-    VkPipeline shadeFor(std::size_t lights, bool all_directional);
     VkPipeline sky = VK_NULL_HANDLE;
-    VkPipeline tone = VK_NULL_HANDLE;
-    VkPipeline fxaa = VK_NULL_HANDLE;
+
+    // Compiled when first asked for, which is not to be while a frame is recorded.
+    /// The shading pass made for this many lights. Phong and unlit surfaces are left out where the scene has none.
+    [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional);
+    [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
+    [[nodiscard]] VkPipeline fxaa();
+
     VkPipelineLayout scene_layout = VK_NULL_HANDLE;  // set 0 frame, set 1 material
     VkPipelineLayout screen_layout = VK_NULL_HANDLE; // set 0 frame
     VkDescriptorSetLayout frame_layout = VK_NULL_HANDLE;
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);
-    VkShaderModule module(std::span<const std::uint32_t> words);
+    VkShaderModule module(std::string_view name);
     struct Wish;
     VkPipeline make(const Wish& wish);
     void makeScene(const Materials& materials);
-    void makeScreen(const ToneFacts& tone_facts);
+    void makeSky();
     void destroyModules();
 
     const Gpu& gpu_;
     const DebugNames& names_;
     std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
     std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
+    std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
+    VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;
     std::vector<VkPipeline> all_;
     std::vector<VkShaderModule> modules_;

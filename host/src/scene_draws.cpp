@@ -2,21 +2,12 @@
 #include "scene_draws.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cstring>
-#include <map>
-#include <tuple>
 
 namespace gnomon::host {
 namespace {
-
-vulkan::Rows3x4 rowsOf(const glm::mat4& m)
-{
-    return {glm::vec4{m[0].x, m[1].x, m[2].x, m[3].x}, glm::vec4{m[0].y, m[1].y, m[2].y, m[3].y},
-            glm::vec4{m[0].z, m[1].z, m[2].z, m[3].z}};
-}
 
 bool same(const vulkan::Rows3x4& a, const vulkan::Rows3x4& b)
 {
@@ -25,68 +16,20 @@ bool same(const vulkan::Rows3x4& a, const vulkan::Rows3x4& b)
 
 } // namespace
 
-SceneDraws::SceneDraws(Memory& memory, const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
-                       const scene::State& state)
-    : geometry_(geometry), materials_(materials), scene_(scene)
+SceneDraws::SceneDraws(Memory& memory, const DrawTable& table, const Geometry& geometry, const Materials& materials,
+                       std::uint32_t slots)
+    : table_(table), geometry_(geometry), materials_(materials), transforms_(table.transforms), slots_(slots)
 {
-    collect(state);
-    batcher_.setScene(parts_, objects_);
-    const std::size_t count = state.objects.size();
-    instances_ =
-        memory.buffer("host instances", count * sizeof(InstanceData), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Place::host);
-    commands_ = memory.buffer("host draw commands", parts_.size() * sizeof(VkDrawIndexedIndirectCommand),
-                              VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, Place::host);
+    batcher_.setScene(table.parts, table.objects);
+    const std::size_t count = table.objects.size();
+    for (Slot& slot : slots_) {
+        slot.instances = memory.buffer("host instances", count * sizeof(InstanceData),
+                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Place::host);
+        slot.commands = memory.buffer("host draw commands", table.parts.size() * sizeof(VkDrawIndexedIndirectCommand),
+                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, Place::host);
+    }
     handles_.resize(count);
     blended_.reserve(count);
-}
-
-void SceneDraws::collect(const scene::State& state)
-{
-    using Key = std::tuple<Batch, std::uint32_t, std::uint32_t, std::uint32_t>; // batch, mesh, primitive, deformed
-    std::map<Batch, std::uint32_t> batch_ids;
-    std::vector<Key> keys;
-    keys.reserve(state.objects.size());
-    for (const scene::Object& object : state.objects) {
-        const std::uint32_t material = materials_.indexOf(object.material);
-        const MaterialFacts& facts = materials_.all()[material];
-        const bool mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0F;
-        const Batch batch{facts.kind, facts.two_sided, mirrored, material};
-        batch_ids.emplace(batch, 0);
-        keys.emplace_back(batch, object.mesh, object.primitive, object.deformed);
-    }
-    // Casters: one batch for everything opaque, one for each masked material.
-    std::vector<std::uint32_t> caster_ids(materials_.all().size(), 0);
-    caster_batches_.emplace_back();
-    for (std::uint32_t i = 0; i < materials_.all().size(); ++i) {
-        if (materials_.all()[i].caster_set != VK_NULL_HANDLE) {
-            const scene::Material& material = scene_.materials[i];
-            const scene::TextureUse& use = material.base_colour_texture;
-            caster_ids[i] = static_cast<std::uint32_t>(caster_batches_.size());
-            const float cutoff = material.alpha_cutoff / std::max(material.base_colour.a, 1e-6F);
-            caster_batches_.push_back(
-                {true, materials_.all()[i].caster_set, cutoff, use.scale, use.offset, use.rotation_rad});
-        }
-    }
-    for (auto& [batch, id] : batch_ids) {
-        id = static_cast<std::uint32_t>(batches_.size());
-        batches_.push_back(batch);
-    }
-    std::map<Key, std::uint32_t> part_ids;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const Batch& batch = std::get<0>(keys[i]);
-        const auto [part, fresh] = part_ids.emplace(keys[i], static_cast<std::uint32_t>(parts_.size()));
-        if (fresh) {
-            const vulkan::MeshRange range = geometry_.range(state.objects[i]);
-            parts_.push_back({range, batch_ids[batch]});
-            caster_parts_.push_back({range, caster_ids[batch.material]});
-        }
-        const bool blended = materials_.all()[batch.material].blended;
-        is_blended_.push_back(blended);
-        objects_.push_back({part->second, 1U});
-        // What is blended lets light through; as a map holds all or nothing, it casts nothing.
-        caster_objects_.push_back({part->second, blended ? 0U : 1U});
-        transforms_.push_back(rowsOf(state.objects[i].world_from_object));
-    }
 }
 
 void SceneDraws::update(const scene::State& state, ObjectSet& objects, bool deformed)
@@ -121,17 +64,25 @@ void SceneDraws::writeInstance(InstanceData& out, std::uint32_t object, bool rec
     std::memcpy(static_cast<void*>(&out), &data, sizeof data); // whole, in order: the memory may be write-combined
 }
 
-void SceneDraws::build(const scene::State& state, const glm::dvec3& eye_ws, std::span<const std::uint32_t> visible)
+void SceneDraws::build(std::uint32_t slot, const scene::State& state, const glm::dvec3& eye_ws,
+                       std::span<const std::uint32_t> visible)
 {
-    auto* const instances = static_cast<InstanceData*>(instances_.mapped);
-    auto* const commands = static_cast<VkDrawIndexedIndirectCommand*>(commands_.mapped);
-    lists_ = batcher_.build(visible, 0, {commands, parts_.size()}, handles_);
+    now_ = &slots_[slot];
+    auto* const instances = static_cast<InstanceData*>(now_->instances.mapped);
+    auto* const commands = static_cast<VkDrawIndexedIndirectCommand*>(now_->commands.mapped);
+    lists_ = batcher_.build(visible, 0, {commands, table_.parts.size()}, handles_);
     for (std::uint32_t i = 0; i < lists_.instance_count; ++i) {
         writeInstance(instances[i], handles_[i], state.objects[handles_[i]].receives, eye_ws);
     }
+    sortBlended(state, eye_ws);
+}
+
+void SceneDraws::sortBlended(const scene::State& state, const glm::dvec3& eye_ws)
+{
+    const auto* const commands = static_cast<const VkDrawIndexedIndirectCommand*>(now_->commands.mapped);
     blended_.clear();
     for (const vulkan::BatchDraws& draws : lists_.batches) {
-        if (!materials_.all()[batches_[draws.batch].material].blended) {
+        if (!materials_.all()[table_.batches[draws.batch].material].blended) {
             continue;
         }
         for (std::uint32_t c = draws.first_command; c < draws.first_command + draws.command_count; ++c) {
@@ -150,7 +101,7 @@ void SceneDraws::build(const scene::State& state, const glm::dvec3& eye_ws, std:
 void SceneDraws::bindStreams(VkCommandBuffer commands) const
 {
     const std::array<VkBuffer, 4> buffers{geometry_.positions.handle, geometry_.uvs.handle, geometry_.attributes.handle,
-                                          instances_.handle};
+                                          now_->instances.handle};
     const std::array<VkDeviceSize, 4> offsets{};
     vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
     vkCmdBindIndexBuffer(commands, geometry_.indices.handle, 0, VK_INDEX_TYPE_UINT32);
@@ -165,11 +116,11 @@ void SceneDraws::setSides(VkCommandBuffer commands, const Batch& batch) const
 std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
                                       const vulkan::BatchDraws& some) const
 {
-    const Batch& batch = batches_[some.batch];
+    const Batch& batch = table_.batches[some.batch];
     setSides(commands, batch);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1,
                             &materials_.all()[batch.material].set, 0, nullptr);
-    vkCmdDrawIndexedIndirect(commands, commands_.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
+    vkCmdDrawIndexedIndirect(commands, now_->commands.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
                              some.command_count, sizeof(VkDrawIndexedIndirectCommand));
     return some.command_count;
 }
@@ -180,7 +131,7 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
     std::uint32_t draws = 0;
     VkPipeline bound = VK_NULL_HANDLE;
     for (const vulkan::BatchDraws& some : lists_.batches) {
-        const Batch& batch = batches_[some.batch];
+        const Batch& batch = table_.batches[some.batch];
         const MaterialFacts& facts = materials_.all()[batch.material];
         if (facts.blended) {
             continue;
@@ -204,7 +155,7 @@ std::uint32_t SceneDraws::recordEmissive(VkCommandBuffer commands, const Pipelin
 {
     std::uint32_t draws = 0;
     for (const vulkan::BatchDraws& some : lists_.batches) {
-        const Batch& batch = batches_[some.batch];
+        const Batch& batch = table_.batches[some.batch];
         const MaterialFacts& facts = materials_.all()[batch.material];
         if (facts.blended || !facts.emits) {
             continue;
@@ -223,8 +174,8 @@ std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipeline
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.blended);
     }
     for (const Blended& one : blended_) {
-        const vulkan::DrawPart& part = parts_[objects_[one.object].first_part];
-        const Batch& batch = batches_[part.batch];
+        const vulkan::DrawPart& part = table_.parts[table_.objects[one.object].first_part];
+        const Batch& batch = table_.batches[part.batch];
         setSides(commands, batch);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1,
                                 &materials_.all()[batch.material].set, 0, nullptr);
@@ -232,16 +183,6 @@ std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipeline
                          one.instance);
     }
     return static_cast<std::uint32_t>(blended_.size());
-}
-
-void SceneDraws::fillCasters(vulkan::CasterDrawer& drawer) const
-{
-    drawer.setScene(caster_parts_, caster_objects_, caster_batches_);
-}
-
-vulkan::CasterGeometry SceneDraws::casterGeometry() const
-{
-    return {geometry_.positions.handle, 0, geometry_.uvs.handle, 0, geometry_.indices.handle, 0};
 }
 
 } // namespace gnomon::host

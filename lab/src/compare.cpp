@@ -57,7 +57,7 @@ host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2
     return judged;
 }
 
-Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::Traced& truth,
+Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const truth::Traced& truth,
                  const host::RenderOptions& options, bool with_perception)
 {
     const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
@@ -73,12 +73,12 @@ Score scoreDrawn(host::Renderer& renderer, const Subject& subject, const truth::
     return score;
 }
 
-Score scoreTechnique(host::Gpu& gpu, const Subject& subject, const truth::Traced& truth,
+Score scoreTechnique(const host::SceneOnGpu& scene, const Subject& subject, const truth::Traced& truth,
                      const host::RenderOptions& options, bool with_perception)
 {
-    assert(subject.scene != nullptr && subject.state != nullptr && subject.light < subject.lights.size());
+    assert(subject.scene == &scene.scene() && subject.state != nullptr && subject.light < subject.lights.size());
     const host::RenderOptions wish = judgedOptions(options, sizeOf(truth.surfaces));
-    host::Renderer renderer(gpu, *subject.scene, *subject.state, wish);
+    host::FrameRenderer renderer(scene, wish);
     renderer.draw(*subject.state, subject.eye, subject.lights);
     return scoreDrawn(renderer, subject, truth, wish, with_perception);
 }

@@ -25,7 +25,7 @@ struct Matches {
 
 struct Walker {
     host::RenderOptions options;
-    std::unique_ptr<host::Renderer> renderer;
+    std::unique_ptr<host::FrameRenderer> renderer;
     PathScore score;
     StabilityMeter meter;
     Timed timed;
@@ -68,7 +68,7 @@ struct PathRun::Impl {
                std::optional<Matches>& matches, Counted& counted) const;
 };
 
-PathRun::PathRun(host::Gpu& gpu, const Subject& first, glm::uvec2 size_px, const std::vector<Contestant>& contestants)
+PathRun::PathRun(const host::SceneOnGpu& scene, glm::uvec2 size_px, const std::vector<Contestant>& contestants)
     : impl_(std::make_unique<Impl>())
 {
     assert(!contestants.empty());
@@ -78,7 +78,7 @@ PathRun::PathRun(host::Gpu& gpu, const Subject& first, glm::uvec2 size_px, const
         Walker& walker = impl_->walkers[i];
         walker.options = judgedOptions(contestants[i == 0 ? 0 : i - 1].options, size_px);
         walker.options.shadows = i != 0;
-        walker.renderer = std::make_unique<host::Renderer>(gpu, *first.scene, *first.state, walker.options);
+        walker.renderer = std::make_unique<host::FrameRenderer>(scene, walker.options);
     }
 }
 

@@ -18,12 +18,12 @@ namespace {
 
 struct Turn {
     host::RenderOptions options;
-    std::unique_ptr<host::Renderer> renderer;
+    std::unique_ptr<host::FrameRenderer> renderer;
     Timed timed;
 };
 
 /// The first draws without shadows, the others one technique each.
-std::vector<Turn> makeTurns(host::Gpu& gpu, const Subject& subject, std::span<const Contestant> contestants,
+std::vector<Turn> makeTurns(const host::SceneOnGpu& scene, std::span<const Contestant> contestants,
                             const TimingOptions& options)
 {
     std::vector<Turn> turns(contestants.size() + 1);
@@ -32,7 +32,7 @@ std::vector<Turn> makeTurns(host::Gpu& gpu, const Subject& subject, std::span<co
         wish = contestants[i == 0 ? 0 : i - 1].options;
         wish.shadows = i != 0;
         wish.reuse_maps = wish.reuse_maps && options.reuse_maps;
-        turns[i].renderer = std::make_unique<host::Renderer>(gpu, *subject.scene, *subject.state, wish);
+        turns[i].renderer = std::make_unique<host::FrameRenderer>(scene, wish);
     }
     return turns;
 }
@@ -69,7 +69,7 @@ void drawInTurn(std::vector<Turn>& turns, const SubjectAt& subject_at, const Tim
 }
 
 /// Adds what was timed to `result`; the images are gone afterwards.
-void timeGroup(host::Gpu& gpu, const SubjectAt& subject_at, std::span<const Contestant> contestants,
+void timeGroup(const host::SceneOnGpu& scene, const SubjectAt& subject_at, std::span<const Contestant> contestants,
                const TimingOptions& options, const std::function<void()>& step, TimingResult& result)
 {
     const Subject* subject = nullptr; // of the round that is on
@@ -77,7 +77,7 @@ void timeGroup(host::Gpu& gpu, const SubjectAt& subject_at, std::span<const Cont
         subject = &subject_at(round);
         return *subject;
     };
-    std::vector<Turn> turns = makeTurns(gpu, remembering(0), contestants, options);
+    std::vector<Turn> turns = makeTurns(scene, contestants, options);
     drawInTurn(turns, remembering, options, step);
     const double baseline_ms = medianFrame(turns.front().timed);
     for (Turn& turn : turns) {
@@ -104,7 +104,7 @@ void timeGroup(host::Gpu& gpu, const SubjectAt& subject_at, std::span<const Cont
 
 } // namespace
 
-std::uint64_t totalBytes(const host::Renderer& renderer)
+std::uint64_t totalBytes(const host::FrameRenderer& renderer)
 {
     std::uint64_t total = 0;
     for (const vulkan::MemoryUse& use : renderer.memory()) {
@@ -113,8 +113,8 @@ std::uint64_t totalBytes(const host::Renderer& renderer)
     return total;
 }
 
-std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::Renderer& technique,
-                                                               const host::Renderer& baseline)
+std::vector<std::pair<std::string, std::uint64_t>> addedMemory(const host::FrameRenderer& technique,
+                                                               const host::FrameRenderer& baseline)
 {
     std::vector<std::pair<std::string, std::uint64_t>> added;
     for (const vulkan::MemoryUse& use : technique.memory()) {
@@ -215,24 +215,26 @@ std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants
     return groups;
 }
 
-TimingResult timeInTurn(host::Gpu& gpu, const Subject& subject, const std::vector<Contestant>& contestants,
-                        const TimingOptions& options, const std::function<void()>& step)
+TimingResult timeInTurn(const host::SceneOnGpu& scene, const Subject& subject,
+                        const std::vector<Contestant>& contestants, const TimingOptions& options,
+                        const std::function<void()>& step)
 {
     const SubjectAt always = [&](std::uint32_t /*round*/) -> const Subject& {
         return subject;
     };
-    return timeInTurn(gpu, always, contestants, options, step);
+    return timeInTurn(scene, always, contestants, options, step);
 }
 
-TimingResult timeInTurn(host::Gpu& gpu, const SubjectAt& subject_at, const std::vector<Contestant>& contestants,
-                        const TimingOptions& options, const std::function<void()>& step)
+TimingResult timeInTurn(const host::SceneOnGpu& scene, const SubjectAt& subject_at,
+                        const std::vector<Contestant>& contestants, const TimingOptions& options,
+                        const std::function<void()>& step)
 {
     const std::size_t lights = subject_at(0).lights.size();
     assert(!contestants.empty() && options.repetitions > 0);
     TimingResult result;
     std::span<const Contestant> rest = contestants;
     for (const std::size_t count : timingGroups(contestants, lights)) {
-        timeGroup(gpu, subject_at, rest.first(count), options, step, result);
+        timeGroup(scene, subject_at, rest.first(count), options, step, result);
         rest = rest.subspan(count);
     }
     return result;

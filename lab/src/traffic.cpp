@@ -19,7 +19,7 @@ double leastReach(const vulkan::FilterOptions& filter)
 
 } // namespace
 
-std::uint64_t leastBytes(host::Renderer& renderer, const Subject& subject, const host::RenderOptions& options)
+std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject, const host::RenderOptions& options)
 {
     if (!options.shadows) {
         return 0;

@@ -7,8 +7,8 @@
 #include "app/command_line.h"
 #include "app/shot.h"
 #include "app/visual.h"
+#include "host/frame_renderer.h"
 #include "host/gpu.h"
-#include "host/renderer.h"
 #include "image/image_io.h"
 
 #include <gtest/gtest.h>
@@ -116,7 +116,8 @@ protected:
         arguments.insert(arguments.end(), wanted.arguments.begin(), wanted.arguments.end());
         const app::Settings settings = app::parseCommandLine(arguments).settings;
         app::Shot shot = app::makeShot(settings);
-        host::Renderer renderer(gpu(), shot.scene, shot.state, app::renderOptions(settings));
+        const host::SceneOnGpu uploaded(gpu(), shot.scene, shot.state);
+        host::FrameRenderer renderer(uploaded, app::renderOptions(settings));
         renderer.draw(shot.state, shot.eye, shot.lights);
         const app::FrameRange range = settings.frames.value_or(app::FrameRange{});
         for (std::uint32_t frame = range.first + 1; frame <= range.last; ++frame) {

@@ -133,7 +133,8 @@ struct Dark {
         options.height = kSide;
         options.shadows = false;
         options.bloom = bloom;
-        Renderer renderer(gpu, scene, state, options);
+        const SceneOnGpu uploaded(gpu, scene, state);
+        FrameRenderer renderer(uploaded, options);
         Eye eye;
         eye.position_ws = {0.0, 0.0, 1.0};
         eye.target_ws = {0.0, 0.0, 0.0};
@@ -239,7 +240,8 @@ Result drawSmall(Gpu& gpu, std::uint32_t width, std::uint32_t height, AntiAliasi
     options.shadows = false;
     options.anti_aliasing = smooth;
     options.bloom = bloom;
-    Renderer renderer(gpu, scene, state, options);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
     Result result;
     for (const vulkan::PassRecord& pass : renderer.draw(state, smallEye(), lightsOf(scene, state)).passes) {
         result.pass = result.pass || std::string(pass.name) == "bloom";

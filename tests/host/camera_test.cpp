@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 
 #include <gnomon/error.h>
 

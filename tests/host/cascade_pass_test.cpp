@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cascades drawn each in a pass of its own and in one pass: the same maps, bit for bit.
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 #include "small_scene.h"
 
@@ -53,7 +53,8 @@ protected:
     Drawn draw(CascadePass pass) const
     {
         Gpu gpu({.gpu = "software", .validate = true});
-        Renderer renderer(gpu, scene_, state_, optionsWith(pass));
+        const SceneOnGpu uploaded(gpu, scene_, state_);
+        FrameRenderer renderer(uploaded, optionsWith(pass));
         EXPECT_EQ(renderer.cascadePass(), pass);
         const FrameTimes times = renderer.draw(state_, smallEye(), lights_);
         Drawn drawn;
@@ -117,9 +118,10 @@ TEST(CascadePassOptions, AreRefusedForMapsThatAreAveraged)
     options.shadow.technique.filter = Filter::vsm;
     options.shadow.format = MapFormat::rg16f;
     options.shadow.cascades.pass = CascadePass::layered;
-    EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    EXPECT_THROW(FrameRenderer(uploaded, options), Error);
     options.shadow.cascades.pass = CascadePass::automatic;
-    EXPECT_EQ(Renderer(gpu, scene, state, options).cascadePass(), CascadePass::each);
+    EXPECT_EQ(FrameRenderer(uploaded, options).cascadePass(), CascadePass::each);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A light's strength and the sky change with the time; a light that is out adds nothing and has no map.
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 
 #include "small_scene.h"
@@ -40,7 +40,7 @@ protected:
         options.width = 128;
         options.height = 96;
         options.shadow.map_size = 256;
-        renderer_ = std::make_unique<Renderer>(gpu_, scene_, state_, options);
+        renderer_ = std::make_unique<FrameRenderer>(uploaded_, options);
     }
     Picture draw(double time_s, const std::vector<ShadedLight>* lights = nullptr)
     {
@@ -53,7 +53,8 @@ protected:
     Gpu gpu_{{.gpu = "software", .validate = true}};
     scene::Scene scene_ = lampScene();
     scene::State state_ = scene::evaluate(scene_, kDay);
-    std::unique_ptr<Renderer> renderer_;
+    SceneOnGpu uploaded_{gpu_, scene_, state_};
+    std::unique_ptr<FrameRenderer> renderer_;
 };
 
 double sumOf(const ImageF& image)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shadow of sparse leaves keeps its weight when the map's texels grow far beyond the leaves.
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,8 @@ double shadowOf(Gpu& gpu, std::uint32_t map_size)
     options.height = 120;
     options.shadow.map_size = map_size;
     options.shadow.border_texels = 2.0;
-    Renderer renderer(gpu, scene, state, options);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
     renderer.draw(state, {.position_ws = {0.0, 1.9, 0.01}, .target_ws = {0, 0, 0}, .fov_y_rad = 1.4},
                   lightsOf(scene, state));
     const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = false});

@@ -2,7 +2,7 @@
 // A box's hard shadow on the ground of `planes`, against geometry: where the picture and the exact answer differ, the
 // exact edge is at most one map texel away. Whatever the fit, the partition and the motion; and what fades with
 // distance does so as told.
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 #include "scene/worlds.h"
 
@@ -153,7 +153,8 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     const Eye above{.position_ws = {1.0, 14.0, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
     const Eye aslant{.position_ws = {1.5, 4.5, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
     const Eye eye = plain ? above : aslant;
-    Renderer renderer(gpu, scene, state, options);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
     renderer.draw(state, eye, lights);
     const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
     const Camera camera = cameraOf(eye, options.width, options.height, state.bounds_ws);
@@ -208,7 +209,8 @@ TEST(Fade, IsLinearInTheDistanceFromTheEye)
     options.shadow.max_distance_m = 20.0;
     options.shadow.fade = 0.25;
     Gpu gpu({.gpu = "software", .validate = true});
-    Renderer renderer(gpu, scene, state, options);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
     const glm::vec3 middle = (PlanesWorld::box_min + PlanesWorld::box_max) * 0.5F;
     const glm::dvec3 target = PlanesWorld::projectAlongSun({middle.x, PlanesWorld::box_min.y, middle.z});
     for (const double distance : {8.0, 14.9, 16.0, 17.5, 19.0, 20.1, 30.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps read back as plain numbers, whatever they are stored in.
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 #include "scene/worlds.h"
 
@@ -31,7 +31,8 @@ ImageF mapIn(Gpu& gpu, Filter filter, MapFormat format)
     options.shadow.moments.samples = 1;
     options.shadow.moments.blur = BlurKind::none;
     options.shadow.moments.sampling = MapSampling::bilinear;
-    Renderer renderer(gpu, scene, state, options);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
     const Eye eye{.position_ws = {6.0, 5.0, 9.0}, .target_ws = {0.0, 0.0, 0.0}};
     renderer.draw(state, eye, lightsOf(scene, state));
     EXPECT_TRUE(renderer.depthLayers(0).empty());

@@ -36,13 +36,14 @@ RenderOptions smallOptions()
 struct Stage {
     explicit Stage(scene::Scene the_scene, const RenderOptions& options = smallOptions(), bool validate = true)
         : scene(std::move(the_scene)), state(scene::evaluate(scene, 0.0)),
-          gpu({.gpu = "software", .validate = validate}), renderer(std::in_place, gpu, scene, state, options),
-          lights(lightsOf(scene, state))
+          gpu({.gpu = "software", .validate = validate}), uploaded(std::in_place, gpu, scene, state),
+          renderer(std::in_place, *uploaded, options), lights(lightsOf(scene, state))
     {
     }
     ~Stage()
     {
         renderer.reset();
+        uploaded.reset();
         for (const std::string& message : gpu.messages()) {
             ADD_FAILURE() << message;
         }
@@ -56,7 +57,8 @@ struct Stage {
     scene::Scene scene;
     scene::State state;
     Gpu gpu;
-    std::optional<Renderer> renderer;
+    std::optional<SceneOnGpu> uploaded;
+    std::optional<FrameRenderer> renderer;
     std::vector<ShadedLight> lights;
     Eye eye = smallEye();
 };
@@ -327,11 +329,12 @@ TEST(Renderer, RefusesSizesThatNoDeviceHas)
     const scene::Scene scene = smallScene();
     const scene::State state = scene::evaluate(scene, 0.0);
     Gpu gpu({.gpu = "software"});
+    const SceneOnGpu uploaded(gpu, scene, state);
     RenderOptions options = smallOptions();
     options.width = 0;
-    EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
+    EXPECT_THROW(FrameRenderer(uploaded, options), Error);
     options.width = 1U << 20;
-    EXPECT_THROW(Renderer(gpu, scene, state, options), Error);
+    EXPECT_THROW(FrameRenderer(uploaded, options), Error);
 }
 
 TEST(Renderer, DrawsABoxAndItsShadowOnPlanes)

@@ -2,7 +2,7 @@
 // What the GPU finds of cascades in the camera's depth buffer, against the same reduction over the same buffer in
 // double precision; and that every pixel lies in its cascade's map together with its kernel.
 #define GNOMON_REAL double
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/state.h"
 #include "scene/worlds.h"
 #include "small_scene.h"
@@ -229,7 +229,8 @@ void expectPlace(const View& view, const View& base, double border_texels, const
 TEST_P(Sdsm, FitsEachCascadeToThePixelsThatAreThere)
 {
     Gpu gpu({.gpu = "software", .validate = true});
-    Renderer renderer(gpu, scene_, state_, options_);
+    const SceneOnGpu uploaded(gpu, scene_, state_);
+    FrameRenderer renderer(uploaded, options_);
     renderer.draw(state_, eye_, lights_);
     const Picture picture = renderer.read({.colour = false, .masks = true, .geometry = true});
     const Plan base_plan = Planner(options_.shadow).plan(frame_);
@@ -265,7 +266,8 @@ TEST_P(Sdsm, FitsEachCascadeToThePixelsThatAreThere)
 TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
 {
     Gpu gpu({.gpu = "software", .validate = true});
-    Renderer renderer(gpu, scene_, state_, options_);
+    const SceneOnGpu uploaded(gpu, scene_, state_);
+    FrameRenderer renderer(uploaded, options_);
     renderer.draw(state_, eye_, lights_);
     const Picture picture = renderer.read({.colour = false, .geometry = true});
     const Plan base_plan = Planner(options_.shadow).plan(frame_);
@@ -297,7 +299,8 @@ TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
 TEST_P(Sdsm, IsTheSameEveryTime)
 {
     Gpu gpu({.gpu = "software", .validate = true});
-    Renderer renderer(gpu, scene_, state_, options_);
+    const SceneOnGpu uploaded(gpu, scene_, state_);
+    FrameRenderer renderer(uploaded, options_);
     renderer.draw(state_, eye_, lights_);
     const std::string first = toJson(renderer.plan());
     renderer.draw(state_, eye_, lights_);

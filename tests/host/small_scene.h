@@ -2,7 +2,7 @@
 // A scene with one of everything that the renderer treats in its own way.
 #pragma once
 
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "scene/model.h"
 
 namespace gnomon::host::test {

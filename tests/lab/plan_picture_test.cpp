@@ -3,7 +3,7 @@
 // the lines of a warped map where its matrix has them.
 #include "lab/plan_picture.h"
 
-#include "host/renderer.h"
+#include "host/frame_renderer.h"
 #include "lab/src/plan_shapes.h"
 #include "xml.h"
 

@@ -76,12 +76,13 @@ class Bench {
 public:
     explicit Bench(const Combination& combination, std::uint32_t map_size = 128)
         : scene_(makeStep()), gpu_({.gpu = "software", .validate = true}),
+          uploaded_(gpu_, scene_, scene::evaluate(scene_, 0.0)),
           options_(filterOptions(combination.filter, combination.format, map_size))
     {
         options_.width = kSide_px;
         options_.height = kSide_px;
         options_.shadow.moments.remap = combination.remap;
-        renderer_ = std::make_unique<host::Renderer>(gpu_, scene_, scene::evaluate(scene_, 0.0), options_);
+        renderer_ = std::make_unique<host::FrameRenderer>(uploaded_, options_);
     }
     ~Bench()
     {
@@ -155,8 +156,9 @@ private:
 
     scene::Scene scene_;
     host::Gpu gpu_;
+    host::SceneOnGpu uploaded_;
     host::RenderOptions options_;
-    std::unique_ptr<host::Renderer> renderer_;
+    std::unique_ptr<host::FrameRenderer> renderer_;
 };
 
 /// Smallest steps over 100 m and 10 km; prints a row.

@@ -35,12 +35,12 @@ truth::Traced traceOf(const Subject& subject, glm::uvec2 size_px, const truth::O
 } // namespace
 
 Stage::Stage(scene::Scene scene, const std::string& view, glm::uvec2 size_px, std::uint32_t light)
-    : scene_(std::move(scene)), state_(scene::evaluate(scene_, 0.0)),
-      gpu_({.gpu = "software", .validate = true}), subject_{.scene = &scene_,
-                                                            .state = &state_,
-                                                            .eye = eyeOf(scene_, view),
-                                                            .lights = host::lightsOf(scene_, state_),
-                                                            .light = light},
+    : scene_(std::move(scene)), state_(scene::evaluate(scene_, 0.0)), gpu_({.gpu = "software", .validate = true}),
+      uploaded_(gpu_, scene_, state_), subject_{.scene = &scene_,
+                                                .state = &state_,
+                                                .eye = eyeOf(scene_, view),
+                                                .lights = host::lightsOf(scene_, state_),
+                                                .light = light},
       size_px_(size_px)
 {
 }
@@ -76,7 +76,7 @@ View Stage::mapView(const host::RenderOptions& options)
     host::RenderOptions sized = options;
     sized.width = size_px_.x;
     sized.height = size_px_.y;
-    host::Renderer renderer(gpu_, scene_, state_, sized);
+    host::FrameRenderer renderer(uploaded_, sized);
     renderer.draw(state_, subject_.eye, subject_.lights);
     return renderer.plan().views[renderer.plan().lights[subject_.light].first_view];
 }
@@ -87,19 +87,19 @@ host::Picture Stage::geometry()
     options.width = size_px_.x;
     options.height = size_px_.y;
     options.shadows = false;
-    host::Renderer renderer(gpu_, scene_, state_, options);
+    host::FrameRenderer renderer(uploaded_, options);
     renderer.draw(state_, subject_.eye, subject_.lights);
     return renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});
 }
 
 Score Stage::score(const host::RenderOptions& options, bool with_perception)
 {
-    return scoreTechnique(gpu_, subject_, hardTruth(), options, with_perception);
+    return scoreTechnique(uploaded_, subject_, hardTruth(), options, with_perception);
 }
 
 Score Stage::score(const host::RenderOptions& options, const truth::Traced& truth)
 {
-    return scoreTechnique(gpu_, subject_, truth, options, false);
+    return scoreTechnique(uploaded_, subject_, truth, options, false);
 }
 
 host::RenderOptions hardOptions(std::uint32_t map_size)

@@ -27,7 +27,7 @@ public:
     Stage& operator=(const Stage&) = delete;
 
     [[nodiscard]] const Subject& subject() const { return subject_; }
-    [[nodiscard]] host::Gpu& gpu() { return gpu_; }
+    [[nodiscard]] const host::SceneOnGpu& uploaded() const { return uploaded_; }
     /// Lets the judged light shine along another direction; any length.
     void turnLight(const glm::dvec3& direction_ws);
     /// Traced when first asked for.
@@ -46,6 +46,7 @@ private:
     scene::Scene scene_;
     scene::State state_;
     host::Gpu gpu_;
+    host::SceneOnGpu uploaded_;
     Subject subject_;
     glm::uvec2 size_px_;
     std::optional<truth::Traced> hard_truth_;

@@ -113,7 +113,7 @@ protected:
 TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
 {
     int steps = 0;
-    const TimingResult result = timeInTurn(stage.gpu(), stage.subject(), contestants,
+    const TimingResult result = timeInTurn(stage.uploaded(), stage.subject(), contestants,
                                            {.repetitions = 3, .warmup = 2, .reuse_maps = true}, [&] { ++steps; });
     EXPECT_EQ(steps, 4 * 5);
     ASSERT_EQ(result.techniques.size(), 3U);
@@ -150,7 +150,7 @@ TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
 TEST_F(TimeInTurn, DrawsEveryMapAnewUnlessAskedToKeepThem)
 {
     const TimingResult result =
-        timeInTurn(stage.gpu(), stage.subject(), contestants, {.repetitions = 2, .warmup = 1}, {});
+        timeInTurn(stage.uploaded(), stage.subject(), contestants, {.repetitions = 2, .warmup = 1}, {});
     EXPECT_EQ(result.techniques[0].counters.texels_rendered, 2U * 128U * 128U);
     EXPECT_EQ(result.techniques[2].counters.texels_rendered, 2U * 256U * 256U);
 }
@@ -178,7 +178,7 @@ TEST_F(TimeInTurn, ManyHaveABaselineForEachGroup)
     contestants.back().options.shadow.map_size = 256;
     const TimingOptions options{.repetitions = 2, .warmup = 1};
     std::uint64_t steps = 0;
-    const TimingResult result = timeInTurn(stage.gpu(), stage.subject(), contestants, options, [&] { ++steps; });
+    const TimingResult result = timeInTurn(stage.uploaded(), stage.subject(), contestants, options, [&] { ++steps; });
     EXPECT_EQ(steps, (kMaxTogether + 1 + 2) * 3U);
     EXPECT_EQ(timingSteps(stage.subject(), contestants, options), steps);
     ASSERT_EQ(result.techniques.size(), kMaxTogether + 1);
@@ -204,7 +204,7 @@ TEST_F(TimeInTurn, StopsWhenTheCallerThrows)
             throw std::runtime_error("enough");
         }
     };
-    EXPECT_THROW((void)timeInTurn(stage.gpu(), stage.subject(), contestants, {}, stop), std::runtime_error);
+    EXPECT_THROW((void)timeInTurn(stage.uploaded(), stage.subject(), contestants, {}, stop), std::runtime_error);
     EXPECT_EQ(steps, 3);
 }
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our own small renderer: draws a G-buffer, asks the library for the mask, shades. A host like any other: it knows the
+// library by its public headers alone.
+#pragma once
+
+#include "host/present.h"
+#include "host/scene_on_gpu.h"
+#include "host/view.h"
+
+#include <gnomon/planner.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon::host {
+
+/// `fxaa` smooths edges of the finished picture; `ssaa4` draws and shades four samples a pixel (twice the size on each
+/// side) and averages them.
+enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
+
+/// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
+/// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
+struct BloomOptions {
+    bool on = false;
+    float threshold = 0.8F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]
+    float knee = 0.25F;       // share of the threshold, to both sides of it, over which that sets in; [0, 1]
+    float intensity = 1.0F;   // how much of the light above the threshold is spread; [0, 4]
+    float radius = 1.0F;      // half the reach of the tent that enlarges each level, in the level's texels; [0.5, 3]
+    std::uint32_t levels = 6; // halvings, each of which doubles the glow's reach; 1 to 8, and no more than the size has
+};
+
+struct RenderOptions {
+    std::uint32_t width = 1280; // pixels; changed by FrameRenderer::resize()
+    std::uint32_t height = 720;
+    AntiAliasing anti_aliasing = AntiAliasing::none;
+    BloomOptions bloom;
+    std::uint32_t frames_in_flight = 2; // how many frames the GPU may be behind; 1 to 4
+    /// Changed by FrameRenderer::setShadows(). cascades.pass = layered is refused (Error) where ShadowRenderer refuses
+    /// it.
+    ShadowOptions shadow;
+    bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
+    bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
+};
+
+/// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.
+class PassRecords {
+public:
+    void push_back(const vulkan::PassRecord& pass)
+    {
+        if (size_ < records_.size()) {
+            records_[size_++] = pass;
+        }
+    }
+    [[nodiscard]] const vulkan::PassRecord* begin() const { return records_.data(); }
+    [[nodiscard]] const vulkan::PassRecord* end() const { return records_.data() + size_; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] const vulkan::PassRecord& operator[](std::size_t i) const { return records_[i]; }
+
+private:
+    std::array<vulkan::PassRecord, 96> records_{};
+    std::size_t size_ = 0;
+};
+
+/// CPU stages and GPU passes of one frame, milliseconds.
+struct FrameTimes {
+    double advance_ms = 0.0; // ObjectSet update + transform upload
+    double plan_ms = 0.0;
+    double record_ms = 0.0;
+    double frame_ms = 0.0; // from the start of submit() to the end of finish(), without read-back
+    PassRecords passes;
+    vulkan::MapReuse reuse; // which maps were drawn, restored and left as they were; zeros without shadows
+};
+
+/// Draws frames of one size, one after the other. Several may share a scene.
+class FrameRenderer {
+public:
+    /// Makes its pipelines. `scene` outlives it. Throws Error (limits, memory, device).
+    FrameRenderer(const SceneOnGpu& scene, const RenderOptions& options);
+    ~FrameRenderer();
+    FrameRenderer(const FrameRenderer&) = delete;
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+    /// From the next frame on. Frames that the GPU has not finished keep what they use. Throws Error, and then all
+    /// stays as it was.
+    void resize(std::uint32_t width, std::uint32_t height);
+    /// Another technique from the next frame on, or none. It begins with empty maps. Frames that the GPU has not
+    /// finished keep what they use. Throws Error, and then all stays as it was.
+    void setShadows(const std::optional<ShadowOptions>& wanted);
+    [[nodiscard]] const RenderOptions& options() const;
+
+    /// Draws one frame of `state` (same scene, any time; only its dynamic objects may differ), and `present` it if that
+    /// is given. Waits for the frame that is RenderOptions::frames_in_flight older, and for no other unless the plan
+    /// outgrows the maps. Blended surfaces are lit without shadow, cast none and are not in the masks. Throws Error,
+    /// for more than kMaxLights lights too. Allocates nothing once warm, unless the plan outgrows the maps or the
+    /// number of lights changes. `masks_instead`: use these visibility masks (one per light, as Picture::masks) instead
+    /// of the library's, e.g. the ray tracer's.
+    void submit(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                Present* present = nullptr, const std::vector<ImageF>* masks_instead = nullptr);
+    /// Waits for the GPU to finish the last frame. Precondition: submit().
+    FrameTimes finish();
+    /// Both at once.
+    FrameTimes draw(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                    const std::vector<ImageF>* masks_instead = nullptr);
+    /// The moment of the last draw() once more, from another eye: maps stay as they are, only the picture and its masks
+    /// are new. `state` and `lights` as they were then. For measuring what changes at a point of the world from frame
+    /// to frame. Does nothing for what a technique remembers of its frames, so what reads that (step-alternate) or
+    /// makes maps of the picture (sdsm) is not to be asked. Precondition: draw(), not with other masks.
+    void drawAgain(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
+
+    /// Waits for the last frame and reads it back. Throws Error when there is none.
+    [[nodiscard]] Picture read(const WantedImages& wanted);
+    /// The map's texels of one layer of the image at its finest level, as stored: one to four channels, unorm ones in
+    /// [0, 1]. For tests and debug views. Throws Error when there is no such layer.
+    [[nodiscard]] ImageF readMap(std::uint32_t layer);
+
+    // Of the last frame, which is waited for where the GPU knows the answer.
+    /// Its plan; views with View::gpu_cascade as the GPU has fitted them.
+    [[nodiscard]] const Plan& plan() const;
+    /// What making its maps filterable took; zeros without such passes.
+    [[nodiscard]] vulkan::FilterCost filterCost() const;
+    /// lvsm: the layers of depth of a view of plan(), nearest first; else empty.
+    [[nodiscard]] std::vector<vulkan::DepthLayer> depthLayers(std::uint32_t view) const;
+
+    /// Bytes of every image and buffer, by purpose: the scene's, its own and the library's.
+    [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
+    /// How cascades are drawn, if there are any: each or layered.
+    [[nodiscard]] vulkan::CascadePass cascadePass() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::host

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "draw_table.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace gnomon::host {
+
+vulkan::Rows3x4 rowsOf(const glm::mat4& m)
+{
+    return {glm::vec4{m[0].x, m[1].x, m[2].x, m[3].x}, glm::vec4{m[0].y, m[1].y, m[2].y, m[3].y},
+            glm::vec4{m[0].z, m[1].z, m[2].z, m[3].z}};
+}
+
+DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
+                     const scene::State& state)
+{
+    using Key = std::tuple<Batch, std::uint32_t, std::uint32_t, std::uint32_t>; // batch, mesh, primitive, deformed
+    std::map<Batch, std::uint32_t> batch_ids;
+    std::vector<Key> keys;
+    keys.reserve(state.objects.size());
+    for (const scene::Object& object : state.objects) {
+        const std::uint32_t material = materials.indexOf(object.material);
+        const MaterialFacts& facts = materials.all()[material];
+        const bool mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0F;
+        const Batch batch{facts.kind, facts.two_sided, mirrored, material};
+        batch_ids.emplace(batch, 0);
+        keys.emplace_back(batch, object.mesh, object.primitive, object.deformed);
+    }
+    for (auto& [batch, id] : batch_ids) {
+        id = static_cast<std::uint32_t>(batches.size());
+        batches.push_back(batch);
+    }
+    const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
+    std::map<Key, std::uint32_t> part_ids;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const Batch& batch = std::get<0>(keys[i]);
+        const auto [part, fresh] = part_ids.emplace(keys[i], static_cast<std::uint32_t>(parts.size()));
+        if (fresh) {
+            const vulkan::MeshRange range = geometry.range(state.objects[i]);
+            parts.push_back({range, batch_ids[batch]});
+            caster_parts.push_back({range, caster_ids[batch.material]});
+        }
+        objects.push_back({part->second, 1U});
+        // What is blended lets light through; as a map holds all or nothing, it casts nothing.
+        caster_objects.push_back({part->second, materials.all()[batch.material].blended ? 0U : 1U});
+        transforms.push_back(rowsOf(state.objects[i].world_from_object));
+    }
+}
+
+/// One for everything opaque, one for each masked material. Returns each material's.
+std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materials, const scene::Scene& scene)
+{
+    std::vector<std::uint32_t> ids(materials.all().size(), 0);
+    caster_batches.emplace_back();
+    for (std::uint32_t i = 0; i < materials.all().size(); ++i) {
+        if (materials.all()[i].caster_set != VK_NULL_HANDLE) {
+            const scene::Material& material = scene.materials[i];
+            const scene::TextureUse& use = material.base_colour_texture;
+            ids[i] = static_cast<std::uint32_t>(caster_batches.size());
+            const float cutoff = material.alpha_cutoff / std::max(material.base_colour.a, 1e-6F);
+            caster_batches.push_back(
+                {true, materials.all()[i].caster_set, cutoff, use.scale, use.offset, use.rotation_rad});
+        }
+    }
+    return ids;
+}
+
+} // namespace gnomon::host

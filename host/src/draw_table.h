@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the objects of a scene draw, for the camera and for casters: parts that are instanced, grouped by material.
+#pragma once
+
+#include "geometry.h"
+#include "materials.h"
+
+#include <gnomon/vulkan/caster_drawer.h>
+
+#include <vector>
+
+namespace gnomon::host {
+
+/// Objects that are drawn in one go.
+struct Batch {
+    SurfaceKind kind = SurfaceKind::plain;
+    bool two_sided = false;
+    bool mirrored = false;
+    std::uint32_t material = 0;
+    auto operator<=>(const Batch&) const = default;
+};
+
+[[nodiscard]] vulkan::Rows3x4 rowsOf(const glm::mat4& m);
+
+struct DrawTable {
+    DrawTable(const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
+              const scene::State& state);
+
+    std::vector<Batch> batches;
+    std::vector<vulkan::DrawPart> parts;
+    std::vector<vulkan::DrawObject> objects;
+    std::vector<vulkan::Rows3x4> transforms; // per object, as `state` has them
+    // The same for casters.
+    std::vector<vulkan::CasterBatch> caster_batches;
+    std::vector<vulkan::DrawPart> caster_parts;
+    std::vector<vulkan::DrawObject> caster_objects;
+
+private:
+    std::vector<std::uint32_t> makeCasterBatches(const Materials& materials, const scene::Scene& scene);
+};
+
+} // namespace gnomon::host

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "frame_data.h"
+#include "scene_draws.h"
+#include "screen.h"
+#include "shadows.h"
+
+#include <chrono>
+#include <utility>
+
+namespace gnomon::host {
+
+/// Where a frame's maps come from.
+enum class Maps : std::uint8_t {
+    planned,
+    kept, // those of the frame before, as they are
+};
+
+struct FrameRenderer::Impl {
+    Impl(SceneData& scene, const RenderOptions& options);
+    ~Impl();
+
+    /// What a frame needs until the GPU has finished it.
+    struct Slot {
+        std::shared_ptr<Screen> screen;
+        std::shared_ptr<Shadows> shadows;
+        Buffer frame_data;
+        Buffer deformed;        // vertices
+        Buffer instead_staging; // masks of someone else's
+        std::unique_ptr<Commands> commands;
+    };
+    using Clock = std::chrono::steady_clock;
+
+    SceneData& scene;
+    Gpu& gpu;
+    RenderOptions options;
+    Memory memory;
+    SceneDraws draws;
+    vulkan::Profiler profiler;
+    std::vector<Slot> slots;
+    Commands read_commands;
+    // Of the frames to come. Those before may have others, which their slots hold.
+    std::shared_ptr<Screen> screen;
+    std::shared_ptr<Shadows> shadows; // null: none are wanted
+
+    // This frame, until the next one.
+    std::uint32_t slot = 0;
+    const Plan* plan = nullptr;     // null: without shadows
+    const Image* instead = nullptr; // masks of someone else's
+    FinishedFrame finished;
+    VkDescriptorSet frame_set = VK_NULL_HANDLE;
+    VkPipeline shade = VK_NULL_HANDLE;
+    Sight sight;
+    Frame frame;
+    FrameTimes times;
+    Clock::time_point start;
+    bool deform_now = false;
+
+    ObjectSet objects;
+    std::vector<Light> frame_lights;
+    std::vector<int> cookie_layers;
+    std::vector<std::uint32_t> visible; // nearest first
+    std::vector<std::pair<float, std::uint32_t>> by_distance;
+    std::uint64_t next_index = 0;
+    std::optional<double> deformed_at_s; // as `objects` has been told
+    Plan no_plan;
+
+    [[nodiscard]] std::shared_ptr<Screen> makeScreen(const RenderOptions& wish) const;
+    [[nodiscard]] Slot& now() { return slots[slot]; }
+    void drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights, Present* present,
+                   const std::vector<ImageF>* masks_instead, Maps maps);
+    void beginSlot();
+    void finish();
+    void update(const scene::State& state);
+    void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
+    void sortNearestFirst();
+    void makePlan(Maps maps, bool masked_instead);
+    void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);
+    void writeInstead(const std::vector<ImageF>& masks);
+    void describeFrame();
+    void record(Present* present);
+    void recordGBuffer(VkCommandBuffer cmd);
+    void recordShadows(VkCommandBuffer cmd);
+    void recordInstead(VkCommandBuffer cmd);
+    void recordLight(VkCommandBuffer cmd);
+    void recordBloom(VkCommandBuffer cmd);
+    void recordPicture(VkCommandBuffer cmd);
+    void screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target);
+};
+
+} // namespace gnomon::host

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of one frame.
+#include "frame_renderer_impl.h"
+
+#include <array>
+#include <span>
+
+namespace gnomon::host {
+namespace {
+
+VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load)
+{
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = image.view;
+    info.imageLayout = layout;
+    info.loadOp = load;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+}
+
+void beginRendering(VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colours,
+                    const VkRenderingAttachmentInfo* depth)
+{
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, extent};
+    info.layerCount = 1;
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
+    info.pColorAttachments = colours.data();
+    info.pDepthAttachment = depth;
+    vkCmdBeginRendering(cmd, &info);
+}
+
+void setViewport(VkCommandBuffer cmd, VkExtent2D extent)
+{
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0F, 1.0F};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(cmd, 0, 1, &viewport);
+    vkCmdSetScissor(cmd, 0, 1, &scissor);
+}
+
+} // namespace
+
+void FrameRenderer::Impl::record(Present* present)
+{
+    frame_set = screen->frameSet(slot, finished.masks.view);
+    VkCommandBuffer cmd = now().commands->begin();
+    profiler.beginFrame(cmd, slot);
+    if (deform_now) {
+        profiler.beginPass(cmd, "deform");
+        scene.geometry.recordDeformed(cmd, now().deformed);
+        profiler.endPass(cmd);
+    }
+    recordGBuffer(cmd);
+    if (instead != nullptr) {
+        recordInstead(cmd);
+    } else if (plan != nullptr) {
+        recordShadows(cmd);
+    }
+    recordLight(cmd);
+    if (screen->bloom) {
+        recordBloom(cmd);
+    }
+    recordPicture(cmd);
+    if (present != nullptr) {
+        present->record(cmd, finished);
+    }
+}
+
+void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
+{
+    const Targets& targets = screen->targets;
+    memory.names().begin(cmd, "g-buffer");
+    profiler.beginPass(cmd, "g-buffer");
+    std::array<VkRenderingAttachmentInfo, 4> colours{};
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        barrier(cmd, targets.gbuffer[i], discardAfter(kSampledByAll), kColourWrite);
+        // Where nothing is drawn only depth and ids are looked at.
+        const VkAttachmentLoadOp load = i == 3 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        colours[i] = attachment(targets.gbuffer[i], kColourWrite.layout, load);
+    }
+    barrier(cmd, targets.depth, discardAfter(kDepthRead), kDepthWrite);
+    VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthWrite.layout, VK_ATTACHMENT_LOAD_OP_CLEAR);
+    depth.clearValue.depthStencil.depth = 0.0F;
+    beginRendering(cmd, targets.drawn, colours, &depth);
+    setViewport(cmd, targets.drawn);
+    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, frame_set));
+    vkCmdEndRendering(cmd);
+    for (const Image& image : targets.gbuffer) {
+        barrier(cmd, image, kColourWrite, kSampledByAll);
+    }
+    barrier(cmd, targets.depth, kDepthWrite, kDepthRead);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
+}
+
+void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
+{
+    const Targets& targets = screen->targets;
+    vulkan::MaskInputs inputs;
+    inputs.extent = targets.drawn;
+    inputs.depth = targets.depth.view;
+    inputs.depth_layout = kDepthRead.layout;
+    inputs.normal = targets.normals().view;
+    inputs.object_id = targets.ids().view;
+    vulkan::ShadowRenderer& renderer = shadows->renderer;
+    vulkan::CasterDrawer& casters = shadows->casters;
+    renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
+    casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
+    renderer.recordMaps(
+        cmd, slot, frame, *plan, [&](const vulkan::MapPass& pass) { profiler.addDraws(casters.draw(pass)); },
+        &profiler);
+    if (!frame_lights.empty()) {
+        renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
+    }
+}
+
+void FrameRenderer::Impl::recordInstead(VkCommandBuffer cmd)
+{
+    barrier(cmd, *instead, discardAfter(kSampled), kCopyTarget);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, instead->layers};
+    copy.imageExtent = {instead->extent.width, instead->extent.height, 1};
+    vkCmdCopyBufferToImage(cmd, now().instead_staging.handle, instead->handle, kCopyTarget.layout, 1, &copy);
+    barrier(cmd, *instead, kCopyTarget, kSampled);
+}
+
+void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
+{
+    const Targets& targets = screen->targets;
+    const Pipelines& pipelines = scene.pipelines;
+    memory.names().begin(cmd, "light");
+    profiler.beginPass(cmd, "light");
+    barrier(cmd, targets.light, discardAfter(kSampledByAll), kColourWrite);
+    const VkRenderingAttachmentInfo colour =
+        attachment(targets.light, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
+    beginRendering(cmd, targets.drawn, {&colour, 1}, &depth);
+    setViewport(cmd, targets.drawn);
+    for (VkPipeline pipeline : {shade, pipelines.sky}) {
+        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
+                                nullptr);
+        vkCmdDraw(cmd, 3, 1, 0, 0);
+    }
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set, 0, nullptr);
+    draws.bindStreams(cmd);
+    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
+    vkCmdEndRendering(cmd);
+    barrier(cmd, targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
+}
+
+void FrameRenderer::Impl::recordBloom(VkCommandBuffer cmd)
+{
+    memory.names().begin(cmd, "bloom");
+    profiler.beginPass(cmd, "bloom");
+    screen->bloom->record(cmd);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
+}
+
+void FrameRenderer::Impl::screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target)
+{
+    memory.names().begin(cmd, name);
+    profiler.beginPass(cmd, name);
+    barrier(cmd, target, discardAfter(kSampled), kColourWrite);
+    const VkRenderingAttachmentInfo colour = attachment(target, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    beginRendering(cmd, target.extent, {&colour, 1}, nullptr);
+    setViewport(cmd, target.extent);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.screen_layout, 0, 1, &frame_set, 0,
+                            nullptr);
+    vkCmdDraw(cmd, 3, 1, 0, 0);
+    vkCmdEndRendering(cmd);
+    profiler.addDraws(1);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
+}
+
+void FrameRenderer::Impl::recordPicture(VkCommandBuffer cmd)
+{
+    const Targets& targets = screen->targets;
+    const bool smooth = screen->fxaa != VK_NULL_HANDLE;
+    screenPass(cmd, "tone", screen->tone, smooth ? targets.toned : targets.picture);
+    if (smooth) {
+        barrier(cmd, targets.toned, kColourWrite, kSampled);
+        screenPass(cmd, "fxaa", screen->fxaa, targets.picture);
+    }
+    barrier(cmd, targets.picture, kColourWrite, kCopySource);
+}
+
+} // namespace gnomon::host

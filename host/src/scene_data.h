@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "draw_table.h"
+#include "pipelines.h"
+
+#include "host/scene_on_gpu.h"
+
+#include <optional>
+
+namespace gnomon::host {
+
+struct SceneData {
+    SceneData(Gpu& gpu, const scene::Scene& scene, const scene::State& state);
+
+    Gpu& gpu;
+    const scene::Scene& scene;
+    Memory memory;
+    std::unique_ptr<Uploader> uploader; // until the upload has been waited for
+    Textures textures;
+    Materials materials;
+    Geometry geometry;
+    DrawTable table;
+    Pipelines pipelines;
+    /// Which state the deformed vertices are of once all that was submitted is done.
+    std::optional<double> deformed_at_s;
+
+    /// Waits for the upload, and gives its staging buffer back.
+    void finishUpload() { uploader.reset(); }
+    [[nodiscard]] vulkan::CasterGeometry casterGeometry() const
+    {
+        return {geometry.positions.handle, 0, geometry.uvs.handle, 0, geometry.indices.handle, 0};
+    }
+};
+
+} // namespace gnomon::host

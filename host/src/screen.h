@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// All of a FrameRenderer that depends on the picture's size.
+#pragma once
+
+#include "bloom.h"
+#include "scene_data.h"
+#include "targets.h"
+
+#include <optional>
+
+namespace gnomon::host {
+
+/// What is drawn: the picture's size, or twice that on each side with supersampling.
+[[nodiscard]] VkExtent2D drawnExtent(const RenderOptions& options);
+
+/// Frames that the GPU has not finished share one, so it lives until the last of them is done.
+class Screen {
+public:
+    /// `frame_data`: the uniform buffer of each slot. Throws Error for sizes and options beyond their range or the
+    /// device's limits, or when memory runs out.
+    Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data);
+    ~Screen();
+    Screen(const Screen&) = delete;
+    Screen& operator=(const Screen&) = delete;
+
+    /// The set 0 of a slot's frame, with this mask; the scene's cookies stand in for none. The GPU has finished the
+    /// slot's last frame.
+    [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
+    /// An image for masks of someone else's, with so many layers at least.
+    [[nodiscard]] const Image& insteadFor(std::uint32_t layers);
+    [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
+
+private:
+    SceneData& scene_;
+    Memory memory_;
+
+public:
+    Targets targets;
+    std::optional<Bloom> bloom;
+    VkPipeline tone = VK_NULL_HANDLE;
+    VkPipeline fxaa = VK_NULL_HANDLE; // null without it
+
+private:
+    void makeSets(std::span<const Buffer> frame_data);
+
+    Image instead_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> sets_; // by slot
+};
+
+} // namespace gnomon::host

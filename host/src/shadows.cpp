@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadows.h"
+
+#include <algorithm>
+
+namespace gnomon::host {
+namespace {
+
+vulkan::ShadowRendererOptions rendererOptions(const Gpu& gpu, const RenderOptions& options)
+{
+    vulkan::ShadowRendererOptions wish;
+    wish.filter = vulkan::filterOptionsOf(options.shadow);
+    wish.frames_in_flight = options.frames_in_flight;
+    wish.pipeline_cache = gpu.pipelineCache();
+    return wish;
+}
+
+vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const vulkan::ShadowRenderer& renderer,
+                                          const RenderOptions& options)
+{
+    vulkan::CasterDrawerOptions wish;
+    wish.orthographic = renderer.mapFormats(true);
+    wish.perspective = renderer.mapFormats(false);
+    wish.frames_in_flight = options.frames_in_flight;
+    wish.pipeline_cache = gpu.pipelineCache();
+    return wish;
+}
+
+bool isFitted(const View& view)
+{
+    return view.gpu_cascade != kNoIndex;
+}
+
+} // namespace
+
+Shadows::Shadows(const SceneData& scene, const RenderOptions& options)
+    : planner(options.shadow), renderer(scene.gpu.view(), rendererOptions(scene.gpu, options)),
+      casters(scene.gpu.view(), casterOptions(scene.gpu, renderer, options))
+{
+    casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);
+    renderer.setCascadePass(options.shadow.cascades.pass);
+    casters.setCascadePass(options.shadow.cascades.pass);
+}
+
+const Plan& Shadows::planAgain()
+{
+    if (plan != &kept_) {
+        kept_ = *plan;
+        plan = &kept_;
+    }
+    for (View& view : kept_.views) {
+        view.redraw = false;
+        view.redraw_kept = false;
+        view.presumes = view.makes;
+        view.kept_presumes = view.kept_makes;
+    }
+    return kept_;
+}
+
+bool Shadows::outgrownBy(const Plan& next, VkExtent2D screen)
+{
+    Need now;
+    std::uint32_t tile_width = 0;
+    std::uint32_t tile_height = 0;
+    for (const View& view : next.views) {
+        tile_width = std::max(tile_width, view.tile.width);
+        tile_height = std::max(tile_height, view.tile.height);
+    }
+    const MapPages& pages = next.pages.front();
+    now.sizes = {pages.width,       pages.height,      pages.layers,
+                 pages.kept_layers, next.views.size(), next.lights.size(),
+                 tile_width,        tile_height,       0};
+    now.motion = next.technique.motion;
+    // Any other screen, not only a larger one.
+    now.sizes[8] = std::size_t{screen.width} << 32U | screen.height;
+    bool outgrown = now.motion != need_.motion || now.sizes[8] != need_.sizes[8];
+    for (std::size_t i = 0; i + 1 < now.sizes.size(); ++i) {
+        outgrown = outgrown || now.sizes[i] > need_.sizes[i];
+        now.sizes[i] = std::max(now.sizes[i], need_.sizes[i]);
+    }
+    need_ = now;
+    return outgrown;
+}
+
+const Plan& Shadows::fittedPlan(std::uint32_t slot)
+{
+    if (std::none_of(plan->views.begin(), plan->views.end(), isFitted)) {
+        return *plan;
+    }
+    if (fitted_frame_ != plan->frame) {
+        fitted_ = *plan;
+        fitted_frame_ = plan->frame;
+        const std::vector<FittedView> found = renderer.fittedViews(slot);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            View& view = fitted_.views[i];
+            view = isFitted(view) ? viewAsFitted(view, found[i]) : view;
+        }
+    }
+    return fitted_;
+}
+
+} // namespace gnomon::host

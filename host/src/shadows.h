@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library, set up for one technique.
+#pragma once
+
+#include "scene_data.h"
+
+#include "host/frame_renderer.h"
+
+#include <optional>
+
+namespace gnomon::host {
+
+/// Frames that the GPU has not finished share one, so it lives until the last of them is done.
+struct Shadows {
+    /// Throws Error.
+    Shadows(const SceneData& scene, const RenderOptions& options);
+
+    /// The last plan once more, nothing of which is to be drawn.
+    [[nodiscard]] const Plan& planAgain();
+    /// Does prepare() free images that frames in flight may use?
+    [[nodiscard]] bool outgrownBy(const Plan& plan, VkExtent2D screen);
+    /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
+    [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
+
+    Planner planner;
+    vulkan::ShadowRenderer renderer;
+    vulkan::CasterDrawer casters;
+    const Plan* plan = nullptr; // the last one
+
+private:
+    /// The most that any plan needed.
+    struct Need {
+        std::array<std::size_t, 9> sizes{};
+        Motion motion = Motion::free;
+    };
+    Plan kept_;
+    Plan fitted_;
+    std::optional<std::uint64_t> fitted_frame_;
+    Need need_;
+};
+
+} // namespace gnomon::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame looks at: the eye and the lights, in the scene's terms and in the library's.
+#pragma once
+
+#include "scene/state.h"
+
+#include <gnomon/frame.h>
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::host {
+
+/// Where the picture is taken from; perspective.
+struct Eye {
+    glm::dvec3 position_ws{0.0};
+    glm::dvec3 target_ws{0.0, 0.0, -1.0};
+    glm::dvec3 up_ws{0.0, 1.0, 0.0};
+    double fov_y_rad = 0.8; // vertical; (0, pi)
+    double near_m = 0.0;    // 0: 1/20000 of the diagonal of the scene's bounds
+    double far_m = 0.0;     // 0: behind everything
+};
+
+/// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
+struct ShadedLight {
+    std::string name;
+    Light caster;                        // gnomon/frame.h
+    glm::vec3 colour{1.0F};              // linear, times intensity at full strength: lux (directional) or candela
+    glm::vec3 strength{1.0F};            // what it gives now, as a share of that; the exposure is chosen for all of it
+    double inner_half_angle_rad = 0.0;   // spot
+    glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
+    std::uint32_t cookie = scene::kNone; // image of the scene
+};
+/// A light of strength 0 casts no shadow, so that nobody draws a map for it.
+[[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
+
+/// Lights of one frame at most.
+inline constexpr std::size_t kMaxLights = 64;
+
+/// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
+[[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
+/// Fills an ObjectSet with a state's objects (handle = index) or updates it.
+void fillObjectSet(const scene::State& state, ObjectSet& objects);
+
+} // namespace gnomon::host
