@@ -13,11 +13,9 @@
 // need is never run.
 #ifndef GNOMON_AVERAGE_GLSL
 #define GNOMON_AVERAGE_GLSL
+#include "../shared/choice_numbers.h"
 #include "../shared/exponential.h"
 GN_BEGIN
-
-GN_CONST int kFilterEsm = 5; // gnomon::Filter
-GN_CONST int kFilterEvsm = 6;
 
 GN_FN bool averagesLogarithms(int filter_number, int flags)
 {

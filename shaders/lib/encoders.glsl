@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of what filterable maps store. A new one is a line here; the number is that of gnomon::Filter. An encoder is
-// a function `real4 name(EncodeInput e, MomentRule rule)` whose result may be averaged over texels (averageOf()).
+// The table of what filterable maps store. A new one is a line here. An encoder is a function `real4 name(EncodeInput e, MomentRule rule)` whose result may be averaged over texels (averageOf()).
 #ifndef GNOMON_ENCODERS_GLSL
 #define GNOMON_ENCODERS_GLSL
+#include "../shared/choice_numbers.h"
 #include "../shared/exponential.h"
 #include "../shared/moments.h"
 #include "../shared/moments_four.h"
 GN_BEGIN
 
 // clang-format off
-#define GN_ENCODERS(LINE) \
-    LINE(3, encodeVsm)    \
-    LINE(4, encodeLvsm)   \
-    LINE(5, encodeEsm)    \
-    LINE(6, encodeEvsm)   \
-    LINE(7, encodeMsm)
+#define GN_ENCODERS(LINE)               \
+    LINE(kFilterVsm, encodeVsm)         \
+    LINE(kFilterLvsm, encodeLvsm)       \
+    LINE(kFilterEsm, encodeEsm)         \
+    LINE(kFilterEvsm, encodeEvsm)       \
+    LINE(kFilterMsm, encodeMsm)
 // clang-format on
 
 GN_FN real4 encodeDepth(int filter_number, EncodeInput e, MomentRule rule)

@@ -1,36 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of filters. A new one is a file in this folder, its include, and a line here; the number is that of
-// gnomon::Filter (core/include/gnomon/choices.h).
+// The table of filters. A new one is a file in this folder, a number in shared/choice_numbers.h, and its lines here.
+// With GNOMON_FILTER defined as one of those numbers that filter alone is compiled.
 #ifndef GNOMON_FILTERS_GLSL
 #define GNOMON_FILTERS_GLSL
-#include "esm.glsl"
-#include "evsm.glsl"
+#include "../shared/choice_numbers.h"
+#include "filter_types.glsl"
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_HARD
 #include "hard.glsl"
-#include "lvsm.glsl"
-#include "msm.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCF
 #include "pcf.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_VSM
 #include "vsm.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_LVSM
+#include "lvsm.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_ESM
+#include "esm.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_EVSM
+#include "evsm.glsl"
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_MSM
+#include "msm.glsl"
+#endif
 GN_BEGIN
 
-// clang-format off
-#define GN_FILTERS(LINE) \
-    LINE(0, filterHard)  \
-    LINE(1, filterPcf)   \
-    LINE(3, filterVsm)   \
-    LINE(4, filterLvsm)  \
-    LINE(5, filterEsm)   \
-    LINE(6, filterEvsm)  \
-    LINE(7, filterMsm)
-// clang-format on
-
+// `filter_number` counts only where more than one filter is compiled.
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
-#define GN_LINE(number, function)                                                                                      \
-    if (filter_number == number)                                                                                       \
-        return function(point, f);
-    GN_FILTERS(GN_LINE)
-#undef GN_LINE
-    return real(1.0);
+#if defined(GNOMON_FILTER)
+#if GNOMON_FILTER == GNOMON_FILTER_HARD
+    return filterHard(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_PCF
+    return filterPcf(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_VSM
+    return filterVsm(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_LVSM
+    return filterLvsm(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_ESM
+    return filterEsm(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_EVSM
+    return filterEvsm(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_MSM
+    return filterMsm(point, f);
+#endif
+#else
+    switch (filter_number) {
+    case GNOMON_FILTER_HARD:
+        return filterHard(point, f);
+    case GNOMON_FILTER_PCF:
+        return filterPcf(point, f);
+    case GNOMON_FILTER_VSM:
+        return filterVsm(point, f);
+    case GNOMON_FILTER_LVSM:
+        return filterLvsm(point, f);
+    case GNOMON_FILTER_ESM:
+        return filterEsm(point, f);
+    case GNOMON_FILTER_EVSM:
+        return filterEvsm(point, f);
+    case GNOMON_FILTER_MSM:
+        return filterMsm(point, f);
+    default:
+        return real(1.0);
+    }
+#endif
 }
 
 GN_END

@@ -3,14 +3,10 @@
 // texel of another tile.
 #ifndef GNOMON_MOMENT_SAMPLING_GLSL
 #define GNOMON_MOMENT_SAMPLING_GLSL
+#include "../shared/choice_numbers.h"
 #include "../shared/footprint.h"
 #include "filter_types.glsl"
 GN_BEGIN
-
-// The values of gnomon::MapSampling.
-GN_CONST int kSamplingNearest = 0;
-GN_CONST int kSamplingBilinear = 1;
-GN_CONST int kSamplingTrilinear = 2;
 
 // Half a texel of the coarser level that the read blends in, inside of the tile; its middle where it is narrower.
 GN_FN real2 keepInside(real2 texel, real level, real4 tile)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light's visibility at a point: what the mask pass calls, and what a host that shades from the maps itself includes
-// (with gpu_structs.h as its uniform buffer and the functions of filter_types.glsl defined before: map_texture.glsl has
-// them for one array texture).
+// What one view says of a point. The includer defines the functions of filter_types.glsl before: map_texture.glsl has
+// them for one array texture.
 #ifndef GNOMON_VISIBILITY_GLSL
 #define GNOMON_VISIBILITY_GLSL
 #include "../shared/gpu_structs.h"
@@ -56,7 +55,7 @@ GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
     return facesDirection(n, real3(place.x, place.y, place.z) - p * place.w);
 }
 
-// GpuMaskLayer's moment_warp, moment_variance and moment_shape, with what pipelines have as constants: the flags of
+// GpuRule's moment_warp, moment_variance and moment_shape, with what pipelines may have as constants: the flags of
 // moment_rule.h, a gnomon::MapSampling and lvsm's number of layers.
 GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN_VEC4 variance, GN_VEC4 shape)
 {
@@ -78,7 +77,7 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     return rule;
 }
 
-// Does this view serve a point at this depth of the camera (dot(GpuMaskLayer::view_axis, p)), and is the point in the
+// Does this view serve a point at this depth of the camera (dot(GpuScreen::view_axis, p)), and is the point in the
 // map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p, real depth)
 {

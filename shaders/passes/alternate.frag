@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {
-    GpuMaskLayer mask;
+    GpuConstants gnomon;
 };
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2DArray visibility_now;
@@ -28,7 +28,7 @@ layout(location = 1) out float distance_now;
 // Bilinear, of those pixels that show the same surface. w of the point in the frame before > 0.
 void addBefore(ivec2 pixel, float share, float expected, inout vec4 sum, inout float shares)
 {
-    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(vec2(pixel), mask.screen.xy))) {
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(vec2(pixel), gnomon.screen.size.xy))) {
         return;
     }
     ivec3 at = ivec3(pixel, int(before.eye.w));
@@ -45,11 +45,11 @@ void main()
     visibility = now;
     distance_now = 0.0; // the background: no surface
     float depth = texelFetch(depths, pixel, 0).r;
-    if (depth == mask.atlas.z) {
+    if (depth == gnomon.screen.view_axis.w) {
         return;
     }
-    vec4 ndc = vec4((vec2(pixel) + 0.5) * mask.screen.zw * 2.0 - 1.0, depth, 1.0);
-    vec4 h = vec4(dot(mask.eye_x, ndc), dot(mask.eye_y, ndc), dot(mask.eye_z, ndc), dot(mask.eye_w, ndc));
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);
+    vec4 h = vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
     vec3 p = h.xyz / h.w;
     distance_now = length(p);
     vec4 point = vec4(p, 1.0);
@@ -59,7 +59,7 @@ void main()
     }
     vec2 texel = vec2(dot(before.x, point), dot(before.y, point)) / w - 0.5;
     // What is far off the screen need not be representable as an integer.
-    texel = clamp(texel, vec2(-2.0), mask.screen.xy + 1.0);
+    texel = clamp(texel, vec2(-2.0), gnomon.screen.size.xy + 1.0);
     vec2 cell = floor(texel);
     vec2 part = texel - cell;
     ivec2 first = ivec2(cell);

@@ -1,27 +1,19 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Puts what was found of cascades into the mask's constants, one thread a view: those that say so in their slice.w were
+// Puts what was found of cascades into the mask's views, one thread a view: those that say so in their slice.w were
 // filled in for the base map.
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/gpu_cascades.h"
 #include "../shared/gpu_structs.h"
-layout(local_size_x = kViewsPerLayer) in;
-layout(set = 0, binding = 0, std430) readonly buffer Views
+layout(local_size_x = kCompleteGroup) in;
+layout(set = 0, binding = 0, std430) readonly buffer Fitted
 {
     GpuFittedView fitted[];
 };
-layout(set = 0, binding = 1, std430) buffer Constants
+layout(set = 0, binding = 1, std430) buffer Views
 {
-    vec4 words[];
+    GpuView views[];
 };
-layout(push_constant, std430) uniform Push
-{
-    uint first; // word of the layer's first view
-};
-
-const uint kWords = 12; // of a GpuView, in its order
-const uint kX = 0, kY = 1, kW = 2, kMetric = 3, kScale = 5, kPlaneX = 6, kPlaneY = 7, kPlaneW = 8, kWhole = 9;
-const uint kSlice = 11;
 
 // The row of a place X = half (x + w) + first w in the atlas, in texels, for (x - centre w) scale instead of x.
 vec4 placedRow(vec4 row, vec4 w, float first, float size, float scale, float centre)
@@ -33,23 +25,26 @@ vec4 placedRow(vec4 row, vec4 w, float first, float size, float scale, float cen
 
 void main()
 {
-    uint at = first + kWords * gl_LocalInvocationID.x;
-    uint view = uint(words[at + kSlice].w);
-    if (view == 0u || view > uint(fitted.length())) { // what was never filled in may hold anything
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= uint(views.length())) {
         return;
     }
-    GpuFittedView found = fitted[view - 1u];
-    vec4 whole = words[at + kWhole];
-    vec4 w = words[at + kW];
-    vec4 x = placedRow(words[at + kX], w, whole.x, whole.z - whole.x, found.place.x, found.place.z);
-    vec4 y = placedRow(words[at + kY], w, whole.y, whole.w - whole.y, found.place.y, found.place.w);
-    vec3 metric = words[at + kMetric].xyz;
+    uint number = uint(views[i].slice.w);
+    if (number == 0u || number > uint(fitted.length())) {
+        return;
+    }
+    GpuFittedView found = fitted[number - 1u];
+    vec4 whole = views[i].whole;
+    vec4 w = views[i].w;
+    vec4 x = placedRow(views[i].x, w, whole.x, whole.z - whole.x, found.place.x, found.place.z);
+    vec4 y = placedRow(views[i].y, w, whole.y, whole.w - whole.y, found.place.y, found.place.w);
+    vec3 metric = views[i].metric.xyz;
     vec3 across = cross(x.xyz, y.xyz);
-    words[at + kX] = x;
-    words[at + kY] = y;
-    words[at + kScale].x = found.slice.w;
-    words[at + kPlaneX] = vec4(cross(metric, y.xyz), 0.0);
-    words[at + kPlaneY] = vec4(cross(x.xyz, metric), 0.0);
-    words[at + kPlaneW] = vec4(across, 1e-6 * length(across));
-    words[at + kSlice] = vec4(found.slice.xyz, 0.0);
+    views[i].x = x;
+    views[i].y = y;
+    views[i].scale.x = found.slice.w;
+    views[i].plane_x = vec4(cross(metric, y.xyz), 0.0);
+    views[i].plane_y = vec4(cross(x.xyz, metric), 0.0);
+    views[i].plane_w = vec4(across, 1e-6 * length(across));
+    views[i].slice = vec4(found.slice.xyz, 0.0);
 }

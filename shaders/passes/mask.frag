@@ -1,4 +1,105 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
+// The mask. Up to four lights of one layer of the mask, for the pixel's surface. Made for one filter (GNOMON_FILTER), for
+// orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY) and with object ids (GNOMON_OBJECT_IDS).
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/mask_fragment.glsl"
+#include "../shared/choice_numbers.h"
+#include "../shared/octahedral.h"
+
+// Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
+layout(constant_id = 0) const int kKernelWidth = 3; // see FilterInput
+layout(constant_id = 1) const int kDiscTaps = 16;
+layout(constant_id = 2) const bool kHasNormals = true;
+layout(constant_id = 3) const bool kAutomaticBias = true;
+layout(constant_id = 4) const int kMomentFlags = 0;    // see MomentRule
+layout(constant_id = 5) const int kMomentSampling = 0; // gnomon::MapSampling
+layout(constant_id = 6) const int kMomentLayers = 2;   // of lvsm
+layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_depth.h
+#define GNOMON_KERNEL_WIDTH kKernelWidth
+#define GNOMON_DISC_TAPS kDiscTaps
+#define GNOMON_AUTOMATIC_BIAS kAutomaticBias
+#define GNOMON_MOMENT_FLAGS kMomentFlags
+#define GNOMON_MOMENT_SAMPLING kMomentSampling
+#define GNOMON_MOMENT_LAYERS kMomentLayers
+#define GNOMON_DEPTH_HOLDING kDepthHolding
+#include "../lib/light_visibility.glsl"
+
+layout(push_constant) uniform Lights
+{
+    uint first_light; // of the layer's
+    uint channels;    // bit i: this draw writes channel i
+};
+layout(set = 0, binding = 5) uniform sampler2D depths;
+layout(set = 0, binding = 6) uniform sampler2D normals;
+#ifdef GNOMON_OBJECT_IDS
+layout(set = 0, binding = 7) uniform usampler2D object_ids;
+#endif
+layout(location = 0) out vec4 visibility;
+
+// Eye-relative position of a pixel, homogeneous.
+vec4 pointAt(ivec2 pixel, float depth)
+{
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);
+    return vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
+}
+
+vec3 positionAt(ivec2 pixel, float depth)
+{
+    vec4 p = pointAt(pixel, depth);
+    return p.xyz / p.w;
+}
+
+// The two pixels on one side. x, y: their depths; z: how far the pixel is off the line through them.
+vec3 side(ivec2 pixel, ivec2 step_px, float depth)
+{
+    ivec2 far = pixel + 2 * step_px;
+    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), gnomon.screen.size.xy))) {
+        return vec3(depth, depth, 3e38);
+    }
+    float a = texelFetch(depths, pixel + step_px, 0).r;
+    float b = texelFetch(depths, far, 0).r;
+    return vec3(a, b, abs(2.0 * a - b - depth));
+}
+
+// Along one axis of the screen, towards positive coordinates. A plane's depth is affine on the screen, so the side
+// where the pixel continues its neighbours' line is on the pixel's own surface. Based on: Y. Wu (atyuwen), "Accurate
+// Normal Reconstruction from Depth Buffer", 2021.
+vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
+{
+    vec3 before = side(pixel, -step_px, depth);
+    vec3 after = side(pixel, step_px, depth);
+    return before.z < after.z ? p - positionAt(pixel - step_px, before.x) : positionAt(pixel + step_px, after.x) - p;
+}
+
+vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
+{
+    vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p), tangentFromDepth(pixel, ivec2(0, 1), depth, p));
+    float l = length(n);
+    n = l > 0.0 ? n / l : normalize(-p);
+    return dot(n, p) > 0.0 ? -n : n; // towards the eye
+}
+
+void main()
+{
+    visibility = vec4(1.0);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depths, pixel, 0).r;
+    if (depth == gnomon.screen.view_axis.w) {
+        return;
+    }
+#ifdef GNOMON_OBJECT_IDS
+    if (texelFetch(object_ids, pixel, 0).r == 0) {
+        return;
+    }
+#endif
+    vec4 h = pointAt(pixel, depth);
+    vec3 p = h.xyz / h.w;
+    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
+    uint left = channels;
+    do {
+        int channel = findLSB(left);
+        float v = lightVisibility(first_light + channel, p, n, gl_FragCoord.xy, h.w);
+        visibility = mix(visibility, vec4(v), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
+        left &= left - 1u;
+    } while (left != 0u);
+}

@@ -19,12 +19,13 @@ namespace gnomon::shared {
 #endif
 
 GN_CASCADE_CONST int kMostCascades = 6;
-GN_CASCADE_CONST int kBoundsGroup = 16; // threads of a group along x and y; it looks at twice as many pixels
-GN_CASCADE_CONST int kDepthKeys = 2;    // of GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
+GN_CASCADE_CONST int kBoundsGroup = 16;   // threads of a group along x and y; it looks at twice as many pixels
+GN_CASCADE_CONST int kCompleteGroup = 64; // views that one group of cascade_constants.comp completes
+GN_CASCADE_CONST int kDepthKeys = 2;      // of GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
 
 // One light that is fitted on the GPU.
 struct GpuCascadeLight {
-    GN_VEC4 eye_x; // as GpuMaskLayer
+    GN_VEC4 eye_x; // as GpuScreen
     GN_VEC4 eye_y;
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mask pass reads from its uniform buffer, declared once for both sides. Everything is made of 16-byte
-// members, so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which
-// keeps single precision exact near the camera wherever in the world it is.
+// What shaders read to find a light's visibility, declared once for both sides. Everything is made of 16-byte members,
+// so that std140, std430 and C++ agree. "Eye-relative" is world space with the camera's eye as origin, which keeps
+// single precision exact near the camera wherever in the world it is.
 #ifndef GNOMON_GPU_STRUCTS_H
 #define GNOMON_GPU_STRUCTS_H
 
 #ifdef __cplusplus
 #include <glm/vec4.hpp>
 #define GN_VEC4 glm::vec4
+#define GN_IVEC4 glm::ivec4
 #define GN_UVEC4 glm::uvec4
 namespace gnomon::shared {
 inline constexpr int kLightsPerLayer = 4;
-inline constexpr int kViewsPerLayer = 64;
 inline constexpr int kDiscPoints = 64;
 inline constexpr int kDepthLayers = 8;
 #else
 #define GN_VEC4 vec4
+#define GN_IVEC4 ivec4
 #define GN_UVEC4 uvec4
 const int kLightsPerLayer = 4;
-const int kViewsPerLayer = 64;
 const int kDiscPoints = 64;
 const int kDepthLayers = 8;
 #endif
 
+// One map of one light: a storage buffer of them, as long as it needs to be, in the plan's order.
 struct GpuView {
     GN_VEC4 x; // rows that take an eye-relative point to the atlas, see MapRows
     GN_VEC4 y;
@@ -35,7 +36,9 @@ struct GpuView {
     GN_VEC4 plane_w;
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more;  // x: slot of its depth layers (lvsm), y: coarsest mip level that it may read, z: near / far
-    GN_VEC4 slice; // depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend
+    // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: only while the GPU
+    // has yet to fit the view (cascade_constants.comp): one past its number in the plan
+    GN_VEC4 slice;
 };
 
 // The layers of depth of one view's lvsm map, ascending; beyond the last, begins is 2. In the view's depth metric.
@@ -43,40 +46,55 @@ struct GpuDepthLayers {
     GN_VEC4 layer[kDepthLayers]; // x: near and y: far that it spans, z: where its receivers begin, w: Lloyd's mean
 };
 
+// A storage buffer of them: the frame's lights by their index, then what the mask pass alone reads.
 struct GpuLight {
     GN_VEC4 place; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
-    // x: first and y: count of its further views; z: 0 when it has no map (then visibility is 1); w: where it is seen
-    // from two positions, the count of further views of the later one, which follow those of the earlier one
+    // x: the light's size: radius in metres, or of a directional light the tangent of half its angular diameter; yzw:
+    // the direction in which it shines, unit
+    GN_VEC4 size;
+    // x: first and y: count of its views; none: it has no map and reaches everything. Where it is seen from two
+    // positions these are the earlier one's, z: first and w: count of the later one's, else w is 0
     GN_UVEC4 views;
+    GN_VEC4 steps;    // where it is seen from two positions: sun_steps.h
+    GN_UVEC4 options; // x: which of the GpuRules is its own
 };
 
-struct GpuMaskLayer {
+// What a light's options come to, for the filter that reads its maps.
+struct GpuRule {
+    GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
+    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum
+    GN_VEC4 kernel;                       // gaussianWeights
+    GN_VEC4 disc;                         // x: radius, texels; zw: one over the size of the maps' image in texels
+    GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy
+    GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-
+    GN_VEC4 moment_shape;                 // linstep, power, lighten
+    GN_IVEC4 reading;                     // gnomon::Filter, kernel width, taps of the disc, holding (paired_depth.h)
+    GN_IVEC4 moments;                     // MomentRule's flags, sampling and layers
+    GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
+};
+
+// What a picture's pixels have in common.
+struct GpuScreen {
     GN_VEC4 eye_x; // rows of eye_from_ndc: (x, y, depth, 1) to eye-relative homogeneous
     GN_VEC4 eye_y;
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;
-    GN_VEC4 view_axis;                    // xyz: unit, along the camera's view: depth is the dot product with it
-    GN_VEC4 fade;                         // distance from the eye: x: where shadows begin to fade, y: one over the way
-    GN_VEC4 screen;                       // xy: size in pixels, zw: one over it
-    GN_VEC4 atlas;                        // xy: one over its size in texels; z: the depth of the background (0 or 1)
-    GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
-    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum
-    GN_VEC4 kernel;                       // gaussianWeights
-    GN_VEC4 disc;                         // x: radius, texels
-    GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy
-    GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-
-    GN_VEC4 moment_shape;                 // linstep, power, lighten
-    GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each
-    GpuLight lights[kLightsPerLayer];
-    GN_VEC4 steps[kLightsPerLayer]; // of lights that are seen from two positions: sun_steps.h
-    // Light i's first view is views[i], and where a light of the layer is seen from two positions the first view of the
-    // later one is views[kLightsPerLayer + i]. Further ones follow from there on.
-    GpuView views[kViewsPerLayer];
+    GN_VEC4 clip_w; // the row that takes an eye-relative point to clip space's w
+    GN_VEC4
+    view_axis;    // xyz: unit, along the camera's view: depth is the dot product with it; w: the background's depth
+    GN_VEC4 fade; // distance from the eye: x: where shadows begin to fade, y: one over the way
+    GN_VEC4 size; // xy: in pixels, zw: one over it
+};
+
+// A uniform block: of the mask pass one for each options index; of a host that shades from the maps itself, one.
+struct GpuConstants {
+    GpuScreen screen;
+    GpuRule rule;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 192 && sizeof(GpuLight) == 32 && sizeof(GpuDepthLayers) == 128 &&
-              sizeof(GpuMaskLayer) == 240 + 32 * 16 + 4 * 32 + 4 * 16 + 64 * 192);
+static_assert(sizeof(GpuView) == 192 && sizeof(GpuLight) == 80 && sizeof(GpuDepthLayers) == 128 &&
+              sizeof(GpuRule) == 144 + 32 * 16 && sizeof(GpuScreen) == 128 && sizeof(GpuConstants) == 784);
 } // namespace gnomon::shared
 #endif
 #endif

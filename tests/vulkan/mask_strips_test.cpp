@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace gnomon::test {
@@ -19,7 +20,16 @@ namespace {
 class Memory {
 public:
     [[nodiscard]] vulkan::MemoryHooks hooks() { return {this, allocate, release}; }
-    [[nodiscard]] shared::GpuMaskLayer& maskLayer() const { return *static_cast<shared::GpuMaskLayer*>(constants_); }
+    /// Of the mask's first layer.
+    [[nodiscard]] shared::GpuLight* lights() const
+    {
+        VkPhysicalDeviceProperties device{};
+        vkGetPhysicalDeviceProperties(gpu().view().physical_device, &device);
+        const std::size_t align = std::max<std::size_t>(
+            {device.limits.minUniformBufferOffsetAlignment, device.limits.minStorageBufferOffsetAlignment, 16});
+        const std::size_t at = (sizeof(shared::GpuConstants) + align - 1) / align * align;
+        return reinterpret_cast<shared::GpuLight*>(static_cast<std::byte*>(constants_) + at);
+    }
 
 private:
     static VkResult allocate(void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
@@ -78,7 +88,7 @@ public:
                                       [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
             bench.renderer.recordMask(commands, 0, bench.frame, bench.plan, bench.inputs);
             for (std::size_t i = 0; i < steps.size(); ++i) {
-                memory_.maskLayer().steps[i] = vulkan::stepRule(steps[i]);
+                memory_.lights()[i].steps = vulkan::stepRule(steps[i]);
             }
         });
         std::vector<Mask> masks;

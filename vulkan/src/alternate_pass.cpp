@@ -20,7 +20,7 @@ namespace {
 
 enum Binding : std::uint32_t { kConstants, kDepth, kNow, kBefore, kDistances, kBindingCount };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
@@ -79,8 +79,8 @@ AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkP
 {
     sets_.reset(2 * frames_in_flight);
     for (auto& turns : slots_) {
-        for (Set& set : turns) {
-            set.set = sets_.take("alternate");
+        for (VkDescriptorSet& set : turns) {
+            set = sets_.take("alternate");
         }
     }
 }
@@ -121,11 +121,6 @@ void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
         info.format = VK_FORMAT_R32_SFLOAT;
         history.distances = Image(device_, info);
     }
-    for (auto& turns : slots_) {
-        for (Set& set : turns) {
-            set.inputs = {};
-        }
-    }
     lights_.resize(lights);
     fresh_ = true;
     forget();
@@ -136,22 +131,17 @@ void AlternatePass::forget()
     std::fill(lights_.begin(), lights_.end(), LightHistory{});
 }
 
-void AlternatePass::updateSet(Set& set, const AlternateInputs& inputs)
+void AlternatePass::writeSet(VkDescriptorSet set, const AlternateInputs& inputs)
 {
-    if (set.inputs.depth == inputs.depth && set.inputs.depth_layout == inputs.depth_layout &&
-        set.inputs.constants == inputs.constants) {
-        return;
-    }
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
     const std::array<DescriptorSets::Write, kBindingCount> writes{
-        DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuMaskLayer)),
+        DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuConstants)),
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         DescriptorSets::image(kNow, sampler, now().visibility.view(), kRead),
         DescriptorSets::image(kBefore, sampler, before().visibility.view(), kRead),
         DescriptorSets::image(kDistances, sampler, before().distances.view(), kRead)};
-    sets_.write(set.set, writes);
-    set.inputs = inputs;
+    sets_.write(set, writes);
 }
 
 glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) const
@@ -221,8 +211,8 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
 void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                            const AlternateInputs& inputs, const Image& mask)
 {
-    Set& set = slots_[slot][turn_];
-    updateSet(set, inputs);
+    const VkDescriptorSet set = slots_[slot][turn_];
+    writeSet(set, inputs);
     if (fresh_) { // nobody reads what is not there, but shaders name it
         for (const Image* image : {&before().visibility, &before().distances}) {
             ImageBarrier barrier = barrierOf(*image);
@@ -240,10 +230,8 @@ void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const F
     recordBarrier(device_, commands, barrier);
     device_.beginLabel(commands, "alternate");
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
     for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
-        const auto offset = static_cast<std::uint32_t>(inputs.constants_stride * layer);
-        device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set.set, 1,
-                                         &offset);
         recordLayer(commands, frame, plan, layer, mask);
     }
     device_.endLabel(commands);

@@ -17,8 +17,7 @@ namespace gnomon::vulkan {
 struct AlternateInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkBuffer constants = VK_NULL_HANDLE; // a GpuMaskLayer for each layer of the mask
-    VkDeviceSize constants_stride = 0;   // from one layer's to the next one's
+    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
 };
 
 class AlternatePass {
@@ -44,12 +43,7 @@ private:
         bool known = false;
         glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
     };
-    struct Set {
-        VkDescriptorSet set = VK_NULL_HANDLE;
-        AlternateInputs inputs; // that it names
-    };
-
-    void updateSet(Set& set, const AlternateInputs& inputs);
+    void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);
     void makePipeline(VkFormat mask_format);
     void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
                      const Image& mask);
@@ -64,7 +58,7 @@ private:
     DescriptorSets sets_;
     PipelineLayout layout_;
     Pipeline pipeline_;
-    std::vector<std::array<Set, 2>> slots_; // by slot and turn
+    std::vector<std::array<VkDescriptorSet, 2>> slots_; // by slot and turn
     std::array<History, 2> history_;
     std::size_t turn_ = 0;
     Camera camera_; // of the frame before

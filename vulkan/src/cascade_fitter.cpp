@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
 
 namespace gnomon::vulkan {
 namespace {
@@ -139,9 +138,6 @@ void CascadeFitter::makeBuffers(std::uint32_t views, std::uint32_t lights)
         slot.lights = HostBuffer(device_, lights * sizeof(shared::GpuCascadeLight), kStorage, kPurpose);
         slot.report = HostBuffer(device_, view_bytes, kStorage, kPurpose);
         slot.view_count = 0;
-        // The sets name buffers that are gone, whatever the handles of the new ones are.
-        slot.depth = VK_NULL_HANDLE;
-        slot.constants = VK_NULL_HANDLE;
     }
 }
 
@@ -171,7 +167,7 @@ void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, c
 {
     assert(slot_index < slots_.size() && inputs.depth != VK_NULL_HANDLE);
     Slot& slot = slots_[slot_index];
-    updateFitSet(slot, inputs);
+    writeFitSet(slot, inputs);
     const std::uint32_t lights = fillLights(slot, frame, plan, inputs);
     slot.view_count = static_cast<std::uint32_t>(plan.views.size());
     fitted_frame_ = plan.frame;
@@ -206,25 +202,19 @@ bool CascadeFitter::isFitted(const Plan& plan) const
     return !fits(plan) || fitted_frame_ == plan.frame;
 }
 
-void CascadeFitter::recordConstants(VkCommandBuffer commands, std::uint32_t slot_index, const Buffer& constants,
-                                    VkDeviceSize offset)
+void CascadeFitter::recordConstants(VkCommandBuffer commands, std::uint32_t slot_index, const Buffer& buffer,
+                                    VkDeviceSize offset, std::uint32_t count)
 {
-    Slot& slot = slots_[slot_index];
-    if (slot.constants != constants.buffer()) {
-        const std::array writes{DescriptorSets::buffer(0, views_.buffer()),
-                                DescriptorSets::buffer(1, constants.buffer())};
-        complete_sets_.write(slot.complete, writes);
-        slot.constants = constants.buffer();
-    }
-    const auto first = static_cast<std::uint32_t>((offset + offsetof(shared::GpuMaskLayer, views)) / sizeof(glm::vec4));
+    const Slot& slot = slots_[slot_index];
+    const std::array writes{DescriptorSets::buffer(0, views_.buffer()),
+                            DescriptorSets::buffer(1, buffer.buffer(), count * sizeof(shared::GpuView), offset)};
+    complete_sets_.write(slot.complete, writes);
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, complete_.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, complete_layout_.get(), 0, 1,
                                      &slot.complete, 0, nullptr);
-    device_.vk.CmdPushConstants(commands, complete_layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof first, &first);
-    device_.vk.CmdDispatch(commands, 1, 1, 1);
-    recordBarrier(
-        device_, commands,
-        MemoryBarrier{kCompute, kWrite, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_UNIFORM_READ_BIT});
+    constexpr auto kGroup = static_cast<std::uint32_t>(shared::kCompleteGroup);
+    device_.vk.CmdDispatch(commands, (count + kGroup - 1) / kGroup, 1, 1);
+    recordBarrier(device_, commands, MemoryBarrier{kCompute, kWrite, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kRead});
 }
 
 std::vector<FittedView> CascadeFitter::read(std::uint32_t slot) const

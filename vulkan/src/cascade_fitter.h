@@ -26,9 +26,10 @@ public:
     /// Has record() been given this plan, or does it need none?
     [[nodiscard]] bool isFitted(const Plan& plan) const;
     [[nodiscard]] VkBuffer views() const { return views_.buffer(); } // GpuFittedView by view of the plan
-    /// Completes one layer's GpuMaskLayer at `offset` of a buffer, whose views say in slice.w which view of the plan,
-    /// counted from 1, they are to be completed for. Afterwards it is visible to FRAGMENT_SHADER as uniform.
-    void recordConstants(VkCommandBuffer commands, std::uint32_t slot, const Buffer& constants, VkDeviceSize offset);
+    /// Completes the mask's `count` views at `offset` of a buffer: those that say in slice.w for which view of the
+    /// plan, counted from 1. Afterwards they are visible to FRAGMENT_SHADER as storage buffer.
+    void recordConstants(VkCommandBuffer commands, std::uint32_t slot, const Buffer& buffer, VkDeviceSize offset,
+                         std::uint32_t count);
     /// Of every view of the last plan that was recorded with this slot, once the GPU has finished. Empty without such
     /// views.
     [[nodiscard]] std::vector<FittedView> read(std::uint32_t slot) const;
@@ -40,18 +41,13 @@ private:
         std::uint32_t view_count = 0; // in the report
         VkDescriptorSet fit = VK_NULL_HANDLE;
         VkDescriptorSet complete = VK_NULL_HANDLE;
-        // What the sets hold now.
-        VkImageView depth = VK_NULL_HANDLE;
-        VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        VkImageView object_id = VK_NULL_HANDLE;
-        VkBuffer constants = VK_NULL_HANDLE;
     };
     enum Pass : std::uint32_t { kDepth, kDepthIds, kBounds, kBoundsIds, kFinish, kPassCount };
 
     void makePipelines();
     void makeSets();
     void makeBuffers(std::uint32_t views, std::uint32_t lights);
-    void updateFitSet(Slot& slot, const MaskInputs& inputs);
+    void writeFitSet(Slot& slot, const MaskInputs& inputs);
     [[nodiscard]] std::uint32_t fillLights(Slot& slot, const Frame& frame, const Plan& plan,
                                            const MaskInputs& inputs) const;
     void dispatch(VkCommandBuffer commands, Pass pass, const glm::uvec3& groups) const;

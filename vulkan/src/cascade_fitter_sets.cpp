@@ -23,7 +23,7 @@ void CascadeFitter::makePipelines()
     fit_sets_ = DescriptorSets(device_, kFitTypes, kStage);
     complete_sets_ = DescriptorSets(device_, kCompleteTypes, kStage);
     fit_layout_ = makePipelineLayout(device_, fit_sets_.layout(), kStage, 0);
-    complete_layout_ = makePipelineLayout(device_, complete_sets_.layout(), kStage, sizeof(std::uint32_t));
+    complete_layout_ = makePipelineLayout(device_, complete_sets_.layout(), kStage, 0);
     const std::array<std::span<const std::uint32_t>, kPassCount> code{
         spirv::cascade_depth_comp, spirv::cascade_depth_ids_comp, spirv::cascade_bounds_comp,
         spirv::cascade_bounds_ids_comp, spirv::cascade_finish_comp};
@@ -45,11 +45,8 @@ void CascadeFitter::makeSets()
     }
 }
 
-void CascadeFitter::updateFitSet(Slot& slot, const MaskInputs& inputs)
+void CascadeFitter::writeFitSet(Slot& slot, const MaskInputs& inputs)
 {
-    if (slot.depth == inputs.depth && slot.depth_layout == inputs.depth_layout && slot.object_id == inputs.object_id) {
-        return;
-    }
     // No shader reads ids that are not given; but a descriptor that was never written crashes lavapipe 22.3.
     const bool ids = inputs.object_id != VK_NULL_HANDLE;
     const std::array<DescriptorSets::Write, kBindingCount> writes{
@@ -61,9 +58,6 @@ void CascadeFitter::updateFitSet(Slot& slot, const MaskInputs& inputs)
         DescriptorSets::image(kObjectIds, VK_NULL_HANDLE, ids ? inputs.object_id : inputs.depth,
                               ids ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : inputs.depth_layout)};
     fit_sets_.write(slot.fit, writes);
-    slot.depth = inputs.depth;
-    slot.depth_layout = inputs.depth_layout;
-    slot.object_id = inputs.object_id;
 }
 
 } // namespace gnomon::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the instances of casters bring to caster_vertex.glsl: rows that take an object's own points to a map, and of a
+// What the instances of casters bring to caster.vert: rows that take an object's own points to a map, and of a
 // pass of several views the layer that the map is.
 #pragma once
 

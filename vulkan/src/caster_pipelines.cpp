@@ -135,7 +135,7 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
     const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
     ShaderModule fragment;
-    // The constant_id of caster_fragment.glsl.
+    // The constant_id of caster.frag.
     const std::int32_t holding = formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes : shared::kDepthAlone;
     const VkSpecializationMapEntry entry{0, 0, sizeof holding};
     const VkSpecializationInfo specialisation{1, &entry, sizeof holding, &holding};
@@ -164,7 +164,7 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
     state.colour_mask = colourMaskOf(formats.colour, key.part);
     state.depth_format = formats.depth;
     state.samples = formats.samples;
-    // The shader's inputs say so already (caster_fragment.glsl); Mesa 22.3 wants to hear it here.
+    // The shader's inputs say so already (caster.frag); Mesa 22.3 wants to hear it here.
     state.shade_samples = formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT;
     state.cull = key.cull ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     state.depth_clamp = key.clamp;

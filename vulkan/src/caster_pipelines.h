@@ -27,7 +27,7 @@ struct CasterPipelineKey {
     static constexpr std::size_t kCount = std::size_t{8} << 4;
 };
 
-/// Push constants: caster_vertex.glsl, Material.
+/// Push constants: caster.vert, Material.
 struct CasterMaterial {
     glm::vec4 uv_u{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec4 uv_v{0.0F, 1.0F, 0.0F, 0.0F};

@@ -37,9 +37,10 @@ public:
     {
         return {binding, {sampler, view, layout}, {}};
     }
-    [[nodiscard]] static Write buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize range = VK_WHOLE_SIZE)
+    [[nodiscard]] static Write buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize range = VK_WHOLE_SIZE,
+                                      VkDeviceSize offset = 0)
     {
-        return {binding, {}, {buffer, 0, range}};
+        return {binding, {}, {buffer, offset, range}};
     }
     /// No frame that uses the set may be pending.
     void write(VkDescriptorSet set, std::span<const Write> writes) const;

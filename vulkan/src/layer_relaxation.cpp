@@ -11,7 +11,7 @@ namespace gnomon::vulkan {
 namespace {
 
 constexpr VkDeviceSize kHistogramBytes = shared::kDepthBins * sizeof(std::uint32_t);
-constexpr std::uint32_t kGroupSide = 32; // texels of a group along x and y: depth_histogram.glsl
+constexpr std::uint32_t kGroupSide = 32; // texels of a group along x and y: depth_layers_histogram.comp
 
 constexpr VkShaderStageFlags kStage = VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,

@@ -9,7 +9,7 @@
 namespace gnomon::vulkan {
 namespace {
 
-using Layer = std::int32_t; // push constant of restore_fragment.glsl
+using Layer = std::int32_t; // push constant of restore.frag
 
 constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                             VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // depths, colours

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_constants.h"
 
+#include "map_storage.h"
 #include "mip_level.h"
 #include "moment_rule_of.h"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace gnomon::vulkan {
 namespace {
@@ -49,15 +51,17 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
     gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
                            slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
+    gpu.more.z = static_cast<float>(view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m);
     return gpu;
 }
 
-shared::GpuLight gpuLight(const Light& light, const glm::dvec3& eye_ws)
+void placeLight(const Light& light, const glm::dvec3& eye_ws, shared::GpuLight& gpu)
 {
-    shared::GpuLight gpu{};
-    gpu.place = light.type == LightType::directional ? glm::vec4(glm::vec3(glm::normalize(-light.direction_ws)), 0.0F)
-                                                     : glm::vec4(glm::vec3(light.position_ws - eye_ws), 1.0F);
-    return gpu;
+    const bool parallel = light.type == LightType::directional;
+    gpu.place = parallel ? glm::vec4(glm::vec3(glm::normalize(-light.direction_ws)), 0.0F)
+                         : glm::vec4(glm::vec3(light.position_ws - eye_ws), 1.0F);
+    const double size = parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m;
+    gpu.size = glm::dvec4(size, light.direction_ws);
 }
 
 /// How far away what a filter compares a receiver with typically is, for the bias. Averages are compared with the
@@ -77,15 +81,16 @@ float biasReachTexels(const FilterOptions& filter)
     return std::max(of_blur + kOfBilinear, filter.filter == Filter::esm ? kOfRing : 0.0F);
 }
 
-void fillMoments(const FilterOptions& filter, shared::GpuMaskLayer& out)
+void fillMoments(const FilterOptions& filter, shared::GpuRule& out)
 {
     const shared::MomentRule rule = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
     out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
     out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding, rule.rounding_negative};
     out.moment_shape = {rule.linstep, rule.power, rule.lighten, 0.0F};
+    out.moments = {rule.flags, rule.sampling, rule.layers, 0};
 }
 
-void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer& out)
+void fillFilter(const FilterOptions& filter, float quantum, shared::GpuRule& out)
 {
     const BiasOptions& bias = filter.bias;
     out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
@@ -101,6 +106,8 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuMaskLayer
         (i % 2 == 0 ? two.y : two.w) = point.y;
     }
     fillMoments(filter, out);
+    out.reading = {static_cast<int>(filter.filter), kernelWidth(filter), taps,
+                   depthHolding(filter.filter, filter.format)};
 }
 
 } // namespace
@@ -135,113 +142,116 @@ float filterReachTexels(const FilterOptions& filter)
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;
 }
 
-MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer, const MaskRegion& region)
-{
-    MaskLayerShape shape;
-    for (const LightPlan& light : plan.lights) {
-        if (light.mask_layer != layer) {
-            continue;
-        }
-        shape.lights = std::max(shape.lights, light.mask_channel + 1);
-        const ShownViews views = shownViews(plan, light, region.shown[light.mask_channel]);
-        shape.further_views += views.count > 1 ? views.count - 1 : 0;
-        shape.further_views += views.later_count > 1 ? views.later_count - 1 : 0;
-        shape.paired |= views.later_count > 0 ? 1U << light.mask_channel : 0U;
-        for (std::uint32_t i = 0; i < views.count; ++i) {
-            shape.orthographic = shape.orthographic && plan.views[views.first + i].orthographic;
-        }
-        for (std::uint32_t i = 0; i < views.later_count; ++i) {
-            shape.orthographic = shape.orthographic && plan.views[views.later_first + i].orthographic;
-        }
-    }
-    return shape;
-}
-
 namespace {
 
-void fillViews(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
-               const MaskSurroundings& around, shared::GpuMaskLayer& out)
+// The light of mask channel `channel`, as a strip of the screen shows it.
+void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out)
 {
-    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
-    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(around.filter)));
-    const auto viewOf = [&](std::uint32_t index) {
-        const View& view = plan.views[index];
-        shared::GpuView gpu = gpuView(view, world_from_eye, margin);
-        const double near_over_far = view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m;
-        gpu.more =
-            glm::dvec4(around.placer.slotOf(index), coarsestLevel(view.tile, around.map_levels), near_over_far, 0.0);
-        if (view.gpu_cascade != kNoIndex) { // filled in for its base map: CascadeFitter::recordConstants
-            gpu.slice.w = static_cast<float>(index + 1);
-        }
-        return gpu;
+    const LightPlan& light = plan.lights[index];
+    const ShownViews views = shownViews(plan, light, shown);
+    if (views.count == 0) {
+        return;
+    }
+    placeLight(frame.lights[index], frame.camera.eye_ws, out);
+    out.views = {views.first, views.count, views.later_first, views.later_count};
+    out.steps = stepRule(light.steps);
+}
+
+bool isOrthographic(const Plan& plan, const shared::GpuLight& light)
+{
+    const auto all = [&](std::uint32_t first, std::uint32_t count) {
+        return std::all_of(plan.views.begin() + first, plan.views.begin() + first + count,
+                           [](const View& view) { return view.orthographic; });
     };
-    const std::uint32_t firsts = firstViews(describeMaskLayer(plan, layer, region));
-    std::uint32_t further = firsts;
-    const auto addFurther = [&](std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t v = 1; v < count; ++v) {
-            assert(further < shared::kViewsPerLayer);
-            out.views[further++] = viewOf(first + v);
-        }
-        return count > 1 ? count - 1 : 0U;
-    };
-    for (shared::GpuLight& light : out.lights) {
-        light = {}; // no map
-    }
-    for (std::uint32_t i = 0; i < firsts; ++i) {
-        out.views[i] = {};
-    }
-    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        const LightPlan& light = plan.lights[i];
-        if (light.mask_layer != layer) {
-            continue;
-        }
-        const std::uint32_t channel = light.mask_channel;
-        assert(channel < shared::kLightsPerLayer);
-        const ShownViews views = shownViews(plan, light, region.shown[channel]);
-        if (views.count == 0) {
-            continue;
-        }
-        shared::GpuLight& gpu = out.lights[channel];
-        gpu = gpuLight(frame.lights[i], frame.camera.eye_ws);
-        gpu.views = {further, 0U, 1U, 0U};
-        out.steps[channel] = stepRule(light.steps);
-        out.views[channel] = viewOf(views.first);
-        gpu.views.y = addFurther(views.first, views.count);
-        if (views.later_count > 0) {
-            out.views[shared::kLightsPerLayer + channel] = viewOf(views.later_first);
-            gpu.views.w = addFurther(views.later_first, views.later_count);
-        }
-    }
+    return all(light.views.x, light.views.y) && all(light.views.z, light.views.w);
 }
 
 } // namespace
 
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
-                   const MaskSurroundings& around, shared::GpuMaskLayer& out)
+std::uint32_t maskLightCount(std::uint32_t layers, bool strips)
+{
+    return layers * shared::kLightsPerLayer * (strips ? 1 + MaskRegions::kMost : 1U);
+}
+
+void fillMaskLights(const Frame& frame, const Plan& plan, std::uint32_t width, std::span<shared::GpuLight> lights,
+                    std::vector<MaskDraw>& draws)
+{
+    draws.clear();
+    std::fill(lights.begin(), lights.end(), shared::GpuLight{});
+    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
+    std::uint32_t next = layers * shared::kLightsPerLayer;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const MaskRegions regions = maskRegions(plan, layer, width);
+        for (const MaskRegion& region : regions) {
+            MaskDraw draw{layer, region.begin, region.end, layer * shared::kLightsPerLayer, 0, true};
+            if (regions.count > 1) { // the lights of this strip alone; `lights` by index serve all of the screen
+                draw.first_light = next;
+                next += shared::kLightsPerLayer;
+            }
+            for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+                const LightPlan& light = plan.lights[i];
+                if (light.mask_layer != layer) {
+                    continue;
+                }
+                draw.channels |= 1U << light.mask_channel;
+                shared::GpuLight& own = lights[draw.first_light + light.mask_channel];
+                fillLight(frame, plan, i, region.shown[light.mask_channel], own);
+                draw.orthographic = draw.orthographic && isOrthographic(plan, own);
+                if (regions.count > 1 && region.begin == 0) {
+                    const std::uint32_t all = layer * shared::kLightsPerLayer + light.mask_channel;
+                    fillLight(frame, plan, i, SunShown::all, lights[all]);
+                }
+            }
+            draw.channels = std::max(draw.channels, 1U); // a picture without lights is lit
+            draws.push_back(draw);
+        }
+    }
+}
+
+void fillMaskViews(const Frame& frame, const Plan& plan, const MaskSurroundings& around,
+                   std::span<shared::GpuView> views)
+{
+    assert(views.size() >= plan.views.size());
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const double margin = tileMarginTexels(static_cast<double>(filterReachTexels(around.filter)));
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        shared::GpuView gpu = gpuView(view, world_from_eye, margin);
+        gpu.more.x = static_cast<float>(around.placer.slotOf(i));
+        gpu.more.y = static_cast<float>(coarsestLevel(view.tile, around.map_levels));
+        if (view.gpu_cascade != kNoIndex) { // filled in for its base map: CascadeFitter::recordConstants
+            gpu.slice.w = static_cast<float>(i + 1);
+        }
+        views[i] = gpu;
+    }
+}
+
+void fillMaskConstants(const Frame& frame, const Plan& plan, const MaskSurroundings& around, shared::GpuConstants& out)
 {
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
-    const glm::dmat4 eye_from_ndc = glm::inverse(camera.clip_from_world * world_from_eye);
-    out.eye_x = glm::row(eye_from_ndc, 0);
-    out.eye_y = glm::row(eye_from_ndc, 1);
-    out.eye_z = glm::row(eye_from_ndc, 2);
-    out.eye_w = glm::row(eye_from_ndc, 3);
-    out.view_axis = glm::vec4(0.0F);
+    const glm::dmat4 clip_from_eye = camera.clip_from_world * world_from_eye;
+    const glm::dmat4 eye_from_ndc = glm::inverse(clip_from_eye);
+    shared::GpuScreen& screen = out.screen;
+    screen.eye_x = glm::row(eye_from_ndc, 0);
+    screen.eye_y = glm::row(eye_from_ndc, 1);
+    screen.eye_z = glm::row(eye_from_ndc, 2);
+    screen.eye_w = glm::row(eye_from_ndc, 3);
+    screen.clip_w = glm::row(clip_from_eye, 3);
+    screen.view_axis = {0.0F, 0.0F, 0.0F, camera.reversed_z ? 0.0F : 1.0F};
     for (const View& view : plan.views) {
         if (view.slice.bounded() || view.gpu_cascade != kNoIndex) { // all of them along the one camera's view
-            out.view_axis = glm::vec4(glm::vec3(view.slice.axis), 0.0F);
+            screen.view_axis = glm::vec4(glm::vec3(view.slice.axis), screen.view_axis.w);
         }
     }
     const double fade_m = plan.fade_end_m - plan.fade_begin_m;
-    out.fade = plan.fade_end_m > 0.0 ? glm::vec4(plan.fade_begin_m, 1.0 / std::max(fade_m, 1e-3), 0.0F, 0.0F)
-                                     : glm::vec4(0.0F);
+    screen.fade = plan.fade_end_m > 0.0 ? glm::vec4(plan.fade_begin_m, 1.0 / std::max(fade_m, 1e-3), 0.0F, 0.0F)
+                                        : glm::vec4(0.0F);
     const glm::vec2 size(around.screen.width, around.screen.height);
-    out.screen = {size, 1.0F / size};
-    fillFilter(around.filter, around.quantum, out);
-
-    fillViews(frame, plan, layer, region, around, out);
-    out.atlas = {1.0F / static_cast<float>(around.atlas.width), 1.0F / static_cast<float>(around.atlas.height),
-                 camera.reversed_z ? 0.0F : 1.0F, 0.0F};
+    screen.size = {size, 1.0F / size};
+    fillFilter(around.filter, around.quantum, out.rule);
+    out.rule.disc.z = 1.0F / static_cast<float>(around.atlas.width);
+    out.rule.disc.w = 1.0F / static_cast<float>(around.atlas.height);
 }
 
 } // namespace gnomon::vulkan

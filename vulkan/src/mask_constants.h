@@ -24,21 +24,25 @@ struct MaskSurroundings {
     std::uint32_t map_levels;  // mip levels of the maps
     const LayerPlacer& placer; // that the plan was prepared with
 };
-/// What the lights of one layer have in common, in one of its regions: decides which pipeline draws it.
-struct MaskLayerShape {
-    std::uint32_t lights = 0;        // channels in use
-    std::uint32_t further_views = 0; // beyond the first of each light and position
-    std::uint32_t paired = 0;        // bit i: the light of channel i is seen from two positions
-    bool orthographic = true;        // every view is
+/// One draw of the mask pass.
+struct MaskDraw {
+    std::uint32_t layer = 0; // of the mask
+    std::uint32_t begin = 0; // a strip of the screen: pixels, x
+    std::uint32_t end = 0;
+    std::uint32_t first_light = 0; // of fillMaskLights(): of the layer's channel 0
+    std::uint32_t channels = 0;    // bit i: channel i is drawn
+    bool orthographic = true;      // every view is
 };
-[[nodiscard]] MaskLayerShape describeMaskLayer(const Plan& plan, std::uint32_t layer, const MaskRegion& region);
-/// How many places of GpuMaskLayer::views are for first views.
-[[nodiscard]] constexpr std::uint32_t firstViews(const MaskLayerShape& shape)
-{
-    return shape.paired != 0 ? 2U * shared::kLightsPerLayer : shared::kLightsPerLayer;
-}
-/// Fills one region of one layer of the mask. Precondition: room for the further views.
-void fillMaskLayer(const Frame& frame, const Plan& plan, std::uint32_t layer, const MaskRegion& region,
-                   const MaskSurroundings& around, shared::GpuMaskLayer& out);
+
+/// How many places fillMaskLights() needs at most. `strips`: a light may have a band (SunSteps::band).
+[[nodiscard]] std::uint32_t maskLightCount(std::uint32_t layers, bool strips);
+/// Light i of the frame goes to place 4 * mask_layer + mask_channel, and serves all of the screen; what the strips'
+/// draws read follows. Lights without a map and places without a light have no views.
+void fillMaskLights(const Frame& frame, const Plan& plan, std::uint32_t width, std::span<shared::GpuLight> lights,
+                    std::vector<MaskDraw>& draws);
+/// Each of the plan's views at its own index.
+void fillMaskViews(const Frame& frame, const Plan& plan, const MaskSurroundings& around,
+                   std::span<shared::GpuView> views);
+void fillMaskConstants(const Frame& frame, const Plan& plan, const MaskSurroundings& around, shared::GpuConstants& out);
 
 } // namespace gnomon::vulkan

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_pass.h"
 
-#include "mask_constants.h"
-
-#include <gnomon/error.h>
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -55,18 +52,6 @@ bool mayHaveBands(const Plan& plan)
                        [](const LightPlan& light) { return light.steps.band > 0.0; });
 }
 
-void checkViews(const Plan& plan, std::uint32_t layer)
-{
-    const MaskLayerShape shape = describeMaskLayer(plan, layer, MaskRegion{});
-    const std::uint32_t most = shared::kViewsPerLayer - firstViews(shape);
-    if (shape.further_views > most) {
-        throw Error("prepare the shadow mask",
-                    "four lights of one layer have " + std::to_string(shape.further_views) +
-                        " views beyond their first; " + std::to_string(most) + " are possible",
-                    "use fewer views a light");
-    }
-}
-
 VkFormat maskFormat(const Plan& plan)
 {
     return plan.lights.size() <= 1 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R8G8B8A8_UNORM;
@@ -75,45 +60,42 @@ VkFormat maskFormat(const Plan& plan)
 } // namespace
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options, float quantum)
-    : device_(device), options_(options), quantum_(quantum)
+    : device_(device), options_(options), quantum_(quantum), vertex_(makeShader(device, spirv::mask_vert))
 {
-    const VkDeviceSize align = std::max<VkDeviceSize>(device.limits().minUniformBufferOffsetAlignment, 16);
-    constants_stride_ = (sizeof(shared::GpuMaskLayer) + align - 1) / align * align;
-    vertex_ = makeShader(device, spirv::mask_vert);
-    fragments_[0] = makeShader(device, spirv::mask_frag);
-    fragments_[1] = makeShader(device, spirv::mask_orthographic_frag);
-    fragments_[2] = makeShader(device, spirv::mask_ids_frag);
-    fragments_[3] = makeShader(device, spirv::mask_orthographic_ids_frag);
-    fragments_[4] = makeShader(device, spirv::mask_stepping_frag);
-    fragments_[5] = makeShader(device, spirv::mask_stepping_orthographic_frag);
-    fragments_[6] = makeShader(device, spirv::mask_stepping_ids_frag);
-    fragments_[7] = makeShader(device, spirv::mask_stepping_orthographic_ids_frag);
     makeLayouts();
     makeSlots();
 }
 
-void MaskPassRecorder::makeConstants(std::uint32_t layers, std::uint32_t regions)
+void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
-    regions_ = std::max(regions_, regions);
-    const VkDeviceSize bytes = constants_stride_ * layers * regions_;
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    const VkDeviceSize align =
+        std::max<VkDeviceSize>({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, 16});
+    const auto aligned = [&](VkDeviceSize bytes) {
+        return (bytes + align - 1) / align * align;
+    };
+    const std::uint32_t lights = maskLightCount(std::max(plan.mask_layers, 1U), mayHaveBands(plan));
+    const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), 1));
+    if (lights <= room_.lights && views <= room_.views) {
+        return;
+    }
+    room_.lights = std::max(room_.lights, lights);
+    room_.views = std::max(room_.views, views);
+    room_.lights_at = aligned(sizeof(shared::GpuConstants));
+    room_.views_at = room_.lights_at + aligned(room_.lights * sizeof(shared::GpuLight));
+    const VkDeviceSize bytes = room_.views_at + room_.views * sizeof(shared::GpuView);
     for (Slot& slot : slots_) {
-        if (slot.constants.size() >= bytes) {
-            continue;
-        }
         slot.constants = {};
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
-        writeConstants(slot);
     }
+    draws_.reserve(lights);
 }
 
-bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
+bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, std::optional<MaskShape> shape)
 {
     const std::uint32_t layers = std::max(plan.mask_layers, 1U);
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        checkViews(plan, layer);
-    }
-    makeConstants(layers, mayHaveBands(plan) ? MaskRegions::kMost : 1U);
+    makeBuffers(plan);
     const VkFormat format = maskFormat(plan);
     const ImageInfo& have = mask_.info();
     const bool fits = mask_ && have.format == format && have.layers >= layers && have.extent.width == screen.width &&
@@ -128,6 +110,10 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                 VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
     }
+    shape_ = shape ? shape : shape_;
+    if (shape_) {
+        makePipelines(plan, *shape_);
+    }
     if (plan.technique.motion == Motion::step_alternate || alternates(plan)) {
         if (!alternate_) {
             alternate_.emplace(device_, static_cast<std::uint32_t>(slots_.size()), options_.pipeline_cache);
@@ -137,67 +123,55 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
     return !fits;
 }
 
-void MaskPassRecorder::forgetMaps()
+void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskSurroundings& around)
 {
-    for (Slot& slot : slots_) {
-        slot.maps = VK_NULL_HANDLE;
-        slot.layers = VK_NULL_HANDLE;
-    }
+    auto* const bytes = static_cast<std::byte*>(slot.constants.data());
+    fillMaskConstants(frame, plan, around, *reinterpret_cast<shared::GpuConstants*>(bytes));
+    fillMaskLights(frame, plan, around.screen.width,
+                   {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights}, draws_);
+    fillMaskViews(frame, plan, around, {reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views});
 }
 
-void MaskPassRecorder::recordRegion(const Job& job, std::uint32_t layer, const MaskRegion& region, std::uint32_t place)
+void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const MaskDraw& draw, const MaskInputs& inputs)
 {
-    const MaskSurroundings around{options_.filter,        quantum_,  job.inputs.extent, job.maps.info().extent,
-                                  job.maps.info().levels, job.placer};
-    const VkDeviceSize offset = constants_stride_ * place;
-    auto* constants = static_cast<std::byte*>(job.slot.constants.data()) + offset;
-    fillMaskLayer(job.frame, job.plan, layer, region, around, *reinterpret_cast<shared::GpuMaskLayer*>(constants));
-    const MaskLayerShape shape = describeMaskLayer(job.plan, layer, region);
-    Variant variant;
-    variant.lights = std::max(shape.lights, 1U);
-    variant.many_views = shape.further_views > 0;
-    variant.orthographic = shape.orthographic;
-    variant.normals = job.inputs.normal != VK_NULL_HANDLE;
-    variant.ids = job.inputs.object_id != VK_NULL_HANDLE;
-    variant.paired = shape.paired;
-    const VkRect2D scissor{{static_cast<std::int32_t>(region.begin), 0},
-                           {region.end - region.begin, job.inputs.extent.height}};
-    device_.vk.CmdSetScissor(job.commands, 0, 1, &scissor);
-    device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
-    const auto dynamic_offset = static_cast<std::uint32_t>(offset);
-    device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &job.slot.set,
-                                     1, &dynamic_offset);
-    device_.vk.CmdDraw(job.commands, 3, 1, 0, 0);
+    const VkRect2D scissor{{static_cast<std::int32_t>(draw.begin), 0}, {draw.end - draw.begin, inputs.extent.height}};
+    device_.vk.CmdSetScissor(commands, 0, 1, &scissor);
+    const Variant variant{draw.orthographic, inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE};
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
+    const MaskPush push{draw.first_light, draw.channels};
+    device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+    device_.vk.CmdDraw(commands, 3, 1, 0, 0);
 }
 
-void MaskPassRecorder::recordLayer(const Job& job, const Image& target, std::uint32_t layer)
+void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const MaskInputs& inputs, const Image& target,
+                                   std::uint32_t layer)
 {
     char label[32];
     std::snprintf(label, sizeof label, "mask layer %u", layer);
-    device_.beginLabel(job.commands, label);
+    device_.beginLabel(commands, label);
     const VkExtent2D extent = target.info().extent;
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     colour.imageView = target.layer(layer);
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // a layer beyond the plan's lights is lit
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea.extent = extent;
     info.layerCount = 1;
     info.colorAttachmentCount = 1;
     info.pColorAttachments = &colour;
-    device_.vk.CmdBeginRendering(job.commands, &info);
+    device_.vk.CmdBeginRendering(commands, &info);
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
-    device_.vk.CmdSetViewport(job.commands, 0, 1, &viewport);
-    std::uint32_t place = layer * regions_;
-    const MaskRegions regions = maskRegions(job.plan, layer, extent.width);
-    assert(regions.count <= regions_);
-    for (const MaskRegion& region : regions) {
-        recordRegion(job, layer, region, place++);
+    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
+    for (const MaskDraw& draw : draws_) {
+        if (draw.layer == layer) {
+            recordDraw(commands, draw, inputs);
+        }
     }
-    device_.vk.CmdEndRendering(job.commands);
-    device_.endLabel(job.commands);
+    device_.vk.CmdEndRendering(commands);
+    device_.endLabel(commands);
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
@@ -205,30 +179,30 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
                               CascadeFitter& fitter)
 {
     assert(slot_index < slots_.size());
-    assert(frame.lights.size() == plan.lights.size());
+    assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
+    shape_ = MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE};
     Slot& slot = slots_[slot_index];
-    updateSet(slot, inputs, maps.view(), placer.buffer());
+    writeSet(slot, inputs, maps.view(), placer.buffer());
+    fill(slot, frame, plan, {options_.filter, quantum_, inputs.extent, maps.info().extent, maps.info().levels, placer});
     if (CascadeFitter::fits(plan)) {
-        // Filled in below, and read by the GPU long after. No band: these maps go with motion free alone.
-        for (std::uint32_t layer = 0; layer < mask_.info().layers; ++layer) {
-            fitter.recordConstants(commands, slot_index, slot.constants, constants_stride_ * layer * regions_);
-        }
+        fitter.recordConstants(commands, slot_index, slot.constants, room_.views_at,
+                               static_cast<std::uint32_t>(plan.views.size()));
     }
-    const Job job{commands, slot, frame, plan, inputs, maps, placer};
     const bool joins = alternate_ && alternates(plan);
     const Image& target = joins ? alternate_->target() : mask_;
     toAttachment(device_, commands, target);
+    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &slot.set, 0,
+                                     nullptr);
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
-        recordLayer(job, target, layer);
+        recordLayer(commands, inputs, target, layer);
     }
     toReadable(device_, commands, target);
     if (joins) {
         toAttachment(device_, commands, mask_);
         alternate_->record(commands, slot_index, frame, plan,
-                           {inputs.depth, inputs.depth_layout, slot.constants.buffer(), constants_stride_ * regions_},
-                           mask_);
+                           {inputs.depth, inputs.depth_layout, slot.constants.buffer()}, mask_);
         toReadable(device_, commands, mask_);
     } else if (alternate_) {
         alternate_->forget();

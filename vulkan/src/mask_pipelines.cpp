@@ -8,40 +8,72 @@
 #include "samplers.h"
 #include "specialisation.h"
 
+#include <gnomon_spirv.h>
+
+#include <algorithm>
 #include <array>
 
 namespace gnomon::vulkan {
 namespace {
 
-enum Binding : std::uint32_t { kConstants, kMaps, kDepth, kNormal, kObjectId, kLayers, kBindingCount };
+enum Binding : std::uint32_t { kConstants, kMaps, kLights, kViews, kLayers, kDepth, kNormal, kObjectId, kBindingCount };
 
-// The constant_ids of mask_fragment.glsl, four bytes each, in their order.
+// The constant_ids of mask.frag, four bytes each, in their order.
 struct Constants {
-    std::int32_t filter;
     std::int32_t kernel_width;
     std::int32_t disc_taps;
     VkBool32 has_normals;
-    std::int32_t lights;
-    VkBool32 many_views;
     VkBool32 automatic_bias;
     std::int32_t moment_flags;
     std::int32_t moment_sampling;
     std::int32_t moment_layers;
     std::int32_t depth_holding;
-    std::int32_t steps;
 };
 
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
+std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bool ids)
+{
+    using namespace spirv;
+    // By orthographic, ids.
+    using Codes = std::array<std::span<const std::uint32_t>, 4>;
+    const auto of = [&](const Codes& codes) {
+        return codes[(orthographic ? 1U : 0U) + (ids ? 2U : 0U)];
+    };
+#define GN_CODES(NAME)                                                                                                 \
+    {                                                                                                                  \
+        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_ids_frag,                                   \
+            mask_##NAME##_orthographic_ids_frag                                                                        \
+    }
+    switch (filter) {
+    case Filter::hard:
+        return of(GN_CODES(hard));
+    case Filter::vsm:
+        return of(GN_CODES(vsm));
+    case Filter::lvsm:
+        return of(GN_CODES(lvsm));
+    case Filter::esm:
+        return of(GN_CODES(esm));
+    case Filter::evsm:
+        return of(GN_CODES(evsm));
+    case Filter::msm:
+        return of(GN_CODES(msm));
+    default:
+        return of(GN_CODES(pcf));
+    }
+#undef GN_CODES
+}
 
 } // namespace
 
 void MaskPassRecorder::makeLayouts()
 {
     sets_ = DescriptorSets(device_, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT);
-    layout_ = makePipelineLayout(device_, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0);
+    layout_ = makePipelineLayout(device_, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(MaskPush));
     sampler_ = makeSampler(device_, VK_FILTER_NEAREST);
     // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
     map_sampler_ = makeSampler(device_, isFilterable(options_.filter.filter) ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
@@ -56,19 +88,8 @@ void MaskPassRecorder::makeSlots()
     }
 }
 
-void MaskPassRecorder::writeConstants(Slot& slot) const
+void MaskPassRecorder::writeSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers)
 {
-    const std::array writes{DescriptorSets::buffer(kConstants, slot.constants.buffer(), sizeof(shared::GpuMaskLayer))};
-    sets_.write(slot.set, writes);
-}
-
-void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers)
-{
-    if (slot.maps == maps && slot.layers == layers && slot.depth == inputs.depth &&
-        slot.depth_layout == inputs.depth_layout && slot.normal == inputs.normal &&
-        slot.object_id == inputs.object_id) {
-        return;
-    }
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = sampler_.get();
     // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
@@ -77,17 +98,28 @@ void MaskPassRecorder::updateSet(Slot& slot, const MaskInputs& inputs, VkImageVi
         return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
                                       : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);
     };
-    const std::array writes{DescriptorSets::image(kMaps, map_sampler_.get(), maps, kRead),
-                            DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
-                            orDepth(kNormal, inputs.normal), orDepth(kObjectId, inputs.object_id),
-                            DescriptorSets::buffer(kLayers, layers)};
+    const VkBuffer constants = slot.constants.buffer();
+    const std::array<DescriptorSets::Write, kBindingCount> writes{
+        DescriptorSets::buffer(kConstants, constants, sizeof(shared::GpuConstants)),
+        DescriptorSets::image(kMaps, map_sampler_.get(), maps, kRead),
+        DescriptorSets::buffer(kLights, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at),
+        DescriptorSets::buffer(kViews, constants, room_.views * sizeof(shared::GpuView), room_.views_at),
+        DescriptorSets::buffer(kLayers, layers),
+        DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
+        orDepth(kNormal, inputs.normal),
+        orDepth(kObjectId, inputs.object_id)};
     sets_.write(slot.set, writes);
-    slot.maps = maps;
-    slot.layers = layers;
-    slot.depth = inputs.depth;
-    slot.depth_layout = inputs.depth_layout;
-    slot.normal = inputs.normal;
-    slot.object_id = inputs.object_id;
+}
+
+void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
+{
+    const bool perspective =
+        std::any_of(plan.views.begin(), plan.views.end(), [](const View& view) { return !view.orthographic; });
+    // A draw of lights without maps is as one of orthographic maps.
+    (void)pipeline({true, shape.normals, shape.ids});
+    if (perspective) {
+        (void)pipeline({false, shape.normals, shape.ids});
+    }
 }
 
 VkPipeline MaskPassRecorder::pipeline(Variant variant)
@@ -103,22 +135,17 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
 {
     const FilterOptions& filter = options_.filter;
     const shared::MomentRule moments = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
-    const Constants values{static_cast<std::int32_t>(filter.filter),
-                           kernelWidth(filter),
+    const Constants values{kernelWidth(filter),
                            static_cast<std::int32_t>(filter.disc_taps),
                            variant.normals ? VK_TRUE : VK_FALSE,
-                           static_cast<std::int32_t>(variant.lights),
-                           variant.many_views ? VK_TRUE : VK_FALSE,
                            filter.bias.automatic ? VK_TRUE : VK_FALSE,
                            moments.flags,
                            moments.sampling,
                            moments.layers,
-                           depthHolding(filter.filter, filter.format),
-                           static_cast<std::int32_t>(variant.paired)};
+                           depthHolding(filter.filter, filter.format)};
     const Specialisation specialisation(values);
-    const std::size_t fragment =
-        (variant.orthographic ? 1U : 0U) + (variant.ids ? 2U : 0U) + (variant.paired != 0 ? 4U : 0U);
-    const TwoStages stages = stagesOf(vertex_, fragments_[fragment], specialisation.info());
+    const ShaderModule fragment = makeShader(device_, fragmentCode(filter.filter, variant.orthographic, variant.ids));
+    const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout_.get();

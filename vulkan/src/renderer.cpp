@@ -95,9 +95,6 @@ ShadowRenderer::~ShadowRenderer() = default;
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
     const bool maps_changed = impl_->maps->prepare(plan);
-    if (maps_changed) {
-        impl_->mask.forgetMaps();
-    }
     impl_->fitter.prepare(plan);
     const bool mask_changed = impl_->mask.prepare(plan, screen);
     if (mask_changed) {

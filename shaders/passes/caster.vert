@@ -1,11 +1,13 @@
+#version 460
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: body of the caster vertex shaders. An instance brings the rows that take its own points to the map, multiplied
+// Draws casters into a map. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
 // LAYERED: several views are drawn in one pass, and an instance says to which of their layers it belongs.
+#extension GL_GOOGLE_include_directive : require
 #ifdef LAYERED
 #extension GL_ARB_shader_viewport_layer_array : require
 #endif
-#include "caster.glsl"
+#include "../lib/caster.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 row_x;

@@ -1,5 +1,6 @@
+#version 460
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: body of the passes that put the kept map of what stands still back under what moves.
+// Puts the kept map of what stands still back under what moves.
 layout(set = 0, binding = 0) uniform sampler2DArray kept_depths;
 #ifdef WRITE_COLOUR
 layout(set = 0, binding = 1) uniform sampler2DArray kept_colours;

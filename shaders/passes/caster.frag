@@ -1,6 +1,9 @@
+#version 460
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: body of the caster fragment shaders.
-#include "caster.glsl"
+// What a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where the
+// rasteriser's depth is not the metric; MASKED: with holes where its texture's alpha is low.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/caster.glsl"
 
 #ifdef PER_SAMPLE
 // The rasteriser's depth is each sample's own, and so must be the one that is written instead. All inputs are read at the

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: how much of a light reaches a point, for a host that shades from the maps itself. Every other name of the
+// library that this declares begins with gnomon or GNOMON, or GN_.
+//
+// Define beforehand, if the defaults do not suit:
+//   GNOMON_SET      descriptor set of the five bindings below (0)
+//   GNOMON_BINDING  the first of them (0)
+//   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of shared/choice_numbers.h: the one filter that is compiled,
+//                   which the options must have. Without it all of them are, and GpuRule says which.
+//   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
+// Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
+//   0  uniform buffer: GpuConstants
+//   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
+//      levels, of others it may be anything; it clamps to the edge
+//   2  storage buffer: GpuLight, by the light's index
+//   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
+//   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
+#ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
+#define GNOMON_PUBLIC_VISIBILITY_GLSL
+#include "names_begin.glsl"
+#include "../../lib/light_visibility.glsl"
+
+// Visibility of light `light` of the frame, 0 .. 1, at a surface's point: `point` relative to the camera's eye, metres,
+// in the world's axes; `normal` the unit geometric normal there. `pixel`: gl_FragCoord.xy. What faces away from the
+// light is 0, a light without a map 1.
+float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
+{
+    return lightVisibility(light, point, normal, pixel, 1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0)));
+}
+
+#include "names_end.glsl"
+#endif

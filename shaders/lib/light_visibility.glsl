@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: a light's visibility at a point, from buffers that gnomon::pack fills. What the mask pass calls, and
+// include/gnomon/visibility.glsl gives to hosts; that header says what may be defined beforehand.
+#ifndef GNOMON_LIGHT_VISIBILITY_GLSL
+#define GNOMON_LIGHT_VISIBILITY_GLSL
+#ifndef GNOMON_SET
+#define GNOMON_SET 0
+#endif
+#ifndef GNOMON_BINDING
+#define GNOMON_BINDING 0
+#endif
+#include "../shared/gpu_structs.h"
+#include "../shared/sun_steps.h"
+
+layout(set = GNOMON_SET, binding = GNOMON_BINDING, std140) uniform GnomonConstants
+{
+    GpuConstants gnomon;
+};
+layout(set = GNOMON_SET, binding = GNOMON_BINDING + 2, std430) restrict readonly buffer GnomonLights
+{
+    GpuLight gnomon_lights[];
+};
+layout(set = GNOMON_SET, binding = GNOMON_BINDING + 3, std430) restrict readonly buffer GnomonViews
+{
+    GpuView gnomon_views[];
+};
+
+// A pass that is made for one technique has its numbers as constants.
+#ifdef GNOMON_FILTER
+#define GNOMON_FILTER_NUMBER GNOMON_FILTER
+#else
+#define GNOMON_FILTER_NUMBER gnomon.rule.reading.x
+#endif
+#ifndef GNOMON_KERNEL_WIDTH
+#define GNOMON_KERNEL_WIDTH gnomon.rule.reading.y
+#define GNOMON_DISC_TAPS gnomon.rule.reading.z
+#define GNOMON_DEPTH_HOLDING gnomon.rule.reading.w
+#define GNOMON_MOMENT_FLAGS gnomon.rule.moments.x
+#define GNOMON_MOMENT_SAMPLING gnomon.rule.moments.y
+#define GNOMON_MOMENT_LAYERS gnomon.rule.moments.z
+#define GNOMON_AUTOMATIC_BIAS (gnomon.rule.bias.x > 0.0)
+#endif
+#define GNOMON_MAP_SET GNOMON_SET
+#define GNOMON_MAP_BINDING GNOMON_BINDING + 1
+#define GNOMON_LAYERS_BINDING GNOMON_BINDING + 4
+#define GNOMON_MAP_TEXEL_SIZE gnomon.rule.disc.zw
+#include "map_texture.glsl"
+
+vec2 discPoint(int i)
+{
+    vec4 two = gnomon.rule.disc_points[i >> 1];
+    return (i & 1) == 0 ? two.xy : two.zw;
+}
+#include "visibility.glsl"
+
+// A surface's point as filters need it.
+struct Receiver {
+    vec3 p; // eye-relative
+    vec3 n;
+    float depth; // of the camera
+    PixelSteps steps;
+};
+
+FilterInput filterInput(vec2 pixel)
+{
+    FilterInput f;
+    f.layer = 0.0;
+    f.part = 0.0;
+    f.kernel_width = GNOMON_KERNEL_WIDTH;
+    f.disc_taps = GNOMON_DISC_TAPS;
+    f.disc_radius = gnomon.rule.disc.x;
+    f.kernel = gnomon.rule.kernel;
+    f.pixel = pixel;
+    f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, gnomon.rule.moment_warp,
+                          gnomon.rule.moment_variance, gnomon.rule.moment_shape);
+    return f;
+}
+
+// What a view counts for at a point: 0 where it does not serve it.
+float shareOf(uint view, bool is_first, Receiver r)
+{
+    float share = is_first ? 1.0 : viewShare(gnomon_views[view], r.depth);
+    return viewContains(gnomon_views[view], r.p, r.depth) ? share : 0.0;
+}
+
+// Visibility by the views [first, end) of one position of a light, which are in the order in which they fade over into
+// each other. A pixel looks for its view first and filters then: once, and again only where another view fades in. Both
+// loops test at their end, because a device that runs the lanes of a group together runs a body once more for a test
+// at its beginning.
+float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
+{
+    float v = 1.0;
+    bool found = false;
+    uint i = first;
+    float share = 0.0;
+    do {
+        share = shareOf(i, !found, r);
+        ++i;
+    } while (share == 0.0 && i < end);
+    if (share > 0.0) {
+        do {
+            uint view = i - 1;
+            float here = viewVisibility(GNOMON_FILTER_NUMBER, gnomon_views[view], bias, f, r.steps, r.p, r.n);
+            v = found ? mix(v, here, share) : here;
+            found = true;
+            share = 0.0;
+            while (share == 0.0 && i < end) {
+                share = shareOf(i, false, r);
+                ++i;
+            }
+        } while (share > 0.0);
+    }
+    return v;
+}
+
+// `p` eye-relative, `n` its unit geometric normal; `pixel` of the screen; `w` of the point by GpuScreen's eye_w: one over
+// clip space's w.
+float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
+{
+    GpuLight light = gnomon_lights[index];
+    if (light.views.y == 0u) {
+        return 1.0;
+    }
+    Receiver r;
+    r.p = p;
+    r.n = n;
+    r.depth = dot(gnomon.screen.view_axis.xyz, p);
+    r.steps = pixelSteps(gnomon.screen.eye_x, gnomon.screen.eye_y, gnomon.screen.eye_z, gnomon.screen.eye_w, w,
+                         2.0 * gnomon.screen.size.zw);
+    FilterInput f = filterInput(pixel);
+    BiasRule bias = biasOf(gnomon.rule.bias, gnomon.rule.bias_more);
+    bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
+    float v = 1.0;
+    uvec2 range = light.views.xy;
+    bool is_later = false;
+    bool more = light.views.w > 0u;
+    do { // over the positions of the sun, so that the filter is compiled once
+        float here = viewsVisibility(range.x, range.x + range.y, bias, f, r);
+        v = is_later ? steppedVisibility(v, here, stepWeight(light.steps, pixel.x * gnomon.screen.size.z)) : here;
+        more = more && !is_later;
+        range = light.views.zw;
+        is_later = true;
+    } while (more);
+    v = fadedVisibility(gnomon.screen.fade, v, length(p));
+    return facesLight(light, p, n) ? v : 0.0;
+}
+
+#endif

@@ -1,4 +1,0 @@
-#version 460
-// SPDX-License-Identifier: Apache-2.0
-#extension GL_GOOGLE_include_directive : require
-#include "../lib/caster_vertex.glsl"

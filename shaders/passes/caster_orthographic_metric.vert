@@ -1,5 +1,0 @@
-#version 460
-// SPDX-License-Identifier: Apache-2.0
-#extension GL_GOOGLE_include_directive : require
-#define METRIC
-#include "../lib/caster_vertex.glsl"

@@ -1,6 +1,0 @@
-#version 460
-// SPDX-License-Identifier: Apache-2.0
-#extension GL_GOOGLE_include_directive : require
-#define PERSPECTIVE
-#define METRIC
-#include "../lib/caster_vertex.glsl"

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library carries of compiled shaders.
+#include <gnomon_spirv.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gnomon {
+namespace {
+
+TEST(Spirv, IsSmall)
+{
+    std::size_t bytes = 0;
+    std::size_t largest = 0;
+    for (const std::span<const std::uint32_t>* words : spirv::all_of_gnomon_spirv) {
+        bytes += words->size_bytes();
+        largest = std::max(largest, words->size_bytes());
+    }
+    RecordProperty("bytes", static_cast<int>(bytes));
+    EXPECT_GT(largest, 0U);
+#ifdef NDEBUG // Debug builds keep the sources' lines
+    EXPECT_LE(bytes, 2'500'000U);
+    EXPECT_LE(largest, 100'000U) << "a module that is slow to compile";
+#endif
+}
+
+} // namespace
+} // namespace gnomon

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// As many lights and views as one likes in a mask; and descriptors that follow what a host's handles stand for.
+#include "fixture.h"
+#include "null_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace gnomon::test {
+namespace {
+
+constexpr VkExtent2D kPicture{96, 72};
+constexpr std::uint32_t kLights = 64;
+constexpr std::uint32_t kViewsEach = 6;
+constexpr std::uint32_t kSide = 64; // texels of a tile; eight by eight of them in the atlas
+
+Light lampAt(std::uint32_t i)
+{
+    const double angle = 0.7 * i;
+    return makeSpot({(3.0 + 0.05 * i) * std::cos(angle), 5.0 + 0.05 * i, (3.0 + 0.05 * i) * std::sin(angle)},
+                    {0.0, 0.0, 0.0}, 0.5);
+}
+
+Tile tileOf(std::uint32_t i)
+{
+    return {0, i % 8 * kSide, i / 8 * kSide, kSide, kSide};
+}
+
+// Gives each light more views: those before its own serve other depths of the camera alone.
+void addViews(Plan& plan)
+{
+    std::vector<View> views;
+    for (LightPlan& light : plan.lights) {
+        const View own = plan.views[light.first_view];
+        light.first_view = static_cast<std::uint32_t>(views.size());
+        light.view_count = kViewsEach;
+        for (std::uint32_t v = 0; v < kViewsEach; ++v) {
+            views.push_back(own);
+            views.back().slice.axis = {0.0, 0.0, -1.0, 0.0};
+            if (v + 1 < kViewsEach) {
+                views.back().slice.begin_m = 1e6;
+            }
+        }
+    }
+    plan.views = std::move(views);
+}
+
+std::vector<std::byte> maskAlone(std::uint32_t light)
+{
+    Bench bench(kPicture, MapFormat::d32f);
+    bench.setLights({lampAt(light)}, {tileOf(light)}, {8 * kSide, 8 * kSide, 1});
+    bench.prepare();
+    bench.record(1);
+    return bench.readMask(0);
+}
+
+TEST(ManyLights, EachIsMaskedAsAlone)
+{
+    Bench bench(kPicture, MapFormat::d32f);
+    std::vector<Light> lights;
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < kLights; ++i) {
+        lights.push_back(lampAt(i));
+        tiles.push_back(tileOf(i));
+    }
+    bench.setLights(lights, tiles, {8 * kSide, 8 * kSide, 1});
+    addViews(bench.plan);
+    ASSERT_EQ(bench.plan.views.size(), kLights * kViewsEach);
+    bench.prepare();
+    bench.record(1);
+    std::set<std::vector<std::byte>> masks;
+    for (const std::uint32_t light : {0U, 3U, 4U, 37U, 63U}) {
+        const std::vector<std::byte> mask = bench.readMask(light);
+        EXPECT_EQ(mask, maskAlone(light)) << light;
+        masks.insert(mask);
+    }
+    EXPECT_EQ(masks.size(), 5U) << "lights that could not be told apart";
+    expectSilence(gpu());
+}
+
+// A view that was made after its predecessor was destroyed may have the same handle: so handles that are the same as
+// before are no reason to leave descriptors as they are.
+TEST(HostHandles, AreWrittenInEveryFrame)
+{
+    NullDriver driver;
+    vulkan::ShadowRenderer renderer(driver.view(), {});
+    const Scene scene = makeScene();
+    const std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
+    const Plan plan = makePlan(scene, lights, std::vector<Tile>{{0, 0, 0, 64, 64}}, {64, 64, 1});
+    Frame frame;
+    frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
+    frame.lights = lights;
+    vulkan::MaskInputs inputs;
+    inputs.extent = kPicture;
+    inputs.depth = driver.makeView();
+    (void)renderer.prepare(plan, kPicture);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const auto before = driver.counts().descriptor_updates;
+        renderer.recordMaps(driver.commands(), i % 2, frame, plan, [](const vulkan::MapPass&) {});
+        renderer.recordMask(driver.commands(), i % 2, frame, plan, inputs);
+        EXPECT_GT(driver.counts().descriptor_updates, before) << i;
+    }
+}
+
+} // namespace
+} // namespace gnomon::test
