@@ -19,13 +19,15 @@ from pathlib import Path
 from sources import project_files, project_root
 
 # Folder -> include folders. A public header gets those that its users have; only private ones see src/.
-PUBLIC = ["core/include", "shaders/shared", "vulkan/include", "."]
+PUBLIC = ["core/include", "pack/include", "shaders/shared", "vulkan/include", "."]
 FOLDERS = [
     ("shaders/shared/", ["shaders/shared"]),
     ("core/include/", ["core/include", "shaders/shared"]),
     ("core/src/", ["core/include", "shaders/shared", "core/src"]),
-    ("vulkan/include/", ["vulkan/include", "core/include"]),
-    ("vulkan/src/", ["vulkan/include", "core/include", "shaders/shared", "vulkan/src", "shaders"]),
+    ("pack/include/", ["pack/include", "core/include", "shaders/shared"]),
+    ("pack/src/", ["pack/include", "core/include", "shaders/shared", "pack/src"]),
+    ("vulkan/include/", ["vulkan/include", "pack/include", "core/include"]),
+    ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/shared", "vulkan/src", "shaders"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),
     ("scene/", [".", "core/include"]),

@@ -20,8 +20,9 @@ PROJECT_KINDS = [
     (r"^shaders/", "shader-lib"),
     (r"^core/include/gnomon/(geometry|error)\.h$", "core-geometry"),
     (r"^core/include/", "core-public"),
+    (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
-    (r"^(core|vulkan)/", "private"),
+    (r"^(core|pack|vulkan)/", "private"),
     (r"^(scene|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
@@ -51,7 +52,7 @@ FOREIGN_KINDS = [
 ]
 
 STD = {"std", "std-file", "system"}
-PUBLIC = {"core-geometry", "core-public", "vulkan-public"}
+PUBLIC = {"core-geometry", "core-public", "pack-public", "vulkan-public"}
 ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt", "window"}
 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
@@ -61,7 +62,8 @@ RULES = [
     ("shaders/", {"shared"}, "shaders include shaders"),
     ("core/include/", {"std", "glm", "shared"}, "a public header shows nothing private; core knows no graphics, window or file"),
     ("core/", {"std", "glm", "core-geometry", "core-public", "shared"}, "core knows no graphics, window or file"),
-    ("vulkan/include/", {"std", "glm", "core-geometry", "core-public", "vulkan-api"}, "a public header shows nothing private"),
+    ("pack/", {"std", "glm", "core-geometry", "core-public", "shared"}, "pack knows no graphics, window or file"),
+    ("vulkan/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-api"}, "a public header shows nothing private"),
     ("vulkan/", STD | PUBLIC | {"glm", "vulkan-api", "shared", "shader-lib", "spirv"}, "the backend knows core and shaders"),
     ("image/", STD | {"core-geometry", "png", "exr"}, "images know files and errors, nothing else"),
     ("scene/", STD | {"glm", "core-geometry", "png", "jpeg", "json", "xxhash"}, "a scene knows core's geometry.h and error.h only"),
@@ -80,7 +82,7 @@ RULES = [
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 SUFFIXES = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
-PUBLIC_FOLDERS = ("core/include", "vulkan/include", "shaders", "shaders/shared", "")
+PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "shaders", "shaders/shared", "")
 
 
 def rule_for(path: str):

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights may reach what is seen in each tile of the screen: for hosts that shade with many lights.
+// Based on: O. Olsson, U. Assarsson, "Tiled Shading", Journal of Graphics, GPU, and Game Tools, 2011.
+#pragma once
+
+#include <gnomon/frame.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::pack {
+
+/// Pixels [x0, x1) x [y0, y1) of the picture.
+struct ScreenBounds {
+    std::uint32_t x0 = 0;
+    std::uint32_t y0 = 0;
+    std::uint32_t x1 = 0;
+    std::uint32_t y1 = 0;
+
+    [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+/// Every pixel that may show a point in the light's reach is inside: all of the picture for a directional light, for a
+/// spot the bounds of its cone, for a point light those of a cube around its sphere. A pixel's width is added on all
+/// sides. `extent`: of the light, extentOf(). A light whose numbers are not finite has all of the picture.
+[[nodiscard]] ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const Camera& camera,
+                                        glm::uvec2 size_px);
+
+/// The lights of each tile, as two arrays that a storage buffer can take as they are.
+struct LightLists {
+    std::uint32_t side_px = 0; // of a tile
+    glm::uvec2 tiles{0};       // along x and y; those on the right and at the bottom may be cut
+    /// Tile (x, y) has lights[first[i]] to lights[first[i + 1] - 1], i = y * tiles.x + x: indices into Frame::lights,
+    /// ascending.
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint32_t> lights;
+
+    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t x, std::uint32_t y) const
+    {
+        const std::size_t i = std::size_t{y} * tiles.x + x;
+        return std::span(lights).subspan(first[i], first[i + 1] - first[i]);
+    }
+};
+
+/// Of a frame's lights, whether or not they cast. `scene_bounds_ws`: of all objects, for lights without a range
+/// (extentOf()). Keeps what `out` has allocated. Preconditions: side_px >= 1, frame.size_px >= 1.
+void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out);
+
+} // namespace gnomon::pack
