@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 namespace gnomon::test {
 namespace {
@@ -70,13 +69,13 @@ TEST(ManyLights, EachIsMaskedAsAlone)
     ASSERT_EQ(bench.plan.views.size(), kLights * kViewsEach);
     bench.prepare();
     bench.record(1);
-    std::set<std::vector<std::byte>> masks;
+    std::vector<std::byte> last;
     for (const std::uint32_t light : {0U, 3U, 4U, 37U, 63U}) {
         const std::vector<std::byte> mask = bench.readMask(light);
         EXPECT_EQ(mask, maskAlone(light)) << light;
-        masks.insert(mask);
+        EXPECT_NE(mask, last) << "lights that cannot be told apart";
+        last = mask;
     }
-    EXPECT_EQ(masks.size(), 5U) << "lights that could not be told apart";
     expectSilence(gpu());
 }
 

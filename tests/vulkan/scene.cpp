@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled alone: what it takes of shaders/shared is in single precision.
 #include "scene.h"
 
 #include <octahedral.h>
