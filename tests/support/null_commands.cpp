@@ -101,6 +101,14 @@ VKAPI_ATTR void VKAPI_CALL cmdCopyImage(VkCommandBuffer commands, VkImage from, 
     cmdLogged<Kind::copy_image>(commands);
 }
 
+VKAPI_ATTR void VKAPI_CALL cmdCopyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, std::uint32_t,
+                                         const VkBufferCopy*)
+{
+    driverOf(commands).use(objectOf(from));
+    driverOf(commands).use(objectOf(to));
+    cmdLogged<Kind::copy_buffer>(commands);
+}
+
 VKAPI_ATTR void VKAPI_CALL cmdDraw(VkCommandBuffer commands, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t)
 {
     ++driverOf(commands).counts.draws;
@@ -153,6 +161,7 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(CmdFillBuffer, cmdFill),
     GNOMON_NULL(CmdClearColorImage, cmdClear),
     GNOMON_NULL(CmdCopyImage, cmdCopyImage),
+    GNOMON_NULL(CmdCopyBuffer, cmdCopyBuffer),
     GNOMON_NULL(CmdDraw, cmdDraw),
     GNOMON_NULL(CmdDrawIndexedIndirect, cmdDrawIndirect),
     GNOMON_NULL(CmdBeginQuery, cmdLogged<Kind::begin_query>),

@@ -41,6 +41,7 @@ struct NullEvent {
         bind_pipeline,
         dispatch,
         copy_image,
+        copy_buffer,
         draw,
         draw_indirect,
         timestamp,

@@ -125,8 +125,8 @@ public:
         Plan plan = planOf({view});
         plan.technique.motion = motion;
         (void)placer_.prepare(plan);
-        placer_.forgetDepth();
-        gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0, image.view); });
+        placer_.setDepth(image.view);
+        gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0); });
         return placer_.read(0);
     }
     vulkan::LayerPlacer& placer() { return placer_; }
@@ -331,23 +331,28 @@ TEST_F(LayersOfDepth, beginAnewForAnotherLight)
     }
 }
 
-TEST_F(LayersOfDepth, keepTheirSlotWithTheirTile)
+TEST_F(LayersOfDepth, areTheirMapsOwnWhoeverElseIsThere)
 {
     vulkan::Device device(gpu().view());
     vulkan::LayerPlacer placer(device, lvsm(LayerPlacement::lloyd, 2), VK_NULL_HANDLE);
-    const View a = viewOf({0, 0, 0, 64, 64});
-    const View b = viewOf({0, 64, 0, 64, 64});
-    const View c = viewOf({1, 64, 0, 64, 64});
-    EXPECT_TRUE(placer.prepare(planOf({a, b})));
+    const auto planWith = [](std::initializer_list<std::uint32_t> maps) {
+        std::vector<View> views;
+        for (const std::uint32_t map : maps) {
+            views.push_back(viewOf({map, 0, 0, 64, 64}));
+            views.back().map = {map, 0};
+        }
+        Plan plan = planOf(views);
+        plan.map_count = 3;
+        return plan;
+    };
+    EXPECT_TRUE(placer.prepare(planWith({0, 1})));
+    EXPECT_GE(placer.bytes(), 3 * sizeof(shared::GpuDepthLayers)) << "for maps that are not in sight, too";
     const std::uint32_t slot_of_b = placer.slotOf(1);
     EXPECT_NE(placer.slotOf(0), slot_of_b);
-    EXPECT_FALSE(placer.prepare(planOf({b})));
-    EXPECT_EQ(placer.slotOf(0), slot_of_b);
-    EXPECT_FALSE(placer.prepare(planOf({c, b})));
+    EXPECT_FALSE(placer.prepare(planWith({2})));
+    EXPECT_NE(placer.slotOf(0), slot_of_b) << "nobody takes the layers of a map that is not in sight";
+    EXPECT_FALSE(placer.prepare(planWith({2, 1})));
     EXPECT_EQ(placer.slotOf(1), slot_of_b);
-    EXPECT_NE(placer.slotOf(0), slot_of_b);
-    EXPECT_TRUE(placer.prepare(planOf({a, b, c})));
-    EXPECT_GE(placer.bytes(), 3 * sizeof(shared::GpuDepthLayers));
 }
 
 TEST_F(LayersOfDepth, areNoneForOtherFilters)

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -225,6 +226,30 @@ Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const
         plan.lights.push_back({i, 1, i / 4, i % 4, {}});
     }
     return plan;
+}
+
+void MapNames::name(Plan& plan)
+{
+    static ContentNumber last = 0; // no number twice, whoever gives it
+    contents_.resize(std::max(contents_.size(), plan.views.size()));
+    plan.map_count = static_cast<std::uint32_t>(2 * contents_.size());
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        View& view = plan.views[i];
+        Contents& held = contents_[i];
+        const bool known = held.map != 0;
+        held.map = known ? held.map : ++last;
+        view.map = {2 * i, 0};
+        view.presumes = known || !view.redraw ? held.map : 0;
+        held.map = view.redraw ? ++last : held.map;
+        view.makes = held.map;
+        if (view.kept_layer != kNoIndex) {
+            held.kept = held.kept != 0 ? held.kept : ++last;
+            view.kept_map = {2 * i + 1, 0};
+            view.kept_presumes = held.kept;
+            held.kept = view.redraw_kept ? ++last : held.kept;
+            view.kept_makes = held.kept;
+        }
+    }
 }
 
 } // namespace gnomon::test

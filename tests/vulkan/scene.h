@@ -70,4 +70,19 @@ struct Picture {
 [[nodiscard]] Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles,
                             MapPages atlas);
 
+/// Names the maps of plans that are made by hand, by their place among the views, and numbers their contents by what
+/// the views' flags say of them: `redraw` makes something new of the map, `redraw_kept` of the kept one.
+class MapNames {
+public:
+    /// To be called with each plan that is recorded, in their order.
+    void name(Plan& plan);
+
+private:
+    struct Contents {
+        ContentNumber map = 0;
+        ContentNumber kept = 0;
+    };
+    std::vector<Contents> contents_; // by view
+};
+
 } // namespace gnomon::test

@@ -53,6 +53,8 @@ public:
     }
     void record(std::uint32_t slot)
     {
+        names.name(plan);
+        driver.beginSlot(slot);
         renderer.recordMaps(driver.commands(), slot, frame, plan, [](const vulkan::MapPass&) {});
         renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
     }
@@ -84,6 +86,7 @@ public:
     Scene scene = makeScene();
     std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
     Plan plan;
+    MapNames names;
     Frame frame;
     vulkan::MaskInputs inputs;
     ShadowRenderer renderer;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alternate_pass.h"
 
+#include "barriers.h"
 #include "mask_regions.h"
 #include "pipelines.h"
 #include "samplers.h"
@@ -97,7 +98,7 @@ void AlternatePass::makePipeline(VkFormat mask_format)
     state.second_format = VK_FORMAT_R32_SFLOAT;
     state.cache = cache_;
     state.name = "alternate";
-    pipeline_ = {};
+    device_.retire(std::move(pipeline_));
     pipeline_ = makeGraphicsPipeline(device_, state);
 }
 
@@ -113,7 +114,8 @@ void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
         makePipeline(mask.format);
     }
     for (History& history : history_) {
-        history = {};
+        device_.retire(std::move(history.visibility));
+        device_.retire(std::move(history.distances));
         ImageInfo info = mask;
         info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
         info.purpose = "mask of the frame before";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blur_pass.h"
 
+#include "barriers.h"
 #include "draw_view.h"
 #include "moment_rule_of.h"
 

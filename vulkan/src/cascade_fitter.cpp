@@ -3,6 +3,8 @@
 // are divided among cascades, and each is fitted to the pixels that it serves.
 #include "cascade_fitter.h"
 
+#include "barriers.h"
+
 #include <gpu_structs.h>
 
 #include <glm/gtc/matrix_access.hpp>
@@ -127,14 +129,14 @@ void CascadeFitter::makeBuffers(std::uint32_t views, std::uint32_t lights)
     constexpr const char* kPurpose = "cascade bounds";
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const VkDeviceSize view_bytes = views * sizeof(shared::GpuFittedView);
-    keys_ = {};
-    views_ = {};
+    device_.retire(std::move(keys_));
+    device_.retire(std::move(views_));
     keys_ = DeviceBuffer(device_, lights * sizeof(shared::GpuCascadeKeys), kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                          kPurpose);
     views_ = DeviceBuffer(device_, view_bytes, kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, kPurpose);
     for (Slot& slot : slots_) {
-        slot.lights = {};
-        slot.report = {};
+        device_.retire(std::move(slot.lights));
+        device_.retire(std::move(slot.report));
         slot.lights = HostBuffer(device_, lights * sizeof(shared::GpuCascadeLight), kStorage, kPurpose);
         slot.report = HostBuffer(device_, view_bytes, kStorage, kPurpose);
         slot.view_count = 0;

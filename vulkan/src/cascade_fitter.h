@@ -15,8 +15,7 @@ class CascadeFitter {
 public:
     CascadeFitter(Device& device, const ShadowRendererOptions& options);
 
-    /// Makes what such a plan needs; nothing for a plan without such views. Nothing that was recorded may be pending
-    /// when the plan has more views or lights than any before.
+    /// Makes what such a plan needs; nothing for a plan without such views.
     void prepare(const Plan& plan);
     /// Afterwards views() is visible to vertex shaders, as attribute and as storage buffer, and to COMPUTE_SHADER.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,

@@ -44,7 +44,7 @@ struct CasterDrawer::Impl {
     }
 
     void reserve(const Plan& plan);
-    void ensurePipelines(const Plan& plan, bool all);
+    void ensurePipelines(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
     void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
     void bindGeometry(const MapPass& pass) const;
@@ -104,7 +104,7 @@ void CasterDrawer::setCascadePass(CascadePass pass)
     }
     for (Impl::Slot& slot : impl_->slots) {
         slot.places = together ? impl_->pipelines.places().take("caster places") : VK_NULL_HANDLE;
-        slot.instances = {}; // the other way has its own need of room
+        impl_->device.retire(std::move(slot.instances)); // the other way has its own need of room
     }
 }
 
@@ -150,18 +150,29 @@ void CasterDrawer::Impl::reserve(const Plan& plan)
     }
 }
 
-/// `all`: for the case that the renderer draws all views whatever they say.
-void CasterDrawer::Impl::ensurePipelines(const Plan& plan, bool all)
+/// For whichever of its views the renderer may find that it has to draw.
+void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
 {
-    for (std::uint32_t i = 0; i < plan.views.size();) {
+    std::uint32_t end_of_group = 0;
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        const std::uint32_t count = together ? viewsTogether(plan, i, all) : 1;
-        for (const CasterBatch& batch : batches) {
-            pipelines.ensure({!view.orthographic, batch.texture != VK_NULL_HANDLE, view.clamp_near,
-                              options.cull_back_faces && !batch.two_sided, view.part, view.gpu_cascade != kNoIndex,
-                              count > 1});
+        if (together && i >= end_of_group) {
+            end_of_group = i + viewsTogether(plan, i, true);
         }
-        i += count;
+        for (const CasterBatch& batch : batches) {
+            CasterPipelineKey key{!view.orthographic,
+                                  batch.texture != VK_NULL_HANDLE,
+                                  view.clamp_near,
+                                  options.cull_back_faces && !batch.two_sided,
+                                  view.part,
+                                  view.gpu_cascade != kNoIndex,
+                                  false};
+            pipelines.ensure(key);
+            if (i + 1 < end_of_group) { // with the next one at least
+                key.layered = true;
+                pipelines.ensure(key);
+            }
+        }
     }
 }
 
@@ -169,6 +180,7 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
                               std::span<const Rows3x4> world_from_object)
 {
     assert(slot < impl_->slots.size());
+    impl_->device.enter(slot, Retirement::Work::bounds); // a new frame each time
     impl_->slot = &impl_->slots[slot];
     impl_->geometry = geometry;
     impl_->transforms = world_from_object;
@@ -177,9 +189,7 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     impl_->triangles = 0;
     impl_->slot->places_written = false;
     impl_->reserve(plan);
-    for (const bool all : {false, true}) {
-        impl_->ensurePipelines(plan, all);
-    }
+    impl_->ensurePipelines(plan);
 }
 
 /// The casters of all its views.

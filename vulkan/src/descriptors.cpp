@@ -36,6 +36,7 @@ void DescriptorSets::reset(std::uint32_t count)
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     check(device_->vk.CreateDescriptorPool(device_->handle(), &info, nullptr, &pool), "create a descriptor pool");
+    device_->retire(std::move(pool_));
     pool_ = {*device_, pool};
 }
 

@@ -22,7 +22,7 @@ public:
     DescriptorSets(Device& device, DescriptorTypes types, VkShaderStageFlags stages);
 
     [[nodiscard]] VkDescriptorSetLayout layout() const { return layout_.get(); }
-    /// Room for this many, all of them new. Those that were taken before are gone.
+    /// Room for this many, all of them new. Those that were taken before are retired.
     void reset(std::uint32_t count);
     /// Takes one. Throws Error when there is no room left.
     [[nodiscard]] VkDescriptorSet take(const char* name);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "functions.h"
+#include "retirement.h"
 
 #include <gnomon/vulkan/shadow_renderer.h>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,18 @@ public:
     void beginLabel(VkCommandBuffer commands, const char* text) const;
     void endLabel(VkCommandBuffer commands) const;
 
+    /// See Retirement.
+    void enter(std::uint32_t slot, Retirement::Work work) { retirement_.enter(slot, work); }
+    /// To be freed when no frame in flight can use it any more; empty afterwards.
+    template <class Resource>
+    void retire(Resource&& resource)
+    {
+        if (resource) {
+            retirement_.keep(std::forward<Resource>(resource));
+        }
+        resource = std::decay_t<Resource>{};
+    }
+
     Functions vk;
 
 private:
@@ -53,6 +67,7 @@ private:
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     MemoryAccount account_;
+    Retirement retirement_; // the last: what it frees goes back to the others
 };
 
 template <class Handle>
@@ -160,6 +175,7 @@ class Buffer {
 public:
     [[nodiscard]] VkBuffer buffer() const { return buffer_.get(); }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
+    explicit operator bool() const { return static_cast<bool>(buffer_); }
 
 protected:
     Buffer() = default;
@@ -188,29 +204,5 @@ public:
 };
 
 [[nodiscard]] ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv);
-
-/// One image barrier of all levels, sent at once.
-struct ImageBarrier {
-    VkImage image = VK_NULL_HANDLE;
-    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-    std::uint32_t first_layer = 0;
-    std::uint32_t layer_count = 1;
-    VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkPipelineStageFlags2 source_stages = 0;
-    VkAccessFlags2 source_access = 0;
-    VkPipelineStageFlags2 target_stages = 0;
-    VkAccessFlags2 target_access = 0;
-};
-void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBarrier& barrier);
-
-/// One barrier for all memory, sent at once.
-struct MemoryBarrier {
-    VkPipelineStageFlags2 source_stages = 0;
-    VkAccessFlags2 source_access = 0;
-    VkPipelineStageFlags2 target_stages = 0;
-    VkAccessFlags2 target_access = 0;
-};
-void recordBarrier(const Device& device, VkCommandBuffer commands, const MemoryBarrier& barrier);
 
 } // namespace gnomon::vulkan

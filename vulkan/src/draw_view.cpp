@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "draw_view.h"
 
+#include <gnomon/plan_views.h>
+
+#include <algorithm>
 #include <cassert>
 #include <cstdio>
 
@@ -65,13 +68,23 @@ void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, C
 VkRect2D redrawnArea(const View& view, bool all)
 {
     const VkRect2D tile = areaOf(view.tile);
-    if (all || view.redraw_kept) {
+    if (all) {
         return tile;
     }
     const TexelRect& dirty = view.dirty;
     assert(dirty.x + dirty.width <= view.tile.width && dirty.y + dirty.height <= view.tile.height);
     return {{tile.offset.x + static_cast<std::int32_t>(dirty.x), tile.offset.y + static_cast<std::int32_t>(dirty.y)},
             {dirty.width, dirty.height}};
+}
+
+std::uint32_t drawnTogether(const Plan& plan, std::span<const ViewWork> work, std::uint32_t first)
+{
+    const std::uint32_t most = viewsTogether(plan, first, true);
+    std::uint32_t count = 0;
+    while (count < most && work[first + count].draw) {
+        ++count;
+    }
+    return std::max(count, 1U);
 }
 
 } // namespace gnomon::vulkan

@@ -37,7 +37,7 @@ class FilterLayout {
 public:
     FilterLayout(Device& device, VkPipelineCache cache);
 
-    /// Room for this many sets, all of them new. Sets that were made before are gone.
+    /// Room for this many sets, all of them new. Sets that were made before are retired.
     void reset(std::uint32_t sets) { sets_.reset(sets); }
     [[nodiscard]] VkDescriptorSet makeSet(const FilterBindings& bindings);
     [[nodiscard]] Pipeline makeCompute(std::span<const std::uint32_t> spirv, const FilterConstants& constants,

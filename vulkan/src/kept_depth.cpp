@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kept_depth.h"
 
+#include "barriers.h"
+
+#include <algorithm>
+
 namespace gnomon::vulkan {
 namespace {
-
-ImageInfo keptInfo(ImageInfo info, std::uint32_t layers)
-{
-    info.layers = layers;
-    info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    info.purpose = "kept shadow maps";
-    return info;
-}
 
 ImageBarrier barrierOf(const Image& image, std::uint32_t layer)
 {
@@ -40,9 +36,64 @@ void beginDepthRendering(const Device& device, VkCommandBuffer commands, const T
     setViewport(device, commands, tile);
 }
 
-KeptDepth::KeptDepth(Device& device, ImageInfo working, std::uint32_t layers)
-    : device_(&device), image_(device, keptInfo(working, layers)), layouts_(layers, VK_IMAGE_LAYOUT_UNDEFINED)
+bool KeptDepth::covers(VkExtent2D extent, std::uint32_t layers) const
 {
+    const ImageInfo& have = image_.info();
+    return layers == 0 || (image_ && have.extent.width >= extent.width && have.extent.height >= extent.height &&
+                           have.layers >= layers);
+}
+
+void KeptDepth::grow(VkFormat format, VkSampleCountFlagBits samples, VkExtent2D extent, std::uint32_t layers)
+{
+    ImageInfo info;
+    info.format = format;
+    info.extent = extent;
+    info.layers = layers;
+    info.usage =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
+    info.purpose = "kept shadow maps";
+    info.samples = samples;
+    if (image_) {
+        const ImageInfo& have = image_.info();
+        info.extent = {std::max(extent.width, have.extent.width), std::max(extent.height, have.extent.height)};
+        info.layers = std::max(layers, have.layers);
+    }
+    Image larger(device_, info);
+    if (image_) {
+        outgrown_.take(device_, std::move(image_), std::move(layouts_));
+    }
+    image_ = std::move(larger);
+    layouts_.assign(info.layers, VK_IMAGE_LAYOUT_UNDEFINED);
+}
+
+void KeptDepth::copyOutgrown(VkCommandBuffer commands)
+{
+    if (!outgrown_) {
+        return;
+    }
+    const auto toLayout = [&](std::uint32_t layer, VkImageLayout layout) {
+        ImageBarrier barrier = barrierOf(image_, layer);
+        barrier.old_layout = layouts_[layer];
+        barrier.new_layout = layout;
+        barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.target_access = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        recordBarrier(device_, commands, barrier);
+        layouts_[layer] = layout;
+    };
+    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
+        if (outgrown_.holds(layer)) {
+            toLayout(layer, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        }
+    }
+    outgrown_.copyTo(commands, image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
+        if (layouts_[layer] == VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL) {
+            toLayout(layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        }
+    }
 }
 
 void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
@@ -55,10 +106,10 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; // what was there may have been copied just now
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
-    recordBarrier(*device_, commands, barrier);
-    beginDepthRendering(*device_, commands, view.tile, image_.layer(view.kept_layer), VK_ATTACHMENT_LOAD_OP_CLEAR);
+    recordBarrier(device_, commands, barrier);
+    beginDepthRendering(device_, commands, view.tile, image_.layer(view.kept_layer), VK_ATTACHMENT_LOAD_OP_CLEAR);
     drawView(commands, plan, index, CasterShare::still, 0, draw);
-    device_->vk.CmdEndRendering(commands);
+    device_.vk.CmdEndRendering(commands);
     layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.new_layout = layout;
@@ -66,7 +117,7 @@ void KeptDepth::draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t i
     barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_READ_BIT;
-    recordBarrier(*device_, commands, barrier);
+    recordBarrier(device_, commands, barrier);
 }
 
 void KeptDepth::restore(VkCommandBuffer commands, const View& view, const Image& working) const
@@ -76,23 +127,22 @@ void KeptDepth::restore(VkCommandBuffer commands, const View& view, const Image&
     barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    recordBarrier(*device_, commands, barrier);
+    recordBarrier(device_, commands, barrier);
     const VkOffset3D first{static_cast<std::int32_t>(view.tile.x), static_cast<std::int32_t>(view.tile.y), 0};
     VkImageCopy copy{};
     copy.srcSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, view.kept_layer, 1};
     copy.dstSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
     copy.srcOffset = first;
-    copy.dstOffset = first;
     copy.extent = {view.tile.width, view.tile.height, 1};
-    device_->vk.CmdCopyImage(commands, image_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, working.image(),
-                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    device_.vk.CmdCopyImage(commands, image_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, working.image(),
+                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     barrier.old_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
-    recordBarrier(*device_, commands, barrier);
+    recordBarrier(device_, commands, barrier);
 }
 
 } // namespace gnomon::vulkan

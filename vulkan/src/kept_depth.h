@@ -3,6 +3,7 @@
 #pragma once
 
 #include "draw_view.h"
+#include "outgrown_image.h"
 
 namespace gnomon::vulkan {
 
@@ -12,21 +13,26 @@ void beginDepthRendering(const Device& device, VkCommandBuffer commands, const T
 
 class KeptDepth {
 public:
-    KeptDepth() = default;
-    /// Like `working`, the image that maps are drawn in, with layers of its own.
-    KeptDepth(Device& device, ImageInfo working, std::uint32_t layers);
+    explicit KeptDepth(Device& device) : device_(device) {}
 
-    [[nodiscard]] std::uint32_t layers() const { return static_cast<std::uint32_t>(layouts_.size()); }
+    /// Is there room for layers of this size?
+    [[nodiscard]] bool covers(VkExtent2D extent, std::uint32_t layers) const;
+    /// Makes an image with at least so many layers of this size. It takes over what the one before holds at the next
+    /// copyOutgrown().
+    void grow(VkFormat format, VkSampleCountFlagBits samples, VkExtent2D extent, std::uint32_t layers);
+    /// To be called before anything else is recorded with an image that has grown.
+    void copyOutgrown(VkCommandBuffer commands);
     /// What stands still into the view's layer.
     void draw(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
-    /// From there to the one layer of `working`, all of the tile; then casters can be drawn over it. Whatever was
-    /// there, compute shaders alone have read it.
+    /// From there to the first texels of the one layer of `working`, all of the tile; then casters can be drawn over
+    /// it. Whatever was there, compute shaders alone have read it.
     void restore(VkCommandBuffer commands, const View& view, const Image& working) const;
 
 private:
-    Device* device_ = nullptr;
+    Device& device_;
     Image image_;
     std::vector<VkImageLayout> layouts_;
+    OutgrownImage outgrown_;
 };
 
 } // namespace gnomon::vulkan

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layer_placer.h"
 
+#include "barriers.h"
+
 #include <depth_layers.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -10,11 +12,6 @@
 
 namespace gnomon::vulkan {
 namespace {
-
-bool isSame(const Tile& a, const Tile& b)
-{
-    return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
-}
 
 /// What the placements that look at nothing say of every view. Those that look start from it.
 shared::GpuDepthLayers fixedLayers(const MomentOptions& options)
@@ -92,12 +89,19 @@ LayerPlacer::LayerPlacer(Device& device, const FilterOptions& filter, VkPipeline
 
 void LayerPlacer::makeBuffer(std::uint32_t slots)
 {
-    buffer_ = {};
-    buffer_ =
-        HostBuffer(device_, slots * sizeof(shared::GpuDepthLayers), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "depth layers");
-    slots_.assign(slots, {});
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    HostBuffer larger(device_, slots * sizeof(shared::GpuDepthLayers), kUsage, "depth layers");
+    const bool placed =
+        relaxation_ && std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.metric; });
+    if (placed && !outgrown_) {
+        outgrown_ = std::move(buffer_);
+    } else {
+        device_.retire(std::move(buffer_));
+    }
+    buffer_ = std::move(larger);
+    slots_.resize(slots);
     std::fill_n(entries(), slots, fixedLayers(filter_.moments));
-    forgetDepth();
 }
 
 shared::GpuDepthLayers* LayerPlacer::entries() const
@@ -105,46 +109,49 @@ shared::GpuDepthLayers* LayerPlacer::entries() const
     return static_cast<shared::GpuDepthLayers*>(buffer_.data());
 }
 
-std::uint32_t LayerPlacer::findSlot(const Tile& tile) const
-{
-    const auto same =
-        std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.taken && isSame(s.tile, tile); });
-    const auto found = same != slots_.end()
-                           ? same
-                           : std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.taken; });
-    return found == slots_.end() ? kNoIndex : static_cast<std::uint32_t>(found - slots_.begin());
-}
-
 bool LayerPlacer::prepare(const Plan& plan)
 {
     if (filter_.filter != Filter::lvsm) {
         return false;
     }
-    const bool grows = plan.views.size() > slots_.size();
-    if (grows) {
-        makeBuffer(static_cast<std::uint32_t>(plan.views.size()));
-    }
-    for (Slot& slot : slots_) {
-        slot.taken = slot.taken && std::any_of(plan.views.begin(), plan.views.end(),
-                                               [&](const View& view) { return isSame(view.tile, slot.tile); });
-    }
+    std::size_t most = std::max<std::size_t>(plan.map_count, plan.views.size());
     slot_of_view_.clear();
-    for (const View& view : plan.views) {
-        const std::uint32_t slot = findSlot(view.tile);
-        assert(slot != kNoIndex); // a slot that is taken is some view's, and there are as many as views
-        if (!slots_[slot].taken) {
-            slots_[slot] = {true, view.tile, kNoIndex, std::nullopt};
-        }
-        slot_of_view_.push_back(slot);
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        slot_of_view_.push_back(view.map ? view.map.index : i);
+        most = std::max<std::size_t>(most, slot_of_view_.back() + 1);
+    }
+    const bool grows = most > slots_.size();
+    if (grows) {
+        makeBuffer(static_cast<std::uint32_t>(most));
     }
     return grows;
 }
 
-void LayerPlacer::forgetDepth()
+void LayerPlacer::setDepth(VkImageView depth)
 {
     if (relaxation_) {
-        relaxation_->forget();
+        relaxation_->setImages(depth, buffer_.buffer());
     }
+}
+
+void LayerPlacer::copyOutgrown(VkCommandBuffer commands)
+{
+    if (!outgrown_) {
+        return;
+    }
+    constexpr VkPipelineStageFlags2 kShaders =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    recordBarrier(device_, commands,
+                  MemoryBarrier{kShaders, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kCopy, VK_ACCESS_2_TRANSFER_READ_BIT});
+    const VkBufferCopy all{0, 0, outgrown_.size()};
+    device_.vk.CmdCopyBuffer(commands, outgrown_.buffer(), buffer_.buffer(), 1, &all);
+    recordBarrier(device_, commands,
+                  MemoryBarrier{kCopy, VK_ACCESS_2_TRANSFER_WRITE_BIT, kShaders | VK_PIPELINE_STAGE_2_HOST_BIT,
+                                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                                    VK_ACCESS_2_HOST_READ_BIT});
+    device_.retire(std::move(outgrown_));
 }
 
 std::uint32_t LayerPlacer::slotOf(std::uint32_t view) const
@@ -157,7 +164,7 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
     const Tile& tile = view.tile;
     const auto side = static_cast<int>(std::max(tile.width, tile.height));
     shared::GpuHistogramPush push;
-    push.tile = {tile.x, tile.y, tile.width, tile.height};
+    push.tile = {0, 0, tile.width, tile.height};
     push.more = {(side + shared::kMostSamplesAlong - 1) / shared::kMostSamplesAlong, depthFlags(filter_), 0, 0};
     push.metric = {nearOverFar(view, view.metric), 0.0F, 0.0F, 0.0F};
     return push;
@@ -166,7 +173,7 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
 shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t index, bool held) const
 {
     const Slot& slot = slots_[index];
-    const bool anew = !slot.metric || slot.light != view.light;
+    const bool anew = !slot.metric || slot.map != view.map || (!view.map && slot.light != view.light);
     const DepthMetric& before = anew ? view.metric : *slot.metric;
     const glm::dvec2 carry = carryOver(before, view);
     shared::GpuPlacePush push;
@@ -178,7 +185,7 @@ shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t inde
     return push;
 }
 
-void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view_index, VkImageView depth)
+void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view_index)
 {
     if (!relaxation_) {
         return;
@@ -186,7 +193,8 @@ void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32
     const View& view = plan.views[view_index];
     const std::uint32_t index = slotOf(view_index);
     const bool held = plan.technique.motion != Motion::free;
-    relaxation_->record(commands, {depth, buffer_.buffer(), histogramPush(view), placePush(view, index, held)});
+    relaxation_->record(commands, {histogramPush(view), placePush(view, index, held)});
+    slots_[index].map = view.map;
     slots_[index].light = view.light;
     slots_[index].metric = view.metric;
 }

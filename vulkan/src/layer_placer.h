@@ -15,34 +15,33 @@ public:
     /// For other filters than lvsm the buffer has one entry that nothing reads, so that descriptors have something.
     LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache);
 
-    /// Gives every view of the plan a slot; a tile keeps its slot from plan to plan, because what was drawn with its
-    /// layers may be kept. True when the buffer was made anew (then all maps are drawn again).
+    /// A map's layers have the slot of its MapId::index, whether or not a view of this plan draws or reads it: what was
+    /// drawn with them may be read later. True when the buffer was made anew, larger.
     bool prepare(const Plan& plan);
-    /// The image that depths are drawn into was made anew: descriptors that name it are out of date, and nothing that
-    /// uses them is pending.
-    void forgetDepth();
+    /// The image that depths are drawn into, or the buffer, is another one. `depth`: of one layer.
+    void setDepth(VkImageView depth);
+    /// To be called before anything else is recorded after prepare(): what the layers of a buffer that has grown were
+    /// is copied.
+    void copyOutgrown(VkCommandBuffer commands);
     /// Of a view of the plan that was prepared last.
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t view) const;
-    /// Places the layers of a view whose depths have just been drawn into `depth` (its own tile's rectangle, layer 0,
-    /// `samples` each, SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER reads). Afterwards the buffer is visible to
+    /// Places the layers of a view whose depths have just been drawn (its own tile's rectangle, `samples` each,
+    /// SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER reads). Afterwards the buffer is visible to
     /// COMPUTE_SHADER, FRAGMENT_SHADER and host reads.
-    void record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, VkImageView depth);
+    void record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
     [[nodiscard]] VkBuffer buffer() const; // std430: GpuDepthLayers by slot
     [[nodiscard]] VkDeviceSize bytes() const;
     /// Once the GPU has finished.
     [[nodiscard]] std::vector<DepthLayer> read(std::uint32_t view) const;
 
 private:
+    // What the layers of one map were placed for; nothing placed yet without a metric.
     struct Slot {
-        bool taken = false;
-        Tile tile;
-        // What its layers were placed for; nothing placed yet without a metric.
-        std::uint32_t light = kNoIndex;
+        MapId map;
+        std::uint32_t light = kNoIndex; // tells maps without a name apart
         std::optional<DepthMetric> metric;
     };
 
-    /// The slot of this tile, or else a free one, or kNoIndex.
-    [[nodiscard]] std::uint32_t findSlot(const Tile& tile) const;
     void makeBuffer(std::uint32_t slots);
     [[nodiscard]] shared::GpuDepthLayers* entries() const;
     [[nodiscard]] shared::GpuHistogramPush histogramPush(const View& view) const;
@@ -52,6 +51,7 @@ private:
     FilterOptions filter_;
     std::optional<LayerRelaxation> relaxation_; // lvsm with layers placed by Lloyd's rule
     HostBuffer buffer_;
+    HostBuffer outgrown_; // what was placed is there until it has been copied
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> slot_of_view_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layer_relaxation.h"
 
+#include "barriers.h"
 #include "pipelines.h"
 
 #include <gnomon_spirv.h>
@@ -39,27 +40,15 @@ LayerRelaxation::LayerRelaxation(Device& device, const FilterOptions& filter, Vk
     count_ = makeComputePipeline(device, {histogram, nullptr, count_layout_.get(), cache, "histogram of depths"});
     place_ = makeComputePipeline(
         device, {spirv::depth_layers_place_comp, nullptr, place_layout_.get(), cache, "places of layers"});
-    sets_.reset(1);
+}
+
+void LayerRelaxation::setImages(VkImageView depth, VkBuffer layers)
+{
+    sets_.reset(1); // frames in flight may use the set that was there
     set_ = sets_.take("depth layers");
-}
-
-void LayerRelaxation::forget()
-{
-    depth_ = VK_NULL_HANDLE;
-    layers_ = VK_NULL_HANDLE;
-}
-
-void LayerRelaxation::updateSet(const Job& job)
-{
-    if (depth_ == job.depth && layers_ == job.layers) {
-        return;
-    }
-    const std::array writes{
-        DescriptorSets::image(0, VK_NULL_HANDLE, job.depth, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-        DescriptorSets::buffer(1, histogram_.buffer()), DescriptorSets::buffer(2, job.layers)};
+    const std::array writes{DescriptorSets::image(0, VK_NULL_HANDLE, depth, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+                            DescriptorSets::buffer(1, histogram_.buffer()), DescriptorSets::buffer(2, layers)};
     sets_.write(set_, writes);
-    depth_ = job.depth;
-    layers_ = job.layers;
 }
 
 void LayerRelaxation::record(VkCommandBuffer commands, const Job& job)
@@ -71,7 +60,6 @@ void LayerRelaxation::record(VkCommandBuffer commands, const Job& job)
     const auto wait = [&](const MemoryBarrier& barrier) {
         recordBarrier(device_, commands, barrier);
     };
-    updateSet(job);
     // The view before is done with the histogram, and the last frame with this view's layers.
     wait({kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kClear | kCompute,
           VK_ACCESS_2_TRANSFER_WRITE_BIT | kReadWrite});

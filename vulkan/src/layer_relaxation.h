@@ -12,11 +12,9 @@ class LayerRelaxation {
 public:
     LayerRelaxation(Device& device, const FilterOptions& filter, VkPipelineCache cache);
 
-    /// Descriptors that name the depth image or the layers are out of date; nothing that uses them is pending.
-    void forget();
+    /// What every job reads from and writes to, from here on. They are new: a handle may be one that was used before.
+    void setImages(VkImageView depth, VkBuffer layers);
     struct Job {
-        VkImageView depth = VK_NULL_HANDLE;
-        VkBuffer layers = VK_NULL_HANDLE;
         shared::GpuHistogramPush histogram;
         shared::GpuPlacePush place;
     };
@@ -24,8 +22,6 @@ public:
     void record(VkCommandBuffer commands, const Job& job);
 
 private:
-    void updateSet(const Job& job);
-
     Device& device_;
     DeviceBuffer histogram_;
     DescriptorSets sets_;
@@ -34,8 +30,6 @@ private:
     Pipeline count_;
     Pipeline place_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    VkImageView depth_ = VK_NULL_HANDLE; // what the set holds now
-    VkBuffer layers_ = VK_NULL_HANDLE;
 };
 
 } // namespace gnomon::vulkan

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layered_target.h"
 
+#include "barriers.h"
 #include "draw_view.h"
+
+#include <algorithm>
 
 namespace gnomon::vulkan {
 namespace {
@@ -25,9 +28,55 @@ VkAccessFlags2 attachmentAccess(bool depth)
 
 } // namespace
 
-LayeredTarget::LayeredTarget(Device& device, const ImageInfo& info)
-    : device_(&device), image_(device, info), layouts_(info.layers, VK_IMAGE_LAYOUT_UNDEFINED)
+void LayeredTarget::grow(Device& device, ImageInfo info)
 {
+    if (image_) {
+        const ImageInfo& have = image_.info();
+        info.extent = {std::max(info.extent.width, have.extent.width),
+                       std::max(info.extent.height, have.extent.height)};
+        info.layers = std::max(info.layers, have.layers);
+    }
+    Image larger(device, info);
+    if (image_) {
+        outgrown_.take(device, std::move(image_), std::move(layouts_));
+    }
+    device_ = &device;
+    image_ = std::move(larger);
+    layouts_.assign(info.layers, VK_IMAGE_LAYOUT_UNDEFINED);
+}
+
+void LayeredTarget::copyOutgrown(VkCommandBuffer commands)
+{
+    if (!outgrown_) {
+        return;
+    }
+    BarrierBatch barriers(*device_, commands);
+    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
+        if (!outgrown_.holds(layer)) {
+            continue;
+        }
+        ImageBarrier barrier = barrierOf(layer);
+        barrier.new_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barriers.add(barrier);
+        layouts_[layer] = barrier.new_layout;
+    }
+    barriers.record();
+    outgrown_.copyTo(commands, image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
+        if (layouts_[layer] != VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL) {
+            continue;
+        }
+        ImageBarrier barrier = barrierOf(layer);
+        barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.target_stages = kMapReaders;
+        barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+        barriers.add(barrier);
+        layouts_[layer] = barrier.new_layout;
+    }
 }
 
 ImageBarrier LayeredTarget::barrierOf(std::uint32_t layer) const
@@ -40,7 +89,7 @@ ImageBarrier LayeredTarget::barrierOf(std::uint32_t layer) const
     return barrier;
 }
 
-void LayeredTarget::toAttachment(VkCommandBuffer commands, std::uint32_t layer)
+void LayeredTarget::toAttachment(BarrierBatch& barriers, std::uint32_t layer)
 {
     // Layers that keep some of their tiles must not lose them in the transition; so the old layout is named, not
     // UNDEFINED.
@@ -49,11 +98,11 @@ void LayeredTarget::toAttachment(VkCommandBuffer commands, std::uint32_t layer)
     barrier.source_stages = kMapReaders; // the last frame's reads come first; there is nothing to make visible
     barrier.target_stages = attachmentStages(isDepth());
     barrier.target_access = attachmentAccess(isDepth());
-    recordBarrier(*device_, commands, barrier);
+    barriers.add(barrier);
     layouts_[layer] = barrier.new_layout;
 }
 
-void LayeredTarget::toReadable(VkCommandBuffer commands, std::uint32_t layer)
+void LayeredTarget::toReadable(BarrierBatch& barriers, std::uint32_t layer)
 {
     ImageBarrier barrier = barrierOf(layer);
     barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -63,20 +112,20 @@ void LayeredTarget::toReadable(VkCommandBuffer commands, std::uint32_t layer)
     }
     barrier.target_stages = kMapReaders;
     barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    recordBarrier(*device_, commands, barrier);
+    barriers.add(barrier);
     layouts_[layer] = barrier.new_layout;
 }
 
-void LayeredTarget::makeReadable(VkCommandBuffer commands)
+void LayeredTarget::makeReadable(BarrierBatch& barriers)
 {
     for (std::uint32_t layer = 0; layer < layouts_.size(); ++layer) {
         if (layouts_[layer] != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
-            toReadable(commands, layer);
+            toReadable(barriers, layer);
         }
     }
 }
 
-void LayeredTarget::waitForDrawing(VkCommandBuffer commands, std::uint32_t layer) const
+void LayeredTarget::waitForDrawing(BarrierBatch& barriers, std::uint32_t layer) const
 {
     ImageBarrier barrier = barrierOf(layer);
     barrier.new_layout = barrier.old_layout;
@@ -84,7 +133,7 @@ void LayeredTarget::waitForDrawing(VkCommandBuffer commands, std::uint32_t layer
     barrier.source_access = writeAccess(isDepth());
     barrier.target_stages = attachmentStages(isDepth());
     barrier.target_access = attachmentAccess(isDepth());
-    recordBarrier(*device_, commands, barrier);
+    barriers.add(barrier);
 }
 
 bool LayeredTarget::covers(VkExtent2D extent, std::uint32_t layers) const

@@ -2,24 +2,30 @@
 // An image whose layers are drawn to and read by shaders by turns, each on its own.
 #pragma once
 
-#include "device.h"
+#include "barriers.h"
+#include "outgrown_image.h"
 
 namespace gnomon::vulkan {
 
 class LayeredTarget {
 public:
     LayeredTarget() = default;
-    /// A depth image if its aspect is that, else a colour image.
-    LayeredTarget(Device& device, const ImageInfo& info);
+
+    /// Makes an image, of depths if its aspect is that, else of colours. It has at least the size of the one before,
+    /// whose texels it takes over at the next copyOutgrown(), and which is retired. Throws Error as Image does, and
+    /// then nothing has changed.
+    void grow(Device& device, ImageInfo info);
+    /// To be called before anything else is recorded with an image that has grown.
+    void copyOutgrown(VkCommandBuffer commands);
 
     /// After reads by shaders. What the layer holds stays.
-    void toAttachment(VkCommandBuffer commands, std::uint32_t layer);
+    void toAttachment(BarrierBatch& barriers, std::uint32_t layer);
     /// What was drawn is visible to shaders.
-    void toReadable(VkCommandBuffer commands, std::uint32_t layer);
+    void toReadable(BarrierBatch& barriers, std::uint32_t layer);
     /// All layers that are not; those that were never drawn hold anything.
-    void makeReadable(VkCommandBuffer commands);
+    void makeReadable(BarrierBatch& barriers);
     /// Between two passes that draw to the same texels of a layer.
-    void waitForDrawing(VkCommandBuffer commands, std::uint32_t layer) const;
+    void waitForDrawing(BarrierBatch& barriers, std::uint32_t layer) const;
 
     [[nodiscard]] const Image& image() const { return image_; }
     explicit operator bool() const { return static_cast<bool>(image_); }
@@ -33,6 +39,7 @@ private:
     Device* device_ = nullptr;
     Image image_;
     std::vector<VkImageLayout> layouts_;
+    OutgrownImage outgrown_;
 };
 
 } // namespace gnomon::vulkan

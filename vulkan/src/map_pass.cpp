@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_pass.h"
 
+#include "barriers.h"
 #include "draw_view.h"
 #include "timed.h"
 
@@ -11,6 +12,9 @@
 
 namespace gnomon::vulkan {
 namespace {
+
+// An image that grows is copied into the larger one; hosts may copy maps, too.
+constexpr VkImageUsageFlags kCopied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
 bool isKept(const View& view)
 {
@@ -32,19 +36,21 @@ DepthMaps::DepthMaps(Device& device, const ShadowRendererOptions& options, const
 
 void DepthMaps::makeMaps(const MapPages& size)
 {
-    // Free the old images first, so that growing does not need room for both.
+    for (Layers& layers : layers_) {
+        device_.retire(std::move(layers.view));
+    }
     layers_.clear();
-    maps_ = {};
-    depth_ = {};
-    kept_colours_ = {};
-    kept_depths_ = {};
-    const VkExtent2D extent{size.width, size.height};
     const VkImageUsageFlags attachment =
         storage_.depthOnly() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    maps_ = LayeredTarget(device_, {storage_.mapFormat(), extent, size.layers,
-                                    attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                    storage_.aspect(), "shadow maps"});
+    maps_.grow(device_, {storage_.mapFormat(),
+                         {size.width, size.height},
+                         size.layers,
+                         attachment | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
+                         storage_.aspect(),
+                         "shadow maps"});
+    const VkExtent2D extent = maps_.image().info().extent;
     if (!storage_.depthOnly()) {
+        device_.retire(std::move(depth_));
         depth_ = Image(device_, {storage_.depth, extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                  VK_IMAGE_ASPECT_DEPTH_BIT, "shadow map depth"});
     }
@@ -52,44 +58,36 @@ void DepthMaps::makeMaps(const MapPages& size)
 
 void DepthMaps::makeKept(std::uint32_t layers)
 {
-    kept_colours_ = {};
-    kept_depths_ = {};
     const VkExtent2D extent = maps_.image().info().extent;
-    kept_depths_ = LayeredTarget(device_, {storage_.depth, extent, layers,
-                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                           VK_IMAGE_ASPECT_DEPTH_BIT, "kept shadow maps"});
+    kept_depths_.grow(device_, {storage_.depth, extent, layers,
+                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
+                                VK_IMAGE_ASPECT_DEPTH_BIT, "kept shadow maps"});
     if (!storage_.depthOnly()) {
-        kept_colours_ = LayeredTarget(device_, {storage_.colour, extent, layers,
-                                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                                VK_IMAGE_ASPECT_COLOR_BIT, "kept shadow maps"});
+        kept_colours_.grow(device_, {storage_.colour, extent, layers,
+                                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
+                                     VK_IMAGE_ASPECT_COLOR_BIT, "kept shadow maps"});
     }
     restorer_->setKept(kept_depths_.image().view(), kept_colours_.image().view());
 }
 
-bool DepthMaps::prepare(const Plan& plan)
+MapRecorder::Prepared DepthMaps::prepare(const Plan& plan)
 {
-    const MapPages& atlas = plan.pages[0];
-    const MapPages need{std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
-    bool changed = false;
+    const MapPages& pages = plan.pages[0];
+    const MapPages need{std::max(pages.width, 1U), std::max(pages.height, 1U), std::max(pages.layers, 1U)};
+    Prepared prepared;
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
-        changed = true;
+        prepared.changed = true;
     }
-    if (!restorer_ && (plan.pages[0].kept_layers > 0 || sharesTexels(plan))) {
+    if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan))) {
         restorer_.emplace(device_, storage_, cache_);
     }
-    if (plan.pages[0].kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, plan.pages[0].kept_layers)) {
-        makeKept(plan.pages[0].kept_layers);
-        changed = true;
+    if (pages.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, pages.kept_layers)) {
+        makeKept(pages.kept_layers);
+        prepared.changed = true;
     }
-    redraw_all_ = redraw_all_ || changed;
     prepareTogether(plan);
-    return changed;
-}
-
-std::uint32_t DepthMaps::together(const Plan& plan, std::uint32_t first, bool all) const
-{
-    return pass_ == CascadePass::layered ? viewsTogether(plan, first, all) : 1;
+    return prepared;
 }
 
 const DepthMaps::Layers* DepthMaps::layersFrom(std::uint32_t first) const
@@ -105,12 +103,18 @@ void DepthMaps::prepareTogether(const Plan& plan)
 {
     std::uint32_t most = 1;
     for (std::uint32_t i = 0; i < plan.views.size();) {
-        const std::uint32_t count = together(plan, i, true);
+        const std::uint32_t count = pass_ == CascadePass::layered ? viewsTogether(plan, i, true) : 1;
         for (std::uint32_t rest = count; rest > 1; --rest) {
             const std::uint32_t first = plan.views[i].tile.layer + count - rest;
             const Layers* const had = layersFrom(first);
             if (had == nullptr || had->count < rest) {
-                std::erase_if(layers_, [&](const Layers& one) { return one.first == first; });
+                std::erase_if(layers_, [&](Layers& one) {
+                    const bool replaced = one.first == first;
+                    if (replaced) {
+                        device_.retire(std::move(one.view));
+                    }
+                    return replaced;
+                });
                 layers_.push_back({first, rest, maps_.image().range(device_, first, rest)});
             }
         }
@@ -121,7 +125,7 @@ void DepthMaps::prepareTogether(const Plan& plan)
     if (depth_ && (depth_.info().layers < most || drops)) {
         ImageInfo info = depth_.info();
         info.layers = most;
-        depth_ = {};
+        device_.retire(std::move(depth_));
         depth_ = Image(device_, info);
     }
 }
@@ -131,9 +135,9 @@ MapPassFormats DepthMaps::formats(bool orthographic) const
     return {storage_.colour, storage_.depth, VK_SAMPLE_COUNT_1_BIT, storage_.depthOnly() && !orthographic};
 }
 
-DepthMaps::Target DepthMaps::mapTarget(const View& view) const
+DepthMaps::Target DepthMaps::mapTarget(const View& view, const ViewWork& work) const
 {
-    const VkRect2D area = isKept(view) ? redrawnArea(view, redraw_all_) : areaOf(view.tile);
+    const VkRect2D area = redrawnArea(view, work.whole);
     const VkImageView layer = maps_.image().layer(view.tile.layer);
     if (storage_.depthOnly()) {
         return {VK_NULL_HANDLE, layer, true, true, area, 1};
@@ -191,7 +195,7 @@ void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile, const
 }
 
 // The views' maps in a colour format all use the one image of depths.
-void DepthMaps::waitForDepth(VkCommandBuffer commands)
+void DepthMaps::waitForDepth(BarrierBatch& barriers)
 {
     ImageBarrier barrier;
     barrier.image = depth_.image();
@@ -202,109 +206,128 @@ void DepthMaps::waitForDepth(VkCommandBuffer commands)
     barrier.source_access = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
-    recordBarrier(device_, commands, barrier);
+    barriers.add(barrier);
 }
 
-void DepthMaps::drawKept(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
+void DepthMaps::drawKept(const MapJob& job)
 {
-    const auto is_drawn = [&](const View& view) {
-        return isKept(view) && (view.redraw_kept || redraw_all_);
-    };
-    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        const View& view = plan.views[i];
-        if (!is_drawn(view)) {
-            continue;
+    const std::span<const View> views = job.plan.views;
+    BarrierBatch before(device_, job.commands);
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        if (job.work[i].draw_kept) {
+            kept_depths_.toAttachment(before, views[i].kept_layer);
+            if (kept_colours_) {
+                kept_colours_.toAttachment(before, views[i].kept_layer);
+            }
         }
-        beginViewLabel(device_, commands, plan, i);
-        kept_depths_.toAttachment(commands, view.kept_layer);
-        if (kept_colours_) {
-            kept_colours_.toAttachment(commands, view.kept_layer);
+    }
+    before.record();
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        if (job.work[i].draw_kept) {
+            beginViewLabel(device_, job.commands, job.plan, i);
+            beginRendering(job.commands, views[i].tile, keptTarget(views[i]));
+            drawView(job.commands, job.plan, i, CasterShare::still, colourMaskOf(storage_.colour, views[i].part),
+                     job.draw);
+            device_.vk.CmdEndRendering(job.commands);
+            device_.endLabel(job.commands);
         }
-        beginRendering(commands, view.tile, keptTarget(view));
-        drawView(commands, plan, i, CasterShare::still, colourMaskOf(storage_.colour, view.part), draw);
-        device_.vk.CmdEndRendering(commands);
-        kept_depths_.toReadable(commands, view.kept_layer);
-        if (kept_colours_) {
-            kept_colours_.toReadable(commands, view.kept_layer);
-        }
-        device_.endLabel(commands);
     }
     // What restores a map names the whole image, with the layers of maps that nobody has needed so far.
-    kept_depths_.makeReadable(commands);
-    kept_colours_.makeReadable(commands);
+    BarrierBatch after(device_, job.commands);
+    kept_depths_.makeReadable(after);
+    kept_colours_.makeReadable(after);
 }
 
-void DepthMaps::drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw)
+void DepthMaps::drawMaps(const MapJob& job)
 {
-    const auto is_drawn = [&](const View& view) {
-        return redraw_all_ || (view.redraw && !(isKept(view) && !view.redraw_kept && view.dirty.empty()));
-    };
+    const std::span<const View> views = job.plan.views;
+    BarrierBatch before(device_, job.commands);
     for (std::uint32_t layer = 0; layer < maps_.image().info().layers; ++layer) {
-        if (std::any_of(plan.views.begin(), plan.views.end(),
-                        [&](const View& view) { return is_drawn(view) && view.tile.layer == layer; })) {
-            maps_.toAttachment(commands, layer);
+        for (std::uint32_t i = 0; i < views.size(); ++i) {
+            if (job.work[i].draw && views[i].tile.layer == layer) {
+                maps_.toAttachment(before, layer);
+                break;
+            }
         }
     }
-    for (std::uint32_t i = 0; i < plan.views.size();) {
-        const std::uint32_t count = together(plan, i, redraw_all_);
+    before.record();
+    for (std::uint32_t i = 0; i < views.size();) {
+        const std::uint32_t count = pass_ == CascadePass::layered ? drawnTogether(job.plan, job.work, i) : 1;
         if (count > 1) {
-            drawTogether(commands, plan, i, count, draw);
-        } else if (is_drawn(plan.views[i])) {
-            drawMap(commands, plan, i, draw);
+            drawTogether(job, i, count);
+        } else if (job.work[i].draw) {
+            drawMap(job, i);
         }
         i += count;
     }
 }
 
-void DepthMaps::drawMap(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
 {
-    const View& view = plan.views[index];
+    const View& view = job.plan.views[index];
+    const VkCommandBuffer commands = job.commands;
     assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
            view.tile.y + view.tile.height <= maps_.image().info().extent.height);
-    beginViewLabel(device_, commands, plan, index);
+    beginViewLabel(device_, commands, job.plan, index);
+    BarrierBatch barriers(device_, commands);
     if (!storage_.depthOnly()) {
-        waitForDepth(commands);
+        waitForDepth(barriers);
     }
     if (view.part != TexelPart::whole) { // the other part of the same texels may just have been drawn
-        maps_.waitForDrawing(commands, view.tile.layer);
+        maps_.waitForDrawing(barriers, view.tile.layer);
     }
-    beginRendering(commands, view.tile, mapTarget(view));
+    barriers.record();
+    beginRendering(commands, view.tile, mapTarget(view, job.work[index]));
     if (isKept(view)) {
         restorer_->restore(commands, view.part, view.kept_layer);
     } else if (view.part != TexelPart::whole) {
         restorer_->clear(commands, view.part);
     }
-    drawView(commands, plan, index, isKept(view) ? CasterShare::moving : CasterShare::all,
-             colourMaskOf(storage_.colour, view.part), draw);
+    drawView(commands, job.plan, index, isKept(view) ? CasterShare::moving : CasterShare::all,
+             colourMaskOf(storage_.colour, view.part), job.draw);
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);
 }
 
-void DepthMaps::drawTogether(VkCommandBuffer commands, const Plan& plan, std::uint32_t first, std::uint32_t count,
-                             const DrawCasters& draw)
+void DepthMaps::drawTogether(const MapJob& job, std::uint32_t first, std::uint32_t count)
 {
-    beginViewLabel(device_, commands, plan, first);
+    const VkCommandBuffer commands = job.commands;
+    beginViewLabel(device_, commands, job.plan, first);
     if (!storage_.depthOnly()) {
-        waitForDepth(commands);
+        BarrierBatch barriers(device_, commands);
+        waitForDepth(barriers);
     }
-    const Tile& tile = plan.views[first].tile;
+    const Tile& tile = job.plan.views[first].tile;
     beginRendering(commands, tile, targetOf(tile, count));
-    MapPass pass = passOf(commands, plan, first, colourMaskOf(storage_.colour, TexelPart::whole));
+    MapPass pass = passOf(commands, job.plan, first, colourMaskOf(storage_.colour, TexelPart::whole));
     pass.view_count = count;
     pass.casters = pass.castersOf(0);
-    draw(pass);
+    job.draw(pass);
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);
 }
 
-void DepthMaps::record(VkCommandBuffer commands, [[maybe_unused]] std::uint32_t slot, const Plan& plan,
-                       const DrawCasters& draw, Profiler* profiler)
+void DepthMaps::record(const MapJob& job)
 {
-    const Timed timed(profiler, commands, "shadow maps");
-    drawKept(commands, plan, draw);
-    drawMaps(commands, plan, draw);
-    redraw_all_ = false;
-    makeReadable(commands);
+    const Timed timed(job.profiler, job.commands, "shadow maps");
+    copyOutgrown(job.commands);
+    drawKept(job);
+    drawMaps(job);
+    makeReadable(job.commands);
+}
+
+void DepthMaps::copyOutgrown(VkCommandBuffer commands)
+{
+    for (LayeredTarget* const target : {&maps_, &kept_depths_, &kept_colours_}) {
+        target->copyOutgrown(commands);
+    }
+}
+
+void DepthMaps::makeReadable(VkCommandBuffer commands)
+{
+    copyOutgrown(commands);
+    BarrierBatch barriers(device_, commands);
+    maps_.makeReadable(barriers);
 }
 
 } // namespace gnomon::vulkan

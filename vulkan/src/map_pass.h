@@ -4,6 +4,7 @@
 // something moves, and what moves over that. Views of one light's cascades can be drawn in one pass.
 #pragma once
 
+#include "barriers.h"
 #include "layered_target.h"
 #include "map_recorder.h"
 #include "map_restore.h"
@@ -17,14 +18,11 @@ class DepthMaps final : public MapRecorder {
 public:
     DepthMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage);
 
-    bool prepare(const Plan& plan) override;
+    Prepared prepare(const Plan& plan) override;
     void setPass(CascadePass pass) override { pass_ = pass; }
     [[nodiscard]] bool drawsTogether() const override { return true; }
-    void forget() override { redraw_all_ = true; }
-    [[nodiscard]] bool redrawsAll() const override { return redraw_all_; }
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
-                Profiler* profiler) override;
-    void makeReadable(VkCommandBuffer commands) override { maps_.makeReadable(commands); }
+    void record(const MapJob& job) override;
+    void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
     [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
@@ -49,18 +47,17 @@ private:
     void makeMaps(const MapPages& size);
     void makeKept(std::uint32_t layers);
     void prepareTogether(const Plan& plan);
-    [[nodiscard]] std::uint32_t together(const Plan& plan, std::uint32_t first, bool all) const;
-    void drawKept(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw);
-    void drawMaps(VkCommandBuffer commands, const Plan& plan, const DrawCasters& draw);
-    void drawMap(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw);
-    void drawTogether(VkCommandBuffer commands, const Plan& plan, std::uint32_t first, std::uint32_t count,
-                      const DrawCasters& draw);
+    void copyOutgrown(VkCommandBuffer commands);
+    void drawKept(const MapJob& job);
+    void drawMaps(const MapJob& job);
+    void drawMap(const MapJob& job, std::uint32_t index);
+    void drawTogether(const MapJob& job, std::uint32_t first, std::uint32_t count);
     void beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target);
-    [[nodiscard]] Target mapTarget(const View& view) const;
+    [[nodiscard]] Target mapTarget(const View& view, const ViewWork& work) const;
     [[nodiscard]] Target keptTarget(const View& view) const;
     [[nodiscard]] Target targetOf(const Tile& tile, std::uint32_t count) const;
     [[nodiscard]] const Layers* layersFrom(std::uint32_t first) const;
-    void waitForDepth(VkCommandBuffer commands);
+    void waitForDepth(BarrierBatch& barriers);
 
     Device& device_;
     const MapStorage& storage_;
@@ -72,7 +69,6 @@ private:
     LayeredTarget kept_colours_;
     LayeredTarget kept_depths_;
     std::optional<MapRestorer> restorer_; // made when first needed
-    bool redraw_all_ = true;
 };
 
 } // namespace gnomon::vulkan

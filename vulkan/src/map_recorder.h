@@ -4,8 +4,19 @@
 #pragma once
 
 #include "device.h"
+#include "map_contents.h"
 
 namespace gnomon::vulkan {
+
+/// What one recording is given.
+struct MapJob {
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    std::uint32_t slot = 0;
+    const Plan& plan;
+    std::span<const ViewWork> work; // by view
+    const DrawCasters& draw;
+    Profiler* profiler = nullptr;
+};
 
 class MapRecorder {
 public:
@@ -14,16 +25,17 @@ public:
     MapRecorder(const MapRecorder&) = delete;
     MapRecorder& operator=(const MapRecorder&) = delete;
 
-    /// Makes the images and buffers if the plan does not fit; true when it did.
-    virtual bool prepare(const Plan& plan) = 0;
+    struct Prepared {
+        bool changed = false; // there are new images or buffers
+        bool lost = false;    // and what maps held could not be taken over
+    };
+    /// Makes larger images and buffers if the plan does not fit. What they hold is copied at the next record().
+    virtual Prepared prepare(const Plan& plan) = 0;
     /// See ShadowRenderer::setCascadePass. Never layered where drawsTogether() is false.
     virtual void setPass(CascadePass /*pass*/) {}
     [[nodiscard]] virtual bool drawsTogether() const { return false; }
-    /// Every view is drawn at the next record(), whatever it says.
-    virtual void forget() = 0;
-    [[nodiscard]] virtual bool redrawsAll() const = 0;
-    virtual void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
-                        Profiler* profiler) = 0;
+    /// Does what `job.work` says of each view of the plan.
+    virtual void record(const MapJob& job) = 0;
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.
     virtual void makeReadable(VkCommandBuffer commands) = 0;
     [[nodiscard]] virtual const Image& maps() const = 0;

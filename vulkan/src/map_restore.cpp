@@ -21,13 +21,13 @@ MapRestorer::MapRestorer(Device& device, const MapStorage& storage, VkPipelineCa
       sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
       layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Layer)))
 {
-    sets_.reset(1);
-    set_ = sets_.take("restore");
 }
 
 void MapRestorer::setKept(VkImageView depths, VkImageView colours)
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    sets_.reset(1); // frames in flight may use the set that was there
+    set_ = sets_.take("restore");
     // Lavapipe 22.3 crashes on a descriptor that was never written even if no shader names it.
     const std::array writes{
         DescriptorSets::image(0, sampler_.get(), depths, kRead),

@@ -14,7 +14,8 @@ class MapRestorer {
 public:
     MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
-    /// Images of all layers, in SHADER_READ_ONLY_OPTIMAL when they are read. `colours` is null for depth-only maps.
+    /// Views of all layers of images that are new, in SHADER_READ_ONLY_OPTIMAL when they are read. `colours` is null
+    /// for depth-only maps.
     void setKept(VkImageView depths, VkImageView colours);
     /// Rendering has begun, viewport and scissor are set: puts back what the scissor covers, depths and colours.
     void restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer);

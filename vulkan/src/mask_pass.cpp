@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_pass.h"
 
+#include "barriers.h"
+
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -85,7 +87,7 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
     room_.views_at = room_.lights_at + aligned(room_.lights * sizeof(shared::GpuLight));
     const VkDeviceSize bytes = room_.views_at + room_.views * sizeof(shared::GpuView);
     for (Slot& slot : slots_) {
-        slot.constants = {};
+        device_.retire(std::move(slot.constants));
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
     }
@@ -102,9 +104,11 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, std::optiona
                       have.extent.height == screen.height;
     if (!fits) {
         if (!mask_ || have.format != format) {
-            pipelines_ = {};
+            for (Pipeline& pipeline : pipelines_) {
+                device_.retire(std::move(pipeline));
+            }
         }
-        mask_ = {};
+        device_.retire(std::move(mask_));
         mask_ = Image(device_, {format, screen, layers,
                                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT,

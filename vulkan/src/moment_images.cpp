@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_images.h"
 
+#include "barriers.h"
+
 namespace gnomon::vulkan {
 
 shared::FilterPassPlace placeOf(const FilterStep& step)

@@ -8,8 +8,8 @@ namespace gnomon::vulkan {
 
 struct MomentImages {
     Image maps;
-    Image depth;                            // one layer, drawn and read view by view
-    Image scratch;                          // a tile blurred along x; empty without blur
+    Image depth;                            // one layer, drawn and read view by view, each from the first texel on
+    Image scratch;                          // a tile blurred along x, likewise; empty without blur
     DeviceBuffer blocks;                    // flags of the tile's blocks, see filter_pass.glsl
     HostBuffer kernel;                      // BlurKernel
     HostBuffer counts;                      // BlurCounts, one a slot

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_maps.h"
 
+#include "barriers.h"
 #include "blur_kernel.h"
 #include "draw_view.h"
 #include "moment_rule_of.h"
@@ -35,7 +36,7 @@ MomentMaps::MomentMaps(Device& device, const ShadowRendererOptions& options, con
     : device_(checkedDevice(device, options.filter, storage)), filter_(options.filter), storage_(storage),
       placer_(placer), slots_(options.frames_in_flight), counts_stride_(alignedCounts(device)),
       layers_per_map_(imageLayersPerMap(filter_.filter, filter_.moments)), layout_(device, options.pipeline_cache),
-      moments_(layout_, filter_), mips_(layout_, filterConstants(filter_))
+      moments_(layout_, filter_), mips_(layout_, filterConstants(filter_)), kept_(device)
 {
     images_.kernel =
         HostBuffer(device, sizeof(shared::BlurKernel), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "shadow filter buffers");
@@ -66,75 +67,88 @@ MomentMaps::Need MomentMaps::needOf(const Plan& plan)
     return need;
 }
 
-bool MomentMaps::fits(const Need& need) const
+namespace {
+
+bool covers(const Image& image, VkExtent2D extent, std::uint32_t layers)
 {
-    const auto covers = [](const Image& image, std::uint32_t width, std::uint32_t height) {
-        return image && image.info().extent.width >= width && image.info().extent.height >= height;
-    };
-    return ready_ && covers(images_.maps, need.atlas.width, need.atlas.height) &&
-           images_.maps.info().layers >= need.atlas.layers * layers_per_map_ &&
-           images_.maps.info().levels >= mipLevels(filter_, need.atlas.width, need.atlas.height) &&
-           (!blur_ || covers(images_.scratch, need.tile.width, need.tile.height)) &&
-           kept_.layers() >= need.kept_layers &&
-           images_.blocks.size() >= std::size_t{4} * groupsOf(need.tile.width, shared::kBlockTexels) *
-                                        groupsOf(need.tile.height, shared::kBlockTexels);
+    const ImageInfo& have = image.info();
+    return image && have.extent.width >= extent.width && have.extent.height >= extent.height && have.layers >= layers;
 }
 
-void MomentMaps::makeImages(const Need& need)
+constexpr VkImageUsageFlags kColour =
+    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+
+} // namespace
+
+bool MomentMaps::growMaps(const MapPages& atlas)
 {
-    // Free the old images first, so that growing does not need room for both.
-    ready_ = false;
+    bool lost = false;
+    const ImageInfo& have = images_.maps.info();
+    ImageInfo info;
+    info.format = storage_.colour;
+    info.extent = {std::max(atlas.width, have.extent.width), std::max(atlas.height, have.extent.height)};
+    info.layers = atlas.layers * layers_per_map_;
+    if (images_.maps) {
+        info.layers = std::max(info.layers, have.layers);
+    }
+    info.usage = kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.purpose = "shadow maps";
+    info.levels = mipLevels(filter_, info.extent.width, info.extent.height);
+    Image larger(device_, info);
+    if (images_.maps) {
+        const bool has_levels = have.levels >= info.levels;
+        outgrown_.take(device_, std::move(images_.maps), std::vector(have.layers, layout_of_maps_));
+        if (!has_levels) { // the coarsest are nowhere to be had
+            outgrown_.drop();
+            lost = true;
+        }
+    }
+    images_.maps = std::move(larger);
     layout_of_maps_ = VK_IMAGE_LAYOUT_UNDEFINED;
-    images_.maps = {};
-    images_.depth = {};
-    kept_ = {};
-    images_.scratch = {};
-    images_.blocks = {};
-    constexpr VkImageUsageFlags kColour =
-        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    const VkExtent2D extent{need.atlas.width, need.atlas.height};
-    ImageInfo maps;
-    maps.format = storage_.colour;
-    maps.extent = extent;
-    maps.layers = need.atlas.layers * layers_per_map_;
-    maps.usage = kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    maps.purpose = "shadow maps";
-    maps.levels = mipLevels(filter_, extent.width, extent.height);
-    images_.maps = Image(device_, maps);
+    clear_maps_ = true;
+    return lost;
+}
+
+/// What maps are made in, one after the other: of the size of the largest.
+void MomentMaps::growWorking(VkExtent2D tile)
+{
+    if (images_.depth) {
+        const VkExtent2D have = images_.depth.info().extent;
+        tile = {std::max(tile.width, have.width), std::max(tile.height, have.height)};
+    }
     ImageInfo depth;
     depth.format = storage_.depth;
-    depth.extent = extent;
-    depth.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    depth.extent = tile;
+    depth.usage =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     depth.purpose = "shadow map depth";
-    depth.samples = static_cast<VkSampleCountFlagBits>(filter_.moments.samples);
-    if (need.kept_layers > 0) {
-        depth.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    }
+    depth.samples = samples();
+    device_.retire(std::move(images_.depth));
+    device_.retire(std::move(images_.scratch));
+    device_.retire(std::move(images_.blocks));
     images_.depth = Image(device_, depth);
-    if (need.kept_layers > 0) {
-        kept_ = KeptDepth(device_, depth, need.kept_layers);
-    }
     if (blur_) {
         ImageInfo scratch;
         scratch.format = storage_.colour;
-        scratch.extent = need.tile;
+        scratch.extent = tile;
         scratch.layers = layers_per_map_;
         scratch.usage = kColour | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         scratch.purpose = "shadow blur";
         images_.scratch = Image(device_, scratch);
+        clear_scratch_ = true;
     }
-    const VkDeviceSize blocks = VkDeviceSize{groupsOf(need.tile.width, shared::kBlockTexels)} *
-                                groupsOf(need.tile.height, shared::kBlockTexels);
+    const VkDeviceSize blocks =
+        VkDeviceSize{groupsOf(tile.width, shared::kBlockTexels)} * groupsOf(tile.height, shared::kBlockTexels);
     images_.blocks =
         DeviceBuffer(device_, 4 * blocks, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                      "shadow filter buffers");
-    cleared_ = false;
 }
 
 void MomentMaps::makeSets()
 {
     images_.depth_layers = placer_.buffer();
+    placer_.setDepth(images_.depth.layer(0));
     layout_.reset(MomentPass::kSets + (blur_ ? BlurPass::kSets : 0) + MipPass::sets(images_.maps.info().levels));
     moments_.makeSets(images_);
     if (blur_) {
@@ -143,28 +157,34 @@ void MomentMaps::makeSets()
     mips_.makeSets(images_);
 }
 
-bool MomentMaps::prepare(const Plan& plan)
+MapRecorder::Prepared MomentMaps::prepare(const Plan& plan)
 {
-    const bool layers_changed = placer_.prepare(plan);
     const Need need = needOf(plan);
-    const bool fit = fits(need);
-    if (!fit) {
-        placer_.forgetDepth();
-        makeImages(need);
+    const bool grows_maps =
+        !covers(images_.maps, {need.atlas.width, need.atlas.height}, need.atlas.layers * layers_per_map_);
+    const bool grows_working = !images_.blocks || !covers(images_.depth, need.tile, 1);
+    ready_ = !placer_.prepare(plan) && ready_ && !grows_maps && !grows_working;
+    Prepared prepared;
+    if (grows_maps) {
+        prepared.lost = growMaps(need.atlas);
     }
-    if (!fit || layers_changed) {
+    if (grows_working) {
+        growWorking(need.tile);
+    }
+    if (!kept_.covers(images_.maps.info().extent, need.kept_layers)) {
+        kept_.grow(storage_.depth, samples(), images_.maps.info().extent, need.kept_layers);
+    }
+    if (!ready_) {
         makeSets();
         ready_ = true;
-        redraw_all_ = true;
-        return true;
+        prepared.changed = true;
     }
-    return false;
+    return prepared;
 }
 
 MapPassFormats MomentMaps::formats(bool orthographic) const
 {
-    return {VK_FORMAT_UNDEFINED, storage_.depth, static_cast<VkSampleCountFlagBits>(filter_.moments.samples),
-            !orthographic};
+    return {VK_FORMAT_UNDEFINED, storage_.depth, samples(), !orthographic};
 }
 
 // The image as a whole: sets name all of its layers, and are used with all of them in one layout.
@@ -191,69 +211,94 @@ void MomentMaps::toLayout(VkCommandBuffer commands, VkImageLayout layout)
 
 void MomentMaps::makeReadable(VkCommandBuffer commands)
 {
-    clearNewImages(commands);
+    fillNewImages(commands);
     if (layout_of_maps_ != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
         toLayout(commands, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }
 
-// A filtered read at the edge of a tile or of a block touches texels beside it with weight 0. New memory may hold NaN
-// there, and 0 times that is not 0.
-void MomentMaps::clearNewImages(VkCommandBuffer commands)
+namespace {
+
+void clearToZeros(const Device& device, VkCommandBuffer commands, const Image& image)
 {
-    if (cleared_) {
-        return;
-    }
-    for (const Image* image : {&images_.maps, &images_.scratch}) {
-        if (!*image) {
-            continue;
-        }
-        ImageBarrier barrier;
-        barrier.image = image->image();
-        barrier.layer_count = image->info().layers;
-        barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        recordBarrier(device_, commands, barrier);
-        const VkClearColorValue zeros{};
-        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                          VK_REMAINING_ARRAY_LAYERS};
-        device_.vk.CmdClearColorImage(commands, image->image(), VK_IMAGE_LAYOUT_GENERAL, &zeros, 1, &all);
-        barrier.old_layout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.target_stages = kShaders | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-        barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                                VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-        recordBarrier(device_, commands, barrier);
-    }
-    layout_of_maps_ = VK_IMAGE_LAYOUT_GENERAL;
-    cleared_ = true;
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    recordBarrier(device, commands, barrier);
+    const VkClearColorValue zeros{};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                      VK_REMAINING_ARRAY_LAYERS};
+    device.vk.CmdClearColorImage(commands, image.image(), VK_IMAGE_LAYOUT_GENERAL, &zeros, 1, &all);
 }
 
-void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
-                        Profiler* profiler)
+/// After it was written by copies or clears, in GENERAL.
+void waitForTransfer(const Device& device, VkCommandBuffer commands, const Image& image)
 {
-    assert(slot < slots_);
-    counts(slot) = {}; // the GPU has finished with the slot
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    barrier.old_layout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.target_stages =
+        kShaders | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                            VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                            VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    recordBarrier(device, commands, barrier);
+}
+
+} // namespace
+
+// A filtered read at the edge of a tile or of a block touches texels beside it with weight 0. New memory may hold NaN
+// there, and 0 times that is not 0.
+void MomentMaps::fillNewImages(VkCommandBuffer commands)
+{
+    placer_.copyOutgrown(commands);
+    kept_.copyOutgrown(commands);
+    if (clear_scratch_) {
+        clearToZeros(device_, commands, images_.scratch);
+        waitForTransfer(device_, commands, images_.scratch);
+        clear_scratch_ = false;
+    }
+    if (clear_maps_) {
+        clearToZeros(device_, commands, images_.maps);
+        waitForTransfer(device_, commands, images_.maps);
+        if (outgrown_) {
+            outgrown_.copyTo(commands, images_.maps, VK_IMAGE_LAYOUT_GENERAL);
+            waitForTransfer(device_, commands, images_.maps);
+        }
+        layout_of_maps_ = VK_IMAGE_LAYOUT_GENERAL;
+        clear_maps_ = false;
+    }
+}
+
+void MomentMaps::record(const MapJob& job)
+{
+    assert(job.slot < slots_);
+    const VkCommandBuffer commands = job.commands;
+    counts(job.slot) = {}; // the GPU has finished with the slot
+    fillNewImages(commands);
     bool drawn = false;
-    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        if (!plan.views[i].redraw && !redraw_all_) {
+    for (std::uint32_t i = 0; i < job.plan.views.size(); ++i) {
+        if (!job.work[i].draw) {
             continue;
         }
         drawn = true;
-        clearNewImages(commands);
         if (layout_of_maps_ != VK_IMAGE_LAYOUT_GENERAL) {
             toLayout(commands, VK_IMAGE_LAYOUT_GENERAL);
         }
         {
-            const Timed timed(profiler, commands, "shadow maps");
-            recordDepth(commands, plan, i, draw);
+            const Timed timed(job.profiler, commands, "shadow maps");
+            recordDepth(job, i);
         }
-        const Timed timed(profiler, commands, "shadow filter");
-        recordFilter(commands, slot, plan, i);
+        const Timed timed(job.profiler, commands, "shadow filter");
+        recordFilter(job, i);
     }
-    redraw_all_ = false;
     makeReadable(commands);
     if (blur_ && drawn) {
         // For cost().
@@ -266,30 +311,33 @@ void MomentMaps::record(VkCommandBuffer commands, std::uint32_t slot, const Plan
     }
 }
 
-void MomentMaps::recordDepth(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, const DrawCasters& draw)
+void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
 {
+    const VkCommandBuffer commands = job.commands;
+    const Plan& plan = job.plan;
     const View& view = plan.views[index];
     assert(view.tile.x + view.tile.width <= images_.maps.info().extent.width &&
            view.tile.y + view.tile.height <= images_.maps.info().extent.height);
     beginViewLabel(device_, commands, plan, index);
+    const Tile tile{0, 0, 0, view.tile.width, view.tile.height}; // in the working image
     ImageBarrier barrier;
     barrier.image = images_.depth.image();
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     if (view.kept_layer != kNoIndex) {
-        if (view.redraw_kept || redraw_all_) {
-            kept_.draw(commands, plan, index, draw);
+        if (job.work[index].draw_kept) {
+            kept_.draw(commands, plan, index, job.draw);
         }
         kept_.restore(commands, view, images_.depth);
-        beginDepthRendering(device_, commands, view.tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
-        drawView(commands, plan, index, CasterShare::moving, 0, draw);
+        beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_LOAD);
+        drawView(commands, plan, index, CasterShare::moving, 0, job.draw);
     } else {
         barrier.new_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL; // what the view before left is not needed
         barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.target_stages = kDepthStages;
         barrier.target_access = kDepthAccess;
         recordBarrier(device_, commands, barrier);
-        beginDepthRendering(device_, commands, view.tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_CLEAR);
-        drawView(commands, plan, index, CasterShare::all, 0, draw);
+        beginDepthRendering(device_, commands, tile, images_.depth.layer(0), VK_ATTACHMENT_LOAD_OP_CLEAR);
+        drawView(commands, plan, index, CasterShare::all, 0, job.draw);
     }
     device_.vk.CmdEndRendering(commands);
     barrier.old_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
@@ -302,8 +350,10 @@ void MomentMaps::recordDepth(VkCommandBuffer commands, const Plan& plan, std::ui
     device_.endLabel(commands);
 }
 
-void MomentMaps::recordFilter(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, std::uint32_t index)
+void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
 {
+    const VkCommandBuffer commands = job.commands;
+    const Plan& plan = job.plan;
     const View& view = plan.views[index];
     FilterStep step;
     step.commands = commands;
@@ -312,7 +362,7 @@ void MomentMaps::recordFilter(VkCommandBuffer commands, std::uint32_t slot, cons
     step.image_layers = layers_per_map_;
     step.depth_slot = placer_.slotOf(index);
     step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
-    step.counts_offset = slot * counts_stride_;
+    step.counts_offset = job.slot * counts_stride_;
 
     // The flags of the view before were read by both kinds of shaders.
     MemoryBarrier barrier;
@@ -321,7 +371,7 @@ void MomentMaps::recordFilter(VkCommandBuffer commands, std::uint32_t slot, cons
     barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     recordBarrier(device_, commands, barrier);
     device_.vk.CmdFillBuffer(commands, images_.blocks.buffer(), 0, VK_WHOLE_SIZE, 0);
-    placer_.record(commands, plan, index, images_.depth.layer(0));
+    placer_.record(commands, plan, index);
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;

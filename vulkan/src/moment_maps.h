@@ -23,11 +23,8 @@ public:
     MomentMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage, LayerPlacer& placer);
 
     /// Prepares the layers of depth, too.
-    bool prepare(const Plan& plan) override;
-    void forget() override { redraw_all_ = true; }
-    [[nodiscard]] bool redrawsAll() const override { return redraw_all_; }
-    void record(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const DrawCasters& draw,
-                Profiler* profiler) override;
+    Prepared prepare(const Plan& plan) override;
+    void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return images_.maps; }
     [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
@@ -41,13 +38,18 @@ private:
     };
 
     [[nodiscard]] static Need needOf(const Plan& plan);
-    [[nodiscard]] bool fits(const Need& need) const;
-    void makeImages(const Need& need);
+    [[nodiscard]] VkSampleCountFlagBits samples() const
+    {
+        return static_cast<VkSampleCountFlagBits>(filter_.moments.samples);
+    }
+    /// Did what maps held get lost?
+    [[nodiscard]] bool growMaps(const MapPages& atlas);
+    void growWorking(VkExtent2D tile);
     void makeSets();
     void toLayout(VkCommandBuffer commands, VkImageLayout layout);
-    void clearNewImages(VkCommandBuffer commands);
-    void recordDepth(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, const DrawCasters& draw);
-    void recordFilter(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, std::uint32_t view);
+    void fillNewImages(VkCommandBuffer commands);
+    void recordDepth(const MapJob& job, std::uint32_t view);
+    void recordFilter(const MapJob& job, std::uint32_t view);
     [[nodiscard]] shared::BlurCounts& counts(std::uint32_t slot) const;
 
     Device& device_;
@@ -65,8 +67,9 @@ private:
     KeptDepth kept_;
     bool ready_ = false; // images and sets are all there
     VkImageLayout layout_of_maps_ = VK_IMAGE_LAYOUT_UNDEFINED;
-    bool cleared_ = false;
-    bool redraw_all_ = true;
+    OutgrownImage outgrown_; // maps
+    bool clear_maps_ = false;
+    bool clear_scratch_ = false;
 };
 
 } // namespace gnomon::vulkan

@@ -20,7 +20,9 @@ void MomentPass::makeSets(const MomentImages& images)
 
 void MomentPass::record(const FilterStep& step) const
 {
-    const shared::FilterPassPlace place = placeOf(step);
+    shared::FilterPassPlace place = placeOf(step);
+    place.source.x = 0;
+    place.source.y = 0;
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get(), set_, step.counts_offset, place);
     layout_.device().vk.CmdDispatch(step.commands, groupsOf(step.tile.width, shared::kBlockTexels),
                                     groupsOf(step.tile.height, shared::kBlockTexels), 1);

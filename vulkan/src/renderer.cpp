@@ -78,6 +78,7 @@ struct ShadowRenderer::Impl {
     bool layered; // the device can
     CascadePass pass = CascadePass::each;
     std::vector<MapReuse> reuse; // by slot
+    MapContents contents;
 };
 
 ShadowRenderer::ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options)
@@ -94,13 +95,14 @@ ShadowRenderer::~ShadowRenderer() = default;
 
 bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
 {
-    const bool maps_changed = impl_->maps->prepare(plan);
+    impl_->contents.reserve(plan);
+    const MapRecorder::Prepared maps = impl_->maps->prepare(plan);
+    if (maps.lost) {
+        impl_->contents.loseMaps();
+    }
     impl_->fitter.prepare(plan);
     const bool mask_changed = impl_->mask.prepare(plan, screen);
-    if (mask_changed) {
-        impl_->maps->forget();
-    }
-    return maps_changed || mask_changed;
+    return maps.changed || mask_changed;
 }
 
 void ShadowRenderer::setCascadePass(CascadePass pass)
@@ -128,6 +130,7 @@ bool ShadowRenderer::canDrawTogether() const
 void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                   const MaskInputs& inputs, Profiler* profiler)
 {
+    impl_->device.enter(slot, Retirement::Work::bounds);
     if (CascadeFitter::fits(plan)) {
         const Timed timed(profiler, commands, "shadow bounds");
         impl_->fitter.record(commands, slot, frame, plan, inputs);
@@ -137,7 +140,9 @@ void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, 
 void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[maybe_unused]] const Frame& frame,
                                 const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
-    impl_->reuse[slot] = countReuse(plan, impl_->maps->redrawsAll(), impl_->filterable, impl_->pass);
+    impl_->device.enter(slot, Retirement::Work::maps);
+    const std::span<const ViewWork> work = impl_->contents.workFor(plan);
+    impl_->reuse[slot] = countReuse(plan, work, impl_->filterable, impl_->pass);
     assert(impl_->fitter.isFitted(plan));
     const DrawCasters placed = [&](const MapPass& pass) {
         MapPass with = pass;
@@ -147,12 +152,14 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
         }
         draw(with);
     };
-    impl_->maps->record(commands, slot, plan, placed, profiler);
+    impl_->maps->record({commands, slot, plan, work, placed, profiler});
+    impl_->contents.done(plan);
 }
 
 void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                 const MaskInputs& inputs, Profiler* profiler)
 {
+    impl_->device.enter(slot, Retirement::Work::mask);
     const Timed timed(profiler, commands, "mask");
     impl_->maps->makeReadable(commands);
     impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps->maps(), impl_->placer, impl_->fitter);

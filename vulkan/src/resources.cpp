@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images, buffers, shader modules and barriers.
+// Images, buffers and shader modules.
 #include "device.h"
 
 #include <gnomon/error.h>
@@ -116,38 +116,6 @@ ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
     VkShaderModule module = VK_NULL_HANDLE;
     check(device.vk.CreateShaderModule(device.handle(), &create, nullptr, &module), "create a shader module");
     return {device, module};
-}
-
-void recordBarrier(const Device& device, VkCommandBuffer commands, const ImageBarrier& barrier)
-{
-    VkImageMemoryBarrier2 image{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    image.srcStageMask = barrier.source_stages;
-    image.srcAccessMask = barrier.source_access;
-    image.dstStageMask = barrier.target_stages;
-    image.dstAccessMask = barrier.target_access;
-    image.oldLayout = barrier.old_layout;
-    image.newLayout = barrier.new_layout;
-    image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    image.image = barrier.image;
-    image.subresourceRange = {barrier.aspect, 0, VK_REMAINING_MIP_LEVELS, barrier.first_layer, barrier.layer_count};
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = 1;
-    dependency.pImageMemoryBarriers = &image;
-    device.vk.CmdPipelineBarrier2(commands, &dependency);
-}
-
-void recordBarrier(const Device& device, VkCommandBuffer commands, const MemoryBarrier& barrier)
-{
-    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    memory.srcStageMask = barrier.source_stages;
-    memory.srcAccessMask = barrier.source_access;
-    memory.dstStageMask = barrier.target_stages;
-    memory.dstAccessMask = barrier.target_access;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &memory;
-    device.vk.CmdPipelineBarrier2(commands, &dependency);
 }
 
 } // namespace gnomon::vulkan

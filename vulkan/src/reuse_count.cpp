@@ -3,36 +3,35 @@
 
 #include "draw_view.h"
 
-#include <gnomon/plan_views.h>
-
 namespace gnomon::vulkan {
 
-MapReuse countReuse(const Plan& plan, bool all, bool filterable, CascadePass pass)
+MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work, bool filterable, CascadePass pass)
 {
     MapReuse reuse;
-    for (const View& view : plan.views) {
+    for (std::size_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
         const auto count = [&](CasterShare share) {
             return static_cast<std::uint32_t>(castersOf(plan, view, share).size());
         };
         const bool kept = view.kept_layer != kNoIndex;
-        if (!all && !view.redraw) {
+        if (!work[i].draw) {
             ++reuse.held;
         } else if (!kept) {
             ++reuse.drawn;
             reuse.casters_at_once += count(CasterShare::all);
         } else {
-            if (all || view.redraw_kept) {
+            if (work[i].draw_kept) {
                 ++reuse.kept_drawn;
                 reuse.still_casters += count(CasterShare::still);
             }
-            const VkRect2D area = filterable ? areaOf(view.tile) : redrawnArea(view, all);
+            const VkRect2D area = filterable ? areaOf(view.tile) : redrawnArea(view, work[i].whole);
             ++reuse.restored;
             reuse.restored_texels += std::uint64_t{area.extent.width} * area.extent.height;
             reuse.moving_casters += count(CasterShare::moving);
         }
     }
     for (std::uint32_t i = 0; pass == CascadePass::layered && i < plan.views.size();) {
-        const std::uint32_t count = viewsTogether(plan, i, all);
+        const std::uint32_t count = drawnTogether(plan, work, i);
         reuse.together += count > 1 ? count : 0;
         i += count;
     }

@@ -73,8 +73,7 @@ public:
     void beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
                     std::span<const Rows3x4> world_from_object);
     /// What the renderer was told (ShadowRenderer::setCascadePass), before the next beginFrame(): whether there must be
-    /// room, and pipelines, for passes of several views. Nothing that was recorded may be pending on the GPU. Throws
-    /// Error when memory runs out.
+    /// room, and pipelines, for passes of several views. Throws Error when memory runs out.
     void setCascadePass(CascadePass pass);
     /// Draws one pass; to be called from the DrawCasters callback. Those of several views between two beginFrame() must
     /// come from one ShadowRenderer. Returns the number of indirect draws it recorded, for Profiler::addDraws.

@@ -179,14 +179,16 @@ public:
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;
 
-    /// Makes images for this plan and screen size if they do not fit yet; returns true when it did, and then views that
-    /// the plan would reuse are drawn again. It frees what it replaces at once: before a call with a larger atlas or
-    /// tile, another screen, another motion, or more views, kept layers or lights than any before, everything that was
-    /// recorded must have finished on the GPU. Throws Error for sizes beyond the device's limits or memory.
+    /// Makes images and buffers for this plan and screen size where those that are there do not fit. To be called
+    /// before a frame's recordings, not between them. Frames in flight need not be waited for: what is replaced is kept
+    /// until every slot that may use it has begun another frame, and what maps hold is copied into larger images by the
+    /// next recordMaps(). Returns true when maps() or mask() is another image than before: a host that has them in
+    /// descriptors of its own writes those anew, whatever the handles are. Throws Error for sizes beyond the device's
+    /// limits or memory.
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// How cascades are drawn from the next prepare() on, which has to come before the next recordMaps(); at first
-    /// `each`. Nothing that was recorded may be pending on the GPU. Maps that were drawn stay as they are. layered: the
+    /// `each`. Maps that were drawn stay as they are. layered: the
     /// callback gets passes of several views (MapPass::view_count). Which is faster depends on the device and on the
     /// scene: one pass has fewer commands and fewer beginnings and ends. A host can measure it by recording one plan's
     /// maps both ways, which leaves them as they are.
@@ -203,7 +205,8 @@ public:
     /// writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
     void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                       const MaskInputs& inputs, Profiler* profiler = nullptr);
-    /// Records the maps of all views that say `redraw` (all of them after prepare() returned true). `slot` in
+    /// Records the maps that do not hold what their views want: what View::redraw and View::dirty say, and all of those
+    /// whose texels are not what View::presumes says, because a frame was planned and not recorded, say. `slot` in
     /// [0, frames_in_flight): the caller knows that the GPU has finished the last frame recorded with it.
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const DrawCasters& draw, Profiler* profiler = nullptr);

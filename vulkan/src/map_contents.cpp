@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_contents.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gnomon::vulkan {
+namespace {
+
+bool isSame(const Tile& a, const Tile& b)
+{
+    return a.layer == b.layer && a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
+bool overlap(const Tile& a, const Tile& b)
+{
+    return a.layer == b.layer && a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
+           b.y < a.y + a.height;
+}
+
+bool overlap(TexelPart a, TexelPart b)
+{
+    return a == TexelPart::whole || b == TexelPart::whole || a == b;
+}
+
+ViewWork asTheViewSays(const View& view)
+{
+    ViewWork work;
+    work.draw = view.redraw;
+    work.draw_kept = view.redraw && view.kept_layer != kNoIndex && view.redraw_kept;
+    work.whole = view.kept_layer == kNoIndex || work.draw_kept;
+    return work;
+}
+
+} // namespace
+
+MapContents::Held MapContents::mapOf(const View& view)
+{
+    return {view.makes, view.tile, view.part, false};
+}
+
+MapContents::Held MapContents::keptOf(const View& view)
+{
+    Tile tile = view.tile;
+    tile.layer = view.kept_layer;
+    return {view.kept_makes, tile, view.part, true};
+}
+
+bool MapContents::holds(MapId id, const Held& wanted) const
+{
+    if (wanted.content == 0 || id.index >= held_.size()) {
+        return false;
+    }
+    const Held& held = held_[id.index];
+    return held.content == wanted.content && isSame(held.tile, wanted.tile) && held.part == wanted.part &&
+           held.kept == wanted.kept;
+}
+
+void MapContents::reserve(const Plan& plan)
+{
+    std::size_t maps = plan.map_count;
+    for (const View& view : plan.views) {
+        maps = std::max<std::size_t>(maps, view.map ? view.map.index + 1 : 0);
+        maps = std::max<std::size_t>(maps, view.kept_map ? view.kept_map.index + 1 : 0);
+    }
+    held_.resize(std::max(held_.size(), maps));
+    work_.reserve(plan.views.size());
+}
+
+std::span<const ViewWork> MapContents::workFor(const Plan& plan)
+{
+    reserve(plan);
+    work_.clear();
+    for (const View& view : plan.views) {
+        ViewWork work = asTheViewSays(view);
+        if (view.map && view.makes == 0) {
+            work = {};
+        } else if (view.map) {
+            Held presumed = mapOf(view);
+            presumed.content = view.presumes;
+            const bool map_holds = holds(view.map, presumed);
+            work.draw = view.redraw || !map_holds;
+            work.whole = !map_holds || view.kept_layer == kNoIndex;
+            if (view.kept_layer != kNoIndex) {
+                Held kept = keptOf(view);
+                kept.content = view.kept_presumes;
+                work.draw_kept = work.draw && (view.redraw_kept || !holds(view.kept_map, kept));
+                work.whole = work.whole || work.draw_kept;
+            }
+        }
+        if (work.draw && !work.whole && view.dirty.empty()) {
+            work.draw = false;
+        }
+        work_.push_back(work);
+    }
+    return work_;
+}
+
+/// Whatever lay where this map lies is gone.
+void MapContents::forgetUnder(const Held& held)
+{
+    for (Held& other : held_) {
+        if (other.kept == held.kept && overlap(other.tile, held.tile) && overlap(other.part, held.part)) {
+            other.content = 0;
+        }
+    }
+}
+
+void MapContents::note(MapId id, const Held& held)
+{
+    Held& entry = held_[id.index];
+    const bool was_there = entry.content != 0 && entry.kept == held.kept && isSame(entry.tile, held.tile);
+    if (!was_there || entry.part != held.part) {
+        forgetUnder(held);
+    }
+    entry = held;
+}
+
+void MapContents::done(const Plan& plan)
+{
+    assert(work_.size() == plan.views.size());
+    for (std::size_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        if (view.kept_map && work_[i].draw_kept) {
+            note(view.kept_map, keptOf(view));
+        }
+        if (view.map && view.makes != 0 && (work_[i].draw || view.redraw)) {
+            note(view.map, mapOf(view));
+        } else if (!view.map && work_[i].draw) {
+            forgetUnder(mapOf(view));
+        }
+    }
+}
+
+void MapContents::lose(bool kept)
+{
+    for (Held& held : held_) {
+        if (held.kept == kept) {
+            held.content = 0;
+        }
+    }
+}
+
+} // namespace gnomon::vulkan
