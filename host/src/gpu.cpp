@@ -230,7 +230,7 @@ void Gpu::Impl::makeDevice()
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     view.layered = vulkan::supportsLayered(view);
-    info.pNext = &vulkan::requiredFeatures(view.layered);
+    info.pNext = &vulkan::requiredFeatures({.layered = view.layered});
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     check(vkCreateDevice(view.physical_device, &info, nullptr, &view.device), "opening the Vulkan device");

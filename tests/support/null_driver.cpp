@@ -123,6 +123,11 @@ void NullDriver::hideFormatFeatures(VkFormatFeatureFlags features)
     impl_->hidden_features = features;
 }
 
+void NullDriver::setApiVersion(std::uint32_t version)
+{
+    impl_->api_version = version;
+}
+
 void NullDriver::hideFunction(const char* name)
 {
     impl_->hidden = name;

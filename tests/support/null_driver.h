@@ -96,6 +96,9 @@ public:
     /// From now on this function is missing (nullptr: none is). The name must outlive the driver.
     void hideFunction(const char* name);
 
+    /// What the physical device says of itself; VK_API_VERSION_1_3 at first.
+    void setApiVersion(std::uint32_t version);
+
     struct Impl;
 
 private:

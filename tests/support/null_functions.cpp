@@ -15,7 +15,7 @@ namespace {
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties)
 {
     *properties = {};
-    properties->apiVersion = VK_API_VERSION_1_3;
+    properties->apiVersion = driverOf(device).api_version;
     std::strcpy(properties->deviceName, "null");
     properties->limits.maxImageDimension2D = driverOf(device).limits.max_image_size;
     properties->limits.maxImageArrayLayers = driverOf(device).limits.max_image_layers;
@@ -121,10 +121,25 @@ VKAPI_ATTR VkResult VKAPI_CALL createView(VkDevice device, const VkImageViewCrea
     return VK_SUCCESS;
 }
 
-template <class Handle>
-VKAPI_ATTR void VKAPI_CALL getNeeds(VkDevice, Handle resource, VkMemoryRequirements* needs)
+void describeNeeds(const NullObject& object, bool dedicated, VkMemoryRequirements2& needs)
 {
-    *needs = {objectOf(resource)->size, 16, 1};
+    needs.memoryRequirements = {object.size, 16, 1};
+    auto* const more = static_cast<VkMemoryDedicatedRequirements*>(needs.pNext);
+    if (more != nullptr && more->sType == VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS) {
+        more->prefersDedicatedAllocation = dedicated ? VK_TRUE : VK_FALSE;
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL getBufferNeeds(VkDevice, const VkBufferMemoryRequirementsInfo2* info,
+                                          VkMemoryRequirements2* needs)
+{
+    describeNeeds(*objectOf(info->buffer), false, *needs);
+}
+
+VKAPI_ATTR void VKAPI_CALL getImageNeeds(VkDevice, const VkImageMemoryRequirementsInfo2* info,
+                                         VkMemoryRequirements2* needs)
+{
+    describeNeeds(*objectOf(info->image), true, *needs);
 }
 
 template <class Handle>
@@ -236,12 +251,12 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(BindBufferMemory, bind),
     GNOMON_NULL(CreateImage, createImage),
     GNOMON_NULL(DestroyImage, destroy),
-    GNOMON_NULL(GetImageMemoryRequirements, getNeeds),
+    GNOMON_NULL(GetImageMemoryRequirements2, getImageNeeds),
     GNOMON_NULL(CreateImageView, createView),
     GNOMON_NULL(DestroyImageView, destroy),
     GNOMON_NULL(CreateBuffer, createBuffer),
     GNOMON_NULL(DestroyBuffer, destroy),
-    GNOMON_NULL(GetBufferMemoryRequirements, getNeeds),
+    GNOMON_NULL(GetBufferMemoryRequirements2, getBufferNeeds),
     GNOMON_NULL(CreateSampler, create),
     GNOMON_NULL(DestroySampler, destroy),
     GNOMON_NULL(CreateShaderModule, create),

@@ -34,6 +34,7 @@ struct NullDriver::Impl {
     std::vector<std::unique_ptr<NullObject>> objects;
     std::uint32_t slot = 0;
     const char* hidden = nullptr;
+    std::uint32_t api_version = VK_API_VERSION_1_3;
     VkFormatFeatureFlags hidden_features = 0;
 
     /// A command of the current slot uses it. Allocates nothing.

@@ -27,12 +27,11 @@ constexpr std::uint32_t kCascades = 3;
 struct Blocks {
     std::vector<std::unique_ptr<std::vector<std::byte>>> mapped;
 
-    static VkResult allocate(void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
-                             const char* /*purpose*/, vulkan::MemoryBlock* block)
+    static VkResult allocate(void* user, const vulkan::MemoryRequest& request, vulkan::MemoryBlock* block)
     {
         auto& blocks = *static_cast<Blocks*>(user);
-        if ((properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
-            blocks.mapped.push_back(std::make_unique<std::vector<std::byte>>(needs.size));
+        if ((request.properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+            blocks.mapped.push_back(std::make_unique<std::vector<std::byte>>(request.needs.size));
             block->mapped = blocks.mapped.back()->data();
         }
         return VK_SUCCESS;

@@ -380,7 +380,7 @@ TEST(NullCascadePass, theFeatureIsAskedForOnlyByWhoWantsIt)
         return false;
     };
     EXPECT_FALSE(asks(vulkan::requiredFeatures()));
-    EXPECT_TRUE(asks(vulkan::requiredFeatures(true)));
+    EXPECT_TRUE(asks(vulkan::requiredFeatures({.layered = true})));
     NullDriver driver;
     EXPECT_TRUE(vulkan::supportsLayered(driver.view()));
     driver.hideFunction("vkGetPhysicalDeviceFeatures2");

@@ -120,7 +120,7 @@ void Gpu::makeDevice()
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures(layered_)};
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures({.layered = layered_})};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     require(vkCreateDevice(physical_device_, &create, nullptr, &device_), "vkCreateDevice");

@@ -32,9 +32,10 @@ public:
     }
 
 private:
-    static VkResult allocate(void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
-                             const char* purpose, vulkan::MemoryBlock* block)
+    static VkResult allocate(void* user, const vulkan::MemoryRequest& request, vulkan::MemoryBlock* block)
     {
+        const VkMemoryRequirements& needs = request.needs;
+        const VkMemoryPropertyFlags properties = request.properties;
         const vulkan::DeviceView view = gpu().view();
         VkPhysicalDeviceMemoryProperties memory{};
         vkGetPhysicalDeviceMemoryProperties(view.physical_device, &memory);
@@ -50,7 +51,7 @@ private:
         if (result == VK_SUCCESS && (properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
             result = vkMapMemory(view.device, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped);
         }
-        if (purpose == std::string_view("constants")) {
+        if (request.purpose == std::string_view("constants")) {
             static_cast<Memory*>(user)->constants_ = block->mapped;
         }
         return result;

@@ -295,6 +295,23 @@ TEST(NullRecording, missingFunctionIsNamed)
     }
 }
 
+TEST(NullRecording, anInstanceThatIsTooOldIsToldApartFromADriverThatIs)
+{
+    const auto complaint = [](std::uint32_t version) -> std::string {
+        NullDriver driver;
+        driver.hideFunction("vkCmdPipelineBarrier2");
+        driver.setApiVersion(version);
+        try {
+            const ShadowRenderer renderer(driver.view(), {});
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    EXPECT_NE(complaint(VK_API_VERSION_1_3).find("apiVersion is too low"), std::string::npos);
+    EXPECT_NE(complaint(VK_API_VERSION_1_1).find("use a driver with Vulkan 1.3"), std::string::npos);
+}
+
 TEST(NullRecording, aFormatThatTheFilterCannotUseIsRefused)
 {
     NullDriver driver;
@@ -350,17 +367,20 @@ TEST(NullRecording, memoryHooksAreUsedForEverything)
     struct Ledger {
         int live = 0;
         int total = 0;
+        int images = 0;
+        int buffers = 0;
         std::vector<std::vector<std::byte>> blocks;
     } ledger;
     NullDriver driver;
     vulkan::DeviceView view = driver.view();
     view.memory.user = &ledger;
-    view.memory.allocate = [](void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags, const char*,
-                              vulkan::MemoryBlock* block) {
+    view.memory.allocate = [](void* user, const vulkan::MemoryRequest& request, vulkan::MemoryBlock* block) {
         auto& l = *static_cast<Ledger*>(user);
         ++l.live;
         ++l.total;
-        l.blocks.emplace_back(needs.size);
+        l.blocks.emplace_back(request.needs.size);
+        l.images += request.image != VK_NULL_HANDLE && !request.linear() && request.prefers_dedicated ? 1 : 0;
+        l.buffers += request.buffer != VK_NULL_HANDLE && request.linear() && !request.prefers_dedicated ? 1 : 0;
         block->mapped = l.blocks.back().data();
         return VK_SUCCESS;
     };
@@ -373,26 +393,11 @@ TEST(NullRecording, memoryHooksAreUsedForEverything)
         const NullHost host(other);
         EXPECT_TRUE(renderer.prepare(host.plan, kScreen));
         EXPECT_EQ(ledger.live, 5); // maps, mask, two slots of constants, layers of depth
+        EXPECT_EQ(ledger.images, 2) << "the driver wants memory of their own for images";
+        EXPECT_EQ(ledger.buffers, 3);
     }
     EXPECT_EQ(ledger.live, 0);
     EXPECT_EQ(driver.counts().allocations, 0U);
-}
-
-TEST(NullFeatures, requiredOnesAreFound)
-{
-    NullDriver driver;
-    char missing[256] = "x";
-    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
-    EXPECT_STREQ(missing, "");
-    driver.hideFunction("vkGetPhysicalDeviceFeatures2");
-    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
-    EXPECT_STREQ(missing, "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, pipelineStatisticsQuery, "
-                          "sampleRateShading, shaderStorageImageWriteWithoutFormat, hostQueryReset, dynamicRendering, "
-                          "synchronization2, maintenance4");
-    vulkan::missingFeatures(driver.view(), missing, 24);
-    EXPECT_STREQ(missing, "multiDrawIndirect");
-    vulkan::missingFeatures(driver.view(), missing, 1);
-    EXPECT_STREQ(missing, "");
 }
 
 } // namespace

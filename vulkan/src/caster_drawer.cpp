@@ -220,7 +220,7 @@ void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uin
 
 void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
 {
-    device.vk.CmdBindIndexBuffer(pass.commands, geometry.indices, geometry.indices_offset, VK_INDEX_TYPE_UINT32);
+    device.vk.CmdBindIndexBuffer(pass.commands, geometry.indices, geometry.indices_offset, options.vertices.index);
     device.vk.CmdBindVertexBuffers(pass.commands, 0, 1, &geometry.positions, &geometry.positions_offset);
     if (geometry.uvs != VK_NULL_HANDLE) {
         device.vk.CmdBindVertexBuffers(pass.commands, 2, 1, &geometry.uvs, &geometry.uvs_offset);

@@ -5,8 +5,13 @@
 #include "map_storage.h"
 #include "pipelines.h"
 
+#include <gnomon/error.h>
+
 #include <gnomon_spirv.h>
 #include <paired_depth.h>
+
+#include <algorithm>
+#include <string>
 
 namespace gnomon::vulkan {
 namespace {
@@ -70,6 +75,26 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
 }
 
+void checkVertices(const CasterVertices& vertices)
+{
+    constexpr std::array kPositions{VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                    VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_SNORM,
+                                    VK_FORMAT_R16G16B16A16_UNORM};
+    constexpr std::array kUvs{VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16_UNORM};
+    const auto require = [](const auto& list, auto value, const char* what, const char* remedy) {
+        if (std::find(list.begin(), list.end(), value) == list.end()) {
+            throw Error("create the caster drawer",
+                        std::string(what) + " of Vulkan's number " + std::to_string(static_cast<int>(value)), remedy);
+        }
+    };
+    require(kPositions, vertices.position.format, "a format of positions",
+            "choose three or four floats of 32 bits, or four numbers of 16 bits, float, snorm or unorm");
+    require(kUvs, vertices.uv.format, "a format of texture coordinates",
+            "choose two floats of 32 or 16 bits, or two unorm of 16 bits");
+    require(std::array{VK_INDEX_TYPE_UINT32, VK_INDEX_TYPE_UINT16}, vertices.index, "a type of indices",
+            "choose 16 or 32 bits");
+}
+
 struct VertexInput {
     std::array<VkVertexInputBindingDescription, 4> bindings{};
     std::array<VkVertexInputAttributeDescription, 8> attributes{};
@@ -77,21 +102,21 @@ struct VertexInput {
     std::uint32_t attribute_count = 0;
 };
 
-VertexInput vertexInput(CasterPipelineKey key)
+VertexInput vertexInput(CasterPipelineKey key, const CasterVertices& vertices)
 {
     constexpr std::uint32_t kRowBytes = sizeof(glm::vec4);
     const std::uint32_t rows = instanceRows(key.perspective);
     VertexInput input;
-    input.bindings[input.binding_count++] = {0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
+    input.bindings[input.binding_count++] = {0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX};
     input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered),
                                              VK_VERTEX_INPUT_RATE_INSTANCE};
-    input.attributes[input.attribute_count++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    input.attributes[input.attribute_count++] = {0, 0, vertices.position.format, vertices.position.offset};
     for (std::uint32_t i = 0; i < rows; ++i) {
         input.attributes[input.attribute_count++] = {1 + i, 1, VK_FORMAT_R32G32B32A32_SFLOAT, i * kRowBytes};
     }
     if (key.masked) {
-        input.bindings[input.binding_count++] = {2, 2 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
-        input.attributes[input.attribute_count++] = {1 + rows, 2, VK_FORMAT_R32G32_SFLOAT, 0};
+        input.bindings[input.binding_count++] = {2, vertices.uv.stride, VK_VERTEX_INPUT_RATE_VERTEX};
+        input.attributes[input.attribute_count++] = {1 + rows, 2, vertices.uv.format, vertices.uv.offset};
     }
     if (key.layered) {
         input.attributes[input.attribute_count++] = {7, 1, VK_FORMAT_R32_UINT, rows * kRowBytes};
@@ -108,6 +133,7 @@ VertexInput vertexInput(CasterPipelineKey key)
 CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& options)
     : device_(device), options_(options)
 {
+    checkVertices(options.vertices);
     constexpr std::array kTexture{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
     constexpr std::array kPlaces{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     textures_ = DescriptorSets(device, kTexture, VK_SHADER_STAGE_FRAGMENT_BIT);
@@ -153,7 +179,7 @@ Pipeline CasterPipelines::make(CasterPipelineKey key)
             stages[1].pSpecializationInfo = &specialisation;
         }
     }
-    const VertexInput input = vertexInput(key);
+    const VertexInput input = vertexInput(key, options_.vertices);
 
     GraphicsState state;
     state.stages = std::span(stages).first(fragment ? 2 : 1);

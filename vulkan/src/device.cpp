@@ -76,19 +76,20 @@ VkFormatFeatureFlags Device::features(VkFormat format) const
     return properties.optimalTilingFeatures;
 }
 
-MemoryBlock Device::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose)
+MemoryBlock Device::allocate(const MemoryRequest& request)
 {
     MemoryBlock block;
-    const std::string tried = std::string("allocate memory for ") + purpose;
+    const VkMemoryRequirements& needs = request.needs;
+    const std::string tried = std::string("allocate memory for ") + request.purpose;
     if (view_.memory.allocate != nullptr) {
-        check(view_.memory.allocate(view_.memory.user, needs, properties, purpose, &block), tried.c_str());
-        account_.add(purpose, needs.size);
+        check(view_.memory.allocate(view_.memory.user, request, &block), tried.c_str());
+        account_.add(request.purpose, needs.size);
         return block;
     }
     std::uint32_t type = memory_.memoryTypeCount;
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
         if ((needs.memoryTypeBits & (1U << i)) != 0 &&
-            (memory_.memoryTypes[i].propertyFlags & properties) == properties) {
+            (memory_.memoryTypes[i].propertyFlags & request.properties) == request.properties) {
             type = i;
             break;
         }
@@ -96,16 +97,20 @@ MemoryBlock Device::allocate(const VkMemoryRequirements& needs, VkMemoryProperty
     if (type == memory_.memoryTypeCount) {
         throw Error(tried, "the device has no memory type with the properties it needs");
     }
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
+    const VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, nullptr,
+                                                  request.image, request.buffer};
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    request.prefers_dedicated || request.requires_dedicated ? &dedicated : nullptr,
+                                    needs.size, type};
     check(vk.AllocateMemory(view_.device, &info, nullptr, &block.memory), tried.c_str());
-    if ((properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+    if ((request.properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         const VkResult mapped = vk.MapMemory(view_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped);
         if (mapped != VK_SUCCESS) {
             vk.FreeMemory(view_.device, block.memory, nullptr);
             check(mapped, tried.c_str());
         }
     }
-    account_.add(purpose, needs.size);
+    account_.add(request.purpose, needs.size);
     return block;
 }
 
@@ -143,8 +148,8 @@ void Device::endLabel(VkCommandBuffer commands) const
     }
 }
 
-Memory::Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose)
-    : device_(&device), block_(device.allocate(needs, properties, purpose)), purpose_(purpose), bytes_(needs.size)
+Memory::Memory(Device& device, const MemoryRequest& request)
+    : device_(&device), block_(device.allocate(request)), purpose_(request.purpose), bytes_(request.needs.size)
 {
 }
 

@@ -40,8 +40,7 @@ public:
     [[nodiscard]] const MemoryAccount& account() const { return account_; }
 
     /// Throws Error when there is none.
-    [[nodiscard]] MemoryBlock allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
-                                       const char* purpose);
+    [[nodiscard]] MemoryBlock allocate(const MemoryRequest& request);
     void release(const MemoryBlock& block, const char* purpose, VkDeviceSize bytes);
 
     void name(VkObjectType type, std::uint64_t handle, const char* text) const;
@@ -119,7 +118,7 @@ using ImageView = Owned<VkImageView, &Functions::DestroyImageView>;
 class Memory {
 public:
     Memory() = default;
-    Memory(Device& device, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, const char* purpose);
+    Memory(Device& device, const MemoryRequest& request);
     Memory(Memory&& other) noexcept;
     Memory& operator=(Memory&& other) noexcept;
     ~Memory();

@@ -2,9 +2,13 @@
 // The device features that the backend uses: asked for, and looked for, from the same chain.
 #include "functions.h"
 
+#include <gnomon/error.h>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
 namespace gnomon::vulkan {
 namespace {
@@ -23,57 +27,88 @@ struct Chain {
     Chain& operator=(const Chain&) = delete;
 };
 
+enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered };
+
+bool isNeeded(Need need, const FeatureUses& uses)
+{
+    switch (need) {
+    case Need::filterable:
+        return uses.filterable;
+    case Need::caster_drawer:
+        return uses.caster_drawer;
+    case Need::profiler:
+        return uses.profiler;
+    case Need::layered:
+        return uses.layered;
+    default:
+        return true;
+    }
+}
+
+// Where a feature stands: its bit in the structure of its version, and in one of its own, if there is one. Both count
+// from the structure's beginning.
 struct Feature {
     const char* name;
-    VkBool32& (*of)(Chain&);
+    Need need;
+    VkStructureType version;
+    std::size_t bit;
+    VkStructureType alone = VK_STRUCTURE_TYPE_MAX_ENUM;
+    std::size_t bit_alone = 0;
 };
 
-// Indirect drawing of instances · casters clamped onto the near plane · the profiler · the linear metric of perspective
-// views in each sample, not only in each texel · one compute shader for all formats of filterable maps ·
-// passes and barriers.
+constexpr VkStructureType kCore = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+constexpr VkStructureType k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+
+#define GNOMON_CORE(name)                                                                                              \
+    kCore, offsetof(VkPhysicalDeviceFeatures2, features) + offsetof(VkPhysicalDeviceFeatures, name)
 constexpr Feature kFeatures[] = {
-    {"multiDrawIndirect",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.multiDrawIndirect;
-     }},
-    {"drawIndirectFirstInstance",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.drawIndirectFirstInstance;
-     }},
-    {"depthClamp",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.depthClamp;
-     }},
-    {"pipelineStatisticsQuery",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.pipelineStatisticsQuery;
-     }},
-    {"sampleRateShading",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.sampleRateShading;
-     }},
-    {"shaderStorageImageWriteWithoutFormat",
-     [](Chain& c) -> VkBool32& {
-         return c.core.features.shaderStorageImageWriteWithoutFormat;
-     }},
-    {"hostQueryReset",
-     [](Chain& c) -> VkBool32& {
-         return c.v12.hostQueryReset;
-     }},
-    {"dynamicRendering",
-     [](Chain& c) -> VkBool32& {
-         return c.v13.dynamicRendering;
-     }},
-    {"synchronization2",
-     [](Chain& c) -> VkBool32& {
-         return c.v13.synchronization2;
-     }},
+    // Indirect drawing of instances.
+    {"multiDrawIndirect", Need::caster_drawer, GNOMON_CORE(multiDrawIndirect)},
+    {"drawIndirectFirstInstance", Need::caster_drawer, GNOMON_CORE(drawIndirectFirstInstance)},
+    // Casters clamped onto the near plane.
+    {"depthClamp", Need::caster_drawer, GNOMON_CORE(depthClamp)},
+    {"pipelineStatisticsQuery", Need::profiler, GNOMON_CORE(pipelineStatisticsQuery)},
+    // The linear metric of perspective views in each sample, not only in each texel.
+    {"sampleRateShading", Need::filterable, GNOMON_CORE(sampleRateShading)},
+    // One compute shader for all formats of filterable maps.
+    {"shaderStorageImageWriteWithoutFormat", Need::filterable, GNOMON_CORE(shaderStorageImageWriteWithoutFormat)},
+    {"hostQueryReset", Need::profiler, k12, offsetof(VkPhysicalDeviceVulkan12Features, hostQueryReset),
+     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
+     offsetof(VkPhysicalDeviceHostQueryResetFeatures, hostQueryReset)},
+    {"dynamicRendering", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering),
+     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+     offsetof(VkPhysicalDeviceDynamicRenderingFeatures, dynamicRendering)},
+    {"synchronization2", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2),
+     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+     offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2)},
     // The size of a compute shader's group, as SPIR-V 1.6 writes it.
-    {"maintenance4",
-     [](Chain& c) -> VkBool32& {
-         return c.v13.maintenance4;
-     }},
+    {"maintenance4", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, maintenance4),
+     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
+     offsetof(VkPhysicalDeviceMaintenance4Features, maintenance4)},
+    // The maps of cascades in one pass.
+    {"shaderOutputLayer", Need::layered, k12, offsetof(VkPhysicalDeviceVulkan12Features, shaderOutputLayer)},
 };
+#undef GNOMON_CORE
+
+VkBaseOutStructure* findIn(const void* chain, VkStructureType type)
+{
+    auto* next = static_cast<VkBaseOutStructure*>(const_cast<void*>(chain));
+    while (next != nullptr && next->sType != type) {
+        next = next->pNext;
+    }
+    return next;
+}
+
+VkBool32& bitOf(void* structure, std::size_t offset)
+{
+    return *reinterpret_cast<VkBool32*>(static_cast<std::byte*>(structure) + offset);
+}
+
+VkBool32& bitIn(Chain& chain, const Feature& feature)
+{
+    return bitOf(findIn(&chain.core, feature.version), feature.bit);
+}
 
 /// What is not there stays false.
 void query(const DeviceView& view, Chain& chain)
@@ -87,22 +122,107 @@ void query(const DeviceView& view, Chain& chain)
 
 } // namespace
 
-const VkPhysicalDeviceFeatures2& requiredFeatures(bool layered)
+const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
 {
-    static Chain with;
-    static Chain without;
+    static std::array<Chain, 16> chains;
     static const bool filled = [] {
-        for (Chain* const chain : std::array{&with, &without}) {
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0, (i & 4U) != 0, (i & 8U) != 0};
             for (const Feature& feature : kFeatures) {
-                feature.of(*chain) = VK_TRUE;
+                bitIn(chains[i], feature) = isNeeded(feature.need, combination) ? VK_TRUE : VK_FALSE;
             }
         }
-        with.v12.shaderOutputLayer = VK_TRUE; // the maps of cascades in one pass
         return true;
     }();
     (void)filled;
-    return layered ? with.core : without.core;
+    return chains[(uses.filterable ? 1U : 0U) | (uses.caster_drawer ? 2U : 0U) | (uses.profiler ? 4U : 0U) |
+                  (uses.layered ? 8U : 0U)]
+        .core;
 }
+
+struct FeatureMerge::Impl {
+    VkPhysicalDeviceFeatures enabled{}; // in place of VkDeviceCreateInfo::pEnabledFeatures
+    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceHostQueryResetFeatures query_reset{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES};
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
+    VkPhysicalDeviceSynchronization2Features sync{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+    VkPhysicalDeviceMaintenance4Features maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
+
+    /// Ours of this type, put before the chain.
+    void* add(VkDeviceCreateInfo& info, VkStructureType type)
+    {
+        for (void* const own :
+             {static_cast<void*>(&core), static_cast<void*>(&v12), static_cast<void*>(&query_reset),
+              static_cast<void*>(&rendering), static_cast<void*>(&sync), static_cast<void*>(&maintenance)}) {
+            auto* const structure = static_cast<VkBaseOutStructure*>(own);
+            if (structure->sType == type) {
+                structure->pNext = static_cast<VkBaseOutStructure*>(const_cast<void*>(info.pNext));
+                info.pNext = structure;
+                return structure;
+            }
+        }
+        return nullptr;
+    }
+};
+
+namespace {
+
+/// Structures of what VkPhysicalDeviceVulkan12Features has too.
+bool hasSinglesOf12(const void* chain)
+{
+    constexpr VkStructureType kSingles[] = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_8BIT_STORAGE_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGELESS_FRAMEBUFFER_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_UNIFORM_BUFFER_STANDARD_LAYOUT_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_EXTENDED_TYPES_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SEPARATE_DEPTH_STENCIL_LAYOUTS_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES,
+                                            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_MEMORY_MODEL_FEATURES};
+    return std::any_of(std::begin(kSingles), std::end(kSingles),
+                       [&](VkStructureType type) { return findIn(chain, type) != nullptr; });
+}
+
+} // namespace
+
+FeatureMerge::FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses) : impl_(std::make_unique<Impl>())
+{
+    if (uses.layered && findIn(info.pNext, k12) == nullptr) {
+        if (hasSinglesOf12(info.pNext)) {
+            throw Error("add shaderOutputLayer to the features of a device",
+                        "the chain has structures of single features of Vulkan 1.2",
+                        "use VkPhysicalDeviceVulkan12Features in their place");
+        }
+        (void)impl_->add(info, k12);
+    }
+    if (info.pEnabledFeatures != nullptr) { // then the chain must not have them
+        impl_->enabled = *info.pEnabledFeatures;
+        info.pEnabledFeatures = &impl_->enabled;
+    } else if (findIn(info.pNext, kCore) == nullptr) {
+        (void)impl_->add(info, kCore);
+    }
+    for (const Feature& feature : kFeatures) {
+        if (!isNeeded(feature.need, uses)) {
+            continue;
+        }
+        if (feature.version == kCore && info.pEnabledFeatures != nullptr) {
+            bitOf(&impl_->enabled, feature.bit - offsetof(VkPhysicalDeviceFeatures2, features)) = VK_TRUE;
+        } else if (VkBaseOutStructure* const version = findIn(info.pNext, feature.version)) {
+            bitOf(version, feature.bit) = VK_TRUE;
+        } else {
+            void* single = findIn(info.pNext, feature.alone);
+            single = single != nullptr ? single : impl_->add(info, feature.alone);
+            bitOf(single, feature.bit_alone) = VK_TRUE;
+        }
+    }
+}
+
+FeatureMerge::~FeatureMerge() = default;
 
 bool supportsLayered(const DeviceView& view)
 {
@@ -111,7 +231,7 @@ bool supportsLayered(const DeviceView& view)
     return have.v12.shaderOutputLayer == VK_TRUE;
 }
 
-void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
+void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses)
 {
     if (capacity == 0) {
         return;
@@ -123,7 +243,7 @@ void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
     for (const Feature& feature : kFeatures) {
         const char* separator = length == 0 ? "" : ", ";
         const std::size_t more = std::strlen(separator) + std::strlen(feature.name);
-        if (feature.of(have) == VK_FALSE && length + more < capacity) {
+        if (isNeeded(feature.need, uses) && bitIn(have, feature) == VK_FALSE && length + more < capacity) {
             std::strcpy(text + length, separator);
             std::strcpy(text + length + std::strlen(separator), feature.name);
             length += static_cast<std::uint32_t>(more);

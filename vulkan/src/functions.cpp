@@ -8,13 +8,22 @@
 namespace gnomon::vulkan {
 namespace {
 
-template <class Function>
-void require(Function function, const char* name)
+constexpr const char* kLookingUp = "look up the Vulkan functions";
+
+/// A driver of Vulkan 1.3 hides what is newer than what its instance was made for.
+[[noreturn]] void refuseWithout(const char* name, const Functions& f, const DeviceView& view)
 {
-    if (function == nullptr) {
-        throw Error("look up the Vulkan functions", std::string("the driver has no vk") + name,
-                    "use a driver with Vulkan 1.3");
+    VkPhysicalDeviceProperties properties{};
+    if (f.GetPhysicalDeviceProperties != nullptr) {
+        f.GetPhysicalDeviceProperties(view.physical_device, &properties);
     }
+    if (properties.apiVersion >= VK_API_VERSION_1_3) {
+        throw Error(kLookingUp,
+                    std::string("the driver has Vulkan 1.3, but the instance gives no vk") + name +
+                        ": its apiVersion is too low",
+                    "make the instance with VkApplicationInfo::apiVersion of VK_API_VERSION_1_3 or later");
+    }
+    throw Error(kLookingUp, std::string("the driver has no vk") + name, "use a driver with Vulkan 1.3");
 }
 
 } // namespace
@@ -25,13 +34,17 @@ Functions loadFunctions(const DeviceView& view)
     Functions f;
 #define GNOMON_LOAD(name)                                                                                              \
     f.name = reinterpret_cast<PFN_vk##name>(view.get_instance_proc_addr(view.instance, "vk" #name));                   \
-    require(f.name, #name);
+    if (f.name == nullptr) {                                                                                           \
+        refuseWithout(#name, f, view);                                                                                 \
+    }
     GNOMON_INSTANCE_FUNCTIONS(GNOMON_LOAD)
 #undef GNOMON_LOAD
     // Device-level addresses skip the loader's dispatch on every call.
 #define GNOMON_LOAD(name)                                                                                              \
     f.name = reinterpret_cast<PFN_vk##name>(f.GetDeviceProcAddr(view.device, "vk" #name));                             \
-    require(f.name, #name);
+    if (f.name == nullptr) {                                                                                           \
+        refuseWithout(#name, f, view);                                                                                 \
+    }
     GNOMON_DEVICE_FUNCTIONS(GNOMON_LOAD)
 #undef GNOMON_LOAD
     if (view.debug_labels) {

@@ -11,8 +11,8 @@
 
 #define GNOMON_DEVICE_FUNCTIONS(X) \
     X(AllocateMemory) X(FreeMemory) X(MapMemory) X(BindImageMemory) X(BindBufferMemory) \
-    X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(CreateImageView) X(DestroyImageView) \
-    X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(CreateSampler) X(DestroySampler) \
+    X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements2) X(CreateImageView) X(DestroyImageView) \
+    X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements2) X(CreateSampler) X(DestroySampler) \
     X(CreateShaderModule) X(DestroyShaderModule) X(CreatePipelineLayout) X(DestroyPipelineLayout) \
     X(CreateGraphicsPipelines) X(CreateComputePipelines) X(DestroyPipeline) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
     X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) X(UpdateDescriptorSets) \

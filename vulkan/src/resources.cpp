@@ -21,6 +21,27 @@ ImageView makeView(Device& device, VkImage image, const ImageInfo& info, VkImage
     return {device, view};
 }
 
+/// What a resource needs, with what the driver says of memory for it alone.
+struct Needs {
+    VkMemoryDedicatedRequirements dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS};
+    VkMemoryRequirements2 all{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2, &dedicated};
+
+    Needs() = default;
+    Needs(const Needs&) = delete;
+    Needs& operator=(const Needs&) = delete;
+};
+
+MemoryRequest requestOf(const Needs& needs, VkMemoryPropertyFlags properties, const char* purpose)
+{
+    MemoryRequest request;
+    request.needs = needs.all.memoryRequirements;
+    request.properties = properties;
+    request.purpose = purpose;
+    request.prefers_dedicated = needs.dedicated.prefersDedicatedAllocation == VK_TRUE;
+    request.requires_dedicated = needs.dedicated.requiresDedicatedAllocation == VK_TRUE;
+    return request;
+}
+
 void checkLimits(const Device& device, const ImageInfo& info)
 {
     const VkPhysicalDeviceLimits& limits = device.limits();
@@ -56,9 +77,12 @@ Image::Image(Device& device, const ImageInfo& info) : info_(info)
     image_ = {device, image};
     device.name(VK_OBJECT_TYPE_IMAGE, handleBits(image), info.purpose);
 
-    VkMemoryRequirements needs{};
-    device.vk.GetImageMemoryRequirements(device.handle(), image, &needs);
-    memory_ = Memory(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, info.purpose);
+    const VkImageMemoryRequirementsInfo2 asked{VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2, nullptr, image};
+    Needs needs;
+    device.vk.GetImageMemoryRequirements2(device.handle(), &asked, &needs.all);
+    MemoryRequest request = requestOf(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, info.purpose);
+    request.image = image;
+    memory_ = Memory(device, request);
     check(device.vk.BindImageMemory(device.handle(), image, memory_.block().memory, memory_.block().offset),
           "bind image memory");
 
@@ -92,9 +116,12 @@ Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkM
     buffer_ = {device, buffer};
     device.name(VK_OBJECT_TYPE_BUFFER, handleBits(buffer), purpose);
 
-    VkMemoryRequirements needs{};
-    device.vk.GetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    memory_ = Memory(device, needs, properties, purpose);
+    const VkBufferMemoryRequirementsInfo2 asked{VK_STRUCTURE_TYPE_BUFFER_MEMORY_REQUIREMENTS_INFO_2, nullptr, buffer};
+    Needs needs;
+    device.vk.GetBufferMemoryRequirements2(device.handle(), &asked, &needs.all);
+    MemoryRequest request = requestOf(needs, properties, purpose);
+    request.buffer = buffer;
+    memory_ = Memory(device, request);
     check(device.vk.BindBufferMemory(device.handle(), buffer, memory_.block().memory, memory_.block().offset),
           "bind buffer memory");
 }

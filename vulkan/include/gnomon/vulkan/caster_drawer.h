@@ -34,13 +34,31 @@ struct CasterBatch {
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
 };
 
-/// Buffers that are read while drawing. They may differ from slot to slot (skinned meshes).
+/// One attribute of the host's vertices.
+struct VertexAttribute {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    std::uint32_t stride = 0; // bytes from one vertex to the next
+    std::uint32_t offset = 0; // bytes from a vertex's first
+};
+
+/// How the host's vertices and indices are stored. Interleaved vertices have both attributes in one buffer.
+struct CasterVertices {
+    /// R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT, R16G16B16A16_SNORM or R16G16B16A16_UNORM; a fourth
+    /// number is not read. Of normalised ones, world_from_object says how large an object is.
+    VertexAttribute position{VK_FORMAT_R32G32B32_SFLOAT, 12, 0};
+    /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. Read for masked batches alone.
+    VertexAttribute uv{VK_FORMAT_R32G32_SFLOAT, 8, 0};
+    VkIndexType index = VK_INDEX_TYPE_UINT32; // or UINT16
+};
+
+/// Buffers that are read while drawing, as CasterDrawerOptions::vertices says. They may differ from slot to slot
+/// (skinned meshes).
 struct CasterGeometry {
-    VkBuffer positions = VK_NULL_HANDLE; // 3 floats a vertex, tightly packed
+    VkBuffer positions = VK_NULL_HANDLE;
     VkDeviceSize positions_offset = 0;
-    VkBuffer uvs = VK_NULL_HANDLE; // 2 floats a vertex, tightly packed; may be null when no batch is masked
+    VkBuffer uvs = VK_NULL_HANDLE; // may be null when no batch is masked
     VkDeviceSize uvs_offset = 0;
-    VkBuffer indices = VK_NULL_HANDLE; // 32 bits
+    VkBuffer indices = VK_NULL_HANDLE;
     VkDeviceSize indices_offset = 0;
 };
 
@@ -52,12 +70,13 @@ struct CasterDrawerOptions {
     /// open geometry casts too; counter-clockwise triangles face front.
     bool cull_back_faces = false;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    CasterVertices vertices;
 };
 
 /// Not thread-safe. Needs the features drawIndirectFirstInstance and multiDrawIndirect.
 class CasterDrawer {
 public:
-    /// Throws Error when a function is missing or memory runs out.
+    /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
     CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
     ~CasterDrawer();
     CasterDrawer(const CasterDrawer&) = delete;

@@ -5,6 +5,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
+#include <memory>
 
 namespace gnomon::vulkan {
 
@@ -16,11 +17,26 @@ struct MemoryBlock {
     void* token = nullptr;  // for the hooks' own use
 };
 
-/// The host's memory policy. `purpose` is a static string ("shadow maps", "mask", "constants" …) for accounting.
+/// What memory is asked for.
+struct MemoryRequest {
+    VkMemoryRequirements needs{};
+    VkMemoryPropertyFlags properties = 0; // all of them; HOST_VISIBLE ones are to be mapped
+    const char* purpose = "";             // a static string ("shadow maps", "mask", "constants" ...) for accounting
+    /// The resource that will be bound: one of them, the other one is null. A buffer is linear, an image is not: in one
+    /// block of memory they must keep VkPhysicalDeviceLimits::bufferImageGranularity apart.
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkImage image = VK_NULL_HANDLE;
+    /// What the driver says of an allocation for this resource alone (VkMemoryDedicatedAllocateInfo).
+    bool prefers_dedicated = false;
+    bool requires_dedicated = false;
+
+    [[nodiscard]] bool linear() const { return buffer != VK_NULL_HANDLE; }
+};
+
+/// The host's memory policy. Both functions or none.
 struct MemoryHooks {
     void* user = nullptr;
-    VkResult (*allocate)(void* user, const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
-                         const char* purpose, MemoryBlock* block) = nullptr;
+    VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryBlock* block) = nullptr;
     void (*release)(void* user, const MemoryBlock& block) = nullptr;
 };
 
@@ -37,14 +53,41 @@ struct DeviceView {
     bool layered = false;      // the device has the feature shaderOutputLayer on, for CascadePass::layered
 };
 
-/// The features that the backend relies on, chained for VkDeviceCreateInfo::pNext. Static lifetime. Every desktop
-/// driver of Vulkan 1.3 and Mesa's lavapipe have them; vulkan/src/features.cpp says what each is for. `layered`: and
-/// shaderOutputLayer, which is optional.
-[[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures(bool layered = false);
+/// What a host uses of the library, as far as it takes features of the device.
+struct FeatureUses {
+    bool filterable = true;    // maps of vsm, lvsm, esm, evsm, msm
+    bool caster_drawer = true; // CasterDrawer; a callback of the host's own that clamps needs depthClamp all the same
+    bool profiler = true;      // Profiler
+    bool layered = false;      // CascadePass::layered; supportsLayered() says whether the device can
+};
+
+/// The features that these uses rely on, chained for VkDeviceCreateInfo::pNext: for a host that wants no others. Static
+/// lifetime. Every desktop driver of Vulkan 1.3 and Mesa's lavapipe have them, shaderOutputLayer apart;
+/// vulkan/src/features.cpp says what each is for.
+[[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses = {});
+
+/// Adds what is missing to an engine's own features. In a chain no feature may be asked for in two structures: each is
+/// turned on in the one that is there, which is changed in place (VkDeviceCreateInfo::pEnabledFeatures,
+/// VkPhysicalDeviceFeatures2, VkPhysicalDeviceVulkan12Features, -13Features, or the structure of that feature alone),
+/// and else a structure is put before the chain. To live until vkCreateDevice() has returned.
+class FeatureMerge {
+public:
+    /// Changes `info`: its pNext or pEnabledFeatures. Throws Error for shaderOutputLayer in a chain that has structures
+    /// of single features of Vulkan 1.2, with which VkPhysicalDeviceVulkan12Features must not be.
+    explicit FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses = {});
+    ~FeatureMerge();
+    FeatureMerge(const FeatureMerge&) = delete;
+    FeatureMerge& operator=(const FeatureMerge&) = delete;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
 /// Has the physical device shaderOutputLayer?
 [[nodiscard]] bool supportsLayered(const DeviceView& view);
-/// Names of the required features that a physical device lacks, separated by ", "; empty when it has all. Writes at
-/// most `capacity` bytes and a zero to `text`.
-void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity);
+/// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
+/// at most `capacity` bytes and a zero to `text`.
+void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses = {});
 
 } // namespace gnomon::vulkan
