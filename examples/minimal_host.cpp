@@ -247,8 +247,6 @@ int run(const std::string& folder)
     const std::array<gnomon::vulkan::DrawObject, 4> objects{{{0, 1}, {0, 1}, {0, 1}, {0, 1}}};
     casters.setScene({&cube, 1}, objects, std::array<gnomon::vulkan::CasterBatch, 1>{});
 
-    gnomon::MapPages atlas; // what prepare() has made room for; the screen and the lights stay as they are
-    std::size_t most_views = 0;
     for (int i = 0; i < kFrames; ++i) {
         const auto slot = static_cast<std::uint32_t>(i) % kSlots;
         const vk::raii::CommandBuffer& commands = d.commands[slot];
@@ -256,12 +254,6 @@ int run(const std::string& folder)
         d.device.resetFences(*d.done[slot]);
 
         const gnomon::Plan& plan = planner.plan(scene.frame);
-        if (plan.views.size() > most_views || plan.pages[0].width > atlas.width ||
-            plan.pages[0].layers > atlas.layers) {
-            d.device.waitIdle(); // prepare() frees images that are too small
-            most_views = plan.views.size();
-            atlas = plan.pages[0];
-        }
         shadows.prepare(plan, kSize);
         casters.beginFrame(slot, plan, {*vertices.buffer, 0, nullptr, 0, *indices.buffer, 0}, scene.world_from_object);
         commands.begin(vk::CommandBufferBeginInfo());

@@ -190,7 +190,7 @@ TEST_F(Layered, layersAreCopiedWhenTheirBufferGrows)
     const auto mask = bench_.readMask(1);
     bench_.plan.map_count = 9;
     bench_.plan.pages[0].layers = 5;
-    bench_.plan.pages[0].width = 96;
+    bench_.plan.pages[0].width = 128;
     record({0, 1, 2}, true);
     EXPECT_EQ(bench_.renderer.reuse(0).held, 3U);
     EXPECT_EQ(bench_.readMask(1), mask);

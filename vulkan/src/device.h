@@ -53,6 +53,7 @@ public:
     template <class Resource>
     void retire(Resource&& resource)
     {
+        static_assert(!std::is_lvalue_reference_v<Resource>);
         if (resource) {
             retirement_.keep(std::forward<Resource>(resource));
         }

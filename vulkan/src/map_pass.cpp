@@ -82,6 +82,11 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan)
     if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan))) {
         restorer_.emplace(device_, storage_, cache_);
     }
+    for (const View& view : plan.views) {
+        if (restorer_) {
+            restorer_->ensure(view.part);
+        }
+    }
     if (pages.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, pages.kept_layers)) {
         makeKept(pages.kept_layers);
         prepared.changed = true;

@@ -51,12 +51,21 @@ Pipeline MapRestorer::makePipeline(std::span<const std::uint32_t> fragment, Texe
     return makeGraphicsPipeline(device_, state);
 }
 
+void MapRestorer::ensure(TexelPart part)
+{
+    const auto index = static_cast<std::size_t>(part);
+    if (!restores_[index]) {
+        restores_[index] =
+            makePipeline(storage_.depthOnly() ? spirv::restore_depth_frag : spirv::restore_colour_frag, part);
+    }
+    if (!clears_[index] && part != TexelPart::whole) {
+        clears_[index] = makePipeline(spirv::restore_clear_frag, part);
+    }
+}
+
 void MapRestorer::restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer)
 {
-    Pipeline& pipeline = restores_[static_cast<std::size_t>(part)];
-    if (!pipeline) {
-        pipeline = makePipeline(storage_.depthOnly() ? spirv::restore_depth_frag : spirv::restore_colour_frag, part);
-    }
+    const Pipeline& pipeline = restores_[static_cast<std::size_t>(part)];
     const auto push = static_cast<Layer>(layer);
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0, nullptr);
@@ -66,10 +75,7 @@ void MapRestorer::restore(VkCommandBuffer commands, TexelPart part, std::uint32_
 
 void MapRestorer::clear(VkCommandBuffer commands, TexelPart part)
 {
-    Pipeline& pipeline = clears_[static_cast<std::size_t>(part)];
-    if (!pipeline) {
-        pipeline = makePipeline(spirv::restore_clear_frag, part);
-    }
+    const Pipeline& pipeline = clears_[static_cast<std::size_t>(part)];
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     device_.vk.CmdDraw(commands, 3, 1, 0, 0);
 }

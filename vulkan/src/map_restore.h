@@ -17,7 +17,10 @@ public:
     /// Views of all layers of images that are new, in SHADER_READ_ONLY_OPTIMAL when they are read. `colours` is null
     /// for depth-only maps.
     void setKept(VkImageView depths, VkImageView colours);
-    /// Rendering has begun, viewport and scissor are set: puts back what the scissor covers, depths and colours.
+    /// Makes the pipelines for maps that have this part of their texels.
+    void ensure(TexelPart part);
+    /// Of a part that is ensured. Rendering has begun, viewport and scissor are set: puts back what the scissor covers,
+    /// depths and colours.
     void restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer);
     /// Likewise: colours are 1 where the map has its part of them. Depths have been cleared.
     void clear(VkCommandBuffer commands, TexelPart part);
@@ -32,7 +35,7 @@ private:
     DescriptorSets sets_;
     PipelineLayout layout_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::array<Pipeline, 3> restores_; // by TexelPart, made when first needed
+    std::array<Pipeline, 3> restores_; // by TexelPart, made by ensure()
     std::array<Pipeline, 3> clears_;
 };
 

@@ -12,6 +12,8 @@ namespace gnomon::vulkan {
 
 class Retirement {
 public:
+    Retirement() { slots_.reserve(kUsualSlots); }
+
     /// What a frame records with its slot, in this order.
     enum class Work : std::uint8_t { bounds, maps, mask };
 
@@ -47,6 +49,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t kUsualSlots = 16; // with more, some recordings allocate
+
     struct Slot {
         bool pending = false; // something was recorded with it
         Work last = Work::bounds;
