@@ -9,6 +9,7 @@ namespace {
 vulkan::ShadowRendererOptions rendererOptions(const Gpu& gpu, const RenderOptions& options)
 {
     vulkan::ShadowRendererOptions wish;
+    wish.mask_shape = vulkan::MaskShape{true, true}; // recordShadows() gives both
     wish.filter = vulkan::filterOptionsOf(options.shadow);
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = gpu.pipelineCache();

@@ -12,6 +12,8 @@ constexpr VkExtent2D kScreen{64, 48};
 
 class Masks {
 public:
+    explicit Masks(const vulkan::ShadowRendererOptions& options = {}) : renderer_(driver_.view(), options) {}
+
     /// Pipelines made by prepare(), then by the recording.
     std::pair<std::uint64_t, std::uint64_t> frame(const std::vector<Light>& lights, bool warped = false)
     {
@@ -37,7 +39,7 @@ public:
 private:
     NullDriver driver_;
     Scene scene_ = makeScene();
-    vulkan::ShadowRenderer renderer_{driver_.view(), {}};
+    vulkan::ShadowRenderer renderer_;
     vulkan::MaskInputs inputs_{kScreen, driver_.makeView()};
 };
 
@@ -54,6 +56,13 @@ TEST(MaskPipelines, AreNotMadeWhileRecording)
     EXPECT_EQ(masks.frame({sun, lamp}), Made(2, 0)) << "a mask of another format";
     EXPECT_EQ(masks.frame({sun, sun, sun, lamp, lamp}), Made(0, 0)) << "more lights";
     EXPECT_EQ(masks.frame({sun, sun}, true), Made(0, 0));
+}
+
+TEST(MaskPipelines, AreMadeBeforeTheFirstFrameWhereTheInputsAreKnown)
+{
+    const Light sun = makeSun({0.5, -1.0, 0.2});
+    Masks masks({.mask_shape = vulkan::MaskShape{}});
+    EXPECT_EQ(masks.frame({sun}), Made(1, 0));
 }
 
 } // namespace

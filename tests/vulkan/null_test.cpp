@@ -53,6 +53,7 @@ public:
     {
         ShadowRendererOptions options;
         options.filter.format = format;
+        options.mask_shape = vulkan::MaskShape{};
         return options;
     }
     CasterDrawerOptions drawerOptions() const

@@ -94,7 +94,7 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
     draws_.reserve(lights);
 }
 
-bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, std::optional<MaskShape> shape)
+bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
 {
     const std::uint32_t layers = std::max(plan.mask_layers, 1U);
     makeBuffers(plan);
@@ -114,7 +114,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, std::optiona
                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                 VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
     }
-    shape_ = shape ? shape : shape_;
+    shape_ = shape_ ? shape_ : options_.mask_shape;
     if (shape_) {
         makePipelines(plan, *shape_);
     }

@@ -18,20 +18,14 @@ struct MaskPush {
     std::uint32_t channels;
 };
 
-/// What a host gives the mask pass besides the camera's depth.
-struct MaskShape {
-    bool normals = false;
-    bool ids = false; // of objects
-};
-
 class MaskPassRecorder {
 public:
     MaskPassRecorder(Device& device, const ShadowRendererOptions& options, float quantum);
 
     /// Makes the mask image if size, format or layers changed; true when it did. Makes the pipelines, too, that this
-    /// plan needs for such inputs; without a shape, for inputs as record() was given last. Only a first record() whose
-    /// shape nobody told makes its own.
-    bool prepare(const Plan& plan, VkExtent2D screen, std::optional<MaskShape> shape = std::nullopt);
+    /// plan needs for inputs of the options' shape; without one, for inputs as record() was given last. Only a first
+    /// record() whose shape nobody told makes its own.
+    bool prepare(const Plan& plan, VkExtent2D screen);
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer, CascadeFitter& fitter);
     [[nodiscard]] const Image& mask() const { return mask_; }

@@ -224,24 +224,24 @@ void clearToZeros(const Device& device, VkCommandBuffer commands, const Image& i
     ImageBarrier barrier;
     barrier.image = image.image();
     barrier.layer_count = image.info().layers;
-    barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.new_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     recordBarrier(device, commands, barrier);
     const VkClearColorValue zeros{};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                                       VK_REMAINING_ARRAY_LAYERS};
-    device.vk.CmdClearColorImage(commands, image.image(), VK_IMAGE_LAYOUT_GENERAL, &zeros, 1, &all);
+    device.vk.CmdClearColorImage(commands, image.image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zeros, 1, &all);
 }
 
-/// After it was written by copies or clears, in GENERAL.
-void waitForTransfer(const Device& device, VkCommandBuffer commands, const Image& image)
+/// After it was written by copies or clears.
+void waitForTransfer(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout to)
 {
     ImageBarrier barrier;
     barrier.image = image.image();
     barrier.layer_count = image.info().layers;
-    barrier.old_layout = VK_IMAGE_LAYOUT_GENERAL;
-    barrier.new_layout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.old_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    barrier.new_layout = to;
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.target_stages =
@@ -262,16 +262,16 @@ void MomentMaps::fillNewImages(VkCommandBuffer commands)
     kept_.copyOutgrown(commands);
     if (clear_scratch_) {
         clearToZeros(device_, commands, images_.scratch);
-        waitForTransfer(device_, commands, images_.scratch);
+        waitForTransfer(device_, commands, images_.scratch, VK_IMAGE_LAYOUT_GENERAL);
         clear_scratch_ = false;
     }
     if (clear_maps_) {
         clearToZeros(device_, commands, images_.maps);
-        waitForTransfer(device_, commands, images_.maps);
         if (outgrown_) {
-            outgrown_.copyTo(commands, images_.maps, VK_IMAGE_LAYOUT_GENERAL);
-            waitForTransfer(device_, commands, images_.maps);
+            waitForTransfer(device_, commands, images_.maps, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+            outgrown_.copyTo(commands, images_.maps, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         }
+        waitForTransfer(device_, commands, images_.maps, VK_IMAGE_LAYOUT_GENERAL);
         layout_of_maps_ = VK_IMAGE_LAYOUT_GENERAL;
         clear_maps_ = false;
     }

@@ -17,8 +17,8 @@ public:
     {
         return layer < layouts_.size() && layouts_[layer] != VK_IMAGE_LAYOUT_UNDEFINED;
     }
-    /// All layers that held anything, and as many mip levels as both have. `to` is in TRANSFER_DST_OPTIMAL or GENERAL,
-    /// and written by nobody else until then; afterwards its writes by ALL_TRANSFER are to be waited for.
+    /// All layers that held anything, and as many mip levels as both have. `to` is in `layout`, TRANSFER_DST_OPTIMAL or
+    /// GENERAL, and written by nobody else until then; afterwards its writes by ALL_TRANSFER are to be waited for.
     void copyTo(VkCommandBuffer commands, const Image& to, VkImageLayout layout);
     /// Its texels are not needed.
     void drop();

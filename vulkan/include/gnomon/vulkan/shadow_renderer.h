@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,8 +54,17 @@ struct FilterOptions {
 [[nodiscard]] float mapDepth(const FilterOptions& filter, std::span<const float> texel,
                              TexelPart part = TexelPart::whole);
 
+/// What MaskInputs has besides the camera's depth.
+struct MaskShape {
+    bool normals = false;
+    bool ids = false; // of objects
+};
+
 struct ShadowRendererOptions {
     FilterOptions filter;
+    /// Of the inputs to come: then prepare() makes the mask's pipelines, and no recordMask() has to. Nothing: the first
+    /// recordMask() makes those that it needs, which takes as long as the driver compiles.
+    std::optional<MaskShape> mask_shape;
     std::uint32_t frames_in_flight = 2;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
 };
