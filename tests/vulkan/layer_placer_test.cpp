@@ -217,11 +217,12 @@ TEST_F(LayersOfDepth, areUniformOverNothing)
 
 TEST_F(LayersOfDepth, lookAtTheirTileOnly)
 {
-    // The half of the image that is not the view's own holds one depth.
+    // A view's depths begin at the image's first texel, wherever its tile is. The half of the image that is not the
+    // view's own holds one depth.
     std::vector<float> depths = depthsOf();
     std::vector<float> own;
     for (std::size_t i = 0; i < depths.size(); ++i) {
-        if (i % kSide < kSide / 2) {
+        if (i % kSide >= kSide / 2) {
             depths[i] = 0.5F;
         } else {
             own.push_back(depths[i]);

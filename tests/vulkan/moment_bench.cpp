@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gnomon::test {
 namespace {
 
@@ -77,7 +79,24 @@ CpuMap drawDepths(const Scene& scene, const Plan& plan)
     vulkan::FilterOptions filter;
     filter.filter = Filter::hard;
     filter.format = MapFormat::d32f;
-    return drawMaps(scene, plan, filter).layers[0];
+    // A filterable map's depths are drawn at the working image's first texel, wherever its tile is; elsewhere an edge
+    // may fall to the next texel. So each view is drawn in a layer of its own, at that place.
+    Plan alone = plan;
+    alone.pages[0].layers = static_cast<std::uint32_t>(plan.views.size());
+    for (std::uint32_t v = 0; v < alone.views.size(); ++v) {
+        alone.views[v].tile = {v, 0, 0, plan.views[v].tile.width, plan.views[v].tile.height};
+    }
+    const DrawnMaps drawn = drawMaps(scene, alone, filter);
+    CpuMap depths = drawn.layers[0];
+    std::fill(depths.levels[0].begin(), depths.levels[0].end(), glm::vec4(1.0F));
+    for (std::uint32_t v = 0; v < plan.views.size(); ++v) {
+        const Tile& tile = plan.views[v].tile;
+        for (std::uint32_t y = 0; y < tile.height; ++y) {
+            const auto row = drawn.layers[v].levels[0].begin() + std::size_t{y} * depths.width;
+            std::copy_n(row, tile.width, depths.levels[0].begin() + std::size_t{tile.y + y} * depths.width + tile.x);
+        }
+    }
+    return depths;
 }
 
 vulkan::FilterOptions momentFilter(Filter filter, MapFormat format)

@@ -53,7 +53,7 @@ public:
     {
         ShadowRendererOptions options;
         options.filter.format = format;
-        options.mask_shape = vulkan::MaskShape{};
+        options.mask_shape = vulkan::MaskShape{.normals = true};
         return options;
     }
     CasterDrawerOptions drawerOptions() const
