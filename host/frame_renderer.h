@@ -95,11 +95,10 @@ public:
     [[nodiscard]] const RenderOptions& options() const;
 
     /// Draws one frame of `state` (same scene, any time; only its dynamic objects may differ), and `present` it if that
-    /// is given. Waits for the frame that is RenderOptions::frames_in_flight older, and for no other unless the plan
-    /// outgrows the maps. Blended surfaces are lit without shadow, cast none and are not in the masks. Throws Error,
-    /// for more than kMaxLights lights too. Allocates nothing once warm, unless the plan outgrows the maps or the
-    /// number of lights changes. `masks_instead`: use these visibility masks (one per light, as Picture::masks) instead
-    /// of the library's, e.g. the ray tracer's.
+    /// is given. Waits for the frame that is RenderOptions::frames_in_flight older, and for no other. Blended surfaces
+    /// are lit without shadow, cast none and are not in the masks. Throws Error, for more than kMaxLights lights too.
+    /// Allocates nothing once warm, unless the plan outgrows the maps or the number of lights changes. `masks_instead`:
+    /// use these visibility masks (one per light, as Picture::masks) instead of the library's, e.g. the ray tracer's.
     void submit(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
                 Present* present = nullptr, const std::vector<ImageF>* masks_instead = nullptr);
     /// Waits for the GPU to finish the last frame. Precondition: submit().

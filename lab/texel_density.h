@@ -12,7 +12,7 @@ namespace gnomon::lab {
                                         const Plan& plan, std::uint32_t light, double reach_texels);
 
 /// Texels that some counted pixel reads, divided by the texels held for the light; [0, 1], 0 when it has no map.
-/// `reach_texels`: vulkan::filterReachTexels().
+/// `reach_texels`: reachTexels().
 [[nodiscard]] double fitEfficiency(const host::Picture& picture, const Counted& counted, const Camera& camera,
                                    const Plan& plan, std::uint32_t light, double reach_texels);
 

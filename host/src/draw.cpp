@@ -173,11 +173,6 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
         }
         plan = shadows->plan = &shadows->planner.plan(frame);
     }
-    if (shadows->outgrownBy(*plan, screen->targets.drawn)) {
-        for (Slot& one : slots) {
-            one.commands->wait();
-        }
-    }
     (void)shadows->renderer.prepare(*plan, screen->targets.drawn);
 }
 

@@ -58,31 +58,6 @@ const Plan& Shadows::planAgain()
     return kept_;
 }
 
-bool Shadows::outgrownBy(const Plan& next, VkExtent2D screen)
-{
-    Need now;
-    std::uint32_t tile_width = 0;
-    std::uint32_t tile_height = 0;
-    for (const View& view : next.views) {
-        tile_width = std::max(tile_width, view.tile.width);
-        tile_height = std::max(tile_height, view.tile.height);
-    }
-    const MapPages& pages = next.pages.front();
-    now.sizes = {pages.width,       pages.height,      pages.layers,
-                 pages.kept_layers, next.views.size(), next.lights.size(),
-                 tile_width,        tile_height,       0};
-    now.motion = next.technique.motion;
-    // Any other screen, not only a larger one.
-    now.sizes[8] = std::size_t{screen.width} << 32U | screen.height;
-    bool outgrown = now.motion != need_.motion || now.sizes[8] != need_.sizes[8];
-    for (std::size_t i = 0; i + 1 < now.sizes.size(); ++i) {
-        outgrown = outgrown || now.sizes[i] > need_.sizes[i];
-        now.sizes[i] = std::max(now.sizes[i], need_.sizes[i]);
-    }
-    need_ = now;
-    return outgrown;
-}
-
 const Plan& Shadows::fittedPlan(std::uint32_t slot)
 {
     if (std::none_of(plan->views.begin(), plan->views.end(), isFitted)) {

@@ -17,8 +17,6 @@ struct Shadows {
 
     /// The last plan once more, nothing of which is to be drawn.
     [[nodiscard]] const Plan& planAgain();
-    /// Does prepare() free images that frames in flight may use?
-    [[nodiscard]] bool outgrownBy(const Plan& plan, VkExtent2D screen);
     /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
     [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
 
@@ -28,15 +26,9 @@ struct Shadows {
     const Plan* plan = nullptr; // the last one
 
 private:
-    /// The most that any plan needed.
-    struct Need {
-        std::array<std::size_t, 9> sizes{};
-        Motion motion = Motion::free;
-    };
     Plan kept_;
     Plan fitted_;
     std::optional<std::uint64_t> fitted_frame_;
-    Need need_;
 };
 
 } // namespace gnomon::host

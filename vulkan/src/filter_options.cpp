@@ -15,4 +15,14 @@ FilterOptions filterOptionsOf(const ShadowOptions& options)
             options.moments};
 }
 
+float filterReachTexels(const FilterOptions& filter)
+{
+    ShadowOptions options;
+    options.technique.filter = filter.filter;
+    options.pcf.kernel = filter.pcf_kernel;
+    options.pcf.radius_texels = filter.disc_radius_texels;
+    options.moments = filter.moments;
+    return reachTexels(options);
+}
+
 } // namespace gnomon::vulkan

@@ -95,7 +95,7 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuRule& out
     const BiasOptions& bias = filter.bias;
     out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
     out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(filter), quantum, 0.0F};
-    out.kernel = shared::gaussianWeights(std::max(kernelWidth(filter), 1), filter.gaussian_sigma_texels);
+    out.kernel = shared::gaussianWeights(std::max(kernelWidth(filter.pcf_kernel), 1), filter.gaussian_sigma_texels);
     out.disc = {filter.disc_radius_texels, 0.0F, 0.0F, 0.0F};
     const auto taps = static_cast<int>(filter.disc_taps);
     for (int i = 0; i < taps; ++i) {
@@ -106,41 +106,11 @@ void fillFilter(const FilterOptions& filter, float quantum, shared::GpuRule& out
         (i % 2 == 0 ? two.y : two.w) = point.y;
     }
     fillMoments(filter, out);
-    out.reading = {static_cast<int>(filter.filter), kernelWidth(filter), taps,
+    out.reading = {static_cast<int>(filter.filter), kernelWidth(filter.pcf_kernel), taps,
                    depthHolding(filter.filter, filter.format)};
 }
 
 } // namespace
-
-int kernelWidth(const FilterOptions& filter)
-{
-    switch (filter.pcf_kernel) {
-    case PcfKernel::bilinear_2x2:
-        return 1;
-    case PcfKernel::gaussian_3x3:
-        return 3;
-    case PcfKernel::gaussian_5x5:
-        return 5;
-    case PcfKernel::gaussian_7x7:
-        return 7;
-    case PcfKernel::poisson:
-    case PcfKernel::vogel:
-        return 0;
-    }
-    return 0;
-}
-
-float filterReachTexels(const FilterOptions& filter)
-{
-    if (filter.filter == Filter::hard) {
-        return 0.5F;
-    }
-    if (isFilterable(filter.filter)) {
-        return static_cast<float>(blurRadius(filter.moments)) + 1.0F; // and a bilinear read of what was blurred
-    }
-    const int width = kernelWidth(filter);
-    return width > 0 ? static_cast<float>(width + 1) * 0.5F : filter.disc_radius_texels + 1.0F;
-}
 
 namespace {
 

@@ -12,9 +12,6 @@
 
 namespace gnomon::vulkan {
 
-/// Width of a separable kernel; 0 for the discs.
-[[nodiscard]] int kernelWidth(const FilterOptions& filter);
-
 /// What the mask is made from and into.
 struct MaskSurroundings {
     const FilterOptions& filter;

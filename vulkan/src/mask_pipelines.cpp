@@ -135,7 +135,7 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
 {
     const FilterOptions& filter = options_.filter;
     const shared::MomentRule moments = isFilterable(filter.filter) ? momentRuleOf(filter) : shared::MomentRule{};
-    const Constants values{kernelWidth(filter),
+    const Constants values{kernelWidth(filter.pcf_kernel),
                            static_cast<std::int32_t>(filter.disc_taps),
                            variant.normals ? VK_TRUE : VK_FALSE,
                            filter.bias.automatic ? VK_TRUE : VK_FALSE,

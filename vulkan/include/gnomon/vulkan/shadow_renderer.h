@@ -23,6 +23,7 @@
 
 namespace gnomon::vulkan {
 
+/// What of ShadowOptions a renderer's maps are made and read by: filterOptionsOf().
 struct FilterOptions {
     Filter filter = Filter::pcf;
     MapFormat format = MapFormat::d32f;
@@ -35,10 +36,7 @@ struct FilterOptions {
 };
 /// What of the options the maps' making and reading depends on.
 [[nodiscard]] FilterOptions filterOptionsOf(const ShadowOptions& options);
-/// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
-/// many texels away, along x and y each. What ShadowOptions::border_texels should have room for. Of a filterable map it
-/// is of reads at the finest level: those of coarser levels, of anisotropic sampling and esm's of the receiver's
-/// neighbourhood are moved inside the tile where they would leave it, and need no room.
+/// reachTexels() of such options.
 [[nodiscard]] float filterReachTexels(const FilterOptions& filter);
 /// Mip levels of maps of this size, 1 to 8: 1 unless the filter is filterable and its sampling reads coarser ones. A
 /// coarser texel is an average of four whole ones, so there are as many levels as both sides can be halved without a
