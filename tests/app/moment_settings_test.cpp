@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled alone: it has a variable with the name of another source's function.
 // Every option of the filterable maps: what it becomes, and that texts, presets and JSON bring it back.
 #include "folder.h"
 

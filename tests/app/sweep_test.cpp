@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled alone: it has a variable with the name of another source's function.
 // One setting over many values, against one truth.
 #include "folder.h"
 #include "process.h"
