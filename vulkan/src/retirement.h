@@ -32,9 +32,9 @@ public:
         }
     }
     /// Frees the resource once every slot that has recorded anything so far has begun a new frame; at once when none
-    /// has. `resource` is left empty.
+    /// has. What it is moved from is left empty.
     template <class Resource>
-    void keep(Resource&& resource)
+    void keep(Resource resource)
     {
         auto held = std::make_unique<Holds<Resource>>(std::move(resource));
         std::vector<bool> waits_for;

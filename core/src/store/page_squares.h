@@ -16,7 +16,8 @@ struct PageSquare {
     std::uint32_t level = 0;
     std::uint32_t place = 0;
 
-    friend auto operator<=>(const PageSquare&, const PageSquare&) = default;
+    // clang-tidy 14 takes the comparison with 0 that the compiler writes for ours.
+    friend auto operator<=>(const PageSquare&, const PageSquare&) = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// Deterministic: the same calls give the same squares. Only a new square may take memory from the heap.
@@ -50,7 +51,7 @@ private:
         std::uint32_t broken_level = 0; // how deep the smallest free square around one of its own is, upside down
         std::uint32_t page = 0;
         std::uint32_t place = 0;
-        friend auto operator<=>(const Run&, const Run&) = default;
+        friend auto operator<=>(const Run&, const Run&) = default; // NOLINT(modernize-use-nullptr)
     };
     [[nodiscard]] const PageSquare* freeAround(const PageSquare& square) const;
     [[nodiscard]] bool measure(std::uint32_t level, std::uint32_t count, Run& run) const;
