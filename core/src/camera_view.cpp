@@ -36,40 +36,49 @@ Outcome checkDirection(const Camera& camera)
         const double depth = glm::dot(rows[2], eye) / rows[3].w;
         growth = depth >= 1.0 ? -1.0 : (depth <= 0.0 ? 1.0 : 0.0);
     }
-    if (camera.reversed_z && growth > rounding)
+    if (camera.reversed_z && growth > rounding) {
         return {OutcomeKind::degenerate,
                 "Camera::reversed_z is set, but the camera's matrix has depth 0 at the near plane"};
-    if (!camera.reversed_z && growth < -rounding)
+    }
+    if (!camera.reversed_z && growth < -rounding) {
         return {OutcomeKind::degenerate,
                 "Camera::reversed_z is not set, but the camera's matrix has depth 1 at the near plane"};
+    }
     return {};
 }
 
 Outcome checkCamera(const Camera& camera)
 {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(camera.clip_from_world[column][row]))
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(camera.clip_from_world[column][row])) {
                 return {OutcomeKind::degenerate, "the camera's matrix is not finite"};
-    if (!std::isfinite(camera.eye_ws.x) || !std::isfinite(camera.eye_ws.y) || !std::isfinite(camera.eye_ws.z))
+            }
+        }
+    }
+    if (!std::isfinite(camera.eye_ws.x) || !std::isfinite(camera.eye_ws.y) || !std::isfinite(camera.eye_ws.z)) {
         return {OutcomeKind::degenerate, "the camera's eye is not finite"};
+    }
     const double determinant = glm::determinant(camera.clip_from_world);
-    if (!std::isfinite(determinant) || determinant == 0.0)
+    if (!std::isfinite(determinant) || determinant == 0.0) {
         return {OutcomeKind::degenerate, "the camera's matrix is singular"};
+    }
     return checkDirection(camera);
 }
 
 /// Half-spaces around the ball of what is near enough to be shadowed.
 void addDistancePlanes(const Camera& camera, const CameraView& view, double max_distance_m, std::vector<Plane>& planes)
 {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
         for (const double sign : {1.0, -1.0}) {
             glm::dvec3 normal(0.0);
             normal[axis] = sign;
             planes.push_back({normal, max_distance_m - glm::dot(normal, camera.eye_ws)});
         }
-    if (view.perspective)
+    }
+    if (view.perspective) {
         planes.push_back({-view.forward_ws, max_distance_m + glm::dot(view.forward_ws, camera.eye_ws)});
+    }
 }
 
 /// Of a perspective camera w grows along the view axis, of an orthographic one z does, or falls.
@@ -99,8 +108,9 @@ void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::
         const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5 + pad_m;
         const double depth_m = depthOf(centre);
         const double reach_m = glm::dot(glm::abs(forward_ws), half);
-        if (depth_m - reach_m >= near_m && depth_m + reach_m <= far_m)
+        if (depth_m - reach_m >= near_m && depth_m + reach_m <= far_m) {
             continue;
+        }
         // Of a box that reaches out of sight only a part is seen. Clipping takes a microsecond, so not for all.
         if (cut_boxes == kMostCutBoxes) {
             near_m = std::min(near_m, depth_m - reach_m);
@@ -116,10 +126,12 @@ void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::
             far_m = std::max(far_m, depthOf(corner));
         }
     }
-    if (!(near_m <= far_m)) // boxes that only touch the view
+    if (!(near_m <= far_m)) { // boxes that only touch the view
         near_m = far_m = 0.0;
-    if (perspective)
+    }
+    if (perspective) {
         near_m = std::max(near_m, 0.0);
+    }
     far_m = std::max(far_m, near_m);
 }
 
@@ -133,12 +145,14 @@ void CameraView::boundDepths(const Camera& camera, double max_distance_m)
     const Plane& first = frustum.planes[camera.reversed_z ? 5 : 4];
     const Plane& last = frustum.planes[camera.reversed_z ? 4 : 5];
     double farthest_m = 0.0;
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < 8; ++i) {
         farthest_m = std::max(farthest_m, glm::distance(glm::dvec3(scene_ws.corner(i)), eye_ws));
+    }
     near_m = depthOfPlane(first);
     far_m = std::min(depthOfPlane(last), steppedRatio(1.0, std::max(farthest_m, 1.0)).high);
-    if (max_distance_m > 0.0)
+    if (max_distance_m > 0.0) {
         far_m = std::min(far_m, max_distance_m);
+    }
     far_m = std::max(far_m, near_m + pad_m);
 }
 
@@ -148,24 +162,29 @@ void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std
     planes.clear();
     scene_ws = frame.objects->bounds();
     outcome = checkCamera(frame.camera);
-    if (outcome.kind != OutcomeKind::ok || scene_ws.empty())
+    if (outcome.kind != OutcomeKind::ok || scene_ws.empty()) {
         return;
+    }
     findAxis(frame.camera, *this);
     const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(scene_ws.min)), glm::abs(glm::dvec3(scene_ws.max)));
     pad_m = 1e-6 * std::max({largest.x, largest.y, largest.z}) + 1e-5;
 
-    for (const Plane& plane : frustumFromClip(frame.camera.clip_from_world).planes)
-        if (plane.normal != glm::dvec3(0.0))
+    for (const Plane& plane : frustumFromClip(frame.camera.clip_from_world).planes) {
+        if (plane.normal != glm::dvec3(0.0)) {
             planes.push_back(plane);
-    if (max_distance_m > 0.0)
+        }
+    }
+    if (max_distance_m > 0.0) {
         addDistancePlanes(frame.camera, *this, max_distance_m, planes);
+    }
     frame.objects->query(planes, ObjectSet::Want::receivers, receivers);
-    if (max_distance_m > 0.0)
+    if (max_distance_m > 0.0) {
         std::erase_if(receivers, [&](std::uint32_t object) {
             const Aabb& box = frame.objects->bounds(object);
             const glm::dvec3 nearest = glm::clamp(frame.camera.eye_ws, glm::dvec3(box.min), glm::dvec3(box.max));
             return glm::distance(nearest, frame.camera.eye_ws) > max_distance_m;
         });
+    }
 }
 
 } // namespace gnomon

@@ -163,27 +163,33 @@ constexpr std::array kRules{
 template <class Enum>
 std::string_view nameIn(std::string_view choice, Enum value)
 {
-    for (const ChoiceValue& row : kValues)
-        if (row.choice == choice && row.value == number(value))
+    for (const ChoiceValue& row : kValues) {
+        if (row.choice == choice && row.value == number(value)) {
             return row.name;
+        }
+    }
     return "?";
 }
 
 template <class Enum, std::size_t n>
 std::string_view nameIn(const std::array<Named<Enum>, n>& table, Enum value)
 {
-    for (const Named<Enum>& row : table)
-        if (row.value == value)
+    for (const Named<Enum>& row : table) {
+        if (row.value == value) {
             return row.name;
+        }
+    }
     return "?";
 }
 
 template <class Enum, std::size_t n>
 std::optional<Enum> findIn(const std::array<Named<Enum>, n>& table, std::string_view name)
 {
-    for (const Named<Enum>& row : table)
-        if (row.name == name)
+    for (const Named<Enum>& row : table) {
+        if (row.name == name) {
             return row.value;
+        }
+    }
     return std::nullopt;
 }
 
@@ -191,13 +197,16 @@ std::optional<Enum> findIn(const std::array<Named<Enum>, n>& table, std::string_
 std::string availableNames(std::string_view choice)
 {
     std::vector<std::string_view> names;
-    for (const ChoiceValue& row : kValues)
-        if (row.choice == choice && row.available)
+    for (const ChoiceValue& row : kValues) {
+        if (row.choice == choice && row.available) {
             names.push_back(row.name);
+        }
+    }
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i != 0)
+        if (i != 0) {
             text += i + 1 == names.size() ? " and " : ", ";
+        }
         text += names[i];
     }
     return text;
@@ -208,10 +217,12 @@ const std::array<std::string, kValues.size()>& unavailableSentences()
 {
     static const auto sentences = [] {
         std::array<std::string, kValues.size()> made;
-        for (std::size_t i = 0; i < kValues.size(); ++i)
-            if (const ChoiceValue& row = kValues[i]; !row.available)
+        for (std::size_t i = 0; i < kValues.size(); ++i) {
+            if (const ChoiceValue& row = kValues[i]; !row.available) {
                 made[i] = std::string(row.choice) + " " + std::string(row.name) + " is not in this version; it has " +
                           availableNames(row.choice);
+            }
+        }
         return made;
     }();
     return sentences;
@@ -220,12 +231,14 @@ const std::array<std::string, kValues.size()>& unavailableSentences()
 template <class Enum>
 std::optional<std::string_view> unavailable(std::string_view choice, Enum value)
 {
-    for (std::size_t i = 0; i < kValues.size(); ++i)
+    for (std::size_t i = 0; i < kValues.size(); ++i) {
         if (kValues[i].choice == choice && kValues[i].value == number(value)) {
-            if (kValues[i].available)
+            if (kValues[i].available) {
                 return std::nullopt;
+            }
             return unavailableSentences()[i];
         }
+    }
     return "the value is not one of its choice's";
 }
 
@@ -243,9 +256,11 @@ std::span<const ChoiceRule> choiceRules()
 
 const ChoiceValue* findChoice(std::string_view choice, std::string_view name)
 {
-    for (const ChoiceValue& row : kValues)
-        if (row.choice == choice && row.name == name)
+    for (const ChoiceValue& row : kValues) {
+        if (row.choice == choice && row.name == name) {
             return &row;
+        }
+    }
     return nullptr;
 }
 
@@ -294,41 +309,55 @@ std::optional<MapFormat> findMapFormat(std::string_view name)
 
 const FilterTraits* filterTraits(Filter filter)
 {
-    for (const FilterTraits& row : kFilters)
-        if (row.filter == filter)
+    for (const FilterTraits& row : kFilters) {
+        if (row.filter == filter) {
             return &row;
+        }
+    }
     return nullptr;
 }
 
 std::optional<std::string_view> refusal(LightType light, const Technique& technique)
 {
-    if (const auto reason = unavailable(kLight, light))
+    if (const auto reason = unavailable(kLight, light)) {
         return reason;
-    if (const auto reason = unavailable(kPartition, technique.partition))
+    }
+    if (const auto reason = unavailable(kPartition, technique.partition)) {
         return reason;
-    if (const auto reason = unavailable(kFit, technique.fit))
+    }
+    if (const auto reason = unavailable(kFit, technique.fit)) {
         return reason;
-    if (const auto reason = unavailable(kFilter, technique.filter))
+    }
+    if (const auto reason = unavailable(kFilter, technique.filter)) {
         return reason;
-    if (const auto reason = unavailable(kSoften, technique.soften))
+    }
+    if (const auto reason = unavailable(kSoften, technique.soften)) {
         return reason;
-    if (const auto reason = unavailable(kMotion, technique.motion))
+    }
+    if (const auto reason = unavailable(kMotion, technique.motion)) {
         return reason;
-    for (const ChoiceRule& rule : kRules)
-        if (rule.applies(light, technique))
+    }
+    for (const ChoiceRule& rule : kRules) {
+        if (rule.applies(light, technique)) {
             return rule.reason;
+        }
+    }
     return std::nullopt;
 }
 
 std::optional<std::string_view> refusal(Filter filter, MapFormat format)
 {
-    if (const auto reason = unavailable(kFilter, filter))
+    if (const auto reason = unavailable(kFilter, filter)) {
         return reason;
+    }
     const FilterTraits* traits = filterTraits(filter);
-    if (traits != nullptr)
-        for (const MapFormat usable : traits->formats)
-            if (usable == format)
+    if (traits != nullptr) {
+        for (const MapFormat usable : traits->formats) {
+            if (usable == format) {
                 return std::nullopt;
+            }
+        }
+    }
     return formatReason(filter);
 }
 

@@ -24,8 +24,9 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
 {
     const Region& region = input.region;
     const LightSpace& space = input.space;
-    if (input.steady && space.perspective) // and what is at the reach itself is not beyond it by rounding
+    if (input.steady && space.perspective) { // and what is at the reach itself is not beyond it by rounding
         return {space.near_m, space.reach_m + kMargin * (space.reach_m - space.near_m)};
+    }
     DepthRange range{region.casterNear_m(), region.receiverFar_m()};
     if (input.clamp_near) {
         const double own_m = region.receiverFar_m() - region.receiverNear_m();
@@ -36,8 +37,9 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
     const double margin_m = kMargin * (range.far_m - range.near_m) + input.pad_m;
     range.near_m -= margin_m;
     range.far_m += margin_m;
-    if (space.perspective)
+    if (space.perspective) {
         range.near_m = std::max(range.near_m, space.near_m);
+    }
     range.far_m = std::max(range.far_m, range.near_m + std::max(margin_m, 1e-9 * std::abs(range.near_m)));
     if (input.steady) {
         const SteppedRange stepped = steppedRange(range.near_m, range.far_m);
@@ -48,8 +50,9 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
 
 double farthestCaster(const Region& region, const LightSpace& space, bool steady)
 {
-    if (!steady)
+    if (!steady) {
         return region.receiverFar_m();
+    }
     return space.perspective
                ? space.reach_m
                : steppedRange(region.receiverNear_m(), std::max(region.receiverFar_m(), region.receiverNear_m() + 1e-3))

@@ -46,8 +46,9 @@ void addBox(const LightSpace& space, const glm::dvec3& origin_ws, const Aabb& bo
     const int a = (thin + 1) % 3;
     const int b = (thin + 2) % 3;
     const double area = half[a] * half[b];
-    if (!(area > 0.0))
+    if (!(area > 0.0)) {
         return;
+    }
     const auto across = [&](const glm::dvec3& v) {
         return glm::dvec3(glm::dot(space.right_ws, v), glm::dot(space.up_ws, v), glm::dot(space.forward_ws, v));
     };
@@ -66,15 +67,19 @@ void addBox(const LightSpace& space, const glm::dvec3& origin_ws, const Aabb& bo
 
 glm::dvec3 levelDepth(const LightSpace& space, const ObjectSet& objects, std::span<const std::uint32_t> receivers)
 {
-    if (space.perspective || receivers.empty())
+    if (space.perspective || receivers.empty()) {
         return space.forward_ws;
+    }
     const glm::dvec3 origin_ws(objects.bounds(receivers.front()).min); // near all of them, for precision far out
     Sums sums;
-    for (const std::uint32_t object : receivers)
-        if (!objects.flags(object).dynamic)
+    for (const std::uint32_t object : receivers) {
+        if (!objects.flags(object).dynamic) {
             addBox(space, origin_ws, objects.bounds(object), sums);
-    if (!(sums.area > 0.0) || !std::isfinite(sums.area))
+        }
+    }
+    if (!(sums.area > 0.0) || !std::isfinite(sums.area)) {
         return space.forward_ws;
+    }
     sums.addProducts(sums.mean / sums.area, -sums.area);
     const double ridge = kRidge * (sums.xx + sums.yy);
     const double xx = sums.xx + ridge;
@@ -82,10 +87,12 @@ glm::dvec3 levelDepth(const LightSpace& space, const ObjectSet& objects, std::sp
     const double det = xx * yy - sums.xy * sums.xy;
     glm::dvec2 share((sums.xz * yy - sums.yz * sums.xy) / det, (sums.yz * xx - sums.xz * sums.xy) / det);
     const double steepness = glm::length(share);
-    if (!std::isfinite(steepness))
+    if (!std::isfinite(steepness)) {
         return space.forward_ws;
-    if (steepness > kSteepest)
+    }
+    if (steepness > kSteepest) {
         share *= kSteepest / steepness;
+    }
     share = glm::round(share * kSteps) / kSteps;
     return space.forward_ws - space.right_ws * share.x - space.up_ws * share.y;
 }

@@ -7,12 +7,15 @@ namespace {
 std::string oneLine(const std::string& tried, const std::string& found, const std::string& todo)
 {
     std::string line = tried + ": " + found;
-    if (!todo.empty())
+    if (!todo.empty()) {
         line += "; " + todo;
+    }
     // The program prints what() as one line, whatever a file name or a driver's message brings along.
-    for (char& c : line)
-        if (c == '\n' || c == '\r')
+    for (char& c : line) {
+        if (c == '\n' || c == '\r') {
             c = ' ';
+        }
+    }
     return line;
 }
 

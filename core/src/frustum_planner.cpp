@@ -17,11 +17,13 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const double border_texels = recipe.borderTexels(input.map_size);
 
     LightSpace space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
-    if (recipe.levelsDepth())
+    if (recipe.levelsDepth()) {
         space.depth_ws = levelDepth(space, objects, input.levellers);
+    }
     const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.filter->filterable};
-    if (const Outcome found = region_.gatherReceivers(around); found.kind != OutcomeKind::ok)
+    if (const Outcome found = region_.gatherReceivers(around); found.kind != OutcomeKind::ok) {
         return found;
+    }
 
     const Warp warp = warpOf(input, space, border_texels);
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
@@ -35,8 +37,9 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
                             borderReach(warp, fit, border_texels, input.map_size),
                             farthestCaster(region_, space, steady), steady};
     const auto first_caster = static_cast<std::uint32_t>(casters.size());
-    if (const Outcome found = region_.gatherCasters(around, reach, casters); found.kind != OutcomeKind::ok)
+    if (const Outcome found = region_.gatherCasters(around, reach, casters); found.kind != OutcomeKind::ok) {
         return found;
+    }
 
     view.slice = input.slice.depth;
     view.parallel = !space.perspective;
@@ -56,12 +59,14 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
 
 Warp FrustumPlanner::warpOf(const FrustumInput& input, const LightSpace& space, double border_texels) const
 {
-    if (!input.recipe.steady())
+    if (!input.recipe.steady()) {
         return input.recipe.fit({space, region_.outline(), region_.body().points(), region_.body().faceSizes(),
                                  input.camera, strongestWarp(border_texels, input.map_size)});
+    }
     Warp none;
-    if (input.recipe.options.technique.fit != Fit::uniform)
+    if (input.recipe.options.technique.fit != Fit::uniform) {
         none.outcome = {OutcomeKind::fallback, kUnwarped};
+    }
     return none;
 }
 

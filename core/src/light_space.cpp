@@ -19,14 +19,18 @@ bool finite(const glm::dvec3& v)
 
 Outcome checkPlacedLight(const Light& light)
 {
-    if (!finite(light.position_ws))
+    if (!finite(light.position_ws)) {
         return {OutcomeKind::degenerate, "the light's position is not finite"};
-    if (!std::isfinite(light.range_m) || light.range_m < 0.0)
+    }
+    if (!std::isfinite(light.range_m) || light.range_m < 0.0) {
         return {OutcomeKind::degenerate, "the light's range is negative or not finite"};
-    if (!std::isfinite(light.near_m) || light.near_m < 0.0)
+    }
+    if (!std::isfinite(light.near_m) || light.near_m < 0.0) {
         return {OutcomeKind::degenerate, "the light's near distance is negative or not finite"};
-    if (light.range_m > 0.0 && light.near_m >= light.range_m)
+    }
+    if (light.range_m > 0.0 && light.near_m >= light.range_m) {
         return {OutcomeKind::degenerate, "the light's near distance is not before its range"};
+    }
     return {};
 }
 
@@ -34,21 +38,28 @@ Outcome checkPlacedLight(const Light& light)
 
 Outcome checkLight(const Light& light)
 {
-    if (light.type != LightType::directional)
-        if (const Outcome outcome = checkPlacedLight(light); outcome.kind != OutcomeKind::ok)
+    if (light.type != LightType::directional) {
+        if (const Outcome outcome = checkPlacedLight(light); outcome.kind != OutcomeKind::ok) {
             return outcome;
-    if (light.type == LightType::point)
+        }
+    }
+    if (light.type == LightType::point) {
         return {};
-    if (!finite(light.direction_ws))
+    }
+    if (!finite(light.direction_ws)) {
         return {OutcomeKind::degenerate, "the light's direction is not finite"};
+    }
     const double length = glm::length(light.direction_ws);
-    if (!std::isfinite(length) || !(length > 1e-9))
+    if (!std::isfinite(length) || !(length > 1e-9)) {
         return {OutcomeKind::degenerate, "the light's direction has no length"};
+    }
     if (light.type == LightType::spot) {
-        if (!(light.outer_half_angle_rad > 0.0))
+        if (!(light.outer_half_angle_rad > 0.0)) {
             return {OutcomeKind::degenerate, "the spot light's angle is not greater than zero"};
-        if (light.outer_half_angle_rad > kWidestHalfAngle_rad)
+        }
+        if (light.outer_half_angle_rad > kWidestHalfAngle_rad) {
             return {OutcomeKind::refused, "a spot light wider than 120 degrees does not fit one frustum"};
+        }
     }
     return {};
 }
@@ -61,26 +72,30 @@ void axesAcross(const glm::dvec3& forward_ws, glm::dvec3& right_ws, glm::dvec3& 
     const glm::dvec3 n = -forward_ws;
     const double k = 1.0 + n.y;
     right_ws = {1.0, 0.0, 0.0};
-    if (k > 1e-9)
+    if (k > 1e-9) {
         right_ws = {1.0 - n.x * n.x / k, -n.x, -n.x * n.z / k};
+    }
     right_ws = glm::normalize(right_ws - n * glm::dot(n, right_ws));
     up_ws = glm::cross(n, right_ws);
 }
 
 LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws)
 {
-    if (light.type == LightType::directional)
+    if (light.type == LightType::directional) {
         return {};
+    }
     LightExtent extent{.near_m = light.near_m, .reach_m = light.range_m};
     if (!(extent.reach_m > 0.0)) {
         const glm::dvec3 low = glm::abs(glm::dvec3(scene_bounds_ws.min) - light.position_ws);
         const glm::dvec3 high = glm::abs(glm::dvec3(scene_bounds_ws.max) - light.position_ws);
         extent.reach_m = std::max(glm::length(glm::max(low, high)), 2.0 * light.near_m);
-        if (!(extent.reach_m > 0.0))
+        if (!(extent.reach_m > 0.0)) {
             extent.reach_m = 1.0;
+        }
     }
-    if (!(extent.near_m > 0.0))
+    if (!(extent.near_m > 0.0)) {
         extent.near_m = 0.001 * extent.reach_m;
+    }
     return extent;
 }
 
@@ -90,8 +105,9 @@ LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double ha
     space.forward_ws = axis_ws;
     space.depth_ws = axis_ws;
     axesAcross(axis_ws, space.right_ws, space.up_ws);
-    if (light.type == LightType::directional)
+    if (light.type == LightType::directional) {
         return space;
+    }
     space.perspective = true;
     space.origin_ws = light.position_ws;
     space.tangent = std::tan(std::min(half_angle_rad, kWidestHalfAngle_rad));

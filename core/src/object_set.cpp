@@ -24,9 +24,11 @@ namespace {
 /// The positions of the bits that are set, ascending.
 void appendSet(std::span<const std::uint64_t> words, std::vector<std::uint32_t>& out)
 {
-    for (std::size_t word = 0; word < words.size(); ++word)
-        for (std::uint64_t left = words[word]; left != 0; left &= left - 1)
+    for (std::size_t word = 0; word < words.size(); ++word) {
+        for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
             out.push_back(static_cast<std::uint32_t>(64 * word + static_cast<std::size_t>(std::countr_zero(left))));
+        }
+    }
 }
 
 std::uint64_t nextIdentity()
@@ -68,8 +70,9 @@ struct ObjectSet::Impl {
         objects.places.emplace_back();
         changed.push_back(0);
         flags.emplace_back();
-        for (auto& words : bits)
+        for (auto& words : bits) {
             words.resize(handle / 64 + 1);
+        }
         return handle;
     }
     [[nodiscard]] std::vector<std::uint64_t>& bitsOf(Want want) { return bits[static_cast<std::size_t>(want)]; }
@@ -126,8 +129,9 @@ void ObjectSet::update(std::uint32_t object, const Aabb& bounds_ws)
     assert(alive(object) && !bounds_ws.empty() && finite(bounds_ws));
     Impl& s = *impl_;
     Aabb& box = s.objects.bounds_ws[object];
-    if (box.min == bounds_ws.min && box.max == bounds_ws.max)
+    if (box.min == bounds_ws.min && box.max == bounds_ws.max) {
         return;
+    }
     s.leave(box);
     box = bounds_ws;
     s.enter(bounds_ws);
@@ -157,8 +161,9 @@ void ObjectSet::remove(std::uint32_t object)
 std::uint32_t ObjectSet::size() const
 {
     std::size_t end = impl_->changed.size();
-    while (end > 0 && !impl_->alive(end - 1))
+    while (end > 0 && !impl_->alive(end - 1)) {
         --end;
+    }
     return static_cast<std::uint32_t>(end);
 }
 
@@ -189,8 +194,9 @@ Aabb ObjectSet::bounds() const
     Impl& s = *impl_;
     if (s.bounds_loose) {
         s.bounds = {};
-        for (const Aabb& box : s.objects.bounds_ws)
+        for (const Aabb& box : s.objects.bounds_ws) {
             s.enter(box);
+        }
         s.bounds_loose = false;
     }
     return s.bounds;
@@ -224,8 +230,9 @@ void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std:
     const glm::dvec3 low(s.bounds.min);
     const glm::dvec3 high(s.bounds.max);
     std::uint32_t mask = region.allPlanes();
-    if (s.bounds.empty() || !region.narrow((low + high) * 0.5, (high - low) * 0.5, mask))
+    if (s.bounds.empty() || !region.narrow((low + high) * 0.5, (high - low) * 0.5, mask)) {
         return;
+    }
     const std::vector<std::uint64_t>& all = s.bits[static_cast<std::size_t>(want)];
     if (mask == 0) {
         appendSet(all, out); // the whole world is inside
@@ -238,8 +245,9 @@ void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std:
     const std::uint32_t flags = want == Want::casters     ? Octree::kCasts
                                 : want == Want::receivers ? Octree::kReceives
                                                           : 0U;
-    for (const Octree& tree : s.trees)
+    for (const Octree& tree : s.trees) {
         tree.query(s.objects, s.bounds, region, flags, found);
+    }
     appendSet(found, out);
 }
 

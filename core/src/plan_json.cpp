@@ -26,8 +26,9 @@ public:
     void close(char bracket)
     {
         --depth_;
-        if (!first_ && inline_ == 0)
+        if (!first_ && inline_ == 0) {
             newLine();
+        }
         text_ += bracket;
         first_ = false;
     }
@@ -77,18 +78,21 @@ public:
     void vector(std::string_view key, const auto& components, int count)
     {
         openLine(key, '[');
-        for (int i = 0; i < count; ++i)
+        for (int i = 0; i < count; ++i) {
             value({}, components[i]);
+        }
         closeLine(']');
     }
 
 private:
     void begin(std::string_view key)
     {
-        if (!first_)
+        if (!first_) {
             text_ += inline_ != 0 ? ", " : ",";
-        if (inline_ == 0 && depth_ > 0)
+        }
+        if (inline_ == 0 && depth_ > 0) {
             newLine();
+        }
         first_ = false;
         if (!key.empty()) {
             quote(key);
@@ -110,8 +114,9 @@ private:
     {
         text_ += '"';
         for (const char c : string) {
-            if (c == '"' || c == '\\')
+            if (c == '"' || c == '\\') {
                 text_ += '\\';
+            }
             text_ += c;
         }
         text_ += '"';
@@ -269,14 +274,16 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.value("blend_m", view.slice.blend_m);
     json.vector("axis", view.slice.axis, 4);
     json.closeLine('}');
-    if (view.gpu_cascade != kNoIndex)
+    if (view.gpu_cascade != kNoIndex) {
         json.value("gpu_cascade", view.gpu_cascade);
+    }
     json.vector("light_place_ws", view.light_place_ws, 3);
     json.open("clip_from_world_rows", '[');
     for (int row = 0; row < 4; ++row) {
         json.openLine({}, '[');
-        for (int column = 0; column < 4; ++column)
+        for (int column = 0; column < 4; ++column) {
             json.value({}, view.clip_from_world[column][row]);
+        }
         json.closeLine(']');
     }
     json.close(']');
@@ -286,8 +293,9 @@ void writeView(Writer& json, const Plan& plan, const View& view)
     json.vector("metric_ws", view.metric.metric_ws, 4);
     json.closeLine('}');
     json.openLine("casters", '[');
-    for (std::uint32_t i = 0; i < view.caster_count; ++i)
+    for (std::uint32_t i = 0; i < view.caster_count; ++i) {
         json.value({}, plan.casters[view.first_caster + i]);
+    }
     json.closeLine(']');
     json.close('}');
 }
@@ -296,10 +304,12 @@ void writeView(Writer& json, const Plan& plan, const View& view)
 void writeObjects(Writer& json, const Plan& plan)
 {
     std::vector<std::pair<std::uint32_t, bool>> objects;
-    for (const std::uint32_t object : plan.receivers)
+    for (const std::uint32_t object : plan.receivers) {
         objects.emplace_back(object, true);
-    for (const std::uint32_t object : plan.casters)
+    }
+    for (const std::uint32_t object : plan.casters) {
         objects.emplace_back(object, false);
+    }
     std::sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first < b.first : a.second > b.second;
     });
@@ -316,8 +326,9 @@ void writeObjects(Writer& json, const Plan& plan)
             const auto first = plan.casters.begin() + plan.views[i].first_caster;
             const auto moving = first + (plan.views[i].kept_layer == kNoIndex ? 0 : plan.views[i].still_count);
             if (std::binary_search(first, moving, object) ||
-                std::binary_search(moving, first + plan.views[i].caster_count, object))
+                std::binary_search(moving, first + plan.views[i].caster_count, object)) {
                 json.value({}, i);
+            }
         }
         json.closeLine(']');
         json.closeLine('}');
@@ -357,8 +368,9 @@ std::string toJson(const Plan& plan)
     json.value("frame", plan.frame);
     writeTechnique(json, plan.technique);
     json.open("pages", '[');
-    for (const MapPages& pages : plan.pages)
+    for (const MapPages& pages : plan.pages) {
         writePages(json, pages);
+    }
     json.close(']');
     json.value("mask_layers", plan.mask_layers);
     json.openLine("fade", '{');
@@ -366,12 +378,14 @@ std::string toJson(const Plan& plan)
     json.value("end_m", plan.fade_end_m);
     json.closeLine('}');
     json.open("lights", '[');
-    for (const LightPlan& light : plan.lights)
+    for (const LightPlan& light : plan.lights) {
         writeLight(json, light);
+    }
     json.close(']');
     json.open("views", '[');
-    for (const View& view : plan.views)
+    for (const View& view : plan.views) {
         writeView(json, plan, view);
+    }
     json.close(']');
     writeObjects(json, plan);
     json.close('}');

@@ -30,10 +30,12 @@ bool goTogether(const View& view, const View& next, std::uint32_t above)
 
 SunPosition strongerPosition(const SunSteps& steps)
 {
-    if (!steps.paired)
+    if (!steps.paired) {
         return SunPosition::only;
-    if (steps.alternate)
+    }
+    if (steps.alternate) {
         return steps.read;
+    }
     return steps.share > 0.5 ? SunPosition::later : SunPosition::earlier;
 }
 
@@ -47,8 +49,9 @@ double laterWeight(const SunSteps& steps, double x)
 std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition sun)
 {
     const LightPlan& planned = plan.lights[light];
-    if (!planned.outcome.hasMap())
+    if (!planned.outcome.hasMap()) {
         return {};
+    }
     const std::span<const View> all = std::span(plan.views).subspan(planned.first_view, planned.view_count);
     const auto first = std::ranges::find(all, sun, &View::sun);
     const auto end = std::find_if(first, all.end(), [&](const View& view) { return view.sun != sun; });
@@ -59,12 +62,14 @@ std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all)
 {
     const View& view = plan.views[first];
     std::uint32_t count = 1;
-    if (!isDrawnAtOnce(view, all))
+    if (!isDrawnAtOnce(view, all)) {
         return count;
+    }
     while (count < kMaxCascades && first + count < plan.views.size()) {
         const View& next = plan.views[first + count];
-        if (!isDrawnAtOnce(next, all) || !goTogether(view, next, count))
+        if (!isDrawnAtOnce(next, all) || !goTogether(view, next, count)) {
             break;
+        }
         ++count;
     }
     return count;

@@ -117,8 +117,9 @@ const Plan& Planner::plan(const Frame& frame)
     s.listReceivers(frame);
     s.store.beginFrame(*frame.objects, s.keys, s.wishes);
     s.suns.begin();
-    for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
         s.planLight(frame, light);
+    }
     s.suns.end();
     s.store.report(s.plan);
     ++s.frames;
@@ -138,8 +139,9 @@ void Planner::Impl::begin(const Frame& frame)
     plan.lights.clear();
     plan.views.clear();
     plan.casters.clear();
-    for (Setup& setup : setups)
+    for (Setup& setup : setups) {
         setup.looked = false;
+    }
 }
 
 // ---- All lights: what each wants, and what the camera sees for it
@@ -163,8 +165,9 @@ void Planner::Impl::admit(const Frame& frame)
         planned.options = light.options;
         Setup& setup = setups[light.options];
         planned.outcome = setup.recipe.check(light);
-        if (planned.outcome.kind != OutcomeKind::ok)
+        if (planned.outcome.kind != OutcomeKind::ok) {
             continue;
+        }
         wishes.back() = setup.recipe.wishOf(light, light.options);
         look(frame, setup);
     }
@@ -172,18 +175,21 @@ void Planner::Impl::admit(const Frame& frame)
 
 void Planner::Impl::look(const Frame& frame, Setup& setup)
 {
-    if (setup.looked)
+    if (setup.looked) {
         return;
+    }
     setup.looked = true;
     CameraView& camera = setup.camera;
     const ShadowOptions& options = setup.recipe.options;
     camera.look(frame, options.max_distance_m, setup.receivers);
-    if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty())
+    if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
-    if (setup.recipe.steady())
+    }
+    if (setup.recipe.steady()) {
         camera.boundDepths(frame.camera, options.max_distance_m);
-    else if (setup.recipe.partition != nullptr && setup.recipe.partition->measures)
+    } else if (setup.recipe.partition != nullptr && setup.recipe.partition->measures) {
         camera.measureDepths(*frame.objects, setup.receivers);
+    }
 }
 
 /// What the camera sees by any of the options that count in this frame.
@@ -193,8 +199,9 @@ void Planner::Impl::listReceivers(const Frame& frame)
     all_receivers.clear();
     bool levels = false;
     for (const Setup& setup : setups) {
-        if (!setup.looked)
+        if (!setup.looked) {
             continue;
+        }
         levels = levels || (setup.recipe.steady() && setup.recipe.levelsDepth());
         if (plan.receivers.empty()) {
             plan.receivers.assign(setup.receivers.begin(), setup.receivers.end());
@@ -204,9 +211,11 @@ void Planner::Impl::listReceivers(const Frame& frame)
         std::ranges::set_union(plan.receivers, setup.receivers, std::back_inserter(merged));
         std::swap(plan.receivers, merged);
     }
-    for (std::uint32_t i = 0; levels && i < frame.objects->size(); ++i)
-        if (frame.objects->alive(i) && frame.objects->flags(i).receives)
+    for (std::uint32_t i = 0; levels && i < frame.objects->size(); ++i) {
+        if (frame.objects->alive(i) && frame.objects->flags(i).receives) {
             all_receivers.push_back(i);
+        }
+    }
 }
 
 // ---- One light
@@ -218,30 +227,36 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     const Setup& setup = setups[planned.options];
     planned.first_view = static_cast<std::uint32_t>(plan.views.size());
     const std::uint32_t earlier_slot = followSun(frame, setup.recipe, light, planned.steps);
-    if (planned.outcome.kind == OutcomeKind::ok)
+    if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = prospect(index, setup);
-    if (planned.outcome.kind == OutcomeKind::ok)
+    }
+    if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = planStands(frame, index, earlier_slot);
+    }
     planned.view_count = static_cast<std::uint32_t>(plan.views.size()) - planned.first_view;
 }
 
 /// Can a light that may have maps have any in this frame?
 Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
 {
-    if (!store.hasRoom(index))
+    if (!store.hasRoom(index)) {
         return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
-    if (setup.camera.outcome.kind != OutcomeKind::ok)
+    }
+    if (setup.camera.outcome.kind != OutcomeKind::ok) {
         return setup.camera.outcome;
-    if (setup.receivers.empty())
+    }
+    if (setup.receivers.empty()) {
         return {OutcomeKind::no_receiver, "the camera sees nothing that receives shadow"};
+    }
     return {};
 }
 
 /// Where a sun stands for its maps; returns the slot of its earlier position.
 std::uint32_t Planner::Impl::followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps)
 {
-    if (!recipe.steps(light) || checkLight(light).kind != OutcomeKind::ok)
+    if (!recipe.steps(light) || checkLight(light).kind != OutcomeKind::ok) {
         return 0;
+    }
     const SunCourse& course = suns.follow(light, frame.time_s, recipe.motion->stepping, recipe.options.steps);
     steps = course.steps();
     // By turns of the slots, not of the positions: then after a step too the frame before has read the other one, or
@@ -257,18 +272,22 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
     const bool has_slots = setups[plan.lights[index].options].recipe.pairs(frame.lights[index]);
     std::optional<Outcome> best;
     for (const bool later : {false, true}) {
-        if (later && !steps.paired)
+        if (later && !steps.paired) {
             break;
+        }
         Stand stand;
         stand.light = index;
         stand.at = frame.lights[index];
-        if (steps.stepping)
+        if (steps.stepping) {
             stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
-        if (steps.paired)
+        }
+        if (steps.paired) {
             stand.sun = later ? SunPosition::later : SunPosition::earlier;
+        }
         stand.read = !steps.alternate || stand.sun == steps.read;
-        if (has_slots)
+        if (has_slots) {
             stand.slot = later ? 1 - earlier_slot : earlier_slot;
+        }
         planStand(frame, stand, best);
     }
     return *best;
@@ -282,8 +301,9 @@ void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optio
     setup.recipe.partition->divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
     for (std::uint32_t i = 0; i < slices.size(); ++i) {
         const Outcome outcome = planSlice(frame, stand, setup, i);
-        if (!best || rank(outcome.kind) > rank(best->kind))
+        if (!best || rank(outcome.kind) > rank(best->kind)) {
             best = outcome;
+        }
     }
 }
 
@@ -297,15 +317,17 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
         frustums.plan({frame, recipe, setup.camera, setup.receivers, recipe.steady() ? all_receivers : setup.receivers,
                        stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width},
                       planned, plan.casters);
-    if (!outcome.hasMap())
+    if (!outcome.hasMap()) {
         return outcome;
+    }
     if (!recipe.partition->fits_on_gpu) {
         addView(frame, stand, slice, planned);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
-    for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.options.cascades.count; ++planned.gpu_cascade)
+    for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.options.cascades.count; ++planned.gpu_cascade) {
         addView(frame, stand, planned.gpu_cascade, planned);
+    }
     return outcome;
 }
 
@@ -317,12 +339,13 @@ void Planner::Impl::addView(const Frame& frame, const Stand& stand, std::uint32_
     view.map = place.map;
     view.tile = place.tile;
     view.part = place.part;
-    if (view.gpu_cascade != kNoIndex)
+    if (view.gpu_cascade != kNoIndex) {
         store.drawAnew(view);
-    else if (stand.read)
+    } else if (stand.read) {
         store.draw(view, place, std::span(plan.casters).subspan(view.first_caster, view.caster_count), *frame.objects);
-    else
+    } else {
         view.redraw = false;
+    }
 }
 
 } // namespace gnomon

@@ -41,12 +41,15 @@ Recipe::Recipe(const ShadowOptions& given)
 
 Outcome Recipe::check(const Light& light) const
 {
-    if (!light.casts_shadow)
+    if (!light.casts_shadow) {
         return {OutcomeKind::no_shadow_wanted, "the light casts no shadow"};
-    if (const auto reason = refusal(light.type, asked.technique))
+    }
+    if (const auto reason = refusal(light.type, asked.technique)) {
         return {OutcomeKind::refused, *reason};
-    if (!resolution)
+    }
+    if (!resolution) {
         return {OutcomeKind::refused, refusal_reason};
+    }
     return checkLight(light);
 }
 

@@ -18,13 +18,15 @@ constexpr int kMostCutBoxes = 32;
 void makeConePlanes(const LightSpace& space, std::vector<Plane>& out)
 {
     out.clear();
-    if (!space.perspective)
+    if (!space.perspective) {
         return;
+    }
     const auto through = [&](const glm::dvec3& normal, double offset) {
         out.push_back({normal, offset - glm::dot(normal, space.origin_ws)});
     };
-    for (const glm::dvec3& side : {space.right_ws, -space.right_ws, space.up_ws, -space.up_ws})
+    for (const glm::dvec3& side : {space.right_ws, -space.right_ws, space.up_ws, -space.up_ws}) {
         through(glm::normalize(side + space.forward_ws * space.tangent), 0.0);
+    }
     through(space.forward_ws, -space.near_m);
     through(-space.forward_ws, space.reach_m);
 }
@@ -45,16 +47,18 @@ void outlineOf(std::vector<glm::dvec2>& points, std::vector<glm::dvec2>& outline
         const std::size_t start = outline.size();
         for (auto p = first; p != last; ++p) {
             while (outline.size() >= start + 2 &&
-                   cross2(outline[outline.size() - 2], outline[outline.size() - 1], *p) <= 0.0)
+                   cross2(outline[outline.size() - 2], outline[outline.size() - 1], *p) <= 0.0) {
                 outline.pop_back();
+            }
             outline.push_back(*p);
         }
         outline.pop_back(); // the other chain begins with it
     };
     chain(points.begin(), points.end());
     chain(points.rbegin(), points.rend());
-    if (outline.empty()) // all are one point
+    if (outline.empty()) { // all are one point
         outline.push_back(points.front());
+    }
 }
 
 Aabb grown(const Aabb& box, double by_m)
@@ -79,8 +83,9 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     for (const std::uint32_t object : input.seen) {
         const Aabb& box = bounds[object];
         // Padded, because a light without a range ends where the scene does: at the very corner of a box.
-        if (space.perspective && classify(cone_planes_, grown(box, input.view.pad_m)) == Containment::outside)
+        if (space.perspective && classify(cone_planes_, grown(box, input.view.pad_m)) == Containment::outside) {
             continue;
+        }
         receivers_ws.min = glm::min(receivers_ws.min, box.min);
         receivers_ws.max = glm::max(receivers_ws.max, box.max);
         if (!space.perspective) {
@@ -100,8 +105,9 @@ Outcome Region::gatherReceivers(const RegionInput& input)
             high = glm::max(high, p);
         }
     }
-    if (receivers_ws.empty())
+    if (receivers_ws.empty()) {
         return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    }
     // Directional coordinates are from the world's origin, which is where LightSpace puts its own.
     boxes_rect_ = {glm::dvec2(low), glm::dvec2(high)};
     boxes_near_m_ = low.z;
@@ -112,8 +118,9 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     body_.clip(input.view.planes);
     body_.clip(std::span(input.slice.cut).first(input.slice.cut_count));
     body_.clip(cone_planes_);
-    if (!measureBody(space))
+    if (!measureBody(space)) {
         return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    }
     outlineOf(outline_points_, outline_);
     narrowToBoxes(space);
     return {};
@@ -121,8 +128,9 @@ Outcome Region::gatherReceivers(const RegionInput& input)
 
 bool Region::measureBody(const LightSpace& space)
 {
-    if (body_.empty())
+    if (body_.empty()) {
         return false;
+    }
     glm::dvec3 low(kInfinity);
     glm::dvec3 high(-kInfinity);
     glm::dvec3 low_ws(kInfinity);
@@ -145,15 +153,17 @@ bool Region::measureBody(const LightSpace& space)
 
 void Region::narrowToBoxes(const LightSpace& space)
 {
-    if (!boxes_measured_)
+    if (!boxes_measured_) {
         return;
+    }
     // The body is cut from the box of all boxes; seen from the light the boxes themselves may take less room.
     rect_.low = glm::max(rect_.low, boxes_rect_.low);
     rect_.high = glm::max(glm::min(rect_.high, boxes_rect_.high), rect_.low);
     receiver_near_m_ = std::max(receiver_near_m_, boxes_near_m_);
     receiver_far_m_ = std::max(std::min(receiver_far_m_, boxes_far_m_), receiver_near_m_);
-    if (space.perspective)
+    if (space.perspective) {
         receiver_near_m_ = std::max(receiver_near_m_, space.near_m);
+    }
     narrowOutline();
 }
 
@@ -173,8 +183,9 @@ void Region::narrowOutline()
             const glm::dvec2& b = outline_[(i + 1) % outline_.size()];
             const double da = inside(a);
             const double db = inside(b);
-            if (da >= 0.0)
+            if (da >= 0.0) {
                 outline_points_.push_back(a);
+            }
             if ((da < 0.0) != (db < 0.0)) {
                 glm::dvec2 cut = a + (b - a) * (da / (da - db));
                 cut[axis] = limit;
@@ -182,8 +193,9 @@ void Region::narrowOutline()
             }
         }
         // Nothing is left where rounding alone held the two apart.
-        if (outline_points_.empty())
+        if (outline_points_.empty()) {
             outline_points_.push_back((rect_.low + rect_.high) * 0.5);
+        }
         outline_.swap(outline_points_);
     }
 }
@@ -209,18 +221,21 @@ void Region::addOutlinePlanes(const LightSpace& space, double pad, double pad_m,
     for (const Plane& face : body_planes_) {
         const bool looks_away =
             space.perspective ? face.distance(space.origin_ws) > 0.0 : glm::dot(face.normal, space.forward_ws) < -1e-6;
-        if (looks_away)
+        if (looks_away) {
             caster_planes_.push_back({face.normal, face.d + pad_m});
+        }
     }
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         const glm::dvec2 edge = outline_[(i + 1) % outline_.size()] - outline_[i];
         const double length = glm::length(edge);
-        if (!(length > rounding))
+        if (!(length > rounding)) {
             continue;
+        }
         const glm::dvec2 normal(-edge.y / length, edge.x / length);
         double offset = -glm::dot(normal, outline_[i]);
-        for (const glm::dvec2& p : outline_)
+        for (const glm::dvec2& p : outline_) {
             offset = std::max(offset, -glm::dot(normal, p));
+        }
         addSidePlane(space, normal, offset, pad);
     }
 }
@@ -238,10 +253,12 @@ void Region::makeCasterPlanes(const RegionInput& input, const CasterReach& reach
     addSidePlane(space, {0.0, -1.0}, reach.rect.high.y, pad);
     const double pad_m = (space.perspective ? pad * reach.far_m : pad) + input.view.pad_m;
     caster_planes_.push_back({-space.depth_ws, reach.far_m + pad_m + glm::dot(space.depth_ws, space.origin_ws)});
-    if (space.perspective)
+    if (space.perspective) {
         caster_planes_.push_back({space.forward_ws, -space.near_m - glm::dot(space.forward_ws, space.origin_ws)});
-    if (!reach.whole)
+    }
+    if (!reach.whole) {
         addOutlinePlanes(space, pad, pad_m, rounding);
+    }
 }
 
 Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters)
@@ -253,8 +270,9 @@ Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach
         casters.resize(first);
         input.objects.query(caster_planes_, ObjectSet::Want::all, casters);
     }
-    if (casters.size() == first)
+    if (casters.size() == first) {
         return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};
+    }
     measureCasters(input, std::span(casters).subspan(first));
     return {};
 }
@@ -271,21 +289,23 @@ void Region::measureCasters(const RegionInput& input, std::span<const std::uint3
         const glm::dvec3 centre = (glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5;
         const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
         const double depth_m = glm::dot(space.depth_ws, centre - space.origin_ws) - glm::dot(size, half);
-        if (depth_m >= caster_near_m_)
+        if (depth_m >= caster_near_m_) {
             continue;
+        }
         // A floor or wall that passes the light has its nearest corner behind it, and says nothing; its part in the
         // cone does. Only for the first few, because clipping takes a microsecond.
         const bool passes = space.perspective && depth_m < space.near_m;
-        if (!passes || cut_boxes == kMostCutBoxes)
+        if (!passes || cut_boxes == kMostCutBoxes) {
             caster_near_m_ = depth_m;
-        else {
+        } else {
             ++cut_boxes;
             caster_near_m_ = std::min(caster_near_m_, depthInCone(space, grown(box, input.view.pad_m)));
         }
     }
     // All of them only near the cone: its near distance holds for any.
-    if (caster_near_m_ == kInfinity)
+    if (caster_near_m_ == kInfinity) {
         caster_near_m_ = space.near_m;
+    }
 }
 
 /// Depth of the nearest point of a box that is in the light's cone; infinity when none is.
@@ -294,8 +314,9 @@ double Region::depthInCone(const LightSpace& space, const Aabb& box)
     caster_body_.reset(box);
     caster_body_.clip(cone_planes_);
     double nearest_m = kInfinity;
-    for (const glm::dvec3& corner : caster_body_.points())
+    for (const glm::dvec3& corner : caster_body_.points()) {
         nearest_m = std::min(nearest_m, space.coordinates(corner).z);
+    }
     return nearest_m;
 }
 

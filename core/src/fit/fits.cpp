@@ -17,9 +17,11 @@ constexpr Row kFits[] = {
 
 FitFunction fitFunction(Fit fit)
 {
-    for (const Row& row : kFits)
-        if (row.fit == fit)
+    for (const Row& row : kFits) {
+        if (row.fit == fit) {
             return row.function;
+        }
+    }
     return nullptr;
 }
 

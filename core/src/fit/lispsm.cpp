@@ -24,8 +24,9 @@ Warp fitLispsm(const FitInput& input)
 {
     const ViewSlope slope = slopeOfView(input);
     Warp warp = warpAlong(input, slope, evenErrorDistance(slope));
-    if (warp.warped())
+    if (warp.warped()) {
         standOnViewer(warp, input);
+    }
     return warp;
 }
 

@@ -17,8 +17,9 @@ Warp fitLispsmSimple(const FitInput& input)
 {
     const ViewSlope slope = slopeOfBody(input);
     Warp warp = warpAlong(input, slope, evenErrorDistance(slope));
-    if (warp.warped())
+    if (warp.warped()) {
         standUpright(warp, input.outline);
+    }
     return warp;
 }
 

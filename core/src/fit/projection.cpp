@@ -70,8 +70,9 @@ FitReport reportOf(const Warp& warp, const MapFrame& frame, std::span<const glm:
     FitReport report;
     report.finest_texel = frame.texel;
     report.coarsest_texel = frame.texel;
-    if (!warp.warped())
+    if (!warp.warped()) {
         return report;
+    }
     for (const glm::dvec2& q : outline) {
         const double w = warp.wAt(q);
         report.strength = std::max(report.strength, w);
@@ -87,8 +88,9 @@ double borderReach(const Warp& warp, const FitReport& report, double border_texe
 {
     const double texels = usableBorder(border_texels, map_size) + 1.0;
     const glm::dvec2 texel = report.coarsest_texel;
-    if (!warp.warped())
+    if (!warp.warped()) {
         return texels * std::max(texel.x, texel.y);
+    }
     // A step dy from w leads to w', 1/w' = 1/w - dy/n, and as far as w'/w steps of its first size. So much 1/w falls
     // over the border of the far side at most, as strongestWarp() has it. Sheared texels may have both sides one way.
     const double fallen = (report.strength - 1.0) * borderShare(border_texels + 1.0, map_size);

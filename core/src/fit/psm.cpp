@@ -77,10 +77,11 @@ PsmImage psmImageOf(const FitInput& input)
         input.space.perspective ? glm::dvec4(input.space.origin_ws, 1.0) : glm::dvec4(-input.space.forward_ws, 0.0);
     image.light = light * rows;
     const glm::dvec3 place(image.light);
-    if (std::abs(image.light.w) <= kParallel * glm::length(place))
+    if (std::abs(image.light.w) <= kParallel * glm::length(place)) {
         image.kind = PsmLight::parallel;
-    else
+    } else {
         image.kind = image.light.w > 0.0 ? PsmLight::point : PsmLight::inverse;
+    }
     const glm::dvec3 apart = glm::abs(place);
     image.inside = image.light.w > 0.0 && std::max({apart.x, apart.y, apart.z}) <= image.light.w;
     return image;
@@ -88,11 +89,13 @@ PsmImage psmImageOf(const FitInput& input)
 
 Warp fitPsm(const FitInput& input)
 {
-    if (!input.view.perspective)
+    if (!input.view.perspective) {
         return none(kOrthographic);
+    }
     const PsmImage image = psmImageOf(input);
-    if (image.inside)
+    if (image.inside) {
         return none(kInside);
+    }
     const glm::dvec3 light(image.light);
     const glm::dmat4& rows = image.clip_rows;
     const glm::dvec4 f =
@@ -115,12 +118,15 @@ Warp fitPsm(const FitInput& input)
         least = -least;
         most = -most;
     }
-    if (!(least > 0.0))
+    if (!(least > 0.0)) {
         return none(kCrosses);
-    if (most > least * input.strongest)
+    }
+    if (most > least * input.strongest) {
         return none(kTooStrong);
-    if (!(most >= least * kLeastStrength))
+    }
+    if (!(most >= least * kLeastStrength)) {
         return none(kWeak);
+    }
     ViewSlope slope;
     slope.slope = glm::length(gradient);
     slope.along = gradient * (sign / slope.slope);
@@ -128,8 +134,9 @@ Warp fitPsm(const FitInput& input)
     slope.nearest = (least - sign * at_origin) / slope.slope;
     slope.length = (most - least) / slope.slope;
     Warp warp = warpAlong(input, slope, least / slope.slope);
-    if (warp.warped())
+    if (warp.warped()) {
         standUpright(warp, input.outline);
+    }
     return warp;
 }
 

@@ -41,8 +41,9 @@ Warp fitTsm(const FitInput& input)
     const double rest = lambda - 2.0 * delta - lambda * kFocusLine;
     const double n = rest > 0.0 ? lambda * delta * (1.0 + kFocusLine) / rest : std::numeric_limits<double>::infinity();
     Warp warp = warpAlong(input, slope, n);
-    if (warp.warped())
+    if (warp.warped()) {
         standOnViewer(warp, input);
+    }
     return warp;
 }
 

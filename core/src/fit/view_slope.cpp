@@ -132,18 +132,21 @@ ViewSlope none(std::string_view reason)
 
 ViewSlope slopeAcrossLight(const FitInput& input)
 {
-    if (!input.view.perspective)
+    if (!input.view.perspective) {
         return none(kOrthographic);
+    }
     const glm::dvec3& forward = input.view.forward_ws;
     const glm::dvec2 gradient(glm::dot(forward, input.space.right_ws), glm::dot(forward, input.space.up_ws));
     ViewSlope slope;
     slope.slope = glm::length(gradient);
-    if (!(slope.slope > kLeastSine))
+    if (!(slope.slope > kLeastSine)) {
         return none(kDuel);
+    }
     const glm::dvec3 base(input.outline.front(), 0.0);
     BodyValues body = valuesOf(input, base);
-    if (!(body.moments.area > 0.0))
+    if (!(body.moments.area > 0.0)) {
         return none(kNothing);
+    }
     body.moments.centre();
     slope.along = gradient / slope.slope;
     slope.weak = slope.slope < kDuelSine ? kDuel : kFlat;
@@ -155,28 +158,32 @@ ViewSlope slopeAcrossLight(const FitInput& input)
 
 ViewSlope slopeOfBody(const FitInput& input)
 {
-    if (!input.view.perspective)
+    if (!input.view.perspective) {
         return none(kOrthographic);
+    }
     const glm::dvec3 base(input.outline.front(), 0.0);
     BodyValues body = valuesOf(input, base);
     Moments& moments = body.moments;
-    if (!(moments.area > 0.0))
+    if (!(moments.area > 0.0)) {
         return none(kNothing);
+    }
     moments.centre();
     // A body that is a line to the light has no slope across it; a grain of variance added keeps it from having any.
     const double grain = 1e-9 * (moments.xx + moments.yy);
     const double xx = moments.xx + grain;
     const double yy = moments.yy + grain;
     const double determinant = xx * yy - moments.xy * moments.xy;
-    if (!(determinant > 0.0))
+    if (!(determinant > 0.0)) {
         return none(kNothing);
+    }
     const glm::dvec2 gradient =
         glm::dvec2(yy * moments.xz - moments.xy * moments.yz, xx * moments.yz - moments.xy * moments.xz) / determinant;
     ViewSlope slope;
     slope.slope = glm::length(gradient);
     // The plane across the light has a unit gradient at most; the least share of it that is more than rounding.
-    if (!(slope.slope > kLeastSine))
+    if (!(slope.slope > kLeastSine)) {
         return none(kFlat);
+    }
     slope.along = gradient / slope.slope;
     slope.weak = kFlat;
     measureOutline(input, slope);
@@ -194,8 +201,9 @@ Warp warpAlong(const FitInput& input, const ViewSlope& slope, double n)
 {
     Warp warp;
     warp.outcome = slope.outcome;
-    if (warp.outcome.kind != OutcomeKind::ok)
+    if (warp.outcome.kind != OutcomeKind::ok) {
         return warp;
+    }
     const double rounding = input.space.perspective ? kTangentRounding : input.view.pad_m;
     const double least = std::max(slope.length / (input.strongest - 1.0), kRoundings * rounding);
     n = std::max(n, least);
@@ -220,22 +228,26 @@ void standUpright(Warp& warp, std::span<const glm::dvec2> outline)
     };
     Moments moments;
     const glm::dvec3 a = imageOf(outline[0]);
-    for (std::size_t i = 2; i < outline.size(); ++i)
+    for (std::size_t i = 2; i < outline.size(); ++i) {
         moments.add(a, imageOf(outline[i - 1]), imageOf(outline[i]));
+    }
     warp.upright = base;
-    if (!(moments.area > 0.0))
+    if (!(moments.area > 0.0)) {
         return;
+    }
     moments.centre();
-    if (moments.yy > 0.0)
+    if (moments.yy > 0.0) {
         warp.upright += moments.xy / moments.yy;
+    }
 }
 
 void standOnViewer(Warp& warp, const FitInput& input)
 {
-    if (input.space.perspective)
+    if (input.space.perspective) {
         standUpright(warp, input.outline);
-    else
+    } else {
         warp.upright = glm::dot(warp.across(), glm::dvec2(input.space.project(input.view.eye_ws)));
+    }
 }
 
 } // namespace gnomon

@@ -14,24 +14,28 @@ namespace gnomon {
 
 Aabb merge(const Aabb& a, const Aabb& b)
 {
-    if (a.empty())
+    if (a.empty()) {
         return b;
-    if (b.empty())
+    }
+    if (b.empty()) {
         return a;
+    }
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
 Aabb merge(const Aabb& a, const glm::vec3& point)
 {
-    if (a.empty())
+    if (a.empty()) {
         return {point, point};
+    }
     return {glm::min(a.min, point), glm::max(a.max, point)};
 }
 
 Aabb transform(const glm::mat4& b_from_a, const Aabb& box_a)
 {
-    if (box_a.empty())
+    if (box_a.empty()) {
         return {};
+    }
     Aabb box_b{glm::vec3(b_from_a[3]), glm::vec3(b_from_a[3])};
     for (int column = 0; column < 3; ++column) {
         const glm::vec3 at_min = glm::vec3(b_from_a[column]) * box_a.min[column];
@@ -51,8 +55,9 @@ Plane planeFromRow(const glm::dvec4& row, double size)
     constexpr double kRounding = 1e-13;
     const glm::dvec3 normal(row);
     const double length = glm::length(normal);
-    if (!(length > kRounding * size))
+    if (!(length > kRounding * size)) {
         return {glm::dvec3(0.0), row.w >= 0.0 ? 1.0 : -1.0};
+    }
     return {normal / length, row.w / length};
 }
 
@@ -86,11 +91,13 @@ Containment classify(std::span<const Plane> planes, const Aabb& box)
         // The corner farthest along the normal decides "outside", the opposite one "inside".
         const glm::bvec3 positive = glm::greaterThanEqual(plane.normal, glm::dvec3(0.0));
         const glm::dvec3 far_corner = glm::mix(low, high, positive);
-        if (plane.distance(far_corner) < 0.0)
+        if (plane.distance(far_corner) < 0.0) {
             return Containment::outside;
+        }
         const glm::dvec3 near_corner = glm::mix(high, low, positive);
-        if (plane.distance(near_corner) < 0.0)
+        if (plane.distance(near_corner) < 0.0) {
             found = Containment::intersects;
+        }
     }
     return found;
 }

@@ -27,8 +27,9 @@ Triangle makeTriangle(std::span<const glm::dvec3> points, std::uint32_t a, std::
     Triangle triangle{{a, b, c}, glm::dvec3(0.0), 0.0};
     const glm::dvec3 normal = glm::cross(points[b] - points[a], points[c] - points[a]);
     const double length = glm::length(normal);
-    if (length > 0.0)
+    if (length > 0.0) {
         triangle.normal = normal / length;
+    }
     triangle.d = -glm::dot(triangle.normal, points[a]);
     return triangle;
 }
@@ -38,9 +39,11 @@ template <class Measure>
 std::pair<std::uint32_t, double> farthest(std::span<const glm::dvec3> points, Measure measure)
 {
     std::pair<std::uint32_t, double> best{0, -1.0};
-    for (std::uint32_t i = 0; i < points.size(); ++i)
-        if (const double value = measure(points[i]); value > best.second)
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (const double value = measure(points[i]); value > best.second) {
             best = {i, value};
+        }
+    }
     return best;
 }
 
@@ -49,20 +52,24 @@ bool firstTetrahedron(std::span<const glm::dvec3> points, double flat, std::vect
 {
     const std::uint32_t a = 0;
     const auto [b, length] = farthest(points, [&](const glm::dvec3& p) { return glm::distance(p, points[a]); });
-    if (length <= flat)
+    if (length <= flat) {
         return false;
+    }
     const glm::dvec3 axis = glm::normalize(points[b] - points[a]);
     const auto [c, width] =
         farthest(points, [&](const glm::dvec3& p) { return glm::length(glm::cross(axis, p - points[a])); });
-    if (width <= flat)
+    if (width <= flat) {
         return false;
+    }
     Triangle base = makeTriangle(points, a, b, c);
     const auto [d, height] = farthest(points, [&](const glm::dvec3& p) { return std::abs(base.above(p)); });
-    if (height <= flat)
+    if (height <= flat) {
         return false;
+    }
     std::array<std::uint32_t, 4> corner{a, b, c, d};
-    if (base.above(points[d]) > 0.0)
+    if (base.above(points[d]) > 0.0) {
         std::swap(corner[1], corner[2]);
+    }
     faces.push_back(makeTriangle(points, corner[0], corner[1], corner[2]));
     faces.push_back(makeTriangle(points, corner[0], corner[3], corner[1]));
     faces.push_back(makeTriangle(points, corner[1], corner[3], corner[2]));
@@ -79,22 +86,26 @@ void addPoint(std::span<const glm::dvec3> points, std::uint32_t point, double to
             faces[kept++] = face;
             continue;
         }
-        for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t i = 0; i < 3; ++i) {
             edges.emplace_back(face.corners[i], face.corners[(i + 1) % 3]);
+        }
     }
     faces.resize(kept);
     // The horizon: edges of seen faces whose other side is not seen.
-    for (const Edge& edge : edges)
-        if (std::find(edges.begin(), edges.end(), Edge(edge.second, edge.first)) == edges.end())
+    for (const Edge& edge : edges) {
+        if (std::find(edges.begin(), edges.end(), Edge(edge.second, edge.first)) == edges.end()) {
             faces.push_back(makeTriangle(points, edge.first, edge.second, point));
+        }
+    }
 }
 
 } // namespace
 
 ConvexBody ConvexBody::hull(std::span<const glm::dvec3> points)
 {
-    if (points.size() < 4)
+    if (points.size() < 4) {
         return {};
+    }
     // Sorted, so that the result depends on the set of points alone, and equal ones go.
     std::vector<glm::dvec3> unique(points.begin(), points.end());
     const auto key = [](const glm::dvec3& p) {
@@ -110,15 +121,18 @@ ConvexBody ConvexBody::hull(std::span<const glm::dvec3> points)
     }
     const double extent = glm::length(high - low);
     std::vector<Triangle> faces;
-    if (!std::isfinite(extent) || !firstTetrahedron(unique, 1e-9 * extent, faces))
+    if (!std::isfinite(extent) || !firstTetrahedron(unique, 1e-9 * extent, faces)) {
         return {};
-    for (std::uint32_t i = 0; i < unique.size(); ++i)
+    }
+    for (std::uint32_t i = 0; i < unique.size(); ++i) {
         addPoint(unique, i, 1e-11 * extent, faces);
+    }
 
     ConvexBody body;
     for (const Triangle& face : faces) {
-        for (const std::uint32_t corner : face.corners)
+        for (const std::uint32_t corner : face.corners) {
             body.points_.push_back(unique[corner]);
+        }
         body.face_sizes_.push_back(3);
     }
     return body;

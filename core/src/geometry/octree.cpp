@@ -105,8 +105,9 @@ void Octree::growRoot(const Aabb& box)
         const Node& root = nodes_[root_];
         const glm::dvec3 offset = centre - root.centre;
         const double apart = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
-        if (apart <= root.half && sizeOf(box) <= 2.0 * root.half)
+        if (apart <= root.half && sizeOf(box) <= 2.0 * root.half) {
             return;
+        }
         const glm::dvec3 toward(offset.x >= 0.0 ? 1.0 : -1.0, offset.y >= 0.0 ? 1.0 : -1.0,
                                 offset.z >= 0.0 ? 1.0 : -1.0);
         const double half = root.half;
@@ -162,8 +163,9 @@ void Octree::place(TreeObjects& objects, std::uint32_t item, std::uint32_t index
         ++depth;
     }
     link(objects, item, index);
-    if (!nodes_[index].divided && nodes_[index].count > kSplitAbove && depth < kMaxDepth)
+    if (!nodes_[index].divided && nodes_[index].count > kSplitAbove && depth < kMaxDepth) {
         divide(objects, index, depth);
+    }
 }
 
 void Octree::divide(TreeObjects& objects, std::uint32_t index, int depth)
@@ -201,12 +203,15 @@ void Octree::prune(std::uint32_t index)
     while (index != root_ && nodes_[index].count == 0 && nodes_[index].child_count == 0) {
         const std::uint32_t parent = nodes_[index].parent;
         Node& above = nodes_[parent];
-        for (std::uint32_t& child : above.children)
-            if (child == index)
+        for (std::uint32_t& child : above.children) {
+            if (child == index) {
                 child = kNone;
+            }
+        }
         // A cell without children is whole again, and fills up before it is divided anew.
-        if (--above.child_count == 0)
+        if (--above.child_count == 0) {
             above.divided = false;
+        }
         free_nodes_.push_back(index);
         index = parent;
     }
@@ -222,8 +227,9 @@ void Octree::remove(TreeObjects& objects, std::uint32_t handle)
 void Octree::moved(TreeObjects& objects, std::uint32_t handle)
 {
     const std::uint32_t node = objects.places[handle].node;
-    if (holds(nodes_[node], objects.bounds_ws[handle]))
+    if (holds(nodes_[node], objects.bounds_ws[handle])) {
         return;
+    }
     // Placed before the old node is pruned: the two often share most of their path.
     insert(objects, unlink(objects, handle));
     prune(node);
@@ -232,23 +238,26 @@ void Octree::moved(TreeObjects& objects, std::uint32_t handle)
 void Octree::query(const TreeObjects& objects, const Aabb& around_ws, const RegionTest& region, std::uint32_t want,
                    std::span<std::uint64_t> bits) const
 {
-    if (root_ != kNone && !around_ws.empty())
+    if (root_ != kNone && !around_ws.empty()) {
         visit({objects, region, want, bits, glm::dvec3(around_ws.min), glm::dvec3(around_ws.max)}, root_,
               region.allPlanes());
+    }
 }
 
 void Octree::mark(const Walk& walk, const Node& node, std::uint32_t mask) const
 {
     std::uint32_t in_block = node.inFirst();
     for (std::uint32_t block = node.first; block != kNone; block = blocks_[block].next) {
-        if (blocks_[block].next != kNone)
+        if (blocks_[block].next != kNone) {
             __builtin_prefetch(&blocks_[blocks_[block].next]);
+        }
         for (std::uint32_t i = 0; i < in_block; ++i) {
             const std::uint32_t item = blocks_[block].items[i];
             const std::uint32_t handle = item & kHandleBits;
             bool wanted = (item & walk.want) == walk.want;
-            if (mask != 0 && wanted)
+            if (mask != 0 && wanted) {
                 wanted = walk.region.touches(walk.objects.bounds_ws[handle], mask);
+            }
             walk.bits[handle / 64] |= std::uint64_t{wanted} << (handle % 64);
         }
         in_block = kBlockItems;
@@ -261,22 +270,30 @@ void Octree::visit(const Walk& walk, std::uint32_t index, std::uint32_t mask) co
     if (mask != 0) {
         const glm::dvec3 low = glm::max(walk.low, node.centre - 2.0 * node.half);
         const glm::dvec3 high = glm::min(walk.high, node.centre + 2.0 * node.half);
-        if (!walk.region.narrow((low + high) * 0.5, glm::max((high - low) * 0.5, 0.0), mask))
+        if (!walk.region.narrow((low + high) * 0.5, glm::max((high - low) * 0.5, 0.0), mask)) {
             return;
+        }
     }
     mark(walk, node, mask);
-    if (node.child_count == 0)
+    if (node.child_count == 0) {
         return;
+    }
     // In a large world nodes and lists come from far memory: asked for together, they are waited for once.
-    for (const std::uint32_t child : node.children)
-        if (child != kNone)
+    for (const std::uint32_t child : node.children) {
+        if (child != kNone) {
             __builtin_prefetch(&nodes_[child]);
-    for (const std::uint32_t child : node.children)
-        if (child != kNone && nodes_[child].first != kNone)
+        }
+    }
+    for (const std::uint32_t child : node.children) {
+        if (child != kNone && nodes_[child].first != kNone) {
             __builtin_prefetch(&blocks_[nodes_[child].first]);
-    for (const std::uint32_t child : node.children)
-        if (child != kNone)
+        }
+    }
+    for (const std::uint32_t child : node.children) {
+        if (child != kNone) {
             visit(walk, child, mask);
+        }
+    }
 }
 
 } // namespace gnomon

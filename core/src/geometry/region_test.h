@@ -21,8 +21,9 @@ public:
     explicit RegionTest(std::span<const Plane> planes)
     {
         std::size_t count = 0;
-        for (const Plane& plane : planes.first(std::min(planes.size(), kMaxPlanes)))
+        for (const Plane& plane : planes.first(std::min(planes.size(), kMaxPlanes))) {
             planes_[count++] = {plane.normal, plane.d, glm::abs(plane.normal)};
+        }
         all_ = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
     }
 
@@ -35,10 +36,12 @@ public:
             const TestPlane& plane = planes_[static_cast<std::size_t>(std::countr_zero(left))];
             const double distance = glm::dot(plane.normal, centre) + plane.d;
             const double reach = glm::dot(plane.size, half) + slack(plane, centre);
-            if (distance < -reach)
+            if (distance < -reach) {
                 return false;
-            if (distance > reach)
+            }
+            if (distance > reach) {
                 mask &= ~(left & (~left + 1));
+            }
         }
         return true;
     }

@@ -18,9 +18,11 @@ constexpr MotionTraits kMotions[] = {
 
 const MotionTraits* motionTraits(Motion motion)
 {
-    for (const MotionTraits& row : kMotions)
-        if (row.motion == motion)
+    for (const MotionTraits& row : kMotions) {
+        if (row.motion == motion) {
             return &row;
+        }
+    }
     return nullptr;
 }
 

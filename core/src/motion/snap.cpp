@@ -62,8 +62,9 @@ Sphere sphereAround(const Camera& camera, const CameraView& view, double begin_m
     const double t = (length * length + far_reach * far_reach - near_reach * near_reach) / (2.0 * length);
     const glm::dvec3 centre = a + (b - a) * std::clamp(t / length, 0.0, 1.0);
     double radius_m = 0.0;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
         radius_m = std::max({radius_m, glm::distance(near_corners[i], centre), glm::distance(far_corners[i], centre)});
+    }
     return {camera.eye_ws + centre, radius_m};
 }
 

@@ -27,8 +27,9 @@ constexpr double kFarthest_rad = 0.5; // by time: a sun that goes farther in a s
 
 glm::dvec3 rotated(const glm::dvec3& v, const glm::dvec3& axis, double angle_rad)
 {
-    if (angle_rad == 0.0)
+    if (angle_rad == 0.0) {
         return v;
+    }
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);
     return glm::normalize(v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1.0 - c)));
@@ -49,8 +50,9 @@ bool SunMotion::measure(const glm::dvec3& sun_ws, double time_s)
 {
     const glm::dvec3 across = glm::cross(from_ws_, sun_ws);
     const double length = glm::length(across);
-    if (length > 1e-12) // else it stands still, or there is no telling which way it went
+    if (length > 1e-12) { // else it stands still, or there is no telling which way it went
         axis_ws_ = across / length;
+    }
     last_speed_rad_s_ = speed_rad_s_;
     const double passed_s = time_s - from_s_;
     speed_rad_s_ = length > 1e-12 && passed_s > 0.0 ? std::atan2(length, glm::dot(from_ws_, sun_ws)) / passed_s : 0.0;
@@ -81,10 +83,11 @@ void SunCourse::follow(const glm::dvec3& sun_ws, double time_s, Stepping steppin
         standAlone(sun_ws, time_s);
         // The first jump comes where the sun is half a step on, and each is half a step ahead.
         begin_s_ = stepping == Stepping::jump ? time_s - 0.5 * options.interval_s : time_s;
-        if (!known_ || !by_time || !(time_s >= time_s_))
+        if (!known_ || !by_time || !(time_s >= time_s_)) {
             motion_.restart(sun_ws, time_s);
-        else
+        } else {
             (void)motion_.measureByTime(sun_ws, time_s, kStretch * options.interval_s);
+        }
     } else if (paired(stepping)) {
         by_time ? pairByTime(sun_ws, time_s, options.interval_s) : pairByAngle(sun_ws, time_s, options.angle_rad);
     } else {
@@ -102,8 +105,9 @@ void SunCourse::follow(const glm::dvec3& sun_ws, double time_s, Stepping steppin
 bool SunCourse::jumped(const glm::dvec3& sun_ws, double time_s, const StepOptions& options) const
 {
     const double move_rad = angleBetween(sun_ws_, sun_ws);
-    if (options.by == StepBy::angle)
+    if (options.by == StepBy::angle) {
         return !(move_rad < options.angle_rad);
+    }
     const double passed_s = time_s - time_s_;
     return !(passed_s >= 0.0 && passed_s < options.interval_s &&
              move_rad <= kJump_rad + 2.0 * motion_.speed_rad_s() * passed_s);
@@ -124,21 +128,24 @@ void SunCourse::jumpByAngle(const glm::dvec3& sun_ws, double time_s, double step
 {
     (void)motion_.measureByAngle(sun_ws, time_s, kStretch * step_rad);
     const double off_rad = angleBetween(steps_.earlier_ws, sun_ws);
-    if (off_rad < (0.5 + kPastMiddle) * step_rad)
+    if (off_rad < (0.5 + kPastMiddle) * step_rad) {
         return;
+    }
     standAlone(motion_.ahead(sun_ws, std::max(step_rad - off_rad, 0.0)), time_s);
 }
 
 void SunCourse::jumpByTime(const glm::dvec3& sun_ws, double time_s, double interval_s)
 {
     (void)motion_.measureByTime(sun_ws, time_s, kStretch * interval_s);
-    if (time_s - begin_s_ < interval_s)
+    if (time_s - begin_s_ < interval_s) {
         return;
+    }
     const double begin_s = begin_s_ + interval_s;
     const double ahead_rad = motion_.speed_rad_s() * (begin_s + 0.5 * interval_s - time_s);
     const glm::dvec3 next_ws = motion_.ahead(sun_ws, ahead_rad <= kFarthest_rad ? ahead_rad : 0.0);
-    if (angleBetween(steps_.earlier_ws, next_ws) > kStill_rad)
+    if (angleBetween(steps_.earlier_ws, next_ws) > kStill_rad) {
         standAlone(next_ws, begin_s);
+    }
     begin_s_ = begin_s;
 }
 
@@ -164,8 +171,9 @@ void SunCourse::pairByAngle(const glm::dvec3& sun_ws, double time_s, double step
     const bool measured = motion_.measureByAngle(sun_ws, time_s, kStretch * step_rad);
     if (!steps_.paired) {
         steps_.paired = measured;
-        if (measured)
+        if (measured) {
             foretell(sun_ws, 0.0, step_rad);
+        }
         return;
     }
     const glm::dvec3 along_ws = glm::cross(way_axis_ws_, way_begin_ws_);
@@ -185,8 +193,9 @@ void SunCourse::pairByAngle(const glm::dvec3& sun_ws, double time_s, double step
         foretell(sun_ws, 0.0, step_rad);
     } else {
         steps_.share = std::max(share, 0.0);
-        if (aside)
+        if (aside) {
             beginWay(sun_ws, steps_.share < 0.5 ? -kHaste : kHaste);
+        }
     }
 }
 
@@ -194,8 +203,9 @@ void SunCourse::pairByTime(const glm::dvec3& sun_ws, double time_s, double inter
 {
     const bool measured = motion_.measureByTime(sun_ws, time_s, kStretch * interval_s);
     if (!steps_.paired) {
-        if (!measured)
+        if (!measured) {
             return;
+        }
         // Not at the first measure of a movement: its speed is known from the second on.
         const bool moved = angleBetween(steps_.earlier_ws, sun_ws) > kStill_rad;
         steps_.paired = moved && moved_;
@@ -203,14 +213,16 @@ void SunCourse::pairByTime(const glm::dvec3& sun_ws, double time_s, double inter
         begin_s_ = time_s;
     } else {
         steps_.share = std::clamp((time_s - begin_s_) / interval_s, 0.0, 1.0);
-        if (steps_.share < 1.0)
+        if (steps_.share < 1.0) {
             return;
+        }
         begin_s_ += interval_s;
         steps_.earlier_ws = steps_.later_ws;
         slot_ = 1 - slot_;
     }
-    if (!steps_.paired)
+    if (!steps_.paired) {
         return;
+    }
     const double left_rad = motion_.speed_rad_s() * (begin_s_ + interval_s - time_s);
     if (left_rad > kFarthest_rad) {
         standAlone(sun_ws, time_s);
@@ -218,22 +230,25 @@ void SunCourse::pairByTime(const glm::dvec3& sun_ws, double time_s, double inter
     }
     steps_.later_ws = motion_.ahead(sun_ws, left_rad);
     steps_.share = std::clamp((time_s - begin_s_) / interval_s, 0.0, 1.0);
-    if (angleBetween(steps_.earlier_ws, steps_.later_ws) <= kStill_rad)
+    if (angleBetween(steps_.earlier_ws, steps_.later_ws) <= kStill_rad) {
         standAlone(steps_.earlier_ws, time_s);
+    }
 }
 
 void SunCourses::begin()
 {
-    for (Row& row : rows_)
+    for (Row& row : rows_) {
         row.present = false;
+    }
 }
 
 const SunCourse& SunCourses::follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options)
 {
     auto row = std::find_if(rows_.begin(), rows_.end(),
                             [&](const Row& known) { return !known.present && known.key == light.key; });
-    if (row == rows_.end())
+    if (row == rows_.end()) {
         row = rows_.insert(rows_.end(), Row{.key = light.key, .present = false, .course = {}});
+    }
     row->present = true;
     row->course.follow(glm::normalize(light.direction_ws), time_s, stepping, options);
     return row->course;

@@ -93,8 +93,9 @@ void setRadius(ShadowOptions& o, const OptionValue& value)
 void setPlacement(ShadowOptions& o, const OptionValue& value)
 {
     assign(o.moments.placement, value);
-    if (o.moments.placement != LayerPlacement::by_hand)
+    if (o.moments.placement != LayerPlacement::by_hand) {
         o.moments.splits = {};
+    }
 }
 OptionValue getPlacement(const ShadowOptions& o)
 {
@@ -106,16 +107,19 @@ void setSplits(ShadowOptions& o, const OptionValue& value)
     MomentOptions& moments = o.moments;
     moments.placement = LayerPlacement::by_hand;
     moments.splits = {};
-    for (std::size_t i = 0; i < std::min(value.numbers.size(), moments.splits.size()); ++i)
+    for (std::size_t i = 0; i < std::min(value.numbers.size(), moments.splits.size()); ++i) {
         moments.splits[i] = static_cast<float>(value.numbers[i]);
+    }
 }
 OptionValue getSplits(const ShadowOptions& o)
 {
     OptionValue value;
     value.none = o.moments.placement != LayerPlacement::by_hand;
-    for (const float split : o.moments.splits)
-        if (split != 0.0F)
+    for (const float split : o.moments.splits) {
+        if (split != 0.0F) {
             value.numbers.push_back(asWritten(split));
+        }
+    }
     return value;
 }
 

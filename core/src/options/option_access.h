@@ -16,8 +16,9 @@ template <class Enum>
 std::vector<std::string_view> namesOf()
 {
     std::vector<std::string_view> names;
-    for (std::uint8_t i = 0; nameOf(static_cast<Enum>(i)) != "?"; ++i)
+    for (std::uint8_t i = 0; nameOf(static_cast<Enum>(i)) != "?"; ++i) {
         names.push_back(nameOf(static_cast<Enum>(i)));
+    }
     return names;
 }
 
@@ -28,16 +29,17 @@ template <class T>
 OptionValue valueOf(const T& member)
 {
     OptionValue value;
-    if constexpr (std::same_as<T, bool>)
+    if constexpr (std::same_as<T, bool>) {
         value.flag = member;
-    else if constexpr (std::is_enum_v<T>)
+    } else if constexpr (std::is_enum_v<T>) {
         value.text = nameOf(member);
-    else if constexpr (std::integral<T>)
+    } else if constexpr (std::integral<T>) {
         value.integer = member;
-    else if constexpr (std::same_as<T, float>)
+    } else if constexpr (std::same_as<T, float>) {
         value.real = asWritten(member);
-    else
+    } else {
         value.real = member;
+    }
     return value;
 }
 
@@ -48,9 +50,11 @@ void assign(T& member, const OptionValue& value)
         member = value.flag;
     } else if constexpr (std::is_enum_v<T>) {
         const std::vector<std::string_view> names = namesOf<T>();
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (names[i] == value.text)
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (names[i] == value.text) {
                 member = static_cast<T>(i);
+            }
+        }
     } else if constexpr (std::integral<T>) {
         member = static_cast<T>(value.integer);
     } else {
@@ -61,8 +65,9 @@ void assign(T& member, const OptionValue& value)
 template <class T>
 OptionValue valueOf(const std::optional<T>& member)
 {
-    if (member)
+    if (member) {
         return valueOf(*member);
+    }
     OptionValue none;
     none.none = true;
     return none;
@@ -71,10 +76,11 @@ OptionValue valueOf(const std::optional<T>& member)
 template <class T>
 void assign(std::optional<T>& member, const OptionValue& value)
 {
-    if (value.none)
+    if (value.none) {
         member.reset();
-    else
+    } else {
         assign(member.emplace(), value);
+    }
 }
 
 /// `path` is a lambda from the options to the member: [](auto& o) -> auto& { return o.map_size; }.

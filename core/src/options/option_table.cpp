@@ -25,16 +25,22 @@ bool isInside(const OptionRow& row, double number)
 /// The number of a value that is outside of its row's range.
 std::optional<double> numberOutside(const OptionRow& row, const OptionValue& value)
 {
-    if (value.none)
+    if (value.none) {
         return std::nullopt;
-    if (row.type == OptionType::integer && !isInside(row, static_cast<double>(value.integer)))
+    }
+    if (row.type == OptionType::integer && !isInside(row, static_cast<double>(value.integer))) {
         return static_cast<double>(value.integer);
-    if (row.type == OptionType::real && !isInside(row, value.real))
+    }
+    if (row.type == OptionType::real && !isInside(row, value.real)) {
         return value.real;
-    if (row.type == OptionType::numbers)
-        for (const double number : value.numbers)
-            if (!isInside(row, number))
+    }
+    if (row.type == OptionType::numbers) {
+        for (const double number : value.numbers) {
+            if (!isInside(row, number)) {
                 return number;
+            }
+        }
+    }
     return std::nullopt;
 }
 
@@ -50,8 +56,9 @@ std::string namesText(const OptionRow& row)
     const std::vector<std::string_view> names = row.choices();
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i != 0)
+        if (i != 0) {
             text += i + 1 == names.size() ? " or " : ", ";
+        }
         text += names[i];
     }
     return text;
@@ -90,8 +97,9 @@ const OptionRow* findOption(std::string_view key)
 
 std::string textOf(const OptionRow& row, const OptionValue& value)
 {
-    if (value.none)
+    if (value.none) {
         return {};
+    }
     switch (row.type) {
     case OptionType::flag:
         return value.flag ? "1" : "0";
@@ -105,8 +113,9 @@ std::string textOf(const OptionRow& row, const OptionValue& value)
         break;
     }
     std::string numbers;
-    for (const double number : value.numbers)
+    for (const double number : value.numbers) {
         numbers += (numbers.empty() ? "" : "/") + textOf(number);
+    }
     return numbers;
 }
 
@@ -114,11 +123,13 @@ std::optional<std::string> firstOutOfRange(const ShadowOptions& options)
 {
     for (const OptionRow& row : optionTable()) {
         const OptionValue value = row.get(options);
-        if (const auto number = numberOutside(row, value))
+        if (const auto number = numberOutside(row, value)) {
             return std::string(row.key) + " is " + textOf(*number) + "; it can be " + textOf(row.min) + " to " +
                    textOf(row.max) + (row.unit.empty() ? "" : " ") + std::string(row.unit);
-        if (row.type == OptionType::choice && !isKnown(row, value))
+        }
+        if (row.type == OptionType::choice && !isKnown(row, value)) {
             return std::string(row.key) + " is " + value.text + "; it can be " + namesText(row);
+        }
     }
     return std::nullopt;
 }

@@ -51,8 +51,9 @@ OptionValue getEnds(const ShadowOptions& o)
 {
     OptionValue value;
     value.none = !o.cascades.explicitEnds();
-    for (std::uint32_t i = 0; i + 1 < std::min(o.cascades.count, kMaxCascades); ++i)
+    for (std::uint32_t i = 0; i + 1 < std::min(o.cascades.count, kMaxCascades); ++i) {
         value.numbers.push_back(o.cascades.ends_m[i]);
+    }
     return value;
 }
 

@@ -21,8 +21,9 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
 {
     double last_m = 0.0;
     for (std::uint32_t i = 0; options.explicitEnds() && i + 1 < options.count; ++i) {
-        if (!(options.ends_m[i] > last_m))
+        if (!(options.ends_m[i] > last_m)) {
             return "cascades.ends: distances ascend, from above 0, one fewer than there are cascades";
+        }
         last_m = options.ends_m[i];
     }
     return std::nullopt;
@@ -30,14 +31,18 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
 
 std::optional<std::string> refusalOf(const ShadowOptions& options)
 {
-    if (const auto reason = refusal(LightType::directional, options.technique))
+    if (const auto reason = refusal(LightType::directional, options.technique)) {
         return std::string(*reason);
-    if (auto reason = firstOutOfRange(options))
+    }
+    if (auto reason = firstOutOfRange(options)) {
         return reason;
-    if (options.max_layers < 1 || options.max_layers > 2048)
+    }
+    if (options.max_layers < 1 || options.max_layers > 2048) {
         return "max_layers is " + std::to_string(options.max_layers) + "; it can be 1 to 2048";
-    if (auto reason = endsRefusal(options.cascades))
+    }
+    if (auto reason = endsRefusal(options.cascades)) {
         return reason;
+    }
     return refusal(options.technique.filter, formatOf(options), options.moments);
 }
 
@@ -89,18 +94,21 @@ MapFormat formatOf(const ShadowOptions& options)
 float reachTexels(const ShadowOptions& options)
 {
     const FilterTraits* const traits = filterTraits(options.technique.filter);
-    if (traits != nullptr && traits->filterable)
+    if (traits != nullptr && traits->filterable) {
         return static_cast<float>(blurRadius(options.moments)) + 1.0F; // and a bilinear read of what was blurred
-    if (options.technique.filter != Filter::pcf)
+    }
+    if (options.technique.filter != Filter::pcf) {
         return 0.5F;
+    }
     const int width = kernelWidth(options.pcf.kernel);
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
 }
 
 Resolution resolve(const ShadowOptions& options)
 {
-    if (auto reason = refusalOf(options))
+    if (auto reason = refusalOf(options)) {
         return {std::nullopt, std::move(*reason)};
+    }
     constexpr double kLeastBorder_texels = 4.0;
     ResolvedOptions made;
     made.asked_ = options;
@@ -116,8 +124,9 @@ Resolution resolve(const ShadowOptions& options)
 ResolvedOptions resolvedOrThrow(const ShadowOptions& options)
 {
     Resolution resolution = resolve(options);
-    if (!resolution)
+    if (!resolution) {
         throw Error("choose how shadows are made", resolution.refusal);
+    }
     return *resolution;
 }
 

@@ -31,8 +31,9 @@ void setBias(ShadowOptions& options, const OptionValue& value)
 template <auto path>
 OptionValue getBias(const ShadowOptions& options)
 {
-    if (!options.bias.automatic)
+    if (!options.bias.automatic) {
         return valueOf(path(options.bias));
+    }
     OptionValue none;
     none.none = true;
     return none;

@@ -25,8 +25,9 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
     const std::uint32_t count = options.count;
     const shared::SplitRange range = shared::splitRange(view.near_m, view.far_m, options.lambda, view.perspective);
     const auto end = [&](std::uint32_t i) {
-        if (options.explicitEnds() && i < count)
+        if (options.explicitEnds() && i < count) {
             return i == 0 ? 0.0 : options.ends_m[i - 1];
+        }
         return shared::splitAt(range, static_cast<int>(i), static_cast<int>(count));
     };
     const glm::dvec4 axis(view.forward_ws, -glm::dot(view.forward_ws, view.eye_ws));
@@ -38,10 +39,12 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
         // The first and the last serve what lies before and behind all splits too: rounding, and explicit ends that
         // leave something over. But nothing is to be seen before the nearest receiver and behind the farthest: without
         // these two planes the first body would begin at the eye, and a warp would spend its map on air.
-        if (i == 0)
+        if (i == 0) {
             slice.cut[slice.cut_count++] = depthPlane(view, view.near_m - view.pad_m, true);
-        if (i + 1 == count)
+        }
+        if (i + 1 == count) {
             slice.cut[slice.cut_count++] = depthPlane(view, range.far_m + view.pad_m, false);
+        }
         if (i > 0) {
             slice.depth.blend_m = shared::blendWidth(options.blend, i > 1 ? end(i - 1) : range.near_m, end(i));
             slice.depth.begin_m = end(i) - slice.depth.blend_m;

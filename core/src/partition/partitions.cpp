@@ -14,9 +14,11 @@ constexpr PartitionTraits kPartitions[] = {
 
 const PartitionTraits* partitionTraits(Partition partition)
 {
-    for (const PartitionTraits& row : kPartitions)
-        if (row.partition == partition)
+    for (const PartitionTraits& row : kPartitions) {
+        if (row.partition == partition) {
             return &row;
+        }
+    }
     return nullptr;
 }
 

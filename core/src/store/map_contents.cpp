@@ -41,8 +41,9 @@ TexelRect placeMovers(const View& view, const MapContents& drawn, const ObjectSe
     TexelRect changed;
     auto old = drawn.moving.begin();
     const auto leaveBefore = [&](std::uint32_t object) {
-        for (; old != drawn.moving.end() && old->object < object; ++old)
+        for (; old != drawn.moving.end() && old->object < object; ++old) {
             changed = merge(changed, old->texels);
+        }
     };
     for (Mover& mover : movers) {
         leaveBefore(mover.object);
@@ -52,11 +53,13 @@ TexelRect placeMovers(const View& view, const MapContents& drawn, const ObjectSe
         } else {
             mover.texels = texelsOf(view, bounds[mover.object]);
             changed = merge(changed, mover.texels);
-            if (known)
+            if (known) {
                 changed = merge(changed, old->texels);
+            }
         }
-        if (known)
+        if (known) {
             ++old;
+        }
     }
     leaveBefore(kNoIndex);
     return changed;
@@ -69,16 +72,18 @@ TexelRect texelsOf(const View& view, const Aabb& box_ws)
     glm::dvec2 high(-kInfinity);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec4 c = view.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
-        if (!(c.w > 0.0))
+        if (!(c.w > 0.0)) {
             return {0, 0, view.tile.width, view.tile.height};
+        }
         low = glm::min(low, glm::dvec2(c) / c.w);
         high = glm::max(high, glm::dvec2(c) / c.w);
     }
     const glm::dvec2 size(view.tile.width, view.tile.height);
     low = glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0.0), size);
     high = glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0.0), size);
-    if (!(low.x < high.x && low.y < high.y))
+    if (!(low.x < high.x && low.y < high.y)) {
         return {};
+    }
     const glm::uvec2 first(low);
     const glm::uvec2 end(high);
     return {first.x, first.y, end.x - first.x, end.y - first.y};
@@ -86,8 +91,9 @@ TexelRect texelsOf(const View& view, const Aabb& box_ws)
 
 TexelRect merge(const TexelRect& a, const TexelRect& b)
 {
-    if (a.empty() || b.empty())
+    if (a.empty() || b.empty()) {
         return a.empty() ? b : a;
+    }
     const std::uint32_t x = std::min(a.x, b.x);
     const std::uint32_t y = std::min(a.y, b.y);
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};

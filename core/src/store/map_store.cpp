@@ -32,47 +32,54 @@ void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint32_
                           std::span<const MapWish> wishes)
 {
     assert(keys.size() == wishes.size());
-    if (objects.identity() != objects_identity_)
+    if (objects.identity() != objects_identity_) {
         forget();
+    }
     objects_identity_ = objects.identity();
     rows_.follow(keys);
     rooms_.resize(std::max<std::size_t>(rooms_.size(), rows_.end()));
-    for (const std::uint32_t row : rows_.gone())
+    for (const std::uint32_t row : rows_.gone()) {
         clear(rooms_[row]);
-    for (std::size_t light = 0; light < wishes.size(); ++light)
+    }
+    for (std::size_t light = 0; light < wishes.size(); ++light) {
         if (Room& room = rooms_[rows_.rowOf(light)]; room.wish != wishes[light]) {
             clear(room);
             room.wish = wishes[light];
         }
-    for (std::size_t light = 0; light < wishes.size(); ++light)
+    }
+    for (std::size_t light = 0; light < wishes.size(); ++light) {
         furnish(rooms_[rows_.rowOf(light)]);
+    }
 }
 
 /// Finds room for what a light wants and does not have yet.
 void MapStore::furnish(Room& room)
 {
     const MapWish wish = room.wish;
-    if (wish.count == 0)
+    if (wish.count == 0) {
         return;
+    }
     PageSquares& pages = pages_[wish.options].maps;
     if (room.places.empty()) {
         const std::uint32_t level = pages.levelOf(wish.side);
         const std::uint32_t pages_before = pages.pages();
         // Each position's maps follow each other, so that one pass can draw them.
-        for (std::uint32_t position = 0; position < (wish.shares_texels ? 1 : wish.positions); ++position)
+        for (std::uint32_t position = 0; position < (wish.shares_texels ? 1 : wish.positions); ++position) {
             if (!pages.take(level, wish.count, room.squares)) {
                 clear(room);
                 pages.dropPagesFrom(pages_before);
                 room.wish = wish;
                 return;
             }
+        }
         name(room);
     }
-    if (wish.keeps_still && room.kept_squares.empty() && takeKept(room))
+    if (wish.keeps_still && room.kept_squares.empty() && takeKept(room)) {
         for (std::size_t i = 0; i < room.places.size(); ++i) {
             room.places[i].kept_map = freshMap();
             room.places[i].kept_layer = room.kept_squares[i].page;
         }
+    }
 }
 
 /// Gives the squares that were found names.
@@ -84,8 +91,9 @@ void MapStore::name(Room& room)
         MapPlace& place = room.places.emplace_back();
         place.map = freshMap();
         place.tile = pages_[wish.options].maps.tileOf(square, wish.side);
-        if (wish.shares_texels)
+        if (wish.shares_texels) {
             place.part = i < wish.count ? TexelPart::first : TexelPart::second;
+        }
     }
 }
 
@@ -97,10 +105,12 @@ bool MapStore::takeKept(Room& room)
     const std::uint32_t pages_before = pages.pages();
     for (std::uint32_t i = 0; i < wish.positions * wish.count; ++i) {
         const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
-        if (pages.takeAt(square.level, square.place, 1, room.kept_squares))
+        if (pages.takeAt(square.level, square.place, 1, room.kept_squares)) {
             continue;
-        for (const PageSquare& taken : room.kept_squares)
+        }
+        for (const PageSquare& taken : room.kept_squares) {
             pages.give(taken);
+        }
         pages.dropPagesFrom(pages_before);
         room.kept_squares.clear();
         return false;
@@ -113,13 +123,16 @@ void MapStore::clear(Room& room)
 {
     for (const MapPlace& place : room.places) {
         giveUp(place.map);
-        if (place.kept_map)
+        if (place.kept_map) {
             giveUp(place.kept_map);
+        }
     }
-    for (const PageSquare& square : room.squares)
+    for (const PageSquare& square : room.squares) {
         pages_[room.wish.options].maps.give(square);
-    for (const PageSquare& square : room.kept_squares)
+    }
+    for (const PageSquare& square : room.kept_squares) {
         pages_[room.wish.options].kept.give(square);
+    }
     room.places.clear();
     room.squares.clear();
     room.kept_squares.clear();
@@ -161,14 +174,16 @@ void MapStore::report(Plan& plan) const
 
 void MapStore::lost(const MapId& id)
 {
-    if (id.index < maps_.size() && maps_[id.index].generation == id.generation)
+    if (id.index < maps_.size() && maps_[id.index].generation == id.generation) {
         maps_[id.index].number = 0;
+    }
 }
 
 void MapStore::forget()
 {
-    for (Map& map : maps_)
+    for (Map& map : maps_) {
         map.number = 0;
+    }
 }
 
 void MapStore::fill(Map& map, const MapProjection& now, std::span<const std::uint32_t> casters,
@@ -180,10 +195,11 @@ void MapStore::fill(Map& map, const MapProjection& now, std::span<const std::uin
 
 void MapStore::draw(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects)
 {
-    if (place.kept_map)
+    if (place.kept_map) {
         drawOverKept(view, place, casters, objects);
-    else
+    } else {
         drawAtOnce(view, maps_[view.map.index], casters, objects);
+    }
     view.redraw = view.makes != view.presumes;
 }
 
@@ -201,8 +217,9 @@ void MapStore::drawAtOnce(View& view, Map& map, std::span<const std::uint32_t> c
     const bool holds =
         map.number != 0 && map.contents.show(projection, casters, objects.allChanges()) && map.contents.moving.empty();
     view.presumes = holds ? map.number : 0;
-    if (!holds)
+    if (!holds) {
         fill(map, projection, casters, objects);
+    }
     view.makes = map.number;
 }
 
@@ -211,10 +228,11 @@ void MapStore::split(std::span<const std::uint32_t> casters, const ObjectSet& ob
     still_.clear();
     moving_.clear();
     for (const std::uint32_t object : casters) {
-        if (objects.flags(object).dynamic)
+        if (objects.flags(object).dynamic) {
             moving_.push_back({object, {}});
-        else
+        } else {
             still_.push_back(object);
+        }
     }
 }
 
@@ -240,11 +258,13 @@ void MapStore::drawOverKept(View& view, const MapPlace& place, std::span<std::ui
         view.kept_map = place.kept_map;
         view.kept_presumes = kept_holds ? kept.number : 0;
         view.redraw_kept = draws && !kept_holds;
-        if (view.redraw_kept)
+        if (view.redraw_kept) {
             fill(kept, projection, still_, objects);
+        }
         view.kept_makes = kept.number;
-        if (draws)
+        if (draws) {
             view.dirty = map_holds && kept_holds ? changed : TexelRect{0, 0, view.tile.width, view.tile.height};
+        }
         std::ranges::copy(still_, casters.begin());
         std::ranges::transform(moving_, casters.begin() + view.still_count,
                                [](const Mover& mover) { return mover.object; });

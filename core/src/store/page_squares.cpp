@@ -30,8 +30,9 @@ std::uint32_t PageSquares::levelOf(std::uint32_t side) const
 {
     assert(side > 0 && side <= side_);
     std::uint32_t level = 0;
-    while (level < kDeepest && (side_ >> (level + 1)) >= side)
+    while (level < kDeepest && (side_ >> (level + 1)) >= side) {
         ++level;
+    }
     return level;
 }
 
@@ -52,8 +53,9 @@ const PageSquare* PageSquares::freeAround(const PageSquare& square) const
     for (std::uint32_t level = 0; level <= square.level; ++level) {
         const PageSquare whole = around(square, level);
         const auto found = std::ranges::lower_bound(free_, whole);
-        if (found != free_.end() && *found == whole)
+        if (found != free_.end() && *found == whole) {
             return &*found;
+        }
     }
     return nullptr;
 }
@@ -61,13 +63,15 @@ const PageSquare* PageSquares::freeAround(const PageSquare& square) const
 /// Fills in what a run at its page and place costs; false if it cannot be had.
 bool PageSquares::measure(std::uint32_t level, std::uint32_t count, Run& run) const
 {
-    if (count > most_pages_ || run.page > most_pages_ - count)
+    if (count > most_pages_ || run.page > most_pages_ - count) {
         return false;
+    }
     std::uint32_t deepest = 0;
     for (std::uint32_t page = run.page; page < std::min(run.page + count, pages_); ++page) {
         const PageSquare* const free = freeAround({page, level, run.place});
-        if (free == nullptr)
+        if (free == nullptr) {
             return false;
+        }
         deepest = std::max(deepest, free->level);
     }
     run.broken_level = level - deepest;
@@ -81,8 +85,9 @@ bool PageSquares::findRun(std::uint32_t level, std::uint32_t count, Run& best) c
     best = {0, 0, pages_, 0};
     bool found = measure(level, count, best);
     for (const PageSquare& free : free_) {
-        if (free.level > level)
+        if (free.level > level) {
             continue;
+        }
         const std::uint32_t first = free.page + 1 - std::min(count, free.page + 1);
         for (std::uint32_t page = first; page <= free.page; ++page) {
             Run run{0, 0, page, free.place << (2 * (level - free.level))};
@@ -109,8 +114,9 @@ bool PageSquares::take(std::uint32_t level, std::uint32_t count, std::vector<Pag
             claimRun(level, 1, run, out);
             continue;
         }
-        for (; out.size() > before; out.pop_back())
+        for (; out.size() > before; out.pop_back()) {
             give(out.back());
+        }
         dropPagesFrom(pages_before);
         return false;
     }
@@ -119,18 +125,20 @@ bool PageSquares::take(std::uint32_t level, std::uint32_t count, std::vector<Pag
 
 bool PageSquares::takeAt(std::uint32_t level, std::uint32_t place, std::uint32_t count, std::vector<PageSquare>& out)
 {
-    for (Run run{0, 0, 0, place}; run.page <= pages_; ++run.page)
+    for (Run run{0, 0, 0, place}; run.page <= pages_; ++run.page) {
         if (measure(level, count, run)) {
             claimRun(level, count, run, out);
             return true;
         }
+    }
     return false;
 }
 
 void PageSquares::claimRun(std::uint32_t level, std::uint32_t count, const Run& run, std::vector<PageSquare>& out)
 {
-    for (; pages_ < run.page + count; ++pages_)
+    for (; pages_ < run.page + count; ++pages_) {
         insert({pages_, 0, 0});
+    }
     for (std::uint32_t i = 0; i < count; ++i) {
         out.push_back({run.page + i, level, run.place});
         claim(out.back());
@@ -144,9 +152,11 @@ void PageSquares::claim(const PageSquare& square)
     erase(whole);
     for (std::uint32_t level = whole.level + 1; level <= square.level; ++level) {
         const PageSquare taken = around(square, level);
-        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
-            if (quarter != (taken.place & 3U))
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+            if (quarter != (taken.place & 3U)) {
                 insert({square.page, level, (taken.place & ~3U) + quarter});
+            }
+        }
     }
     ++used_;
 }
@@ -166,8 +176,9 @@ void PageSquares::give(const PageSquare& square)
         const auto found = std::ranges::lower_bound(free_, first);
         // The four quarters follow each other.
         const PageSquare last{first.page, first.level, first.place + 3};
-        if (free_.end() - found < 4 || *found != first || found[3] != last)
+        if (free_.end() - found < 4 || *found != first || found[3] != last) {
             return;
+        }
         free_.erase(found, found + 4);
         whole = around(whole, whole.level - 1);
         insert(whole);
@@ -176,8 +187,9 @@ void PageSquares::give(const PageSquare& square)
 
 void PageSquares::dropPagesFrom(std::uint32_t pages)
 {
-    for (; pages_ > pages; --pages_)
+    for (; pages_ > pages; --pages_) {
         erase({pages_ - 1, 0, 0});
+    }
 }
 
 void PageSquares::insert(const PageSquare& square)
