@@ -6,13 +6,18 @@ usage: check_headers.py [--build DIR] [-j N] [ROOT]
 
 DIR is a configured build folder, for the generated shader headers that private headers of vulkan and host include.
 Exit status 1 when one does not compile.
+
+Nearly all of the time goes into the standard library and glm, so sets of such includes are precompiled. A header gets a set
+only if it makes every include of it by itself, before it says anything else; so it sees nothing that it would not see alone.
 """
 
 import argparse
 import os
+import re
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -38,8 +43,11 @@ FOLDERS = [
     ("lab/", [*PUBLIC, "lab/src"]),
     ("app/", [*PUBLIC, "app/src"]),
 ]
-FLAGS = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
-         "-Wno-sign-conversion", "-Werror", "-x", "c++"]
+FLAGS = ["-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wno-sign-conversion", "-Werror"]
+INCLUDE = re.compile(r'#include [<"]([^>"]+)[>"]')
+# What may stand before an include without a meaning for it.
+SILENT = re.compile(r"\s*(//.*|#pragma once|#(ifndef|define) GNOMON_\w+_H|#ifdef __cplusplus)?$")
+COST_OF_SET = 3.5  # of precompiling a set, where 1 is compiling it in a header
 
 
 def folders_of(path: str):
@@ -49,12 +57,51 @@ def folders_of(path: str):
     return None
 
 
-def compile_alone(root: Path, compiler: str, header: str, extra: list[str], scratch: Path) -> str:
+def outside_includes(root: Path, file: Path, folders: list[str], seen: set[Path]) -> set[str]:
+    """What `file` includes that is not the project's, itself or through others, before it says anything else."""
+    found = set()
+    for line in file.read_text(encoding="utf-8").splitlines():
+        if include := INCLUDE.match(line):
+            places = [file.parent / include[1], *(root / folder / include[1] for folder in folders)]
+            own = next((place for place in places if place.is_file()), None)
+            if own is None:
+                found.add(include[1])
+            elif own not in seen:
+                seen.add(own)
+                found |= outside_includes(root, own, folders, seen)
+        elif not SILENT.match(line):
+            break
+    return found
+
+
+def sets_to_precompile(wanted: Counter) -> list[frozenset]:
+    """Of what headers include (each with their number): the parts that are worth it, the best first."""
+    chosen, saved = [], dict.fromkeys(wanted, 0)
+    candidates = sorted({one & other for one in wanted for other in wanted}, key=sorted)
+
+    def gain(part: frozenset) -> float:
+        return sum(max(len(part) - saved[one], 0) * number for one, number in wanted.items() if part <= one) \
+            - COST_OF_SET * len(part)
+
+    while candidates and gain(best := max(candidates, key=gain)) > 0:
+        chosen.append(best)
+        saved.update({one: max(saved[one], len(best)) for one in wanted if best <= one})
+    return chosen
+
+
+def precompile(compiler: str, part: frozenset, file: Path) -> None:
+    file.write_text("".join(f"#include <{name}>\n" for name in sorted(part)), encoding="utf-8")
+    subprocess.run([compiler, *FLAGS, "-x", "c++-header", file, "-o", f"{file}.gch"], check=True)
+
+
+def compile_alone(root: Path, compiler: str, header: str, extra: list[str], scratch: Path, precompiled) -> str:
     """The compiler's complaint, empty when there is none."""
     source = scratch / (header.replace("/", "_") + ".cpp")
     source.write_text(f'#include "{root / header}"\n#include "{root / header}"\n', encoding="utf-8")
     includes = [f"-I{root / folder}" for folder in folders_of(header)] + [f"-isystem{folder}" for folder in extra]
-    result = subprocess.run([compiler, *FLAGS, *includes, str(source)], capture_output=True, text=True, check=False)
+    before = ["-include", precompiled] if precompiled else []
+    result = subprocess.run([compiler, *FLAGS, "-fsyntax-only", *before, *includes, source], capture_output=True, text=True,
+                            check=False)
     return "" if result.returncode == 0 else f"{header} does not stand alone:\n{result.stderr}"
 
 
@@ -72,10 +119,17 @@ def main() -> int:
     # Generated headers, for private headers only: a public one that needed them could not be installed.
     generated = sorted({str(file.parent) for file in options.build.resolve().glob("*/*/gnomon_*spirv.h")}) \
         if options.build else []
-    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(options.jobs) as pool:
-        complaints = list(pool.map(
-            lambda header: compile_alone(root, compiler, header, generated if "/src/" in header else [], Path(scratch)),
-            headers))
+    made = {header: frozenset(outside_includes(root, root / header, folders_of(header), set())) for header in headers}
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(options.jobs) as pool:
+        scratch = Path(folder)
+        parts = {part: scratch / f"part{number}.h" for number, part in enumerate(sets_to_precompile(Counter(made.values())))}
+        list(pool.map(lambda part: precompile(compiler, part, parts[part]), parts))
+
+        def complaint_of(header: str) -> str:
+            largest = max((part for part in parts if part <= made[header]), key=len, default=None)
+            return compile_alone(root, compiler, header, generated if "/src/" in header else [], scratch, parts.get(largest))
+
+        complaints = list(pool.map(complaint_of, headers))
     broken = [complaint for complaint in complaints if complaint]
     for complaint in broken:
         print(complaint, file=sys.stderr)

@@ -41,6 +41,16 @@ class Headers(unittest.TestCase):
                                           "core/src/b.h": "#pragma once\n"})
         self.assertEqual(result.returncode, 1)
 
+    def test_what_is_precompiled_for_others_is_not_seen(self):
+        top, use = "#pragma once\n#include <string>\n", "inline std::vector<int> a;\n"
+        tree = {f"core/src/good{number}.h": top + "#include <vector>\n" + use for number in range(4)}
+        tree |= {"core/src/without.h": top + use, "core/src/late.h": top + use + "#include <vector>\n",
+                 "core/src/never.h": top + "#ifdef NEVER\n#include <vector>\n#endif\n" + use}
+        result = run("check_headers.py", tree)
+        self.assertEqual(result.returncode, 1)
+        named = [line.split()[0] for line in result.stderr.splitlines() if "does not stand alone" in line]
+        self.assertEqual(sorted(named), ["core/src/late.h", "core/src/never.h", "core/src/without.h"])
+
     def test_no_header_fails(self):
         self.assertEqual(run("check_headers.py", {"README.md": ""}).returncode, 1)
 
