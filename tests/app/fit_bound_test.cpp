@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -37,8 +38,9 @@ struct Pixel {
     glm::dmat2 metres_from_pixels; // there, on the surface's plane
 };
 struct Seen {
-    std::vector<Pixel> facing;      // the sun, as texel density counts them
-    std::vector<glm::dvec2> places; // of all surfaces
+    std::vector<Pixel> facing; // the sun, as texel density counts them
+    // The outermost of all surfaces: a map that keeps lines straight has them outermost too.
+    std::vector<glm::dvec2> places;
     glm::dvec3 right_ws{1, 0, 0};
     glm::dvec3 up_ws{0, 0, -1};
     double uniform = 0.0; // texels per pixel, first percentile, of the planner's unwarped map
@@ -55,6 +57,30 @@ double firstPercentile(std::vector<double>& values)
     const auto rank = static_cast<std::ptrdiff_t>(values.size() / 100);
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
+}
+
+/// The corners of the smallest convex shape around `points` (A. M. Andrew 1979).
+std::vector<glm::dvec2> outermost(std::vector<glm::dvec2> points)
+{
+    std::sort(points.begin(), points.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<glm::dvec2> corners;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = corners.size();
+        for (const glm::dvec2& point : points) {
+            while (corners.size() >= first + 2) {
+                const glm::dvec2 last = corners.back() - corners[corners.size() - 2];
+                const glm::dvec2 next = point - corners.back();
+                if (last.x * next.y - last.y * next.x > 0.0) {
+                    break;
+                }
+                corners.pop_back();
+            }
+            corners.push_back(point);
+        }
+        std::reverse(points.begin(), points.end());
+    }
+    return corners;
 }
 
 /// Under a sun that shines straight down, with `right_ws` and `up_ws` across it.
@@ -92,6 +118,7 @@ Seen look(const std::vector<std::string>& view)
                 seen.facing.push_back(
                     {at, {(place(x + 0.75, y + 0.5) - at) / 0.25, (place(x + 0.5, y + 0.75) - at) / 0.25}});
         }
+    seen.places = outermost(std::move(seen.places));
     ObjectSet objects;
     host::fillObjectSet(shot.state, objects);
     const std::vector<Light> lights = app::castersOf(shot);
@@ -113,8 +140,8 @@ struct Shape {
     double upright = 0.5;   // where the line is that stays upright, from the least to the greatest place across
 };
 
-/// The map that holds all places exactly, without any border.
-double densityOf(const Seen& seen, const Shape& shape)
+/// Of the map that holds all places exactly, without any border; `least` if it has no more than that.
+double densityOf(const Seen& seen, const Shape& shape, double least)
 {
     const glm::dvec2 along(std::cos(shape.angle_rad), std::sin(shape.angle_rad));
     const glm::dvec2 across(along.y, -along.x);
@@ -138,12 +165,16 @@ double densityOf(const Seen& seen, const Shape& shape)
     }
     const glm::dvec2 scale = kTexels / (last - first);
     std::vector<double> found;
+    std::size_t left = seen.facing.size() / 100; // that many may lie below the first percentile
     for (const Pixel& pixel : seen.facing) {
         const double w = wAt(pixel.at);
         const double b = glm::dot(across, pixel.at) - upright;
         const glm::dvec2 x = (across * w - along * (b / n)) / (w * w) * scale.x;
         const glm::dvec2 y = along / (w * w) * scale.y;
         found.push_back(density(glm::dmat2(x.x, y.x, x.y, y.y) * pixel.metres_from_pixels));
+        if (found.back() <= least && left-- == 0) {
+            return least;
+        }
     }
     return firstPercentile(found);
 }
@@ -154,7 +185,7 @@ double best(const Seen& seen)
     for (int angle = 0; angle < kAngles; ++angle)
         for (double strength = 1.0; strength < 60.0; strength *= 1.4)
             for (double upright = -1.0; upright <= 2.0; upright += 0.5)
-                found = std::max(found, densityOf(seen, {angle * 2.0 * std::numbers::pi / kAngles, strength, upright}));
+                found = densityOf(seen, {angle * 2.0 * std::numbers::pi / kAngles, strength, upright}, found);
     return found;
 }
 
