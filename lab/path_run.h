@@ -22,6 +22,9 @@ struct ShownFrame {
     ImageOf<ErrorClass> classes; // left_out everywhere when no pixel counts
 };
 
+/// Takes its pictures from a score.
+[[nodiscard]] ShownFrame shownOf(Score& score);
+
 struct PathTechnique {
     Score score;                             // PathScore::mean()
     std::optional<Stability> stability;      // absent with one frame, and where no pixel has a match

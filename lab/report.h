@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a comparison: false colour with legends, and a page that shows them beside the numbers.
+// Pictures of a comparison: false colour with legends.
 #pragma once
 
 #include "image/image.h"
 #include "lab/metrics/error.h"
 #include "lab/metrics/error_classes.h"
-
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace gnomon::lab {
 
@@ -31,42 +25,5 @@ namespace gnomon::lab {
 /// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line where it
 /// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
-
-/// Pictures of one frame among several.
-struct ReportFrame {
-    std::string name; // "frame 30"
-    std::string truth_file;
-    std::string mask_file;
-    std::string error_file;
-    std::string class_file;
-};
-/// A page without script or anything from elsewhere, which a browser shows from the folder it lies in. A picture whose
-/// file has no name is left out.
-struct ReportTechnique {
-    std::string name;
-    std::string mask_file; // paths relative to the page, with /
-    std::string error_file;
-    std::string class_file;
-    std::string density_file;        // may be an earlier technique's: then the page points there
-    std::vector<ReportFrame> frames; // of a path: shown in their order, instead of the files above
-};
-struct ReportPlot {
-    std::string file; // likewise
-    std::string caption;
-};
-struct Report {
-    std::string title;
-    std::string truth_file;                                 // shown at the top and again beside every mask
-    std::vector<std::pair<std::string, std::string>> facts; // what was compared, how: name and value
-    std::vector<ReportPlot> plots;                          // before the table
-    std::string table_caption = "Best first.";
-    std::vector<std::string> columns;           // of the table, the first the technique's name
-    std::vector<std::string> column_meanings;   // none, or as `columns`; empty where the name says it
-    std::vector<std::vector<std::string>> rows; // each as long as `columns`
-    std::vector<ReportTechnique> techniques;    // as `rows`
-    std::vector<std::string> notes;             // sentences
-};
-/// HTML text in UTF-8; every string is escaped.
-[[nodiscard]] std::string reportPage(const Report& report);
 
 } // namespace gnomon::lab

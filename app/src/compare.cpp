@@ -88,10 +88,9 @@ void requireMapsFit(const host::Gpu& gpu, const std::vector<Settings>& technique
 /// One run: what it is about, and what is done between two frames.
 class Comparison {
 public:
-    Comparison(const Settings& settings, Shot& shot, host::Gpu& gpu, std::vector<std::string> report_files)
+    Comparison(const Settings& settings, Shot& shot, host::Gpu& gpu)
         : settings_(settings), shot_(shot), gpu_(gpu), scene_(gpu, shot.scene, shot.state)
     {
-        result_.report_files = std::move(report_files);
         result_.device = gpu.properties().deviceName;
         result_.driver = gpu.driver();
         result_.scene_hash = scene::toString(scene::sceneHash(shot.scene));
@@ -103,7 +102,6 @@ public:
     void timeAll();
     void matchAll();
     void sweep(const SweepPlan& plan);
-    void note();
     [[nodiscard]] const CompareResult& result() const { return result_; }
 
 private:
@@ -114,9 +112,6 @@ private:
         progress.step();
     }
     void putBestFirst();
-    void noteOutcomes();
-    void notePixels();
-    void noteSize();
 
     const Settings& settings_;
     Shot& shot_;
@@ -139,13 +134,11 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
             result_.pixels = compared.score.pixels.counts;
             result_.standard_error = lab::truthNoise(result_.judged.truth.visibility, compared.score.pixels.counted);
         }
+        lab::ShownFrame shown = lab::shownOf(compared.score);
         if (settings_.report.empty()) {
-            compared.score.mask = {};
-            compared.score.pixels.counted = {};
             compared.score.density.map = {};
-            if (compared.score.classification) {
-                compared.score.classification->classes = {};
-            }
+        } else {
+            compared.shown.push_back(std::move(shown));
         }
         result_.techniques.push_back(std::move(compared));
         step(progress);
@@ -222,116 +215,20 @@ void Comparison::sweep(const SweepPlan& plan)
     result_.standard_error = result_.sweep->places.front().standard_error;
 }
 
-void Comparison::noteOutcomes()
+void put(const CompareResult& result, const Shot& shot, const Settings& settings, ReportFolder* folder)
 {
-    struct Seen {
-        Outcome outcome;
-        std::string who;
-    };
-    std::vector<Seen> seen;
-    std::size_t count = 0;
-    const auto add = [&](const Outcome& outcome, const std::string& who) {
-        ++count;
-        if (outcome.kind == OutcomeKind::ok) {
-            return;
-        }
-        const auto same = std::find_if(seen.begin(), seen.end(), [&](const Seen& other) {
-            return other.outcome.kind == outcome.kind && other.outcome.reason == outcome.reason;
-        });
-        if (same == seen.end()) {
-            seen.push_back({outcome, who});
-        } else if (!same->who.ends_with(who)) {
-            same->who += ", " + who;
-        }
-    };
-    for (const ComparedTechnique& technique : result_.techniques) {
-        add(technique.score.outcome, technique.name);
-    }
-    for (std::size_t i = 0; result_.sweep && i < result_.sweep->points.size(); ++i) {
-        for (const SweepResult::Point& point : result_.sweep->points[i]) {
-            add(point.outcome, result_.sweep->plan.lines[i].technique);
-        }
-    }
-    for (const Seen& one : seen) {
-        const std::string what = one.outcome.hasMap() ? fmt::format("{}", nameOf(one.outcome.kind))
-                                                      : "no shadow map, so the mask is all lit";
-        result_.notes.push_back(
-            fmt::format("light {} with {}: {}: {}", result_.light().name, one.who, what, one.outcome.reason));
-    }
-}
-
-void Comparison::notePixels()
-{
-    const auto add = [&](const lab::PixelCounts& pixels, std::uint64_t rays, const std::string& where) {
-        if (const std::string note = pixelsNote(pixels, rays); !note.empty()) {
-            result_.notes.push_back(where + note);
-        }
-    };
-    if (!result_.sweep || !result_.sweep->plan.remakes_shot) {
-        add(result_.pixels, result_.judged.facts.rays, "");
-        return;
-    }
-    for (std::size_t i = 0; i < result_.sweep->places.size(); ++i) {
-        const SweepResult::Place& place = result_.sweep->places[i];
-        add(place.pixels, place.truth.rays, placeText(result_.sweep->plan, i) + ": ");
-    }
-}
-
-/// That the size of a light is none is told unless the sweep goes on to others.
-void Comparison::noteSize()
-{
-    const auto hard = [](const TruthFacts& truth) {
-        return truth.kind == truth::Kind::area && truth.point_like;
-    };
-    const bool always = result_.sweep ? std::all_of(result_.sweep->places.begin(), result_.sweep->places.end(),
-                                                    [&](const SweepResult::Place& place) { return hard(place.truth); })
-                                      : hard(result_.judged.facts);
-    if (always) {
-        const host::ShadedLight& light = result_.light();
-        result_.notes.push_back(
-            fmt::format("light {} has no extent, so its area truth is the hard one; {} gives it one", light.name,
-                        light.caster.type == LightType::directional ? "--sun-angle" : "--light-size"));
-    }
-}
-
-/// Says what kept a number from being there, or from meaning what one would think.
-void Comparison::note()
-{
-    notePixels();
-    noteOutcomes();
-    noteSize();
-    if (result_.path) {
-        const std::vector<std::string> notes = pathNotes(result_);
-        result_.notes.insert(result_.notes.end(), notes.begin(), notes.end());
-    }
-    if (result_.sweep) {
-        const SweepPlan& plan = result_.sweep->plan;
-        result_.notes.insert(result_.notes.end(), plan.left_out.begin(), plan.left_out.end());
-        if (plan.ends_automatic_bias) {
-            result_.notes.push_back(
-                fmt::format("{} ends the automatic bias: where the sweep sets one part, the others are 0", plan.key));
-        }
-    }
-    if (!result_.report_files.empty() && !result_.path) {
-        forgetSharedFiles(result_);
-    }
-}
-
-void put(const Comparison& comparison, const Shot& shot, const Settings& settings, ReportFolder* folder)
-{
-    const CompareResult& result = comparison.result();
-    std::for_each(result.notes.begin(), result.notes.end(), notice);
     Json json = compareJson(result, shot, settings);
-    std::optional<std::string> no_plots;
+    for (const Json& note : json.at("notes")) {
+        notice(note.get_ref<const std::string&>());
+    }
     if (folder != nullptr) {
         Progress progress("drawing the report", result.techniques.size());
-        no_plots = writeReport(*folder, result, shot, settings, json, [&] { progress.step(); });
-    }
-    if (no_plots) {
-        notice(*no_plots);
+        if (const auto no_plots = writeReport(*folder, result, json, [&] { progress.step(); })) {
+            notice(*no_plots);
+        }
     }
     if (settings.json.empty()) {
-        writeStdout(compareText(result, shot, settings));
+        writeStdout(compareText(json));
     } else {
         writeResult(settings.json, jsonText(json));
     }
@@ -357,11 +254,11 @@ int runCompare(const Settings& settings)
         sweep = planSweep(*settings.sweep, techniques);
     }
     std::unique_ptr<ReportFolder> folder;
-    std::vector<std::string> files;
     if (!settings.report.empty()) {
-        files = settings.path.empty() ? reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value())
-                                      : pathReportFiles(techniques.size(), *settings.frames);
-        folder = std::make_unique<ReportFolder>(settings.report, files);
+        folder = std::make_unique<ReportFolder>(
+            settings.report, settings.path.empty()
+                                 ? reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value())
+                                 : pathReportFiles(techniques.size(), *settings.frames));
     }
     Shot shot = makeShot(firstOf(sweep, settings));
     const host::ShadedLight light = shot.lights[lightIndex(shot, settings)];
@@ -372,7 +269,7 @@ int runCompare(const Settings& settings)
     requireMapsFit(*gpu, techniques, sweep);
     const Settings first = firstOf(sweep, settings);
     std::for_each(shot.notices.begin(), shot.notices.end(), notice);
-    Comparison comparison(first, shot, *gpu, std::move(files));
+    Comparison comparison(first, shot, *gpu);
     if (!settings.path.empty()) {
         comparison.walk(techniques);
     } else if (sweep) {
@@ -386,10 +283,9 @@ int runCompare(const Settings& settings)
             comparison.matchAll();
         }
     }
-    comparison.note();
     requireSilence(*gpu);
     requireNotInterrupted();
-    put(comparison, shot, settings, folder.get());
+    put(comparison.result(), shot, settings, folder.get());
     return 0;
 }
 

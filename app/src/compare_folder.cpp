@@ -3,7 +3,7 @@
 
 #include "app/visual.h"
 #include "compare_json.h"
-#include "compare_text.h"
+#include "compare_page.h"
 #include "report_plots.h"
 
 #include "image/image_io.h"
@@ -59,111 +59,8 @@ fs::path folderPath(const fs::path& folder)
     return full.has_filename() || full == full.root_path() ? full : full.parent_path();
 }
 
-/// What was compared and how, for whoever opens the page a year later.
-std::vector<std::pair<std::string, std::string>> facts(const CompareResult& result, const Shot& shot,
-                                                       const Settings& settings)
-{
-    std::vector<std::pair<std::string, std::string>> made{
-        {"scene", fmt::format("{} ({})", settings.scene, result.scene_hash)},
-        {"camera", shot.camera},
-        {"light", fmt::format("{}: {}", result.light().name, lightText(result.light()))}};
-    if (result.sweep && result.sweep->plan.remakes_shot) {
-        made.emplace_back("shown", fmt::format("scene, camera, light and the truth's picture at {}",
-                                               placeText(result.sweep->plan, 0)));
-    }
-    if (result.path) {
-        made.emplace_back("path", fmt::format("{}, frames {} to {}, {} per second; camera and light are of the first",
-                                              result.path->name, result.path->frames.first, result.path->frames.last,
-                                              settings.fps));
-    }
-    made.insert(made.end(),
-                {{"size", fmt::format("{} x {} pixels", settings.size_px.x, settings.size_px.y)},
-                 {"truth", truthText(result)},
-                 {"pixels", countedText(result)},
-                 {"device", fmt::format("{} ({})", result.device, result.driver)},
-                 {"version", GNOMON_VERSION},
-                 {"result", fmt::format("{}: every number, and the settings to repeat it", kReportResult)}});
-    return made;
-}
-
-void writeTechnique(ReportFolder& folder, const CompareResult& result, std::size_t index, lab::Report& page)
-{
-    const ComparedTechnique& technique = result.techniques[index];
-    const lab::Score& score = technique.score;
-    const ImageF& truth = result.judged.truth.visibility.visibility;
-    const ImageOf<lab::ErrorClass> nothing_counts(truth.width, truth.height, 1, lab::ErrorClass::left_out);
-    lab::ReportTechnique shown;
-    shown.name = technique.name;
-    shown.mask_file = numbered(index, "mask.png");
-    shown.error_file = numbered(index, "error.png");
-    shown.class_file = numbered(index, "classes.png");
-    const std::size_t density = densityShownBy(result, index);
-    shown.density_file = numbered(density, "density.png");
-    folder.write(shown.mask_file, maskAs16Bit(score.mask));
-    folder.write(shown.error_file, lab::errorPicture(score.mask, truth, score.pixels.counted));
-    folder.write(
-        shown.class_file,
-        lab::classPicture(score.classification ? score.classification->classes : nothing_counts, score.mask, truth));
-    if (density == index) {
-        folder.write(shown.density_file, lab::densityPicture(score.density.map));
-    }
-    page.techniques.push_back(shown);
-}
-
-/// First, middle and last frame of every technique, and curves over all frames.
-void writePath(ReportFolder& folder, const CompareResult& result, lab::Report& page, const std::function<void()>& step)
-{
-    const PathResult& path = *result.path;
-    const std::vector<std::string_view> moments = momentsOf(path.shown.size());
-    for (std::size_t k = 0; k < moments.size(); ++k) {
-        folder.write(pictureOf("truth", moments[k]), maskAs16Bit(path.truths[k]));
-    }
-    page.plots.push_back({kReportError, "Error of every technique over the frames."});
-    if (path.frames.first != path.frames.last) {
-        page.plots.push_back({kReportChange,
-                              "How much the error of every technique changes from one frame to the next, "
-                              "at the same points: level is steady, peaks are pops."});
-    }
-    for (std::size_t i = 0; i < result.techniques.size(); ++i) {
-        const ComparedTechnique& technique = result.techniques[i];
-        lab::ReportTechnique shown;
-        shown.name = technique.name;
-        for (std::size_t k = 0; k < moments.size(); ++k) {
-            const lab::ShownFrame& frame = technique.path->shown[k];
-            lab::ReportFrame pictures;
-            pictures.name = fmt::format("frame {}", path.shown[k]);
-            pictures.truth_file = pictureOf("truth", moments[k]);
-            pictures.mask_file = numbered(i, pictureOf("mask", moments[k]));
-            pictures.error_file = numbered(i, pictureOf("error", moments[k]));
-            pictures.class_file = numbered(i, pictureOf("classes", moments[k]));
-            folder.write(pictures.mask_file, maskAs16Bit(frame.mask));
-            folder.write(pictures.error_file, lab::errorPicture(frame.mask, path.truths[k], frame.counted));
-            folder.write(pictures.class_file, lab::classPicture(frame.classes, frame.mask, path.truths[k]));
-            shown.frames.push_back(std::move(pictures));
-        }
-        page.techniques.push_back(std::move(shown));
-        step();
-    }
-}
-
-void addSweep(lab::Report& page, const SweepResult& sweep)
-{
-    const std::string& key = sweep.plan.key;
-    page.table_caption = fmt::format("Every technique over {}.", key);
-    if (sweep.plan.lines.size() == 1) {
-        page.plots.push_back({kReportSweep, fmt::format("Error over {}, and where it comes from.", key)});
-        return;
-    }
-    page.plots.push_back({kReportSweep, fmt::format("Error of every technique over {}.", key)});
-    for (std::size_t i = 0; i < sweep.plan.lines.size(); ++i) {
-        const std::string file = numbered(i, "sweep.svg");
-        page.plots.push_back(
-            {file, fmt::format("{}: where its error over {} comes from.", sweep.plan.lines[i].technique, key)});
-    }
-}
-
-} // namespace
-
+/// Techniques that render the same map have the same picture of texel density, which is written once: the place of the
+/// first of them.
 std::size_t densityShownBy(const CompareResult& result, std::size_t technique)
 {
     const std::vector<float>& map = result.techniques[technique].score.density.map.values;
@@ -174,14 +71,55 @@ std::size_t densityShownBy(const CompareResult& result, std::size_t technique)
     return std::min(technique, static_cast<std::size_t>(same - result.techniques.begin()));
 }
 
-void forgetSharedFiles(CompareResult& result)
+/// The truth of every frame that is shown.
+void writeTruths(ReportFolder& folder, const CompareResult& result)
 {
-    for (std::size_t i = 0; i < result.techniques.size(); ++i) {
-        if (densityShownBy(result, i) != i) {
-            std::erase(result.report_files, numbered(i, "density.png"));
-        }
+    if (!result.path) {
+        folder.write(kReportTruth, maskAs16Bit(result.judged.truth.visibility.visibility));
+        return;
+    }
+    const std::vector<std::string_view> moments = momentsOf(result.path->shown.size());
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        folder.write(pictureOf("truth", moments[i]), maskAs16Bit(result.path->truths[i]));
     }
 }
+
+/// The pictures of a technique; their names, by what they show, for each frame that is shown.
+Json writePictures(ReportFolder& folder, const CompareResult& result, std::size_t index)
+{
+    const ComparedTechnique& technique = result.techniques[index];
+    const std::vector<std::string_view> moments = momentsOf(technique.shown.size());
+    Json frames = Json::array();
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        const lab::ShownFrame& shown = technique.shown[i];
+        const ImageF& truth = result.path ? result.path->truths[i] : result.judged.truth.visibility.visibility;
+        Json names;
+        if (result.path) {
+            names["frame"] = result.path->shown[i];
+        }
+        names["truth"] = pictureOf("truth", moments[i]);
+        const auto write = [&](const char* what, const auto& picture) {
+            const std::string name = numbered(index, pictureOf(what, moments[i]));
+            folder.write(name, picture);
+            names[what] = name;
+        };
+        write("mask", maskAs16Bit(shown.mask));
+        write("error", lab::errorPicture(shown.mask, truth, shown.counted));
+        write("classes", lab::classPicture(shown.classes, shown.mask, truth));
+        frames.push_back(std::move(names));
+    }
+    if (!result.path) {
+        const std::size_t first = densityShownBy(result, index);
+        const std::string name = numbered(first, "density.png");
+        if (first == index) {
+            folder.write(name, lab::densityPicture(technique.score.density.map));
+        }
+        frames[0]["density"] = name;
+    }
+    return frames;
+}
+
+} // namespace
 
 ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
     : path_(folderPath(folder)), files_(std::move(files))
@@ -260,7 +198,22 @@ void ReportFolder::write(const std::string& name, std::string_view bytes)
 
 std::optional<std::string> ReportFolder::writePlots()
 {
-    return drawPlots(fileFor(kReportResult), work_);
+    std::optional<std::string> why = drawPlots(fileFor(kReportResult), work_);
+    for (const std::string& name : files_) {
+        if (why && name.ends_with(".svg")) {
+            fs::remove(work_ / name); // the first of them may be there
+        }
+    }
+    return why;
+}
+
+std::vector<std::string> ReportFolder::listed() const
+{
+    std::vector<std::string> names = files_;
+    std::erase_if(names, [&](const std::string& name) {
+        return name != kReportPage && name != kReportResult && !fs::exists(work_ / name);
+    });
+    return names;
 }
 
 void ReportFolder::keep()
@@ -292,48 +245,25 @@ void ReportFolder::keep()
     }
 }
 
-std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, const Shot& shot,
-                                       const Settings& settings, Json& json, const std::function<void()>& step)
+std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, Json& json,
+                                       const std::function<void()>& step)
 {
-    lab::Report page;
-    page.title = fmt::format("Shadows of {} against ray-traced truth", settings.scene);
-    page.truth_file = kReportTruth;
-    page.facts = facts(result, shot, settings);
-    if (!result.path) {
-        folder.write(page.truth_file, maskAs16Bit(result.judged.truth.visibility.visibility));
+    writeTruths(folder, result);
+    for (std::size_t i = 0; i < result.techniques.size(); ++i) {
+        json["results"][i]["pictures"] = writePictures(folder, result, i);
+        step();
     }
-    TextTable table;
-    if (result.path) {
-        table = compareTable(result, false);
-        page.table_caption = "Best first; means over the frames.";
-        writePath(folder, result, page, step);
-    } else if (result.sweep) {
-        table = sweepTable(*result.sweep);
-        addSweep(page, *result.sweep);
-    } else {
-        table = compareTable(result, false);
-        for (std::size_t i = 0; i < result.techniques.size(); ++i) {
-            writeTechnique(folder, result, i, page);
-            step();
-        }
-    }
-    page.columns = table.columns;
-    page.column_meanings = meaningsOf(table);
-    page.rows = table.rows;
-    folder.write(kReportResult, jsonText(json));
     std::optional<std::string> no_plots;
-    if (!page.plots.empty()) {
+    if (result.sweep || result.path) {
+        folder.write(kReportResult, jsonText(json));
         no_plots = folder.writePlots();
     }
     if (no_plots) {
-        page.plots.clear();
         json["notes"].push_back(*no_plots);
-        Json::array_t& files = json["report_files"].get_ref<Json::array_t&>();
-        std::erase_if(files, [](const Json& name) { return name.get_ref<const std::string&>().ends_with(".svg"); });
-        folder.write(kReportResult, jsonText(json));
     }
-    page.notes = json["notes"];
-    folder.write(kReportPage, lab::reportPage(page));
+    json["report_files"] = folder.listed();
+    folder.write(kReportResult, jsonText(json));
+    folder.write(kReportPage, comparePage(json));
     folder.keep();
     return no_plots;
 }

@@ -16,12 +16,6 @@
 
 namespace gnomon::app {
 
-/// Techniques that render the same map have the same picture of texel density, which is written once: the place of the
-/// first of them.
-[[nodiscard]] std::size_t densityShownBy(const CompareResult& result, std::size_t technique);
-/// Takes from `report_files` the pictures that are not written for it.
-void forgetSharedFiles(CompareResult& result);
-
 /// Files are written into a folder of their own; keep() puts them all in their place. Until then neither a folder that
 /// is there nor its report changes, and what was written goes away if keep() is not called.
 class ReportFolder {
@@ -37,8 +31,10 @@ public:
     void write(const std::string& name, const Image8& picture);
     void write(const std::string& name, const Image16& mask);
     void write(const std::string& name, std::string_view bytes);
-    /// By drawPlots(), from result.json as it was written.
+    /// By drawPlots(), from result.json as it was written: all of them, or none and why.
     [[nodiscard]] std::optional<std::string> writePlots();
+    /// What a report with all that was written has: that, the page and result.json.
+    [[nodiscard]] std::vector<std::string> listed() const;
     /// Puts what was written in its place, and removes what the earlier report had and this one has not.
     void keep();
 
@@ -53,10 +49,9 @@ private:
     std::filesystem::path work_;       // where files are written; empty until the first one is
 };
 
-/// Pictures of every technique, plots, the page, result.json (`json`). Where plots cannot be drawn, `json` loses their
-/// files and has a note, which is given back. `step` is called after every technique and may throw.
-[[nodiscard]] std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result,
-                                                     const Shot& shot, const Settings& settings, Json& json,
+/// Pictures of every technique, plots, the page, result.json. `json` (of `result`) gains "pictures" and "report_files",
+/// and a note where plots cannot be drawn, which is given back. `step` is called after every technique and may throw.
+[[nodiscard]] std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, Json& json,
                                                      const std::function<void()>& step);
 
 } // namespace gnomon::app

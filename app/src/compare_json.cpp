@@ -1,32 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare_json.h"
 
+#include "compare_notes.h"
 #include "technique_json.h"
 
 #include <cmath>
 
 namespace gnomon::app {
 namespace {
-
-Json errorJson(const lab::Score& score)
-{
-    const auto number = [&](double lab::ErrorNumbers::*member) {
-        return score.error ? numberJson((*score.error).*member) : Json(nullptr);
-    };
-    const auto share = [&](double lab::ClassErrors::*member) {
-        return score.error && score.classification ? numberJson(score.classification->errors.*member) : Json(nullptr);
-    };
-    return {{"rmse", number(&lab::ErrorNumbers::rmse)},
-            {"mae", number(&lab::ErrorNumbers::mae)},
-            {"bias", number(&lab::ErrorNumbers::bias)},
-            {"p99", number(&lab::ErrorNumbers::p99)},
-            {"ssim", numberJson(score.ssim)},
-            {"flip", numberJson(score.flip)},
-            {"edge", share(&lab::ClassErrors::edge)},
-            {"acne", share(&lab::ClassErrors::acne)},
-            {"detached", share(&lab::ClassErrors::detached)},
-            {"bleeding", share(&lab::ClassErrors::bleeding)}};
-}
 
 Json outcomeJson(const Outcome& outcome)
 {
@@ -51,49 +32,17 @@ Json equalErrorJson(const EqualError& equal)
             {"reason", text(equal.reason)}};
 }
 
-Json pixelsJson(const lab::PixelCounts& pixels)
-{
-    return {{"counted", pixels.counted},
-            {"left_out", pixels.leftOut()},
-            {"left_out_by_reason",
-             {{"background", pixels.background},
-              {"other_object", pixels.other_object},
-              {"facing_away", pixels.facing_away},
-              {"unlit", pixels.unlit},
-              {"no_receiver", pixels.no_receiver}}}};
-}
-
 std::string_view nameOf(truth::Kind kind)
 {
     return kind == truth::Kind::area ? "area" : "hard";
 }
 
-Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_error)
-{
-    // A truth from the cache was traced by another run, whose time says nothing of this one.
-    const bool timed = !truth.from_cache && truth.seconds > 0.0;
-    return {{"kind", nameOf(tracedKind(truth))},
-            {"requested", nameOf(truth.kind)},
-            {"samples", tracedKind(truth) == truth::Kind::area ? truth.samples : 1},
-            {"standard_error", numberJson(standard_error)},
-            {"seed", truth.seed},
-            {"rays", truth.rays},
-            {"seconds", timed ? numberJson(truth.seconds) : Json(nullptr)},
-            {"rays_per_second", timed && truth.rays != 0
-                                    ? numberJson(std::round(static_cast<double>(truth.rays) / truth.seconds))
-                                    : Json(nullptr)},
-            {"from_cache", truth.from_cache}};
-}
-
 Json stabilityJson(const TechniqueOnPath& path, const lab::Score& score)
 {
-    const auto number = [&](double lab::Stability::*member) {
-        return path.stability ? numberJson((*path.stability).*member) : Json(nullptr);
-    };
     // The truth's sun is where it is at every frame, so the error is that of a sun which a technique lets lag behind.
-    return {{"shimmer", number(&lab::Stability::shimmer)},
-            {"pop", number(&lab::Stability::pop)},
-            {"lag", score.error ? numberJson(score.error->rmse) : Json(nullptr)}};
+    return {{"shimmer", memberJson(path.stability, &lab::Stability::shimmer)},
+            {"pop", memberJson(path.stability, &lab::Stability::pop)},
+            {"lag", memberJson(score.error, &lab::ErrorNumbers::rmse)}};
 }
 
 /// Lists as long as the frames.
@@ -123,7 +72,9 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
     Json json{{"technique", technique.name},
               {"choices", choicesJson(technique.settings.shadow.technique)},
               {"map", mapJson(score.atlas, technique.settings.shadow)},
-              {"error", errorJson(score)}};
+              {"error",
+               errorJson(score.error, score.classification ? std::optional(score.classification->errors) : std::nullopt,
+                         {{"ssim", numberJson(score.ssim)}, {"flip", numberJson(score.flip)}})}};
     if (path && path->frames.first != path->frames.last) {
         json["stability"] = stabilityJson(*technique.path, score);
         json["pop_frame"] = popFrameJson(*path, *technique.path);
@@ -133,6 +84,7 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
         json["mean_texels_rendered"] = numberJson(technique.timed.mean_texels_rendered);
     }
     addTimes(json, "", technique.timed.samples);
+    json["frames_timed"] = technique.timed.samples.size();
     json["frame_ratio"] = frameRatioJson(technique.timed);
     if (technique.equal_error) {
         json["equal_error_ratio"] = numberJson(technique.equal_error->ratio);
@@ -181,6 +133,35 @@ Json unitsJson()
 
 } // namespace
 
+Json pixelsJson(const lab::PixelCounts& pixels)
+{
+    return {{"counted", pixels.counted},
+            {"left_out", pixels.leftOut()},
+            {"left_out_by_reason",
+             {{"background", pixels.background},
+              {"other_object", pixels.other_object},
+              {"facing_away", pixels.facing_away},
+              {"unlit", pixels.unlit},
+              {"no_receiver", pixels.no_receiver}}}};
+}
+
+Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_error)
+{
+    // A truth from the cache was traced by another run, whose time says nothing of this one.
+    const bool timed = !truth.from_cache && truth.seconds > 0.0;
+    return {{"kind", nameOf(tracedKind(truth))},
+            {"requested", nameOf(truth.kind)},
+            {"samples", tracedKind(truth) == truth::Kind::area ? truth.samples : 1},
+            {"standard_error", numberJson(standard_error)},
+            {"seed", truth.seed},
+            {"rays", truth.rays},
+            {"seconds", timed ? numberJson(truth.seconds) : Json(nullptr)},
+            {"rays_per_second", timed && truth.rays != 0
+                                    ? numberJson(std::round(static_cast<double>(truth.rays) / truth.seconds))
+                                    : Json(nullptr)},
+            {"from_cache", truth.from_cache}};
+}
+
 Json compareJson(const CompareResult& result, const Shot& shot, const Settings& settings)
 {
     Json json{{"version", GNOMON_VERSION},
@@ -214,9 +195,9 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
         baseline["passes_ms"] = passesJson(result.baseline.samples);
         json["baseline"] = baseline;
     }
-    json["notes"] = result.notes;
-    if (!result.report_files.empty()) {
-        json["report_files"] = result.report_files;
+    json["notes"] = compareNotes(result, json);
+    if (!settings.report.empty()) {
+        json["report_files"] = Json::array(); // until they are written
     }
     json["settings"] = runJson(settings, result.scene_hash, kCompare);
     json["units"] = unitsJson();

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A comparison as JSON, with all that it takes to repeat it.
+// A comparison as JSON, with all that it takes to repeat it. The table on the terminal and the report's page are made
+// from it and know nothing else.
 #pragma once
 
 #include "compare_result.h"
 #include "result_json.h"
 
+#include <optional>
+#include <string>
+
 namespace gnomon::app {
 
+/// Without the names of a report's files, which writeReport() adds.
 [[nodiscard]] Json compareJson(const CompareResult& result, const Shot& shot, const Settings& settings);
+
+/// {"kind", "requested", "samples", ...}; `standard_error` is absent when no pixel counts.
+[[nodiscard]] Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_error);
+/// {"counted", "left_out", "left_out_by_reason"}.
+[[nodiscard]] Json pixelsJson(const lab::PixelCounts& pixels);
 
 /// As text; bytes that are no UTF-8 (of a file's name, say) are replaced.
 [[nodiscard]] std::string jsonText(const Json& json);

@@ -4,11 +4,7 @@
 #include "app/visual.h"
 #include "truth_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 
 namespace gnomon::app {
@@ -154,8 +150,8 @@ void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& sett
             compared.name = contestants[next].name;
             compared.score = std::move(one.score);
             compared.timed = std::move(one.timed);
-            compared.path =
-                TechniqueOnPath{one.stability, std::move(one.rmse), std::move(one.steps), std::move(one.shown)};
+            compared.shown = std::move(one.shown);
+            compared.path = TechniqueOnPath{one.stability, std::move(one.rmse), std::move(one.steps)};
             result.techniques.push_back(std::move(compared));
         }
         result.baseline_bytes = walked.baseline_bytes;
@@ -164,25 +160,6 @@ void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& sett
     }
     result.pixels = result.techniques.front().score.pixels.counts;
     moveShot(shot, settings, settings.frames->first);
-}
-
-std::vector<std::string> pathNotes(const CompareResult& result)
-{
-    std::vector<std::string> notes;
-    if (result.path->frames.first == result.path->frames.last) {
-        notes.emplace_back("a path of one frame has no change from frame to frame, so there is no stability");
-        return notes;
-    }
-    const auto& first = *result.techniques.front().path;
-    if (!first.stability) {
-        notes.emplace_back("no pixel that counts is found in the frame before it, so there is no shimmer and no pop");
-    }
-    const auto empty = std::count(first.rmse.begin(), first.rmse.end(), std::nullopt);
-    if (empty != 0 && static_cast<std::size_t>(empty) != first.rmse.size()) {
-        notes.push_back(fmt::format("in {} of {} frames no pixel counts; the errors are means over the others", empty,
-                                    first.rmse.size()));
-    }
-    return notes;
 }
 
 } // namespace gnomon::app

@@ -18,7 +18,5 @@ namespace gnomon::app {
 /// cache. Pictures are kept for a report only. Throws as judge() does.
 void comparePath(const host::SceneOnGpu& scene, Shot& shot, const Settings& settings,
                  const std::vector<Settings>& techniques, CompareResult& result, const std::function<void()>& step);
-/// Sentences on what a path could not tell.
-[[nodiscard]] std::vector<std::string> pathNotes(const CompareResult& result);
 
 } // namespace gnomon::app

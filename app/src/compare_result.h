@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a comparison found, before anyone puts it into words.
+// What a comparison found. Its JSON is made from it (compare_json.h), and all that is shown is made from that.
 #pragma once
 
 #include "app/shot.h"
@@ -27,7 +27,6 @@ struct TechniqueOnPath {
     std::optional<lab::Stability> stability;
     std::vector<std::optional<double>> rmse;      // by frame; absent where no pixel counts
     std::vector<lab::StabilityMeter::Step> steps; // by frame, from the second on
-    std::vector<lab::ShownFrame> shown;           // of PathResult::shown; none without a report
 };
 
 /// What all techniques have in common along --path.
@@ -44,6 +43,7 @@ struct ComparedTechnique {
     lab::Score score;
     lab::Timed timed;
     std::optional<EqualError> equal_error;
+    std::vector<lab::ShownFrame> shown;  // the frame, or those of PathResult::shown; none without a report
     std::optional<TechniqueOnPath> path; // then `score` is of all its frames
 };
 
@@ -59,8 +59,6 @@ struct CompareResult {
     std::vector<ComparedTechnique> techniques; // best first
     std::optional<SweepResult> sweep;          // then there are no techniques
     std::optional<PathResult> path;            // then `judged` is of its first frame and has no truth
-    std::vector<std::string> notes;            // sentences: what kept a number from being there
-    std::vector<std::string> report_files;     // in the report's folder; empty: no report
 
     [[nodiscard]] const host::ShadedLight& light() const { return judged.subject.lights.front(); }
 };

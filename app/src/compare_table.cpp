@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <set>
 
 namespace gnomon::app {
 namespace {
@@ -29,28 +29,6 @@ std::vector<std::size_t> widthsOf(const TextTable& table)
 std::string cell(const std::optional<double>& value, int decimals)
 {
     return value && std::isfinite(*value) ? fmt::format("{:.{}f}", *value, decimals) : std::string(kNoNumber);
-}
-
-std::vector<std::string> errorColumns()
-{
-    return {"rmse", "mae", "bias", "edge%", "acne%", "detached%", "bleeding%"};
-}
-
-void addErrorCells(std::vector<std::string>& row, const std::optional<lab::ErrorNumbers>& error,
-                   const lab::ClassErrors& classes)
-{
-    const auto number = [&](double lab::ErrorNumbers::*member) {
-        return error ? std::optional((*error).*member) : std::nullopt;
-    };
-    row.push_back(cell(number(&lab::ErrorNumbers::rmse), 4));
-    row.push_back(cell(number(&lab::ErrorNumbers::mae), 4));
-    std::string bias =
-        error && std::isfinite(error->bias) ? fmt::format("{:+.4f}", error->bias) : std::string(kNoNumber);
-    row.push_back(bias == "-0.0000" || bias == "+0.0000" ? "0.0000" : bias);
-    const double squared = error ? error->rmse * error->rmse : 0.0;
-    for (const double part : {classes.edge, classes.acne, classes.detached, classes.bleeding}) {
-        row.push_back(cell(squared > 0.0 ? std::optional(100.0 * part / squared) : std::nullopt, 1));
-    }
 }
 
 std::string tableText(const TextTable& table)
@@ -95,44 +73,6 @@ std::string fittedTableText(const TextTable& table)
     return text;
 }
 
-std::string_view meaningOfColumn(std::string_view column)
-{
-    struct Meaning {
-        std::string_view column;
-        std::string_view text;
-    };
-    static constexpr Meaning kMeanings[] = {
-        {"rmse", "root of the mean squared error of the mask, whose values go from 0 to 1; 0 is best"},
-        {"mae", "mean absolute error of the mask; 0 is best"},
-        {"bias", "mean error: below 0 the shadows are too dark or too large, above 0 too light; 0 is best"},
-        {"shimmer", "root of the mean squared change of the error from frame to frame, at the same points; 0 is best"},
-        {"pop", "the largest mean change of the error from one frame to the next; 0 is best"},
-        {"edge%", "share of the squared error at the rims of shadows: stairs, a penumbra of the wrong width"},
-        {"acne%", "share of the squared error on lit surfaces that shadow themselves"},
-        {"detached%", "share of the squared error in light between an object and its shadow"},
-        {"bleeding%", "share of the squared error in light inside a shadow, far behind what casts it"},
-        {"ssim", "structural similarity of the mask to the truth; 1 is best"},
-        {"flip", "what an eye sees when mask and truth alternate; 0 is best"},
-        {"ratio", "median frame divided by the frame without shadows; 1 costs nothing"},
-        {"ms", "median frame in milliseconds, every map drawn anew in every frame"},
-        {"MiB", "memory beyond the frame without shadows"},
-        {"equal", "median frame divided by that of the cheapest PCF that errs no more; below 1 the better buy"},
-        {"truth+-", "standard error of the truth itself"},
-        {"pixels", "how many pixels count"}};
-    const auto* found = std::find_if(std::begin(kMeanings), std::end(kMeanings),
-                                     [&](const Meaning& meaning) { return meaning.column == column; });
-    return found == std::end(kMeanings) ? std::string_view() : found->text;
-}
-
-std::vector<std::string> meaningsOf(const TextTable& table)
-{
-    std::vector<std::string> meanings;
-    for (const std::string& column : table.columns) {
-        meanings.emplace_back(meaningOfColumn(column));
-    }
-    return meanings;
-}
-
 std::string commonParts(const std::vector<std::string>& techniques)
 {
     if (techniques.size() < 2) {
@@ -154,19 +94,15 @@ std::string commonParts(const std::vector<std::string>& techniques)
 
 std::string commonBlurPath(const std::vector<std::string>& techniques)
 {
-    std::string common;
+    std::set<std::string_view> paths;
     for (const std::string& technique : techniques) {
-        for (const auto part : split(technique, '+')) {
-            if (!part.starts_with("blur.path=")) {
-                continue;
+        for (const std::string_view part : split(technique, '+')) {
+            if (part.starts_with("blur.path=")) {
+                paths.insert(part);
             }
-            if (!common.empty() && common != part) {
-                return {};
-            }
-            common = part;
         }
     }
-    return common;
+    return paths.size() == 1 ? std::string(*paths.begin()) : std::string();
 }
 
 std::string withoutParts(std::string_view technique, std::string_view parts)

@@ -2,9 +2,6 @@
 // Tables of techniques as text.
 #pragma once
 
-#include "lab/metrics/error.h"
-#include "lab/metrics/error_classes.h"
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +13,8 @@ namespace gnomon::app {
 struct TextTable {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows; // each as long as `columns`
+    std::vector<std::string> meanings{};        // none, or as `columns`: a sentence without its end; empty where
+                                                // the name says it
 };
 [[nodiscard]] std::string tableText(const TextTable& table);
 
@@ -25,27 +24,16 @@ inline constexpr std::size_t kTableWidth = 120;
 /// below the table.
 [[nodiscard]] std::string fittedTableText(const TextTable& table);
 
-/// What the numbers of a column are, in a sentence without its end; empty for columns that say it themselves.
-[[nodiscard]] std::string_view meaningOfColumn(std::string_view column);
-/// Of every column.
-[[nodiscard]] std::vector<std::string> meaningsOf(const TextTable& table);
-
 /// What a cell shows that has no number.
 inline constexpr std::string_view kNoNumber = "-";
 [[nodiscard]] std::string cell(const std::optional<double>& value, int decimals);
 
-/// The headings of addErrorCells().
-[[nodiscard]] std::vector<std::string> errorColumns();
-/// rmse, mae, bias, and the share of each class in the squared error in percent; kNoNumber where there is none.
-void addErrorCells(std::vector<std::string>& row, const std::optional<lab::ErrorNumbers>& error,
-                   const lab::ClassErrors& classes);
-
 /// The parts after the first of "pcf+map-size=64+pcf.kernel=3x3" that all techniques have, "+" between; empty with
 /// fewer than two techniques.
 [[nodiscard]] std::string commonParts(const std::vector<std::string>& techniques);
-/// `technique` less the parts of `parts`.
 /// The part that says how techniques blur, if all of them that blur say the same: "blur.path=compute"; else empty.
 [[nodiscard]] std::string commonBlurPath(const std::vector<std::string>& techniques);
+/// `technique` less the parts of `parts`.
 [[nodiscard]] std::string withoutParts(std::string_view technique, std::string_view parts);
 
 } // namespace gnomon::app

@@ -1,60 +1,154 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare_text.h"
 
-#include "technique_json.h"
-
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace gnomon::app {
 namespace {
 
-std::vector<std::string> namesOf(const CompareResult& result)
+enum class Form : std::uint8_t { plain, with_sign, share_of_squared_rmse, mebibytes };
+
+struct Column {
+    const char* name;
+    const char* with;  // a table has the column where its result has this; empty: always
+    const char* where; // its number in a row of rowsOf()
+    int decimals;
+    Form form;
+    const char* meaning; // a sentence without its end
+};
+
+constexpr Column kColumns[] = {
+    {"rmse", "", "/error/rmse", 4, Form::plain,
+     "root of the mean squared error of the mask, whose values go from 0 to 1; 0 is best"},
+    {"shimmer", "/path", "/stability/shimmer", 4, Form::plain,
+     "root of the mean squared change of the error from frame to frame, at the same points; 0 is best"},
+    {"pop", "/path", "/stability/pop", 4, Form::plain,
+     "the largest mean change of the error from one frame to the next; 0 is best"},
+    {"mae", "", "/error/mae", 4, Form::plain, "mean absolute error of the mask; 0 is best"},
+    {"bias", "", "/error/bias", 4, Form::with_sign,
+     "mean error: below 0 the shadows are too dark or too large, above 0 too light; 0 is best"},
+    {"edge%", "", "/error/edge", 1, Form::share_of_squared_rmse,
+     "share of the squared error at the rims of shadows: stairs, a penumbra of the wrong width"},
+    {"acne%", "", "/error/acne", 1, Form::share_of_squared_rmse,
+     "share of the squared error on lit surfaces that shadow themselves"},
+    {"detached%", "", "/error/detached", 1, Form::share_of_squared_rmse,
+     "share of the squared error in light between an object and its shadow"},
+    {"bleeding%", "", "/error/bleeding", 1, Form::share_of_squared_rmse,
+     "share of the squared error in light inside a shadow, far behind what casts it"},
+    {"ssim", "/baseline", "/error/ssim", 3, Form::plain, "structural similarity of the mask to the truth; 1 is best"},
+    {"flip", "/baseline", "/error/flip", 3, Form::plain, "what an eye sees when mask and truth alternate; 0 is best"},
+    {"ratio", "/baseline", "/frame_ratio", 2, Form::plain,
+     "median frame divided by the frame without shadows; 1 costs nothing"},
+    {"ms", "/baseline", "/time_ms/frame", 2, Form::plain,
+     "median frame in milliseconds, every map drawn anew in every frame"},
+    {"MiB", "/baseline", "/memory_bytes", 1, Form::mebibytes, "memory beyond the frame without shadows"},
+    {"equal", "/results/0/equal_error", "/equal_error_ratio", 2, Form::plain,
+     "median frame divided by that of the cheapest PCF that errs no more; below 1 the better buy"},
+    {"truth+-", "/sweep/truth", "/truth/standard_error", 4, Form::plain, "standard error of the truth itself"},
+    {"pixels", "/sweep/truth", "/pixels/counted", 0, Form::plain, "how many pixels count"}};
+
+bool has(const Json& result, const char* pointer)
+{
+    return result.contains(Json::json_pointer(pointer));
+}
+
+std::vector<std::string> namesOf(const Json& rows)
 {
     std::vector<std::string> names;
-    for (const ComparedTechnique& technique : result.techniques) {
-        names.push_back(technique.name);
+    for (const Json& row : rows) {
+        names.push_back(textAt(row, "/technique"));
     }
     return names;
 }
 
-bool hasEqualError(const CompareResult& result)
+/// The points of a sweep as techniques are: "technique", "value", "error" and, where each has its own, "truth" and
+/// "pixels".
+Json pointsOf(const Json& sweep)
 {
-    return std::any_of(result.techniques.begin(), result.techniques.end(),
-                       [](const ComparedTechnique& technique) { return technique.equal_error.has_value(); });
+    Json points = Json::array();
+    for (const Json& line : sweep.at("results")) {
+        for (std::size_t i = 0; i < sweep.at("values").size(); ++i) {
+            Json point{{"technique", line.at("technique")}, {"value", sweep.at("values")[i]}};
+            for (const auto& [key, list] : line.items()) {
+                if (list.is_array()) {
+                    point["error"][key] = list[i];
+                }
+            }
+            for (const char* key : {"truth", "pixels"}) {
+                if (sweep.contains(key)) {
+                    point[key] = sweep.at(key)[i];
+                }
+            }
+            points.push_back(std::move(point));
+        }
+    }
+    return points;
 }
 
-/// The match of every technique, a line each.
-std::string equalErrorText(const CompareResult& result)
+std::string cellOf(const Column& column, const Json& row)
 {
-    std::string text = "\nPCF of equal error, timed in turn with each technique:\n";
-    for (const ComparedTechnique& technique : result.techniques) {
-        if (!technique.equal_error) {
-            continue;
-        }
-        const EqualError& equal = *technique.equal_error;
-        text += fmt::format(
-            "  {}: {}\n", technique.name,
-            equal.ratio ? fmt::format("{:.2f} times the frame of {} (rmse {}; {:.2f} against {:.2f} ms)", *equal.ratio,
-                                      equal.pcf, cell(equal.pcf_rmse, 4), *equal.technique_ms, *equal.pcf_ms)
-                        : "no ratio, because " + equal.reason);
-        if (equal.shadow_ratio) {
-            text += fmt::format("    {:.2f} times without the {:.2f} ms of the frame without shadows\n",
-                                *equal.shadow_ratio, *equal.without_ms);
-        }
+    std::optional<double> number = numberAt(row, column.where);
+    if (number && column.form == Form::share_of_squared_rmse) {
+        const double rmse = numberAt(row, "/error/rmse").value_or(0.0);
+        number = rmse > 0.0 ? std::optional(100.0 * *number / (rmse * rmse)) : std::nullopt;
+    } else if (number && column.form == Form::mebibytes) {
+        *number /= 1024.0 * 1024.0;
+    }
+    std::string text = cell(number, column.decimals);
+    if (number && column.form == Form::with_sign) {
+        const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+        text = is_zero ? cell(0.0, column.decimals) : (*number > 0.0 ? "+" : "") + text;
     }
     return text;
 }
 
-/// Which techniques' cascades were drawn which way; empty where there are none.
-std::string cascadesText(const CompareResult& result)
+/// As it stands in the table.
+std::string valueCell(double value)
+{
+    return std::floor(value) == value ? fmt::format("{:.0f}", value + 0.0) : fmt::format("{:.4g}", value);
+}
+
+/// The match of every technique, a line each; empty where none was looked for.
+std::string equalErrorText(const Json& result)
 {
     std::string text;
-    for (const ComparedTechnique& technique : result.techniques) {
-        if (const auto pass = cascadePassOf(technique.timed)) {
-            text += fmt::format("  {}: {}\n", technique.name, nameOf(*pass));
+    for (const Json& technique : result.at("results")) {
+        if (!technique.contains("equal_error")) {
+            continue;
+        }
+        const auto number = [&](const char* pointer, int decimals) {
+            return cell(numberAt(technique, pointer), decimals);
+        };
+        const bool found = technique.at("equal_error_ratio").is_number();
+        text += fmt::format(
+            "  {}: {}\n", textAt(technique, "/technique"),
+            found ? fmt::format("{} times the frame of {} (rmse {}; {} against {} ms)", number("/equal_error_ratio", 2),
+                                textAt(technique, "/equal_error/technique"), number("/equal_error/rmse", 4),
+                                number("/equal_error/frame_ms/technique", 2), number("/equal_error/frame_ms/pcf", 2))
+                  : "no ratio, because " + textAt(technique, "/equal_error/reason"));
+        if (technique.at("equal_error_shadow_ratio").is_number()) {
+            text +=
+                fmt::format("    {} times without the {} ms of the frame without shadows\n",
+                            number("/equal_error_shadow_ratio", 2), number("/equal_error/frame_ms/without_shadows", 2));
+        }
+    }
+    return text.empty() ? text : "\nPCF of equal error, timed in turn with each technique:\n" + text;
+}
+
+/// Which techniques' cascades were drawn which way; empty where there are none.
+std::string cascadesText(const Json& result)
+{
+    std::string text;
+    for (const Json& technique : result.at("results")) {
+        if (technique.at("cascade_pass").is_string()) {
+            text += fmt::format("  {}: {}\n", textAt(technique, "/technique"), textAt(technique, "/cascade_pass"));
         }
     }
     return text.empty() ? text : "\nmaps of cascades drawn:\n" + text;
@@ -80,161 +174,147 @@ std::string tracedText(std::uint64_t rays, double seconds)
     return fmt::format("{} in {:.2f} s, {:.3g} million/s", raysText(rays), seconds, speed / kMillion);
 }
 
+/// Where a sweep has a truth for each value.
+std::string truthsText(const Json& sweep)
+{
+    std::uint64_t rays = 0;
+    double seconds = 0.0;
+    std::size_t kept = 0;
+    const Json& truths = sweep.at("truth");
+    for (const Json& truth : truths) {
+        rays += truth.at("rays").get<std::uint64_t>();
+        seconds += numberAt(truth, "/seconds").value_or(0.0);
+        kept += truth.at("from_cache").get<bool>() ? 1U : 0U;
+    }
+    return fmt::format("{}, one for each value of {}; {}", textAt(truths[0], "/requested"), textAt(sweep, "/key"),
+                       kept == 0 ? tracedText(rays, seconds)
+                                 : fmt::format("{} ({} of {} from the cache)", raysText(rays), kept, truths.size()));
+}
+
 } // namespace
 
-TextTable compareTable(const CompareResult& result, bool short_names)
+TextTable compareTable(const Json& result, bool short_names)
 {
-    const std::string common = short_names ? commonParts(namesOf(result)) : std::string();
-    const std::string path = short_names ? commonBlurPath(namesOf(result)) : std::string();
-    const bool equal = hasEqualError(result);
-    TextTable table;
-    table.columns = {"technique"};
-    const std::vector<std::string> errors = errorColumns();
-    table.columns.insert(table.columns.end(), errors.begin(), errors.end());
-    table.columns.insert(table.columns.end(), {"ssim", "flip", "ratio", "ms", "MiB"});
-    if (result.path) {
-        table.columns.insert(table.columns.begin() + 2, {"shimmer", "pop"});
+    const bool sweep = result.contains("sweep");
+    const Json rows = sweep ? pointsOf(result.at("sweep")) : result.at("results");
+    const std::vector<std::string> names = namesOf(rows);
+    const std::string common = short_names ? commonParts(names) + "+" + commonBlurPath(names) : std::string();
+    TextTable table{{"technique"}, {}, {""}};
+    for (const std::string& name : names) {
+        table.rows.push_back({withoutParts(name, common)});
     }
-    if (equal) {
-        table.columns.emplace_back("equal");
+    if (sweep) {
+        table.columns.push_back(textAt(result, "/sweep/key"));
+        table.meanings.emplace_back();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            table.rows[i].push_back(valueCell(rows[i].at("value").get<double>()));
+        }
     }
-    for (const ComparedTechnique& technique : result.techniques) {
-        const lab::Score& score = technique.score;
-        std::vector<std::string> row{withoutParts(withoutParts(technique.name, common), path)};
-        addErrorCells(row, score.error, score.classification ? score.classification->errors : lab::ClassErrors{});
-        if (technique.path) {
-            const auto& stability = technique.path->stability;
-            row.insert(row.begin() + 2, {cell(stability ? std::optional(stability->shimmer) : std::nullopt, 4),
-                                         cell(stability ? std::optional(stability->pop) : std::nullopt, 4)});
+    for (const Column& column : kColumns) {
+        if (!has(result, column.with)) {
+            continue;
         }
-        row.push_back(cell(score.ssim, 3));
-        row.push_back(cell(score.flip, 3));
-        const double ratio = lab::frameRatio(technique.timed);
-        row.push_back(cell(ratio > 0.0 ? std::optional(ratio) : std::nullopt, 2));
-        row.push_back(cell(frameMedian(technique.timed.samples), 2));
-        row.push_back(cell(static_cast<double>(totalBytes(technique.timed.added_memory)) / (1024.0 * 1024.0), 1));
-        if (equal) {
-            row.push_back(cell(technique.equal_error ? technique.equal_error->ratio : std::nullopt, 2));
+        table.columns.emplace_back(column.name);
+        table.meanings.emplace_back(column.meaning);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            table.rows[i].push_back(cellOf(column, rows[i]));
         }
-        table.rows.push_back(std::move(row));
     }
     return table;
 }
 
-std::string truthText(const CompareResult& result)
+std::string truthText(const Json& result)
 {
-    const TruthFacts& truth = result.judged.facts;
-    if (result.sweep && result.sweep->plan.remakes_shot) {
-        std::uint64_t rays = 0;
-        double seconds = 0.0;
-        std::ptrdiff_t kept = 0;
-        for (const SweepResult::Place& place : result.sweep->places) {
-            rays += place.truth.rays;
-            seconds += place.truth.seconds;
-            kept += place.truth.from_cache ? 1 : 0;
-        }
-        return fmt::format(
-            "{}, one for each value of {}; {}", truth.kind == truth::Kind::area ? "area" : "hard",
-            result.sweep->plan.key,
-            kept == 0 ? tracedText(rays, seconds)
-                      : fmt::format("{} ({} of {} from the cache)", raysText(rays), kept, result.sweep->places.size()));
+    if (has(result, "/sweep/truth")) {
+        return truthsText(result.at("sweep"));
     }
+    const Json& truth = result.at("truth");
+    const auto rays = truth.at("rays").get<std::uint64_t>();
     std::string text = "hard, one ray per pixel";
-    if (tracedKind(truth) == truth::Kind::area) {
-        text = fmt::format("area, {} rays per pixel, standard error {}", truth.samples, cell(result.standard_error, 4));
-    } else if (truth.kind == truth::Kind::area) {
+    if (truth.at("kind") == "area") {
+        text = fmt::format("area, {} rays per pixel, standard error {}", truth.at("samples").dump(),
+                           cell(numberAt(truth, "/standard_error"), 4));
+    } else if (truth.at("requested") == "area") {
         text += ", for the light has no area";
     }
-    return fmt::format("{}{}; {}", text, result.path ? ", at every frame" : "",
-                       truth.from_cache ? raysText(truth.rays) + " (from the cache)"
-                                        : tracedText(truth.rays, truth.seconds));
+    return fmt::format("{}{}; {}", text, result.contains("path") ? ", at every frame" : "",
+                       truth.at("from_cache").get<bool>()
+                           ? raysText(rays) + " (from the cache)"
+                           : tracedText(rays, numberAt(truth, "/seconds").value_or(0.0)));
 }
 
-std::string pathText(const PathResult& path)
+std::string framesText(const Json& result)
 {
-    return fmt::format("path:   {}, frames {} to {}", path.name, path.frames.first, path.frames.last);
+    const Json& path = result.at("path");
+    return fmt::format("{}, frames {} to {}", textAt(path, "/name"), path.at("frames").at("first").dump(),
+                       path.at("frames").at("last").dump());
 }
 
-std::string countedText(const CompareResult& result)
+std::string countedText(const Json& result)
 {
-    return result.sweep && result.sweep->plan.remakes_shot
-               ? fmt::format("in the table, for each value of {}", result.sweep->plan.key)
-               : pixelsText(result.pixels);
+    return has(result, "/sweep/truth") ? "in the table, for each value of " + textAt(result, "/sweep/key")
+                                       : pixelsText(result.at("pixels"));
 }
 
-std::string pixelsText(const lab::PixelCounts& pixels)
+std::string pixelsText(const Json& pixels)
 {
-    const std::pair<std::uint64_t, const char*> reasons[] = {
-        {pixels.background, "background"},
-        {pixels.other_object, "where the sides see different objects"},
-        {pixels.facing_away, "facing away"},
-        {pixels.unlit, "outside the light's reach"},
-        {pixels.no_receiver, "that receive no shadow"}};
-    std::string text = fmt::format("{} counted", pixels.counted);
+    constexpr std::pair<const char*, const char*> kReasons[] = {
+        {"background", "background"},
+        {"other_object", "where the sides see different objects"},
+        {"facing_away", "facing away"},
+        {"unlit", "outside the light's reach"},
+        {"no_receiver", "that receive no shadow"}};
     std::string left;
-    for (const auto& [count, reason] : reasons) {
-        if (count != 0) {
-            left += fmt::format("{}{} {}", left.empty() ? "" : ", ", count, reason);
+    for (const auto& [key, reason] : kReasons) {
+        if (const Json& count = pixels.at("left_out_by_reason").at(key); count != 0) {
+            left += fmt::format("{}{} {}", left.empty() ? "" : ", ", count.dump(), reason);
         }
     }
-    return text + (left.empty() ? ", none left out" : "; left out: " + left);
+    return pixels.at("counted").dump() + " counted" + (left.empty() ? ", none left out" : "; left out: " + left);
 }
 
-std::string pixelsNote(const lab::PixelCounts& pixels, std::uint64_t rays)
+std::string lightText(const Json& light)
 {
-    constexpr std::uint64_t kFew = 20; // one in so many
-    if (pixels.counted == 0) {
-        return fmt::format("no pixel counts, so there are no error numbers: {}{}", pixelsText(pixels),
-                           rays == 0 ? "; no ray was traced" : "");
-    }
-    const std::uint64_t surface = pixels.counted + pixels.leftOut() - pixels.background;
-    if (pixels.counted * kFew >= surface) {
-        return "";
-    }
-    return fmt::format("only {} of {} pixels with a surface count, so the error numbers say little of the picture: {}",
-                       pixels.counted, surface, pixelsText(pixels));
-}
-
-std::string lightText(const host::ShadedLight& light)
-{
-    const Light& caster = light.caster;
-    const auto point = [](const glm::dvec3& p) {
-        return fmt::format("{:.4g},{:.4g},{:.4g}", p.x + 0.0, p.y + 0.0, p.z + 0.0); // no minus nothing
+    const auto point = [&](const char* key) {
+        const auto p = light.at(key).get<std::array<double, 3>>();
+        return fmt::format("{:.4g},{:.4g},{:.4g}", p[0], p[1], p[2]);
     };
-    if (caster.type == LightType::directional) {
-        return fmt::format("directional, direction {}, {:.3g} degrees wide", point(caster.direction_ws),
-                           glm::degrees(caster.angular_diameter_rad));
+    if (light.at("type") == "directional") {
+        return fmt::format("directional, direction {}, {:.3g} degrees wide", point("direction_ws"),
+                           glm::degrees(light.at("angular_diameter_rad").get<double>()));
     }
-    return fmt::format("{}, at {}, radius {:.3g} m", nameOf(caster.type), point(caster.position_ws), caster.radius_m);
+    return fmt::format("{}, at {}, radius {:.3g} m", textAt(light, "/type"), point("position_ws"),
+                       light.at("radius_m").get<double>());
 }
 
-std::string compareText(const CompareResult& result, const Shot& shot, const Settings& settings)
+std::string compareText(const Json& result)
 {
-    std::string text =
-        fmt::format("{}, camera {}, {}x{}, light {}, on {} ({})\n", settings.scene, shot.camera, settings.size_px.x,
-                    settings.size_px.y, result.light().name, result.device, result.driver);
+    const Json& size = result.at("size_px");
+    std::string text = fmt::format("{}, camera {}, {}x{}, light {}, on {} ({})\n", textAt(result, "/scene"),
+                                   textAt(result, "/camera"), size[0].dump(), size[1].dump(), textAt(result, "/light"),
+                                   textAt(result, "/device"), textAt(result, "/driver"));
     text += fmt::format("truth:  {}\n", truthText(result));
     text += fmt::format("pixels: {}\n", countedText(result));
-    if (result.sweep) {
-        return text + "\n" + fittedTableText(sweepTable(*result.sweep));
+    if (result.contains("sweep")) {
+        return text + "\n" + fittedTableText(compareTable(result, false));
     }
-    const std::string common = commonParts(namesOf(result));
+    const std::vector<std::string> names = namesOf(result.at("results"));
+    const std::string common = commonParts(names);
     if (!common.empty()) {
         text += fmt::format("all with {}\n", common);
     }
-    if (const std::string path = commonBlurPath(namesOf(result));
-        !path.empty() && common.find(path) == std::string::npos) {
+    if (const std::string path = commonBlurPath(names); !path.empty() && common.find(path) == std::string::npos) {
         text += fmt::format("blurred with {}\n", path);
     }
-    if (result.path) {
-        text += pathText(*result.path) + "; errors are means over them\n";
+    if (result.contains("path")) {
+        text += fmt::format("path:   {}; errors are means over them\n", framesText(result));
     }
-    text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({:.2f} ms){}\n\n",
-                        result.path ? result.techniques.front().timed.samples.size() : settings.repetitions,
-                        frameMedian(result.baseline.samples),
-                        hasEqualError(result) ? ",\nequal: to the cheapest PCF that errs no more" : "");
-    text += fittedTableText(compareTable(result, true)) + cascadesText(result);
-    return text + (hasEqualError(result) ? equalErrorText(result) : "");
+    const std::string equal = equalErrorText(result);
+    text += fmt::format("best first; ms: median frame of {}, ratio: to the frame without shadows ({} ms){}\n\n",
+                        result.at("results").at(0).at("frames_timed").dump(),
+                        cell(numberAt(result, "/baseline/time_ms/frame"), 2),
+                        equal.empty() ? "" : ",\nequal: to the cheapest PCF that errs no more");
+    return text + fittedTableText(compareTable(result, true)) + cascadesText(result) + equal;
 }
 
 } // namespace gnomon::app

@@ -54,6 +54,18 @@ Json settingsJson(const Settings& settings, std::uint32_t subcommand)
     return json;
 }
 
+std::optional<double> numberAt(const Json& json, const char* pointer)
+{
+    const Json::json_pointer place(pointer);
+    return json.contains(place) && json.at(place).is_number() ? std::optional(json.at(place).get<double>())
+                                                              : std::nullopt;
+}
+
+const std::string& textAt(const Json& json, const char* pointer)
+{
+    return json.at(Json::json_pointer(pointer)).get_ref<const std::string&>();
+}
+
 Json choicesJson(const Technique& technique)
 {
     return {{"partition", gnomon::nameOf(technique.partition)},

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
+#include <string>
+
 namespace gnomon::app {
 
 using Json = nlohmann::ordered_json;
@@ -14,6 +17,11 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json settingsJson(const Settings& settings, std::uint32_t subcommand);
 /// {"partition": "single", ...}
 [[nodiscard]] Json choicesJson(const Technique& technique);
+/// The number that `pointer` leads to; nothing where there is none.
+[[nodiscard]] std::optional<double> numberAt(const Json& json, const char* pointer);
+/// The text that `pointer` leads to. Precondition: there is one.
+[[nodiscard]] const std::string& textAt(const Json& json, const char* pointer);
+
 /// One setting as `list` shows it.
 [[nodiscard]] Json settingJson(const Setting& setting);
 

@@ -2,13 +2,13 @@
 #include "sweep.h"
 
 #include "app/shot.h"
+#include "compare_table.h"
 #include "setting_values.h"
 #include "technique_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -46,28 +46,6 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
     return isUsed(setting, settings);
 }
 
-struct Column {
-    std::string_view name;
-    std::optional<double> (*value)(const SweepResult::Point& point);
-};
-
-template <double lab::ClassErrors::*member>
-std::optional<double> classOf(const SweepResult::Point& point)
-{
-    return point.error ? std::optional(point.classes.*member) : std::nullopt;
-}
-template <double lab::ErrorNumbers::*member>
-std::optional<double> numberOf(const SweepResult::Point& point)
-{
-    return point.error ? std::optional((*point.error).*member) : std::nullopt;
-}
-constexpr std::array kNumbers{
-    Column{"rmse", numberOf<&lab::ErrorNumbers::rmse>}, Column{"mae", numberOf<&lab::ErrorNumbers::mae>},
-    Column{"bias", numberOf<&lab::ErrorNumbers::bias>}, Column{"p99", numberOf<&lab::ErrorNumbers::p99>}};
-constexpr std::array kClasses{
-    Column{"edge", classOf<&lab::ClassErrors::edge>}, Column{"acne", classOf<&lab::ClassErrors::acne>},
-    Column{"detached", classOf<&lab::ClassErrors::detached>}, Column{"bleeding", classOf<&lab::ClassErrors::bleeding>}};
-
 } // namespace
 
 SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
@@ -96,8 +74,7 @@ SweepPlan planSweep(const Sweep& sweep, const std::vector<Settings>& techniques)
         if (technique.shadow.bias.automatic && !line.points.front().shadow.bias.automatic) {
             plan.ends_automatic_bias = true;
         }
-        line.technique = withoutParts(describeTechnique(line.points.front()),
-                                      fmt::format("{}={}", plan.key, valueText(plan.values.front())));
+        line.technique = withoutParts(describeTechnique(line.points.front()), placeText(plan.key, plan.values.front()));
         for (const SweepPlan::Line& other : plan.lines) {
             if (describeTechnique(other.points.front()) == describeTechnique(line.points.front())) {
                 throw UsageError(fmt::format("--sweep: {} is twice among the techniques once {} is swept",
@@ -120,9 +97,9 @@ Settings settingsAt(const SweepPlan& plan, std::size_t value, const Settings& se
     return changed;
 }
 
-std::string placeText(const SweepPlan& plan, std::size_t value)
+std::string placeText(const std::string& key, double value)
 {
-    return fmt::format("{}={}", plan.key, valueText(plan.values[value]));
+    return fmt::format("{}={}", key, valueText(value));
 }
 
 SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,
@@ -142,7 +119,8 @@ SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const Judged
             const lab::Score score = lab::scoreTechnique(other ? *other : scene, judged.subject, judged.truth,
                                                          renderOptions(settings), false);
             result.points[line].push_back(
-                {score.error, score.classification ? score.classification->errors : lab::ClassErrors{}, score.outcome});
+                {score.error, score.classification ? std::optional(score.classification->errors) : std::nullopt,
+                 score.outcome});
             if (line == 0 && (value == 0 || result.plan.remakes_shot)) {
                 result.places.push_back({judged.facts, lab::truthNoise(judged.truth.visibility, score.pixels.counted),
                                          score.pixels.counts});
@@ -162,45 +140,17 @@ Json sweepJson(const SweepResult& result)
     json["results"] = Json::array();
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         Json line{{"technique", result.plan.lines[i].technique}};
-        const auto add = [&](const Column& column) {
-            Json& list = line[std::string(column.name)] = Json::array();
-            for (const SweepResult::Point& point : result.points[i]) {
-                list.push_back(numberJson(column.value(point)));
+        for (const SweepResult::Point& point : result.points[i]) {
+            const Json error = errorJson(point.error, point.classes);
+            for (const auto& [key, number] : error.items()) {
+                line[key].push_back(number);
             }
-        };
-        std::for_each(kNumbers.begin(), kNumbers.end(), add);
-        std::for_each(kClasses.begin(), kClasses.end(), add);
+        }
         line["settings"] = repeatJson(result.plan.lines[i].points.front(), kCompare);
         line["settings"].erase(result.plan.key);
         json["results"].push_back(line);
     }
     return json;
-}
-
-TextTable sweepTable(const SweepResult& result)
-{
-    TextTable table;
-    table.columns = {"technique", result.plan.key};
-    const std::vector<std::string> columns = errorColumns();
-    table.columns.insert(table.columns.end(), columns.begin(), columns.end());
-    if (result.plan.remakes_shot) {
-        table.columns.insert(table.columns.end(), {"truth+-", "pixels"});
-    }
-    for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
-        for (std::size_t j = 0; j < result.plan.values.size(); ++j) {
-            const SweepResult::Point& point = result.points[i][j];
-            const double value = result.plan.values[j];
-            std::vector<std::string> row{result.plan.lines[i].technique,
-                                         std::floor(value) == value ? valueText(value) : fmt::format("{:.4g}", value)};
-            addErrorCells(row, point.error, point.classes);
-            if (result.plan.remakes_shot) {
-                row.push_back(cell(result.places[j].standard_error, 4));
-                row.push_back(fmt::format("{}", result.places[j].pixels.counted));
-            }
-            table.rows.push_back(std::move(row));
-        }
-    }
-    return table;
 }
 
 } // namespace gnomon::app

@@ -5,7 +5,6 @@
 
 #include "app/settings.h"
 #include "compare_judged.h"
-#include "compare_table.h"
 #include "lab/compare.h"
 #include "result_json.h"
 
@@ -38,12 +37,12 @@ struct SweepPlan {
 /// `settings` with one of the plan's values.
 [[nodiscard]] Settings settingsAt(const SweepPlan& plan, std::size_t value, const Settings& settings);
 /// "sun-angle=0.5"
-[[nodiscard]] std::string placeText(const SweepPlan& plan, std::size_t value);
+[[nodiscard]] std::string placeText(const std::string& key, double value);
 
 struct SweepResult {
     struct Point {
-        std::optional<lab::ErrorNumbers> error; // absent when no pixel counts
-        lab::ClassErrors classes;               // zeros without an error
+        std::optional<lab::ErrorNumbers> error;  // absent when no pixel counts
+        std::optional<lab::ClassErrors> classes; // likewise
         Outcome outcome;
     };
     /// The same for all techniques.
@@ -64,8 +63,5 @@ using JudgedAt = std::function<const Judged&(std::size_t value)>;
 
 /// {"key", "unit", "values", "results": [{"technique", "rmse", ...}]}, each list as long as the values.
 [[nodiscard]] Json sweepJson(const SweepResult& result);
-/// A row for each technique and value: the error and where it comes from; where the shot is made anew, the truth's
-/// standard error and the pixels that count, too.
-[[nodiscard]] TextTable sweepTable(const SweepResult& result);
 
 } // namespace gnomon::app

@@ -229,6 +229,21 @@ Json reuseJson(const std::vector<host::FrameTimes>& samples)
     return json;
 }
 
+Json errorJson(const std::optional<lab::ErrorNumbers>& error, const std::optional<lab::ClassErrors>& classes,
+               const Json& more)
+{
+    Json json{{"rmse", memberJson(error, &lab::ErrorNumbers::rmse)},
+              {"mae", memberJson(error, &lab::ErrorNumbers::mae)},
+              {"bias", memberJson(error, &lab::ErrorNumbers::bias)},
+              {"p99", memberJson(error, &lab::ErrorNumbers::p99)}};
+    json.update(more);
+    json.update({{"edge", memberJson(classes, &lab::ClassErrors::edge)},
+                 {"acne", memberJson(classes, &lab::ClassErrors::acne)},
+                 {"detached", memberJson(classes, &lab::ClassErrors::detached)},
+                 {"bleeding", memberJson(classes, &lab::ClassErrors::bleeding)}});
+    return json;
+}
+
 Json densityJson(const lab::TexelDensity& density)
 {
     const auto percentile = [&](double value) {

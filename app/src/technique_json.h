@@ -5,6 +5,8 @@
 
 #include "app/settings.h"
 #include "host/frame_renderer.h"
+#include "lab/metrics/error.h"
+#include "lab/metrics/error_classes.h"
 #include "lab/texel_density.h"
 #include "lab/timing.h"
 #include "result_json.h"
@@ -63,6 +65,16 @@ struct ReuseCounter {
 [[nodiscard]] std::vector<ReuseCounter> reuseCounters(const std::vector<host::FrameTimes>& samples);
 /// Those, by name.
 [[nodiscard]] Json reuseJson(const std::vector<host::FrameTimes>& samples);
+/// {"rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding"}, with `more` before the last four; null where
+/// no pixel counts.
+[[nodiscard]] Json errorJson(const std::optional<lab::ErrorNumbers>& error,
+                             const std::optional<lab::ClassErrors>& classes, const Json& more = Json::object());
+/// The member of a value; null where there is no value.
+template <typename T>
+[[nodiscard]] Json memberJson(const std::optional<T>& value, double T::*member)
+{
+    return value ? numberJson((*value).*member) : Json(nullptr);
+}
 /// {"p01", "p50", "p99", "pixels": {"counted", "left_out"}}; percentiles are null when no pixel counts.
 [[nodiscard]] Json densityJson(const lab::TexelDensity& density);
 /// Median frame by that without shadows; null where the clock measured none.

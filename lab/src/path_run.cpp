@@ -40,6 +40,8 @@ bool canBeRevisited(const host::RenderOptions& options)
     return technique.motion != Motion::step_alternate && technique.partition != Partition::sdsm;
 }
 
+} // namespace
+
 ShownFrame shownOf(Score& score)
 {
     ShownFrame shown;
@@ -50,8 +52,6 @@ ShownFrame shownOf(Score& score)
     shown.counted = std::move(score.pixels.counted);
     return shown;
 }
-
-} // namespace
 
 struct PathRun::Impl {
     std::vector<Walker> walkers; // the first draws without shadows

@@ -7,6 +7,7 @@
 #include "compare_text.h"
 #include "contestants.h"
 #include "image/image_io.h"
+#include "technique_json.h"
 
 #include <gnomon/error.h>
 
@@ -92,23 +93,23 @@ TEST(ReportFiles, AreNumberedByTechniqueOrLine)
 /// A frame of up to a second; more, or --equal-error, makes it wider.
 TEST(CompareTable, Fits120Columns)
 {
-    app::CompareResult result;
+    app::Json result{{"baseline", app::Json::object()}, {"results", app::Json::array()}};
     for (app::Settings settings : app::contestants(app::defaultSettings())) {
         if (filterTraits(settings.shadow.technique.filter)->filterable) {
             app::applySetting(settings, "blur.path", "fragment"); // the longest name
         }
-        app::ComparedTechnique& technique = result.techniques.emplace_back();
-        technique.settings = settings;
-        technique.name = app::describeTechnique(settings);
-        technique.score.error = lab::ErrorNumbers{0.1, 0.1, -0.1, 0.9};
-        technique.score.classification.emplace().errors = {0.01, 0.0, 0.0, 0.0};
-        technique.score.ssim = technique.score.flip = 0.5;
-        technique.timed.samples.emplace_back().frame_ms = 999.99;
-        technique.timed.baseline_ms = 1000.0;
-        technique.timed.added_memory = {{"maps", std::uint64_t{1} << 30U}};
+        result["results"].push_back(
+            {{"technique", app::describeTechnique(settings)},
+             {"error", app::errorJson(lab::ErrorNumbers{0.1, 0.1, -0.1, 0.9}, lab::ClassErrors{0.01, 0.0, 0.0, 0.0},
+                                      {{"ssim", 0.5}, {"flip", 0.5}})},
+             {"time_ms", {{"frame", 999.99}}},
+             {"frame_ratio", 1.0},
+             {"memory_bytes", std::uint64_t{1} << 30U}});
     }
-    ASSERT_EQ(result.techniques.size(), 12U);
-    std::istringstream in(app::tableText(app::compareTable(result, true)));
+    ASSERT_EQ(result["results"].size(), 12U);
+    const app::TextTable table = app::compareTable(result, true);
+    EXPECT_EQ(table.rows[0].back(), "1024.0");
+    std::istringstream in(app::tableText(table));
     for (std::string line; std::getline(in, line);) {
         EXPECT_LE(line.size(), 120U) << line;
     }
@@ -132,12 +133,18 @@ TEST(CompareTable, CellsShowNumbersOrNone)
     EXPECT_EQ(app::cell(0.12345, 3), "0.123");
     EXPECT_EQ(app::cell(std::nullopt, 3), "-");
     EXPECT_EQ(app::cell(std::nan(""), 3), "-");
-    std::vector<std::string> row;
-    app::addErrorCells(row, lab::ErrorNumbers{0.2, 0.1, -0.00001, 0.9}, {0.03, 0.01, 0.0, 0.0});
-    EXPECT_EQ(row, (std::vector<std::string>{"0.2000", "0.1000", "0.0000", "75.0", "25.0", "0.0", "0.0"}));
-    row.clear();
-    app::addErrorCells(row, std::nullopt, {});
-    EXPECT_EQ(row, (std::vector<std::string>(7, "-")));
+    using Row = std::vector<std::string>;
+    const auto row_of = [](const app::Json& error) {
+        return app::compareTable({{"results", app::Json::array({{{"technique", "hard"}, {"error", error}}})}}, false)
+            .rows.at(0);
+    };
+    EXPECT_EQ(
+        row_of(app::errorJson(lab::ErrorNumbers{0.2, 0.1, -0.00001, 0.9}, lab::ClassErrors{0.03, 0.01, 0.0, 0.0})),
+        (Row{"hard", "0.2000", "0.1000", "0.0000", "75.0", "25.0", "0.0", "0.0"}));
+    EXPECT_EQ(row_of(app::errorJson(lab::ErrorNumbers{0.2, 0.1, 0.05, 0.9}, lab::ClassErrors{}))[3], "+0.0500");
+    EXPECT_EQ(row_of(app::errorJson(lab::ErrorNumbers{0.0, 0.0, -0.05, 0.0}, lab::ClassErrors{})),
+              (Row{"hard", "0.0000", "0.0000", "-0.0500", "-", "-", "-", "-"}));
+    EXPECT_EQ(row_of(app::errorJson(std::nullopt, std::nullopt)), (Row{"hard", "-", "-", "-", "-", "-", "-", "-"}));
     EXPECT_EQ(app::tableText({{"name", "x"}, {{"a", "10"}, {"long name", "2"}}}),
               "name        x\na          10\nlong name   2\n");
 }

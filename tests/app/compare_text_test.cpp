@@ -3,6 +3,9 @@
 #include "folder.h"
 #include "process.h"
 
+#include "compare_json.h"
+#include "compare_notes.h"
+#include "compare_page.h"
 #include "compare_text.h"
 #include "image/image_io.h"
 #include "sweep.h"
@@ -32,16 +35,22 @@ TEST(CompareTable, LongNamesStandBelowIt)
 
 TEST(CompareTable, EveryColumnOfNumbersIsExplained)
 {
-    app::CompareResult result;
-    app::ComparedTechnique technique;
-    technique.equal_error.emplace();
-    result.techniques.push_back(technique);
-    const app::TextTable table = app::compareTable(result, false);
-    const std::vector<std::string> meanings = app::meaningsOf(table);
-    ASSERT_EQ(meanings.size(), table.columns.size());
-    EXPECT_TRUE(meanings.front().empty());
-    for (std::size_t i = 1; i < meanings.size(); ++i) {
-        EXPECT_GT(meanings[i].size(), 10U) << table.columns[i];
+    const app::Json technique{{"technique", "hard"}, {"equal_error", app::Json::object()}};
+    const app::Json sweep{
+        {"key", "fov"}, {"values", {1.0}}, {"truth", {nullptr}}, {"pixels", {nullptr}}, {"results", {technique}}};
+    const app::Json results = app::Json::array({technique});
+    for (const app::Json& result : {app::Json{{"results", results}, {"path", 1}, {"baseline", 1}},
+                                    app::Json{{"results", {}}, {"sweep", sweep}}}) {
+        const app::TextTable table = app::compareTable(result, false);
+        const std::size_t first = result.contains("sweep") ? 2 : 1;
+        ASSERT_EQ(table.meanings.size(), table.columns.size());
+        EXPECT_GE(table.columns.size(), first + 9);
+        for (std::size_t i = 0; i < first; ++i) {
+            EXPECT_TRUE(table.meanings[i].empty());
+        }
+        for (std::size_t i = first; i < table.columns.size(); ++i) {
+            EXPECT_GT(table.meanings[i].size(), 10U) << table.columns[i];
+        }
     }
 }
 
@@ -51,36 +60,33 @@ TEST(PixelsNote, IsOfNoneAndOfFew)
     pixels.counted = 100;
     pixels.facing_away = 1900;
     pixels.background = 100000; // which sees no surface
-    EXPECT_EQ(app::pixelsNote(pixels, 1), "");
+    EXPECT_EQ(app::pixelsNote(app::pixelsJson(pixels), 1), "");
     pixels.counted = 99;
     pixels.facing_away = 1901;
-    EXPECT_TRUE(app::pixelsNote(pixels, 1).starts_with("only 99 of 2000 pixels with a surface count"));
+    EXPECT_TRUE(app::pixelsNote(app::pixelsJson(pixels), 1).starts_with("only 99 of 2000 pixels with a surface count"));
     pixels.counted = 0;
-    EXPECT_TRUE(app::pixelsNote(pixels, 1).starts_with("no pixel counts, so there are no error numbers"));
-    EXPECT_FALSE(says(app::pixelsNote(pixels, 1), "no ray was traced"));
-    EXPECT_TRUE(app::pixelsNote(pixels, 0).ends_with("; no ray was traced"));
+    EXPECT_TRUE(
+        app::pixelsNote(app::pixelsJson(pixels), 1).starts_with("no pixel counts, so there are no error numbers"));
+    EXPECT_FALSE(says(app::pixelsNote(app::pixelsJson(pixels), 1), "no ray was traced"));
+    EXPECT_TRUE(app::pixelsNote(app::pixelsJson(pixels), 0).ends_with("; no ray was traced"));
 }
 
 TEST(TruthText, SaysWhatWasTracedAndHowFast)
 {
-    app::CompareResult result;
-    app::TruthFacts& truth = result.judged.facts;
-    truth.kind = truth::Kind::area;
-    truth.samples = 64;
-    truth.rays = 3'000'000;
-    truth.seconds = 1.5;
-    result.standard_error = 0.01;
-    EXPECT_EQ(app::truthText(result),
-              "area, 64 rays per pixel, standard error 0.0100; 3000000 rays in 1.50 s, 2 million/s");
+    app::TruthFacts truth{.kind = truth::Kind::area, .samples = 64, .rays = 3'000'000, .seconds = 1.5};
+    const auto text = [&] {
+        return app::truthText({{"truth", app::truthJson(truth, 0.01)}});
+    };
+    EXPECT_EQ(text(), "area, 64 rays per pixel, standard error 0.0100; 3000000 rays in 1.50 s, 2 million/s");
     truth.from_cache = true; // that was another run's time
-    EXPECT_EQ(app::truthText(result), "area, 64 rays per pixel, standard error 0.0100; 3000000 rays (from the cache)");
+    EXPECT_EQ(text(), "area, 64 rays per pixel, standard error 0.0100; 3000000 rays (from the cache)");
     truth = {.kind = truth::Kind::hard, .rays = 1, .seconds = 0.001};
-    EXPECT_EQ(app::truthText(result), "hard, one ray per pixel; 1 ray in less than 0.01 s");
+    EXPECT_EQ(text(), "hard, one ray per pixel; 1 ray in less than 0.01 s");
     truth.rays = 0;
-    EXPECT_EQ(app::truthText(result), "hard, one ray per pixel; no rays");
+    EXPECT_EQ(text(), "hard, one ray per pixel; no rays");
     truth.kind = truth::Kind::area;
     truth.point_like = true;
-    EXPECT_EQ(app::truthText(result), "hard, one ray per pixel, for the light has no area; no rays");
+    EXPECT_EQ(text(), "hard, one ray per pixel, for the light has no area; no rays");
 }
 
 /// A cache of the test's own.
@@ -98,6 +104,29 @@ struct Place {
 
 const std::vector<std::string> kQuick{"--warmup",     "0",    "--repetitions", "1",
                                       "--techniques", "hard", "--map-size",    "64"};
+
+/// What a run shows is in its result.json, and can be made of it again.
+TEST(Compare, TableAndPageAreMadeOfTheJson)
+{
+    const Place place;
+    const std::vector<std::vector<std::string>> runs{
+        {"--samples", "16", "--techniques", "hard,pcf,vsm+cascades", "--repetitions", "1", "--warmup", "0",
+         "--equal-error"},
+        {"--samples", "16", "--techniques", "hard,pcf", "--sweep", "sun-angle=0:8:3"},
+        {"--truth", "hard", "--techniques", "hard,pcf", "--path", "orbit", "--frames", "0-2"}};
+    for (std::vector<std::string> arguments : runs) {
+        arguments.insert(arguments.begin(),
+                         {"compare", "planes", "--size", "64x36", "--map-size", "64", "--light", "sun"});
+        arguments.insert(arguments.end(), {"--report", "out"});
+        const test::Ran ran =
+            test::gnomon(arguments, {.folder = place.folder.path(),
+                                     .environment = {{"XDG_CACHE_HOME", place.cache.path().string()}}});
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        const app::Json result = app::Json::parse(test::slurp(place.folder / "out/result.json"));
+        EXPECT_EQ(app::compareText(result), ran.out);
+        EXPECT_EQ(app::comparePage(result), test::slurp(place.folder / "out/index.html"));
+    }
+}
 
 TEST(Compare, SaysWhatWasTracedOfALightWithoutExtent)
 {

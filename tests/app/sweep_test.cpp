@@ -80,7 +80,7 @@ TEST(SweepPlan, RoundsToMultiplesAndKnowsWhatMakesTheShotAnew)
     EXPECT_TRUE(samples.remakes_shot);
     EXPECT_FALSE(app::planSweep({"map-size", 64.0, 128.0, 2, false}, techniques).remakes_shot);
     EXPECT_EQ(app::settingsAt(samples, 2, area).samples, 24U);
-    EXPECT_EQ(app::placeText(samples, 2), "samples=24");
+    EXPECT_EQ(app::placeText(samples.key, samples.values[2]), "samples=24");
     EXPECT_THROW((void)app::planSweep({"samples", 4.0, 64.0, 7, false}, techniques), app::UsageError); // no truth
     // All digits of a large whole number.
     const app::SweepPlan seeds = app::planSweep({"seed", 1.0, 9e15, 2, false}, techniques);
