@@ -127,8 +127,9 @@ Table makeDensityTable()
     std::array<Lab, viridis.size()> points;
     std::transform(viridis.begin(), viridis.end(), points.begin(), labOf);
     Table table;
-    for (std::size_t i = 0; i < kSteps; ++i)
+    for (std::size_t i = 0; i < kSteps; ++i) {
         table[i] = colourAt(points, static_cast<double>(i) / (kSteps - 1));
+    }
     return table;
 }
 
@@ -142,18 +143,21 @@ std::uint8_t encodeSrgb(double linear)
 Colour errorColour(double error)
 {
     static const Table table = makeErrorTable();
-    if (std::isnan(error))
+    if (std::isnan(error)) {
         return kNotANumber;
+    }
     return lookUp(table, 0.5 + 0.5 * std::copysign(std::sqrt(std::abs(error)), error));
 }
 
 Colour densityColour(double texels_per_pixel)
 {
     static const Table table = makeDensityTable();
-    if (std::isnan(texels_per_pixel))
+    if (std::isnan(texels_per_pixel)) {
         return kNotANumber;
-    if (texels_per_pixel <= 0.0)
+    }
+    if (texels_per_pixel <= 0.0) {
         return kLeftOut;
+    }
     return lookUp(table, 0.5 + 0.5 * std::log2(texels_per_pixel) / kDensityOctaves);
 }
 

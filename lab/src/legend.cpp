@@ -49,8 +49,9 @@ std::vector<Place> placeSwatches(const std::vector<Swatch>& swatches, std::int64
     Place next;
     for (const Swatch& swatch : swatches) {
         const std::int64_t extent = swatchExtent(swatch);
-        if (next.x > 0 && next.x + extent > room)
+        if (next.x > 0 && next.x + extent > room) {
             next = {0, next.y + kLine};
+        }
         places.push_back(next);
         next.x += extent + kSwatchSpacing;
     }
@@ -109,8 +110,9 @@ void LegendPainter::drawTicks(const ScaleBar& bar, std::int64_t y, std::int64_t 
             return span.from + kLabelSpacing < other.to && other.from + kLabelSpacing < span.to;
         });
         fill(kMargin + at, y, 1, free ? kTickHeight : kTickHeight / 2, kInk);
-        if (!free)
+        if (!free) {
             continue;
+        }
         taken.push_back(span);
         write(kMargin + from, y + kTickHeight, tick.label, Font::normal, kInk);
     }
@@ -140,8 +142,9 @@ Image8 enlarge(const Image8& picture, std::uint32_t times)
 {
     Image8 large(picture.width * times, picture.height * times, picture.channels);
     for (std::uint32_t y = 0; y < large.height; ++y) {
-        for (std::uint32_t x = 0; x < large.width; ++x)
+        for (std::uint32_t x = 0; x < large.width; ++x) {
             std::copy_n(picture.pixel(x / times, y / times), picture.channels, large.pixel(x, y));
+        }
     }
     return large;
 }
@@ -151,8 +154,9 @@ Image8 makeCanvas(const Image8& picture, std::uint32_t legend_height)
     Image8 canvas(std::max(picture.width, kLegendMinimumWidth), picture.height + legend_height, 3);
     fillRectangle(canvas, 0, 0, canvas.width, canvas.height, kLegendGround);
     const std::uint32_t left = (canvas.width - picture.width) / 2;
-    for (std::uint32_t y = 0; y < picture.height; ++y)
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
         std::copy_n(picture.pixel(0, y), static_cast<std::size_t>(picture.width) * 3, canvas.pixel(left, y));
+    }
     return canvas;
 }
 
@@ -182,10 +186,12 @@ Image8 addLegend(const Image8& original, const Legend& legend)
     LegendPainter painter(canvas, scale, picture.height);
     painter.write(kMargin, kMargin, legend.title, Font::bold, kInk);
     painter.write(kMargin, kMargin + kLine, legend.subtitle, Font::normal, kFaintInk);
-    if (legend.bar)
+    if (legend.bar) {
         painter.drawBar(*legend.bar, bar_y, std::min(room, kBarWidthMax));
-    for (std::size_t i = 0; i < places.size(); ++i)
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
         painter.drawSwatch(legend.swatches[i], {kMargin + places[i].x, swatches_y + places[i].y});
+    }
     return canvas;
 }
 
