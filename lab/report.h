@@ -6,6 +6,9 @@
 #include "lab/metrics/error.h"
 #include "lab/metrics/error_classes.h"
 
+#include <array>
+#include <cstdint>
+
 namespace gnomon::lab {
 
 /// test - truth from -1 (too dark, blue) over 0 (white) to 1 (too bright, orange-brown), in a diverging map that people
@@ -17,7 +20,10 @@ namespace gnomon::lab {
 /// sides with the legend's dark grey. Precondition: one size, one channel each.
 [[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
 
-/// One colour-blind-safe colour for each class, which plots have for it too, over a faint grey truth, with a legend
+/// The colour-blind-safe colour of a class in pictures and plots: red, green, blue, sRGB-encoded.
+[[nodiscard]] std::array<std::uint8_t, 3> classRgb(ErrorClass error_class);
+
+/// classRgb() over a faint grey truth, with a legend
 /// that names them. The colour is as strong as the square root of |test - truth|: a pixel near an edge without error
 /// stays grey.
 [[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);

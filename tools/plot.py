@@ -33,8 +33,6 @@ except ImportError:
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 DASHES = ["-", (0, (5, 2.5)), (0, (1.2, 1.6)), (0, (5, 1.8, 1.2, 1.8))]
 MARKERS = ["o", "s", "^", "D", "P"]
-# As in the pictures of the classes (classColour() in lab/src/false_colour.cpp).
-CLASSES = {"edge": "#0072b2", "acne": "#d55e00", "detached": "#f0e442", "bleeding": "#cc79a7"}
 MOST_MARKERS = 24
 STYLE = {
     "svg.hashsalt": "gnomon",  # else element names are random
@@ -123,7 +121,7 @@ def classes_of(result: dict, line: dict) -> Plot:
     plot = sweep_plot(result, f"{result['scene']}, {line['technique']}: where the error over {key} comes from")
     plot.line("all (rmse)", numbers(line["rmse"]), color="#c8c8c8", linestyle="-", linewidth=8, marker=None)
     rim = [patheffects.Stroke(linewidth=3.2, foreground="#484848"), patheffects.Normal()]  # yellow vanishes on white
-    for name, colour in CLASSES.items():
+    for name, colour in result["sweep"]["class_colours"].items():
         look = {"linestyle": "-", "path_effects": rim} if name == "detached" else {}
         plot.line(name, numbers(line[name], root=True), color=colour, markeredgecolor="#484848", markeredgewidth=0.6,
                   **look)

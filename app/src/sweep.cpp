@@ -6,6 +6,8 @@
 #include "setting_values.h"
 #include "technique_json.h"
 
+#include "lab/report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,6 +46,13 @@ bool applyPoint(Settings& settings, const Setting& setting, double value)
     applySetting(settings, setting, valueText(value));
     completeTechnique(settings);
     return isUsed(setting, settings);
+}
+
+/// "#0072b2"
+std::string colourText(lab::ErrorClass error_class)
+{
+    const auto rgb = lab::classRgb(error_class);
+    return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
 } // namespace
@@ -137,6 +146,10 @@ Json sweepJson(const SweepResult& result)
               {"unit", result.plan.unit.empty() ? Json(nullptr) : Json(result.plan.unit)},
               {"logarithmic", result.plan.logarithmic},
               {"values", result.plan.values}};
+    json["class_colours"] = {{"edge", colourText(lab::ErrorClass::edge)},
+                             {"acne", colourText(lab::ErrorClass::acne)},
+                             {"detached", colourText(lab::ErrorClass::detached)},
+                             {"bleeding", colourText(lab::ErrorClass::bleeding)}};
     json["results"] = Json::array();
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         Json line{{"technique", result.plan.lines[i].technique}};

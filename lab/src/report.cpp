@@ -10,6 +10,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace gnomon::lab {
 namespace {
@@ -21,46 +24,47 @@ Image8 paint(std::uint32_t width, std::uint32_t height, const ColourOf& colour_o
     Image8 picture(width, height, 3);
     std::size_t i = 0;
     for (std::uint32_t y = 0; y < height; ++y) {
-        for (std::uint32_t x = 0; x < width; ++x, ++i)
+        for (std::uint32_t x = 0; x < width; ++x, ++i) {
             setPixel(picture, x, y, colour_of(i));
+        }
     }
     return picture;
 }
 
-// Said only where it is seen.
-void nameNotANumber(Legend& legend, bool any)
+// Not a number is named only where it is seen.
+Image8 withLegend(const Image8& picture, Legend legend)
 {
-    if (any)
+    bool any = false;
+    for (std::size_t i = 0; i < picture.values.size() && !any; i += 3) {
+        any = Colour{picture.values[i], picture.values[i + 1], picture.values[i + 2]} == kNotANumber;
+    }
+    if (any) {
         legend.swatches.push_back({kNotANumber, kNotANumber, "not a number"});
+    }
+    return addLegend(picture, legend);
 }
 
 Legend errorLegend()
 {
-    Legend legend;
-    legend.title = "Error: technique - truth";
-    legend.subtitle = "scale: square root, to show small errors";
     ScaleBar bar;
     bar.colour_at = [](double place) {
         const double s = 2.0 * place - 1.0;
         return errorColour(s * std::abs(s));
     };
-    struct Mark {
-        double error;
-        const char* number;
-    };
-    constexpr std::array<Mark, 6> marks = {
-        {{1.0, "1"}, {0.1, "0.1"}, {0.5, "0.5"}, {0.01, "0.01"}, {0.25, "0.25"}, {0.75, "0.75"}}};
     bar.ticks.push_back({0.5, "0"});
-    for (const Mark& mark : marks) {
-        bar.ticks.push_back({0.5 - 0.5 * std::sqrt(mark.error), std::string("-") + mark.number});
-        bar.ticks.push_back({0.5 + 0.5 * std::sqrt(mark.error), std::string("+") + mark.number});
+    constexpr std::pair<double, const char*> marks[] = {{1.0, "1"},     {0.1, "0.1"},   {0.5, "0.5"},
+                                                        {0.01, "0.01"}, {0.25, "0.25"}, {0.75, "0.75"}};
+    for (const auto& [error, number] : marks) {
+        bar.ticks.push_back({0.5 - 0.5 * std::sqrt(error), std::string("-") + number});
+        bar.ticks.push_back({0.5 + 0.5 * std::sqrt(error), std::string("+") + number});
     }
     bar.low = "too dark";
     bar.middle = "no error";
     bar.high = "too bright";
-    legend.bar = bar;
-    legend.swatches = {{kLeftOut, kLeftOut, "left out"}};
-    return legend;
+    return {"Error: technique - truth",
+            "scale: square root, to show small errors",
+            bar,
+            {{kLeftOut, kLeftOut, "left out"}}};
 }
 
 Legend classLegend()
@@ -69,36 +73,34 @@ Legend classLegend()
     const auto swatch = [](Colour over, ErrorClass error_class, const char* text) {
         return Swatch{over, classColour(error_class), text};
     };
-    Legend legend;
-    legend.title = "Where the error comes from";
-    legend.subtitle = "stronger colour: larger error (square root)";
-    legend.swatches = {swatch(kFaintDark, ErrorClass::edge, "edge: aliasing, penumbra width"),
-                       swatch(kFaintLight, ErrorClass::acne, "acne: false self-shadowing"),
-                       swatch(kFaintDark, ErrorClass::detached, "detached: peter-panning"),
-                       swatch(kFaintDark, ErrorClass::bleeding, "bleeding: light leaks"),
-                       swatch(kFaintDark, ErrorClass::correct, "no error: the truth in grey"),
-                       {kLeftOut, kLeftOut, "left out"}};
-    return legend;
+    return {"Where the error comes from",
+            "stronger colour: larger error (square root)",
+            std::nullopt,
+            {swatch(kFaintDark, ErrorClass::edge, "edge: aliasing, penumbra width"),
+             swatch(kFaintLight, ErrorClass::acne, "acne: false self-shadowing"),
+             swatch(kFaintDark, ErrorClass::detached, "detached: peter-panning"),
+             swatch(kFaintDark, ErrorClass::bleeding, "bleeding: light leaks"),
+             swatch(kFaintDark, ErrorClass::correct, "no error: the truth in grey"),
+             {kLeftOut, kLeftOut, "left out"}}};
 }
 
 Legend densityLegend()
 {
-    Legend legend;
-    legend.title = "Shadow texels per screen pixel";
-    legend.subtitle = "along the worse axis; scale: logarithmic";
     ScaleBar bar;
     bar.colour_at = [](double place) {
         return std::abs(place - 0.5) < 0.002 ? kWhite : densityColour(std::exp2((2.0 * place - 1.0) * kDensityOctaves));
     };
     constexpr std::array<const char*, 9> labels = {"1/16", "1/8", "1/4", "1/2", "1", "2", "4", "8", "16"};
-    for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t i = 0; i < labels.size(); ++i) {
         bar.ticks.push_back({static_cast<double>(i) / (labels.size() - 1), labels[i]});
+    }
     bar.low = "blocky";
     bar.middle = "one to one";
     bar.high = "finer than pixels";
-    legend.bar = bar;
-    legend.swatches = {{kWhite, kWhite, "passes through 1"}, {kLeftOut, kLeftOut, "left out"}};
-    return legend;
+    return {"Shadow texels per screen pixel",
+            "along the worse axis; scale: logarithmic",
+            bar,
+            {{kWhite, kWhite, "passes through 1"}, {kLeftOut, kLeftOut, "left out"}}};
 }
 
 // Two neighbours on different sides of 1 are a line, unless they lie farther apart than a factor of 2: then they are
@@ -118,10 +120,12 @@ void drawLineAtOne(Image8& picture, const ImageF& density)
     };
     for (std::uint32_t y = 0; y < density.height; ++y) {
         for (std::uint32_t x = 0; x < density.width; ++x) {
-            if (x + 1 < density.width)
+            if (x + 1 < density.width) {
                 mark(x, y, x + 1, y);
-            if (y + 1 < density.height)
+            }
+            if (y + 1 < density.height) {
                 mark(x, y, x, y + 1);
+            }
         }
     }
 }
@@ -131,53 +135,44 @@ void drawLineAtOne(Image8& picture, const ImageF& density)
 Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
 {
     assert(areMasksOfOneSize(test, truth) && areMasksOfOneSize(test, counted));
-    bool any_nan = false;
-    const Image8 picture = paint(test.width, test.height, [&](std::size_t i) {
-        if (counted.values[i] == 0)
-            return kLeftOut;
-        const float error = test.values[i] - truth.values[i];
-        any_nan = any_nan || std::isnan(error);
-        return errorColour(error);
-    });
-    Legend legend = errorLegend();
-    nameNotANumber(legend, any_nan);
-    return addLegend(picture, legend);
+    const auto colour_of = [&](std::size_t i) {
+        return counted.values[i] == 0 ? kLeftOut : errorColour(test.values[i] - truth.values[i]);
+    };
+    return withLegend(paint(test.width, test.height, colour_of), errorLegend());
+}
+
+std::array<std::uint8_t, 3> classRgb(ErrorClass error_class)
+{
+    const Colour colour = classColour(error_class);
+    return {colour.red, colour.green, colour.blue};
 }
 
 Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
 {
     assert(areMasksOfOneSize(classes, test) && areMasksOfOneSize(test, truth));
-    bool any_nan = false;
-    const Image8 picture = paint(classes.width, classes.height, [&](std::size_t i) {
-        if (classes.values[i] == ErrorClass::left_out)
+    const auto colour_of = [&](std::size_t i) {
+        if (classes.values[i] == ErrorClass::left_out) {
             return kLeftOut;
+        }
         const double error = std::abs(static_cast<double>(test.values[i]) - truth.values[i]);
         if (std::isnan(error)) {
-            any_nan = true;
             return kNotANumber;
         }
         const Colour grey = mixLight(kFaintDark, kFaintLight, std::clamp(truth.values[i], 0.0F, 1.0F));
-        if (classes.values[i] == ErrorClass::correct)
-            return grey;
-        return mixLight(grey, classColour(classes.values[i]), std::sqrt(std::min(error, 1.0)));
-    });
-    Legend legend = classLegend();
-    nameNotANumber(legend, any_nan);
-    return addLegend(picture, legend);
+        return classes.values[i] == ErrorClass::correct
+                   ? grey
+                   : mixLight(grey, classColour(classes.values[i]), std::sqrt(std::min(error, 1.0)));
+    };
+    return withLegend(paint(classes.width, classes.height, colour_of), classLegend());
 }
 
 Image8 densityPicture(const ImageF& texels_per_pixel)
 {
     assert(texels_per_pixel.channels == 1);
-    bool any_nan = false;
-    Image8 picture = paint(texels_per_pixel.width, texels_per_pixel.height, [&](std::size_t i) {
-        any_nan = any_nan || std::isnan(texels_per_pixel.values[i]);
-        return densityColour(texels_per_pixel.values[i]);
-    });
+    Image8 picture = paint(texels_per_pixel.width, texels_per_pixel.height,
+                           [&](std::size_t i) { return densityColour(texels_per_pixel.values[i]); });
     drawLineAtOne(picture, texels_per_pixel);
-    Legend legend = densityLegend();
-    nameNotANumber(legend, any_nan);
-    return addLegend(picture, legend);
+    return withLegend(picture, densityLegend());
 }
 
 } // namespace gnomon::lab

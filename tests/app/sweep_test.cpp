@@ -98,6 +98,7 @@ TEST(Sweep, HasNoNumbersWhereNoPixelCounts)
     EXPECT_TRUE(json["results"][0]["rmse"][1].is_null());
     EXPECT_TRUE(json["results"][0]["acne"][1].is_null());
     EXPECT_FALSE(json["results"][0]["settings"].contains("map-size"));
+    EXPECT_EQ(json["class_colours"]["acne"], "#d55e00");
 }
 
 TEST(Sweep, ErrorFallsAsTheMapGrows)

@@ -22,6 +22,7 @@ def sweep(techniques: list[str], values: list[float], logarithmic: bool) -> dict
     line = {key: gap for key in ("rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding")}
     return {"scene": EVIL, "results": [],
             "sweep": {"key": "map-size", "unit": "texels", "logarithmic": logarithmic, "values": values,
+                      "class_colours": dict.fromkeys(["edge", "acne", "detached", "bleeding"], "#0072b2"),
                       "results": [{"technique": name, **line} for name in techniques]}}
 
 
