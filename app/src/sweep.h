@@ -61,7 +61,8 @@ using JudgedAt = std::function<const Judged&(std::size_t value)>;
 [[nodiscard]] SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const JudgedAt& judged_at,
                                    const std::function<void()>& step);
 
-/// {"key", "unit", "values", "class_colours", "results": [{"technique", "rmse", ...}]}, each list as long as the values.
+/// {"key", "unit", "values", "class_colours", "results": [{"technique", "rmse", ...}]}, each list as long as the
+/// values.
 [[nodiscard]] Json sweepJson(const SweepResult& result);
 
 } // namespace gnomon::app
