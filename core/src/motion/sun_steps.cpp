@@ -240,11 +240,15 @@ void SunCourses::begin()
     for (Row& row : rows_) {
         row.present = false;
     }
+    first_ = 0;
 }
 
 const SunCourse& SunCourses::follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options)
 {
-    auto row = std::find_if(rows_.begin(), rows_.end(),
+    while (first_ < rows_.size() && rows_[first_].present) {
+        ++first_;
+    }
+    auto row = std::find_if(rows_.begin() + static_cast<std::ptrdiff_t>(first_), rows_.end(),
                             [&](const Row& known) { return !known.present && known.key == light.key; });
     if (row == rows_.end()) {
         row = rows_.insert(rows_.end(), Row{.key = light.key, .present = false, .course = {}});

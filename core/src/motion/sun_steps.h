@@ -123,6 +123,7 @@ private:
         SunCourse course;
     };
     std::vector<Row> rows_;
+    std::size_t first_ = 0; // before it all rows are present: lights that come as in the frame before are found at once
 };
 
 } // namespace gnomon
