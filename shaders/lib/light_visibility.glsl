@@ -24,6 +24,12 @@ layout(set = GNOMON_SET, binding = GNOMON_BINDING + 3, std430) restrict readonly
 {
     GpuView gnomon_views[];
 };
+#ifdef GNOMON_FEW_VIEWS
+layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFewViews
+{
+    GpuView gnomon_few_views[kFewViews];
+};
+#endif
 
 // A pass that is made for one technique has its numbers as constants.
 #ifdef GNOMON_FILTER
@@ -76,37 +82,76 @@ FilterInput filterInput(vec2 pixel)
     return f;
 }
 
-// What a view counts for at a point: 0 where it does not serve it.
-float shareOf(uint view, bool is_first, Receiver r)
+// A pass may define GNOMON_FEW_VIEWS and GNOMON_FEW_BINDING: how many views its one light has, 1 to kFewViews, which are
+// all of the plan's; 0: a draw for which this is not so. These are read as uniforms, which software loads in a fifth of
+// the time that it takes for a storage buffer, and are known by their slices before any of them is loaded.
+#ifdef GNOMON_FEW_VIEWS
+GpuView viewAt(uint i)
 {
-    float share = is_first ? 1.0 : viewShare(gnomon_views[view], r.depth);
-    return viewContains(gnomon_views[view], r.p, r.depth) ? share : 0.0;
+    if (GNOMON_FEW_VIEWS > 0) {
+        return gnomon_few_views[i];
+    }
+    return gnomon_views[i];
+}
+// A bit for each view that serves this depth.
+uint slicesAt(float depth)
+{
+    uint slices = 0u;
+    for (uint i = 0u; i < GNOMON_FEW_VIEWS; ++i) {
+        slices |= inSlice(gnomon_few_views[i], depth) ? 1u << i : 0u;
+    }
+    return slices;
+}
+#else
+#define GNOMON_FEW_VIEWS 0
+#define viewAt(i) gnomon_views[i]
+#define slicesAt(depth) 0u
+#endif
+
+// The views among which a point's are looked for.
+struct Search {
+    uint next;
+    uint end;
+    uint slices; // of few views: a bit for each that is left
+};
+
+bool isLeft(Search s)
+{
+    return GNOMON_FEW_VIEWS > 0 ? GNOMON_FEW_VIEWS > 1 && s.slices != 0u : s.next < s.end;
+}
+
+// The next view that serves the point, and what it counts for; 0: there is none. A loop tests at its end, because a
+// device that runs the lanes of a group together runs a body once more for a test at its beginning.
+float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
+{
+    float share = 0.0;
+    do {
+        view = GNOMON_FEW_VIEWS > 1 ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
+        s.slices &= s.slices - 1u;
+        ++s.next;
+        share = is_first ? 1.0 : viewShare(viewAt(view), r.depth);
+        share = viewContains(viewAt(view), r.p, r.depth) ? share : 0.0;
+    } while (share == 0.0 && isLeft(s));
+    return share;
 }
 
 // Visibility by the views [first, end) of one position of a light, which are in the order in which they fade over into
-// each other. A pixel looks for its view first and filters then: once, and again only where another view fades in. Both
-// loops test at their end, because a device that runs the lanes of a group together runs a body once more for a test
-// at its beginning.
+// each other. A pixel looks for its view first and filters then: once, and again only where another view fades in.
 float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
 {
     float v = 1.0;
     bool found = false;
-    uint i = first;
-    float share = 0.0;
-    do {
-        share = shareOf(i, !found, r);
-        ++i;
-    } while (share == 0.0 && i < end);
+    uint view = first;
+    Search s = Search(first, end, slicesAt(r.depth));
+    float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
-            uint view = i - 1;
-            float here = viewVisibility(GNOMON_FILTER_NUMBER, gnomon_views[view], bias, f, r.steps, r.p, r.n);
+            float here = viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n);
             v = found ? mix(v, here, share) : here;
             found = true;
             share = 0.0;
-            while (share == 0.0 && i < end) {
-                share = shareOf(i, false, r);
-                ++i;
+            if (isLeft(s)) {
+                share = nextShare(s, false, r, view);
             }
         } while (share > 0.0);
     }
@@ -118,6 +163,9 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
 float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
 {
     GpuLight light = gnomon_lights[index];
+    if (GNOMON_FEW_VIEWS > 0) {
+        light.views = uvec4(0u, GNOMON_FEW_VIEWS, 0u, 0u);
+    }
     if (light.views.y == 0u) {
         return 1.0;
     }

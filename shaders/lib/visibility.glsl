@@ -77,11 +77,17 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     return rule;
 }
 
-// Does this view serve a point at this depth of the camera (dot(GpuScreen::view_axis, p)), and is the point in the
+// Does this view serve this depth of the camera, dot(GpuScreen::view_axis, p)?
+GN_FN bool inSlice(GpuView view, real depth)
+{
+    return !(depth < real(view.slice.x) || depth > real(view.slice.y));
+}
+
+// Does this view serve a point at this depth of the camera, and is the point in the
 // map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p, real depth)
 {
-    if (depth < real(view.slice.x) || depth > real(view.slice.y)) {
+    if (!inSlice(view, depth)) {
         return false;
     }
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY

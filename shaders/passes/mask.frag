@@ -15,6 +15,9 @@ layout(constant_id = 4) const int kMomentFlags = 0;    // see MomentRule
 layout(constant_id = 5) const int kMomentSampling = 0; // gnomon::MapSampling
 layout(constant_id = 6) const int kMomentLayers = 2;   // of lvsm
 layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_depth.h
+layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
+#define GNOMON_FEW_VIEWS kViewCount
+#define GNOMON_FEW_BINDING 8
 #define GNOMON_KERNEL_WIDTH kKernelWidth
 #define GNOMON_DISC_TAPS kDiscTaps
 #define GNOMON_AUTOMATIC_BIAS kAutomaticBias
@@ -95,10 +98,11 @@ void main()
     vec4 h = pointAt(pixel, depth);
     vec3 p = h.xyz / h.w;
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
-    uint left = channels;
+    uint first = kViewCount > 0 ? 0u : first_light;
+    uint left = kViewCount > 0 ? 1u : channels;
     do {
         int channel = findLSB(left);
-        float v = lightVisibility(first_light + channel, p, n, gl_FragCoord.xy, h.w);
+        float v = lightVisibility(first + channel, p, n, gl_FragCoord.xy, h.w);
         visibility = mix(visibility, vec4(v), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
         left &= left - 1u;
     } while (left != 0u);

@@ -14,6 +14,7 @@ namespace gnomon::shared {
 inline constexpr int kLightsPerLayer = 4;
 inline constexpr int kDiscPoints = 64;
 inline constexpr int kDepthLayers = 8;
+inline constexpr unsigned kFewViews = 6;
 #else
 #define GN_VEC4 vec4
 #define GN_IVEC4 ivec4
@@ -21,6 +22,7 @@ inline constexpr int kDepthLayers = 8;
 const int kLightsPerLayer = 4;
 const int kDiscPoints = 64;
 const int kDepthLayers = 8;
+const uint kFewViews = 6;
 #endif
 
 // One map of one light: a storage buffer of them, as long as it needs to be, in the plan's order.

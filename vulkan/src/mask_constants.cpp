@@ -138,6 +138,16 @@ bool isOrthographic(const Plan& plan, const shared::GpuLight& light)
 
 } // namespace
 
+std::uint32_t fewViews(const Plan& plan)
+{
+    const bool steps = plan.technique.motion != Motion::free && plan.technique.motion != Motion::snap;
+    if (plan.lights.size() != 1 || steps || plan.lights.front().steps.paired) {
+        return 0;
+    }
+    const ShownViews views = shownViews(plan, plan.lights.front(), SunShown::all);
+    return views.first == 0 && views.count == plan.views.size() && views.count <= shared::kFewViews ? views.count : 0;
+}
+
 std::uint32_t maskLightCount(std::uint32_t layers, bool strips)
 {
     return layers * shared::kLightsPerLayer * (strips ? 1 + MaskRegions::kMost : 1U);
@@ -153,7 +163,7 @@ void fillMaskLights(const Frame& frame, const Plan& plan, std::uint32_t width, s
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const MaskRegions regions = maskRegions(plan, layer, width);
         for (const MaskRegion& region : regions) {
-            MaskDraw draw{layer, region.begin, region.end, layer * shared::kLightsPerLayer, 0, true};
+            MaskDraw draw{layer, region.begin, region.end, layer * shared::kLightsPerLayer, 0, true, fewViews(plan)};
             if (regions.count > 1) { // the lights of this strip alone; `lights` by index serve all of the screen
                 draw.first_light = next;
                 next += shared::kLightsPerLayer;

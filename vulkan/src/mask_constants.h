@@ -29,7 +29,12 @@ struct MaskDraw {
     std::uint32_t first_light = 0; // of fillMaskLights(): of the layer's channel 0
     std::uint32_t channels = 0;    // bit i: channel i is drawn
     bool orthographic = true;      // every view is
+    std::uint32_t few_views = 0;   // fewViews()
 };
+
+/// How many views the plan has where it is of one light that is never seen from two positions, and they are few: for
+/// these the mask has a shader of its own. Else 0.
+[[nodiscard]] std::uint32_t fewViews(const Plan& plan);
 
 /// How many places fillMaskLights() needs at most. `strips`: a light may have a band (SunSteps::band).
 [[nodiscard]] std::uint32_t maskLightCount(std::uint32_t layers, bool strips);

@@ -77,7 +77,7 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
         return (bytes + align - 1) / align * align;
     };
     const std::uint32_t lights = maskLightCount(std::max(plan.mask_layers, 1U), mayHaveBands(plan));
-    const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), 1));
+    const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
     if (lights <= room_.lights && views <= room_.views) {
         return;
     }
@@ -140,7 +140,8 @@ void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const MaskDraw& draw
 {
     const VkRect2D scissor{{static_cast<std::int32_t>(draw.begin), 0}, {draw.end - draw.begin, inputs.extent.height}};
     device_.vk.CmdSetScissor(commands, 0, 1, &scissor);
-    const Variant variant{draw.orthographic, inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE};
+    const Variant variant{draw.orthographic, inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE,
+                          draw.few_views};
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
     const MaskPush push{draw.first_light, draw.channels};
     device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);

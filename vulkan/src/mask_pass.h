@@ -46,10 +46,11 @@ private:
         bool orthographic = false;
         bool normals = false;
         bool ids = false;
-        static constexpr std::size_t kCount = 8;
+        std::uint32_t few_views = 0; // MaskDraw::few_views
+        static constexpr std::size_t kCount = 8 * (1 + shared::kFewViews);
         [[nodiscard]] std::size_t index() const
         {
-            return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U);
+            return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U) | few_views * 8;
         }
     };
 

@@ -16,7 +16,7 @@
 namespace gnomon::vulkan {
 namespace {
 
-enum Binding : std::uint32_t { kConstants, kMaps, kLights, kViews, kLayers, kDepth, kNormal, kObjectId, kBindingCount };
+enum Binding : std::uint32_t { kConstants, kMaps, kLights, kViews, kLayers, kDepth, kNormal, kObjectId, kFewViews, kBindingCount };
 
 // The constant_ids of mask.frag, four bytes each, in their order.
 struct Constants {
@@ -28,13 +28,15 @@ struct Constants {
     std::int32_t moment_sampling;
     std::int32_t moment_layers;
     std::int32_t depth_holding;
+    std::uint32_t view_count;
 };
 
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 
 std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bool ids)
 {
@@ -107,7 +109,8 @@ void MaskPassRecorder::writeSet(Slot& slot, const MaskInputs& inputs, VkImageVie
         DescriptorSets::buffer(kLayers, layers),
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         orDepth(kNormal, inputs.normal),
-        orDepth(kObjectId, inputs.object_id)};
+        orDepth(kObjectId, inputs.object_id),
+        DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at)};
     sets_.write(slot.set, writes);
 }
 
@@ -115,6 +118,11 @@ void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
 {
     const bool perspective =
         std::any_of(plan.views.begin(), plan.views.end(), [](const View& view) { return !view.orthographic; });
+    const std::uint32_t few = fewViews(plan);
+    if (few > 0) {
+        (void)pipeline({!perspective, shape.normals, shape.ids, few});
+        return;
+    }
     // A draw of lights without maps is as one of orthographic maps.
     (void)pipeline({true, shape.normals, shape.ids});
     if (perspective) {
@@ -142,7 +150,8 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
                            moments.flags,
                            moments.sampling,
                            moments.layers,
-                           depthHolding(filter.filter, filter.format)};
+                           depthHolding(filter.filter, filter.format),
+                           variant.few_views};
     const Specialisation specialisation(values);
     const ShaderModule fragment = makeShader(device_, fragmentCode(filter.filter, variant.orthographic, variant.ids));
     const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());
