@@ -16,6 +16,10 @@ layout(set = GNOMON_SET, binding = GNOMON_BINDING, std140) uniform GnomonConstan
 {
     GpuConstants gnomon;
 };
+// A pass may define a copy of those of its members that are the same for all pixels.
+#ifndef GNOMON_NUMBERS
+#define GNOMON_NUMBERS gnomon
+#endif
 layout(set = GNOMON_SET, binding = GNOMON_BINDING + 2, std430) restrict readonly buffer GnomonLights
 {
     GpuLight gnomon_lights[];
@@ -35,21 +39,21 @@ layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFew
 #ifdef GNOMON_FILTER
 #define GNOMON_FILTER_NUMBER GNOMON_FILTER
 #else
-#define GNOMON_FILTER_NUMBER gnomon.rule.reading.x
+#define GNOMON_FILTER_NUMBER GNOMON_NUMBERS.rule.reading.x
 #endif
 #ifndef GNOMON_KERNEL_WIDTH
-#define GNOMON_KERNEL_WIDTH gnomon.rule.reading.y
-#define GNOMON_DISC_TAPS gnomon.rule.reading.z
-#define GNOMON_DEPTH_HOLDING gnomon.rule.reading.w
-#define GNOMON_MOMENT_FLAGS gnomon.rule.moments.x
-#define GNOMON_MOMENT_SAMPLING gnomon.rule.moments.y
-#define GNOMON_MOMENT_LAYERS gnomon.rule.moments.z
-#define GNOMON_AUTOMATIC_BIAS (gnomon.rule.bias.x > 0.0)
+#define GNOMON_KERNEL_WIDTH GNOMON_NUMBERS.rule.reading.y
+#define GNOMON_DISC_TAPS GNOMON_NUMBERS.rule.reading.z
+#define GNOMON_DEPTH_HOLDING GNOMON_NUMBERS.rule.reading.w
+#define GNOMON_MOMENT_FLAGS GNOMON_NUMBERS.rule.moments.x
+#define GNOMON_MOMENT_SAMPLING GNOMON_NUMBERS.rule.moments.y
+#define GNOMON_MOMENT_LAYERS GNOMON_NUMBERS.rule.moments.z
+#define GNOMON_AUTOMATIC_BIAS (GNOMON_NUMBERS.rule.bias.x > 0.0)
 #endif
 #define GNOMON_MAP_SET GNOMON_SET
 #define GNOMON_MAP_BINDING GNOMON_BINDING + 1
 #define GNOMON_LAYERS_BINDING GNOMON_BINDING + 4
-#define GNOMON_MAP_TEXEL_SIZE gnomon.rule.disc.zw
+#define GNOMON_MAP_TEXEL_SIZE GNOMON_NUMBERS.rule.disc.zw
 #include "map_texture.glsl"
 
 vec2 discPoint(int i)
@@ -74,16 +78,16 @@ FilterInput filterInput(vec2 pixel)
     f.part = 0.0;
     f.kernel_width = GNOMON_KERNEL_WIDTH;
     f.disc_taps = GNOMON_DISC_TAPS;
-    f.disc_radius = gnomon.rule.disc.x;
-    f.kernel = gnomon.rule.kernel;
+    f.disc_radius = GNOMON_NUMBERS.rule.disc.x;
+    f.kernel = GNOMON_NUMBERS.rule.kernel;
     f.pixel = pixel;
-    f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, gnomon.rule.moment_warp,
-                          gnomon.rule.moment_variance, gnomon.rule.moment_shape);
+    f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, GNOMON_NUMBERS.rule.moment_warp,
+                          GNOMON_NUMBERS.rule.moment_variance, GNOMON_NUMBERS.rule.moment_shape);
     return f;
 }
 
-// A pass may define GNOMON_FEW_VIEWS and GNOMON_FEW_BINDING: how many views its one light has, 1 to kFewViews, which are
-// all of the plan's; 0: a draw for which this is not so. These are read as uniforms, which software loads in a fifth of
+// A pass may define GNOMON_FEW_VIEWS: how many views its one light has, 1 to kFewViews, which are all of the plan's; 0: a
+// draw for which this is not so; and GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, GpuLight::place. Few views are read as uniforms, which software loads in a fifth of
 // the time that it takes for a storage buffer, and are known by their slices before any of them is loaded.
 #ifdef GNOMON_FEW_VIEWS
 GpuView viewAt(uint i)
@@ -104,6 +108,7 @@ uint slicesAt(float depth)
 }
 #else
 #define GNOMON_FEW_VIEWS 0
+#define GNOMON_FEW_PLACE vec4(0.0)
 #define viewAt(i) gnomon_views[i]
 #define slicesAt(depth) 0u
 #endif
@@ -162,9 +167,12 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
 // clip space's w.
 float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
 {
-    GpuLight light = gnomon_lights[index];
+    GpuLight light;
     if (GNOMON_FEW_VIEWS > 0) {
+        light.place = GNOMON_FEW_PLACE;
         light.views = uvec4(0u, GNOMON_FEW_VIEWS, 0u, 0u);
+    } else {
+        light = gnomon_lights[index];
     }
     if (light.views.y == 0u) {
         return 1.0;
@@ -172,11 +180,11 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
     Receiver r;
     r.p = p;
     r.n = n;
-    r.depth = dot(gnomon.screen.view_axis.xyz, p);
-    r.steps = pixelSteps(gnomon.screen.eye_x, gnomon.screen.eye_y, gnomon.screen.eye_z, gnomon.screen.eye_w, w,
-                         2.0 * gnomon.screen.size.zw);
+    r.depth = dot(GNOMON_NUMBERS.screen.view_axis.xyz, p);
+    r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
+                         2.0 * GNOMON_NUMBERS.screen.size.zw);
     FilterInput f = filterInput(pixel);
-    BiasRule bias = biasOf(gnomon.rule.bias, gnomon.rule.bias_more);
+    BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
     float v = 1.0;
     uvec2 range = light.views.xy;
@@ -184,12 +192,12 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
     bool more = light.views.w > 0u;
     do { // over the positions of the sun, so that the filter is compiled once
         float here = viewsVisibility(range.x, range.x + range.y, bias, f, r);
-        v = is_later ? steppedVisibility(v, here, stepWeight(light.steps, pixel.x * gnomon.screen.size.z)) : here;
+        v = is_later ? steppedVisibility(v, here, stepWeight(light.steps, pixel.x * GNOMON_NUMBERS.screen.size.z)) : here;
         more = more && !is_later;
         range = light.views.zw;
         is_later = true;
     } while (more);
-    v = fadedVisibility(gnomon.screen.fade, v, length(p));
+    v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
     return facesLight(light, p, n) ? v : 0.0;
 }
 

@@ -4,6 +4,8 @@
 // orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY) and with object ids (GNOMON_OBJECT_IDS).
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/choice_numbers.h"
+#include "../lib/mask_numbers.glsl"
+#include "../shared/gpu_structs.h"
 #include "../shared/octahedral.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
@@ -16,6 +18,11 @@ layout(constant_id = 5) const int kMomentSampling = 0; // gnomon::MapSampling
 layout(constant_id = 6) const int kMomentLayers = 2;   // of lvsm
 layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_depth.h
 layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
+layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
+layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
+GpuConstants numbers;
+#define GNOMON_NUMBERS numbers
+#define GNOMON_FEW_PLACE (kByVertex ? numbers_in[kLightPlace] : gnomon_lights[0].place)
 #define GNOMON_FEW_VIEWS kViewCount
 #define GNOMON_FEW_BINDING 8
 #define GNOMON_KERNEL_WIDTH kKernelWidth
@@ -42,8 +49,8 @@ layout(location = 0) out vec4 visibility;
 // Eye-relative position of a pixel, homogeneous.
 vec4 pointAt(ivec2 pixel, float depth)
 {
-    vec4 ndc = vec4((vec2(pixel) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);
-    return vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * numbers.screen.size.zw * 2.0 - 1.0, depth, 1.0);
+    return vec4(dot(numbers.screen.eye_x, ndc), dot(numbers.screen.eye_y, ndc), dot(numbers.screen.eye_z, ndc), dot(numbers.screen.eye_w, ndc));
 }
 
 vec3 positionAt(ivec2 pixel, float depth)
@@ -56,7 +63,7 @@ vec3 positionAt(ivec2 pixel, float depth)
 vec3 side(ivec2 pixel, ivec2 step_px, float depth)
 {
     ivec2 far = pixel + 2 * step_px;
-    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), gnomon.screen.size.xy))) {
+    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), numbers.screen.size.xy))) {
         return vec3(depth, depth, 3e38);
     }
     float a = texelFetch(depths, pixel + step_px, 0).r;
@@ -84,15 +91,18 @@ vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
 
 void main()
 {
+#define READ(PLACE, MEMBER) numbers.MEMBER = kByVertex ? numbers_in[PLACE] : gnomon.MEMBER;
+    GNOMON_MASK_NUMBERS(READ)
     visibility = vec4(1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(depths, pixel, 0).r;
-    if (depth == gnomon.screen.view_axis.w) {
-        return;
+    // What is not drawn stays lit. Nor is the shader compiled twice by lavapipe, where no pixel is known to be drawn.
+    if (depth == numbers.screen.view_axis.w) {
+        discard;
     }
 #ifdef GNOMON_OBJECT_IDS
     if (texelFetch(object_ids, pixel, 0).r == 0) {
-        return;
+        discard;
     }
 #endif
     vec4 h = pointAt(pixel, depth);

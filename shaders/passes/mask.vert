@@ -1,8 +1,28 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// One triangle that covers the screen.
+// One triangle that covers the screen. WITH_NUMBERS: with what lib/mask_numbers.glsl lists.
+#ifdef WITH_NUMBERS
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/mask_numbers.glsl"
+#include "../shared/gpu_structs.h"
+layout(set = 0, binding = 0, std140) uniform Constants
+{
+    GpuConstants constants;
+};
+layout(set = 0, binding = 2, std430) restrict readonly buffer Lights
+{
+    GpuLight lights[];
+};
+layout(location = 0) flat out vec4 numbers[kMaskNumbers];
+#endif
+
 void main()
 {
     vec2 p = vec2(float((gl_VertexIndex << 1) & 2), float(gl_VertexIndex & 2));
     gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+#ifdef WITH_NUMBERS
+#define WRITE(PLACE, MEMBER) numbers[PLACE] = constants.MEMBER;
+    GNOMON_MASK_NUMBERS(WRITE)
+    numbers[kLightPlace] = lights[0].place;
+#endif
 }

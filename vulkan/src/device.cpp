@@ -66,6 +66,7 @@ Device::Device(const DeviceView& view) : vk(loadFunctions(view)), view_(view)
     VkPhysicalDeviceProperties properties{};
     vk.GetPhysicalDeviceProperties(view.physical_device, &properties);
     limits_ = properties.limits;
+    software_ = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     vk.GetPhysicalDeviceMemoryProperties(view.physical_device, &memory_);
 }
 

@@ -36,6 +36,7 @@ public:
 
     [[nodiscard]] VkDevice handle() const { return view_.device; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
     [[nodiscard]] const MemoryAccount& account() const { return account_; }
 
@@ -65,6 +66,7 @@ public:
 private:
     DeviceView view_;
     VkPhysicalDeviceLimits limits_{};
+    bool software_ = false;
     VkPhysicalDeviceMemoryProperties memory_{};
     MemoryAccount account_;
     Retirement retirement_; // the last: what it frees goes back to the others

@@ -62,7 +62,7 @@ VkFormat maskFormat(const Plan& plan)
 } // namespace
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options, float quantum)
-    : device_(device), options_(options), quantum_(quantum), vertex_(makeShader(device, spirv::mask_vert))
+    : device_(device), options_(options), quantum_(quantum), vertex_(makeShader(device, spirv::mask_numbers_vert))
 {
     makeLayouts();
     makeSlots();

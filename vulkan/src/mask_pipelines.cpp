@@ -29,6 +29,7 @@ struct Constants {
     std::int32_t moment_layers;
     std::int32_t depth_holding;
     std::uint32_t view_count;
+    VkBool32 by_vertex;
 };
 
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -74,7 +75,7 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bo
 
 void MaskPassRecorder::makeLayouts()
 {
-    sets_ = DescriptorSets(device_, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT);
+    sets_ = DescriptorSets(device_, kTypes, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT);
     layout_ = makePipelineLayout(device_, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(MaskPush));
     sampler_ = makeSampler(device_, VK_FILTER_NEAREST);
     // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
@@ -151,7 +152,8 @@ Pipeline MaskPassRecorder::makePipeline(Variant variant)
                            moments.sampling,
                            moments.layers,
                            depthHolding(filter.filter, filter.format),
-                           variant.few_views};
+                           variant.few_views,
+                           device_.software() ? VK_TRUE : VK_FALSE};
     const Specialisation specialisation(values);
     const ShaderModule fragment = makeShader(device_, fragmentCode(filter.filter, variant.orthographic, variant.ids));
     const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: what is the same for all of the mask's pixels and may come to them from the vertex shader. lavapipe 22.3
+// loads a uniform in a fragment shader once for each lane, and takes as long to compile that as to execute it; in a
+// vertex shader, and of an attribute that is flat, once.
+#ifndef GNOMON_MASK_NUMBERS_GLSL
+#define GNOMON_MASK_NUMBERS_GLSL
+
+// DO(place, member of GpuConstants). At most 15 places: any device has 64 components, and four are the position.
+#define GNOMON_MASK_NUMBERS(DO)                                                                                        \
+    DO(0, screen.eye_x)                                                                                                \
+    DO(1, screen.eye_y)                                                                                                \
+    DO(2, screen.eye_z)                                                                                                \
+    DO(3, screen.eye_w)                                                                                                \
+    DO(4, screen.view_axis)                                                                                            \
+    DO(5, screen.fade)                                                                                                 \
+    DO(6, screen.size)                                                                                                 \
+    DO(7, rule.bias)                                                                                                   \
+    DO(8, rule.bias_more)                                                                                              \
+    DO(9, rule.kernel)                                                                                                 \
+    DO(10, rule.disc)                                                                                                  \
+    DO(11, rule.moment_warp)                                                                                           \
+    DO(12, rule.moment_variance)                                                                                       \
+    DO(13, rule.moment_shape)
+const int kLightPlace = 14; // of a draw with few views (light_visibility.glsl)
+const int kMaskNumbers = 15;
+
+#endif
