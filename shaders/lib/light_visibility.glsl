@@ -87,8 +87,8 @@ FilterInput filterInput(vec2 pixel)
 }
 
 // A pass may define GNOMON_FEW_VIEWS: how many views its one light has, 1 to kFewViews, which are all of the plan's; 0: a
-// draw for which this is not so; and GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, GpuLight::place. Few views are read as uniforms, which software loads in a fifth of
-// the time that it takes for a storage buffer, and are known by their slices before any of them is loaded.
+// draw for which this is not so. And GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, the light's GpuLight::place. Few
+// views are read as uniforms, which software loads faster, and told apart by their slices before one of them is loaded.
 #ifdef GNOMON_FEW_VIEWS
 GpuView viewAt(uint i)
 {
@@ -97,6 +97,7 @@ GpuView viewAt(uint i)
     }
     return gnomon_views[i];
 }
+
 // A bit for each view that serves this depth.
 uint slicesAt(float depth)
 {
@@ -109,8 +110,15 @@ uint slicesAt(float depth)
 #else
 #define GNOMON_FEW_VIEWS 0
 #define GNOMON_FEW_PLACE vec4(0.0)
-#define viewAt(i) gnomon_views[i]
-#define slicesAt(depth) 0u
+GpuView viewAt(uint i)
+{
+    return gnomon_views[i];
+}
+
+uint slicesAt(float depth)
+{
+    return 0u;
+}
 #endif
 
 // The views among which a point's are looked for.

@@ -216,8 +216,9 @@ void CascadeFitter::recordConstants(VkCommandBuffer commands, std::uint32_t slot
                                      &slot.complete, 0, nullptr);
     constexpr auto kGroup = static_cast<std::uint32_t>(shared::kCompleteGroup);
     device_.vk.CmdDispatch(commands, (count + kGroup - 1) / kGroup, 1, 1);
-    recordBarrier(device_, commands, MemoryBarrier{kCompute, kWrite, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                                                   kRead | VK_ACCESS_2_UNIFORM_READ_BIT});
+    recordBarrier(
+        device_, commands,
+        MemoryBarrier{kCompute, kWrite, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, kRead | VK_ACCESS_2_UNIFORM_READ_BIT});
 }
 
 std::vector<FittedView> CascadeFitter::read(std::uint32_t slot) const

@@ -16,7 +16,18 @@
 namespace gnomon::vulkan {
 namespace {
 
-enum Binding : std::uint32_t { kConstants, kMaps, kLights, kViews, kLayers, kDepth, kNormal, kObjectId, kFewViews, kBindingCount };
+enum Binding : std::uint32_t {
+    kConstants,
+    kMaps,
+    kLights,
+    kViews,
+    kLayers,
+    kDepth,
+    kNormal,
+    kObjectId,
+    kFewViews,
+    kBindingCount
+};
 
 // The constant_ids of mask.frag, four bytes each, in their order.
 struct Constants {

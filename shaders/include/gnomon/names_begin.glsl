@@ -16,6 +16,7 @@
 #define MomentRule gnomon_MomentRule
 #define PixelSteps gnomon_PixelSteps
 #define Receiver gnomon_Receiver
+#define Search gnomon_Search
 #define applyFilter gnomon_applyFilter
 #define beginsBefore gnomon_beginsBefore
 #define biasOf gnomon_biasOf
@@ -69,8 +70,10 @@
 #define hamburgerVisibility gnomon_hamburgerVisibility
 #define hasFlag gnomon_hasFlag
 #define hausdorffVisibility gnomon_hausdorffVisibility
+#define inSlice gnomon_inSlice
 #define interleavedGradientNoise gnomon_interleavedGradientNoise
 #define isLayer gnomon_isLayer
+#define isLeft gnomon_isLeft
 #define isSameSurface gnomon_isSameSurface
 #define isSplitOff gnomon_isSplitOff
 #define kBiasFourth gnomon_kBiasFourth
@@ -83,6 +86,7 @@
 #define kDiscPoints gnomon_kDiscPoints
 #define kEdgeOn gnomon_kEdgeOn
 #define kFarthestNeighbour gnomon_kFarthestNeighbour
+#define kFewViews gnomon_kFewViews
 #define kFilterEsm gnomon_kFilterEsm
 #define kFilterEvsm gnomon_kFilterEvsm
 #define kFilterHard gnomon_kFilterHard
@@ -154,6 +158,7 @@
 #define momentsOfQuantised gnomon_momentsOfQuantised
 #define msmAllowance gnomon_msmAllowance
 #define msmVisibility gnomon_msmVisibility
+#define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
 #define pairedDepth gnomon_pairedDepth
 #define pairedTexel gnomon_pairedTexel
@@ -175,9 +180,9 @@
 #define samplingLevel gnomon_samplingLevel
 #define secondPolynomial gnomon_secondPolynomial
 #define shapeVisibility gnomon_shapeVisibility
-#define shareOf gnomon_shareOf
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
+#define slicesAt gnomon_slicesAt
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
 #define tapWeight gnomon_tapWeight
@@ -190,6 +195,7 @@
 #define uniformLayer gnomon_uniformLayer
 #define unitOrZero gnomon_unitOrZero
 #define varianceOfRounding gnomon_varianceOfRounding
+#define viewAt gnomon_viewAt
 #define viewContains gnomon_viewContains
 #define viewShare gnomon_viewShare
 #define viewVisibility gnomon_viewVisibility

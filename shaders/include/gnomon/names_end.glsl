@@ -16,6 +16,7 @@
 #undef MomentRule
 #undef PixelSteps
 #undef Receiver
+#undef Search
 #undef applyFilter
 #undef beginsBefore
 #undef biasOf
@@ -69,8 +70,10 @@
 #undef hamburgerVisibility
 #undef hasFlag
 #undef hausdorffVisibility
+#undef inSlice
 #undef interleavedGradientNoise
 #undef isLayer
+#undef isLeft
 #undef isSameSurface
 #undef isSplitOff
 #undef kBiasFourth
@@ -83,6 +86,7 @@
 #undef kDiscPoints
 #undef kEdgeOn
 #undef kFarthestNeighbour
+#undef kFewViews
 #undef kFilterEsm
 #undef kFilterEvsm
 #undef kFilterHard
@@ -154,6 +158,7 @@
 #undef momentsOfQuantised
 #undef msmAllowance
 #undef msmVisibility
+#undef nextShare
 #undef noLayer
 #undef pairedDepth
 #undef pairedTexel
@@ -175,9 +180,9 @@
 #undef samplingLevel
 #undef secondPolynomial
 #undef shapeVisibility
-#undef shareOf
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
+#undef slicesAt
 #undef stepWeight
 #undef steppedVisibility
 #undef tapWeight
@@ -190,6 +195,7 @@
 #undef uniformLayer
 #undef unitOrZero
 #undef varianceOfRounding
+#undef viewAt
 #undef viewContains
 #undef viewShare
 #undef viewVisibility
