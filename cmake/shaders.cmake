@@ -41,13 +41,19 @@ endfunction()
 # gnomon_shaders(TARGET ENTRIES...): makes an object library that embeds each entry as `const std::span<const
 # std::uint32_t> gnomon::spirv::NAME` (with dots as underscores), declared in the generated header "TARGET.h", which also
 # has all of them in `gnomon::spirv::all_of_TARGET`. An entry is a source, or one of gnomon_shader_variants(). Debug
-# builds keep the source's lines and names in the SPIR-V.
+# builds keep the source's lines and names in the SPIR-V, but for those with sanitizers, which look at C++ alone.
 function(gnomon_shaders target)
     set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
+    set(keep_names)
+    if(NOT GNOMON_SANITIZE)
+        set(keep_names $<$<CONFIG:Debug>:-g>)
+    endif()
     set(embed ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake)
     file(MAKE_DIRECTORY ${dir})
     set(header "#pragma once\n#include <cstdint>\n#include <span>\nnamespace gnomon::spirv {\n")
-    set(cpps)
+    set(words)
+    set(spans)
+    set(incs)
     set(ids)
     foreach(entry ${ARGN})
         set(defines)
@@ -64,23 +70,26 @@ function(gnomon_shaders target)
         string(MAKE_C_IDENTIFIER ${name} id)
         list(APPEND ids ${id})
         string(APPEND header "extern const std::span<const std::uint32_t> ${id};\n")
-        set(cpp "#include \"${target}.h\"\nnamespace gnomon::spirv {\nnamespace {\nconstexpr std::uint32_t words[] =\n#include \"${name}.inc\"\n;\n}\nconst std::span<const std::uint32_t> ${id}{words};\n}\n")
-        file(CONFIGURE OUTPUT ${dir}/${name}.cpp CONTENT "${cpp}" @ONLY)
+        string(APPEND words "constexpr std::uint32_t words_${id}[] =\n#include \"${name}.inc\"\n;\n")
+        string(APPEND spans "const std::span<const std::uint32_t> ${id}{words_${id}};\n")
         add_custom_command(
             OUTPUT ${dir}/${name}.inc
-            COMMAND ${GLSLC} --target-env=vulkan1.3 -O $<$<CONFIG:Debug>:-g> -Werror ${defines}
+            COMMAND ${GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines}
                     -I ${PROJECT_SOURCE_DIR}/shaders -MD -MF ${dir}/${name}.d -MT ${dir}/${name}.inc
                     -o ${dir}/${name}.spv ${source}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DSPIRV=${dir}/${name}.spv -DINC=${dir}/${name}.inc -P ${embed}
             DEPENDS ${source} ${embed} DEPFILE ${dir}/${name}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
-        set_source_files_properties(${dir}/${name}.cpp PROPERTIES OBJECT_DEPENDS ${dir}/${name}.inc)
-        list(APPEND cpps ${dir}/${name}.cpp)
+        list(APPEND incs ${dir}/${name}.inc)
     endforeach()
     list(JOIN ids ", &" all)
     list(LENGTH ids count)
     string(APPEND header "inline constexpr const std::span<const std::uint32_t>* all_of_${target}[${count}] = {&${all}};\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.h CONTENT "${header}}\n" @ONLY)
-    add_library(${target} OBJECT ${cpps})
+    # One source for all: a compiler takes longer to start than to read a module's words.
+    set(cpp "#include \"${target}.h\"\nnamespace gnomon::spirv {\nnamespace {\n${words}}\n${spans}}\n")
+    file(CONFIGURE OUTPUT ${dir}/${target}.cpp CONTENT "${cpp}" @ONLY)
+    set_source_files_properties(${dir}/${target}.cpp PROPERTIES OBJECT_DEPENDS "${incs}")
+    add_library(${target} OBJECT ${dir}/${target}.cpp)
     target_include_directories(${target} PUBLIC ${dir})
 endfunction()
