@@ -7,8 +7,8 @@ usage: unity_groups.py SOURCE...     prints one line for each source: its group'
 Two sources may not share a group when one declares a name in an unnamed namespace, as a static, or as a macro, that the
 other declares or uses too. The layout puts every declaration of a namespace at the start of a line, so the names are found
 without parsing C++. A group is of one folder: another may mean something else by a name. A source that opens a namespace
-for all that follows has a group for itself, and so has one with a line "// Compiled alone: WHY", for clashes that this
-cannot see.
+for all that follows has a group for itself; so has one that defines a macro for a header, which other sources include
+without it, and one with a line "// Compiled alone: WHY", for clashes that this cannot see.
 """
 
 import re
@@ -23,6 +23,7 @@ ALIAS = re.compile(r"^using (\w+) =")
 MACRO = re.compile(r"^# *define (\w+)", re.MULTILINE)
 TEST = re.compile(r"^(?:TYPED_)?(?:TEST|TEST_F|TEST_P|INSTANTIATE_TEST_SUITE_P)\((\w+), *(\w+)")
 ALONE = re.compile(r"^using (?:namespace|enum) |^// Compiled alone: ", re.MULTILINE)
+FOR_A_HEADER = re.compile(r"^#define (?:.*\n)*#include ", re.MULTILINE)
 BROUGHT = re.compile(r"^using [\w:]*::(\w+);", re.MULTILINE)
 # The same alias may stand twice.
 OTHER_NAME = re.compile(r"^namespace (\w+) =", re.MULTILINE)
@@ -70,7 +71,8 @@ def groups_of(sources: list[str]) -> list[list[str]]:
         text = Path(source).read_text(encoding="utf-8")
         text = LITERALS.sub('""', text)
         names, used = names_of(text), set(USED.findall(text) + OTHER_NAME.findall(text))
-        lines = text.count("\n") if not ALONE.search(text) else MOST_LINES + 1
+        alone = ALONE.search(text) or FOR_A_HEADER.search(text)
+        lines = MOST_LINES + 1 if alone else text.count("\n")
         for group in groups:
             clash = names & (group["names"] | group["used"]) or used & group["names"]
             if group["folder"] == folder and group["lines"] + lines <= MOST_LINES and not clash:

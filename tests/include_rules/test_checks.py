@@ -153,6 +153,10 @@ class UnityGroups(unittest.TestCase):
     def test_an_opened_namespace_is_alone(self):
         self.assertEqual(len(set(self.groups("using namespace a;", "int b();"))), 2)
 
+    def test_a_macro_for_a_header_is_alone(self):
+        self.assertEqual(len(set(self.groups('#define A\n#include "a.h"\n', '#include "a.h"\n'))), 2)
+        self.assertEqual(len(set(self.groups('#include "a.h"\n#define A\n', '#include "b.h"\n'))), 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled alone: in single precision, which its headers get from float_map.h.
 // In the precision of the GPU, where huge numbers overflow earlier and small ones vanish.
 #include "float_map.h"
 #include "hostile_values.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Compiled alone: in single precision, which its headers get from float_map.h.
 // How much the GPU's precision changes of a visibility: the filters' own arithmetic in single and in double precision,
 // on the same texels.
 #include "float_map.h"

@@ -19,7 +19,7 @@ namespace {
 
 TEST_F(CacheTest, AFileInPlaceOfTheFolder)
 {
-    test::spill(folder_ / "file", "precious");
+    gnomon::test::spill(folder_ / "file", "precious");
     for (const char* place : {"file", "file/below"}) {
         const Cache cache(folder_.path() / place);
         std::string why;
@@ -27,7 +27,7 @@ TEST_F(CacheTest, AFileInPlaceOfTheFolder)
         EXPECT_FALSE(cache.store(kKey, sample(4, 4), &why));
         EXPECT_FALSE(why.empty());
     }
-    EXPECT_EQ(test::slurp(folder_ / "file"), "precious");
+    EXPECT_EQ(gnomon::test::slurp(folder_ / "file"), "precious");
 }
 
 TEST_F(CacheTest, AFolderWithoutRights)
@@ -88,7 +88,7 @@ TEST_F(CacheTest, TheLeastRecentlyUsedGoFirst)
         ASSERT_TRUE(cache.store({0, i}, sample(16, 16)));
         fs::last_write_time(entryOf(folder_, {0, i}), now - std::chrono::hours(100 - static_cast<int>(i)));
     }
-    test::spill(folder_ / "notes.txt", std::string(100'000, 'x'));
+    gnomon::test::spill(folder_ / "notes.txt", std::string(100'000, 'x'));
     EXPECT_TRUE(load(cache, {16, 16}, {0, 0}).has_value()); // 1 is now the one not used for longest
     ASSERT_TRUE(cache.store({0, 3}, sample(16, 16)));
     EXPECT_TRUE(fs::exists(entryOf(folder_, {0, 0})));
@@ -111,11 +111,11 @@ TEST_F(CacheTest, OnlyTemporariesOfKilledProcessesAreSwept)
     const auto now = fs::file_time_type::clock::now();
     const std::vector<std::string> kept{"." + entry + ".12-1.tmp", ".other.12-0.tmp", "x." + entry + ".12-0.tmp"};
     for (const std::string& name : kept) {
-        test::spill(folder_ / name, "half");
+        gnomon::test::spill(folder_ / name, "half");
         fs::last_write_time(folder_ / name, now - std::chrono::hours(2));
     }
     fs::last_write_time(folder_ / kept[0], now - std::chrono::minutes(50));
-    test::spill(folder_ / ("." + entry + ".12-0.tmp"), "half");
+    gnomon::test::spill(folder_ / ("." + entry + ".12-0.tmp"), "half");
     fs::last_write_time(folder_ / ("." + entry + ".12-0.tmp"), now - std::chrono::minutes(70));
     ASSERT_TRUE(cache_.store({1, 1}, sample(4, 4)));
     std::vector<std::string> expected = kept;

@@ -17,7 +17,7 @@
 namespace gnomon::truth {
 
 namespace fs = std::filesystem;
-using test::Folder;
+using gnomon::test::Folder;
 
 inline constexpr scene::Hash128 kKey{0x0123456789ABCDEFULL, 42};
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -103,7 +103,7 @@ protected:
     void expectRefusedAndRemoved(const std::string& bytes, const std::string& what, const glm::uvec2& size_px = {13, 7},
                                  Kind kind = Kind::hard)
     {
-        test::spill(entryOf(folder_), bytes);
+        gnomon::test::spill(entryOf(folder_), bytes);
         EXPECT_FALSE(cache_.load(kKey, size_px, kind).has_value()) << what;
         EXPECT_TRUE(folder_.names().empty()) << what;
     }

@@ -73,7 +73,7 @@ TEST_F(CacheTest, TornFilesNeverLoad)
     std::string zeroed = whole; // what some file systems leave after a power cut
     std::fill(zeroed.begin() + static_cast<std::ptrdiff_t>(zeroed.size() / 2), zeroed.end(), '\0');
     expectRefusedAndRemoved(zeroed, "second half of zeros");
-    test::spill(entryOf(folder_), whole);
+    gnomon::test::spill(entryOf(folder_), whole);
     EXPECT_TRUE(load(cache_, {13, 7}).has_value()); // whole, it does load
 }
 
@@ -154,7 +154,7 @@ TEST_F(CacheTest, HeadersThatDoNotFitTheFileAreRefusedBeforeMemoryIsTaken)
         EXPECT_FALSE(parseHeader(bytes, bytes.size(), {kKey, size_px, Kind::hard}).has_value()) << lie.what;
         expectRefusedAndRemoved(bytes, lie.what, size_px);
     }
-    test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.rays = 7; }));
+    gnomon::test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.rays = 7; }));
     EXPECT_EQ(load(cache_, {13, 7}).value().visibility.rays, 7U); // so the seal is right, and the sizes were looked at
 }
 
@@ -178,7 +178,7 @@ TEST_F(CacheTest, AWholeEntryOfAnotherSizeOrKindThanAskedIsRefused)
     }
     expectRefusedAndRemoved(whole, "another kind", {13, 7}, Kind::area);
     expectRefusedAndRemoved(reseal(whole, [](EntryHeader& header) { header.kind = 2; }), "no kind");
-    test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.kind = 1; }));
+    gnomon::test::spill(entryOf(folder_), reseal(whole, [](EntryHeader& header) { header.kind = 1; }));
     EXPECT_EQ(cache_.load(kKey, {13, 7}, Kind::area).value().visibility.kind, Kind::area);
 }
 
@@ -252,7 +252,7 @@ TEST_F(CacheTest, ValuesThatNoTruthHasAreNeitherLoadedNorStored)
         if (name != "point" && name != "normal") {
             expectRefused(mark, -1e-6F);
         }
-        test::spill(entryOf(folder_), withValue(mark, 0.25F));
+        gnomon::test::spill(entryOf(folder_), withValue(mark, 0.25F));
         std::optional<Traced> loaded = load(cache_, {13, 7});
         ASSERT_TRUE(loaded.has_value()) << name;
         EXPECT_EQ(mark.of(*loaded), 0.25F); // so it was the value that was refused
@@ -282,7 +282,7 @@ TEST_F(CacheTest, MasksThatDoNotFitThePayloadAreRefused)
 
 TEST_F(CacheTest, AHugeFileIsRefusedByItsHeader)
 {
-    test::spill(entryOf(folder_), entryBytes());
+    gnomon::test::spill(entryOf(folder_), entryBytes());
     std::error_code error;
     fs::resize_file(entryOf(folder_), 3ULL << 30, error); // sparse: takes no room on the disk
     if (error) {
