@@ -55,7 +55,7 @@ def groups_that_compile(sources: list[str], flags: tuple[str, ...], build: Path)
     """`sources` in as few groups as is easily found; what compiles with no other is a group by itself."""
     groups, left = [], sources
     while left:
-        group, clashing = left, []
+        group, later, clashing = left[:MOST_TOGETHER], left[MOST_TOGETHER:], []
         while len(group) > 1:
             with tempfile.NamedTemporaryFile("w", suffix=".cpp") as together:
                 together.write(including(group))
@@ -70,7 +70,8 @@ def groups_that_compile(sources: list[str], flags: tuple[str, ...], build: Path)
             clashing += out
             group = [source for source in group if source not in out]
         groups.append(group)
-        left = clashing
+        # They may go with what comes later, which is cheaper than alone.
+        left = clashing + later
     return groups
 
 
@@ -114,13 +115,11 @@ def main() -> int:
     if count == 0:
         print("tidy: found no sources", file=sys.stderr)
         return 1
-    batches = []
-    for flags, sources in alike.items():
-        ordered = sorted(sources)
-        batches += [(ordered[at:at + MOST_TOGETHER], flags) for at in range(0, len(ordered), MOST_TOGETHER)]
     with ThreadPoolExecutor(options.jobs) as pool:
-        split = pool.map(lambda batch: [(group, batch[1]) for group in groups_that_compile(*batch, build)], batches)
-        work = [one for some in split for one in some]
+        split = pool.map(lambda flags: [(group, flags) for group in groups_that_compile(sorted(alike[flags]), flags, build)],
+                         alike)
+        # The largest first, so that no processor waits for it at the end.
+        work = sorted((one for some in split for one in some), key=lambda one: -len(one[0]))
         found = [text for texts in pool.map(lambda one: tidy_together(build, *one), work) for text in texts]
     for text in found:
         print(text, file=sys.stderr)
