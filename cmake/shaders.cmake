@@ -75,7 +75,8 @@ function(gnomon_shaders target)
         add_custom_command(
             OUTPUT ${dir}/${name}.inc
             COMMAND ${GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines}
-                    -I ${PROJECT_SOURCE_DIR}/shaders -MD -MF ${dir}/${name}.d -MT ${dir}/${name}.inc
+                    -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/shaders/include
+                    -MD -MF ${dir}/${name}.d -MT ${dir}/${name}.inc
                     -o ${dir}/${name}.spv ${source}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DSPIRV=${dir}/${name}.spv -DINC=${dir}/${name}.inc -P ${embed}

@@ -2,97 +2,24 @@
 // The least that a renderer needs to get soft-shadow masks from Gnomon: it owns its device, its frame loop and its
 // depth prepass, and hands Gnomon a frame and a way to draw. Usage: minimal_host FOLDER. Writes the masks of a sun and
 // a spot light there as PGM; exits with 1 if they are not as the scene's geometry says.
+#include "small_vulkan.h"
+
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/caster_drawer.h>
 
 #include <gnomon_example_spirv.h>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <vulkan/vulkan_raii.hpp>
 
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace {
 
 constexpr vk::Extent2D kSize{640, 400};
-constexpr std::uint32_t kSlots = 2; // frames in flight
 constexpr int kFrames = 6;
-
-// ---- What every Vulkan program has.
-
-struct Device {
-    vk::raii::Context context;
-    vk::ApplicationInfo app{nullptr, 0, nullptr, 0, VK_API_VERSION_1_3};
-    vk::raii::Instance instance{context, vk::InstanceCreateInfo({}, &app)};
-    vk::raii::PhysicalDevice gpu = std::move(vk::raii::PhysicalDevices(instance).front());
-    float priority = 1.0F;
-    vk::DeviceQueueCreateInfo queue_info{{}, 0, 1, &priority};
-    vk::raii::Device device{gpu, vk::DeviceCreateInfo({}, queue_info).setPNext(&gnomon::vulkan::requiredFeatures())};
-    vk::raii::Queue queue{device, 0, 0};
-    vk::raii::CommandPool pool{device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, 0}};
-    vk::raii::CommandBuffers commands{device, {*pool, vk::CommandBufferLevel::ePrimary, kSlots}};
-    std::array<vk::raii::Fence, kSlots> done{vk::raii::Fence(device, {vk::FenceCreateFlagBits::eSignaled}),
-                                             vk::raii::Fence(device, {vk::FenceCreateFlagBits::eSignaled})};
-
-    gnomon::vulkan::DeviceView view() const
-    {
-        gnomon::vulkan::DeviceView view;
-        view.instance = *instance;
-        view.physical_device = *gpu;
-        view.device = *device;
-        view.get_instance_proc_addr = context.getDispatcher()->vkGetInstanceProcAddr;
-        return view;
-    }
-
-    vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags flags) const
-    {
-        const vk::PhysicalDeviceMemoryProperties memory = gpu.getMemoryProperties();
-        std::uint32_t type = 0;
-        while ((needs.memoryTypeBits >> type & 1U) == 0 || (memory.memoryTypes[type].propertyFlags & flags) != flags) {
-            ++type;
-        }
-        return {device, {needs.size, type}};
-    }
-};
-
-struct Buffer {
-    vk::raii::Buffer buffer;
-    vk::raii::DeviceMemory memory;
-    void* mapped;
-
-    Buffer(const Device& d, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const void* contents = nullptr)
-        : buffer(d.device, vk::BufferCreateInfo({}, bytes, usage)),
-          memory(d.allocate(buffer.getMemoryRequirements(),
-                            vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent)),
-          mapped(memory.mapMemory(0, VK_WHOLE_SIZE))
-    {
-        buffer.bindMemory(*memory, 0);
-        if (contents != nullptr) {
-            std::memcpy(mapped, contents, bytes);
-        }
-    }
-};
-
-// A barrier that waits for everything: simple, and not what a real renderer should do.
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
-                vk::ImageLayout from, vk::ImageLayout to)
-{
-    const auto barrier = vk::ImageMemoryBarrier2()
-                             .setSrcStageMask(vk::PipelineStageFlagBits2::eAllCommands)
-                             .setSrcAccessMask(vk::AccessFlagBits2::eMemoryWrite)
-                             .setDstStageMask(vk::PipelineStageFlagBits2::eAllCommands)
-                             .setDstAccessMask(vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite)
-                             .setOldLayout(from)
-                             .setNewLayout(to)
-                             .setImage(image)
-                             .setSubresourceRange({aspect, 0, 1, 0, 1});
-    commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barrier));
-}
 
 // ---- The scene: boxes on and over a ground (object 0, a box too), a sun and a spot light.
 
@@ -131,61 +58,35 @@ struct Scene {
     }
 };
 
-// A cube of two units a side.
-constexpr std::array<glm::vec3, 8> kCorners{
-    {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}}};
-constexpr std::array<std::uint32_t, 36> kIndices{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
-                                                 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
-
 // ---- The host's own depth prepass, one draw an object.
 
 struct Prepass {
-    vk::raii::Image image;
-    vk::raii::DeviceMemory memory;
-    vk::raii::ImageView view;
+    Target depth;
     vk::raii::PipelineLayout layout;
     vk::raii::Pipeline pipeline;
 
     explicit Prepass(const Device& d)
-        : image(
-              d.device,
-              vk::ImageCreateInfo({}, vk::ImageType::e2D, vk::Format::eD32Sfloat, {kSize.width, kSize.height, 1}, 1, 1)
-                  .setUsage(vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled)),
-          memory(d.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal)), view(nullptr),
+        : depth(d, kSize, vk::Format::eD32Sfloat,
+                vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled,
+                vk::ImageAspectFlagBits::eDepth),
           layout(nullptr), pipeline(nullptr)
     {
-        image.bindMemory(*memory, 0);
-        view = {d.device, vk::ImageViewCreateInfo({}, *image, vk::ImageViewType::e2D, vk::Format::eD32Sfloat, {},
-                                                  {vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1})};
         const vk::PushConstantRange range(vk::ShaderStageFlagBits::eVertex, 0, sizeof(glm::mat4));
         layout = {d.device, vk::PipelineLayoutCreateInfo().setPushConstantRanges(range)};
-        const auto code = gnomon::spirv::minimal_host_vert;
-        const vk::raii::ShaderModule module(d.device, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
-        const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eVertex, *module, "main");
-        const vk::VertexInputBindingDescription binding(0, sizeof(glm::vec3));
-        const vk::VertexInputAttributeDescription attribute(0, 0, vk::Format::eR32G32B32Sfloat);
-        const vk::PipelineVertexInputStateCreateInfo input({}, binding, attribute);
-        const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
-        const vk::Viewport viewport(0, 0, kSize.width, kSize.height, 0, 1);
-        const vk::Rect2D area({0, 0}, kSize);
-        const vk::PipelineViewportStateCreateInfo viewports({}, viewport, area);
-        const auto raster = vk::PipelineRasterizationStateCreateInfo().setLineWidth(1);
-        const vk::PipelineMultisampleStateCreateInfo samples;
-        const vk::PipelineDepthStencilStateCreateInfo depth({}, VK_TRUE, VK_TRUE, vk::CompareOp::eGreater);
-        const vk::PipelineRenderingCreateInfo rendering(0, {}, vk::Format::eD32Sfloat);
-        pipeline = {d.device, nullptr,
-                    vk::GraphicsPipelineCreateInfo({}, stage, &input, &assembly, nullptr, &viewports, &raster, &samples,
-                                                   &depth, nullptr, nullptr, *layout)
-                        .setPNext(&rendering)};
+        PipelineWish wish{gnomon::spirv::minimal_host_vert, {}, *layout};
+        wish.compare = vk::CompareOp::eGreater;
+        pipeline = makePipeline(d, wish);
     }
 
     void record(const vk::raii::CommandBuffer& commands, const Scene& scene, vk::Buffer vertices, vk::Buffer indices)
     {
-        transition(commands, *image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
+        transition(commands, *depth.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
                    vk::ImageLayout::eDepthAttachmentOptimal);
-        const auto depth = vk::RenderingAttachmentInfo(*view, vk::ImageLayout::eDepthAttachmentOptimal)
-                               .setLoadOp(vk::AttachmentLoadOp::eClear); // to 0: far, as depth is reversed
-        commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, kSize}).setLayerCount(1).setPDepthAttachment(&depth));
+        const auto attachment = vk::RenderingAttachmentInfo(*depth.view, vk::ImageLayout::eDepthAttachmentOptimal)
+                                    .setLoadOp(vk::AttachmentLoadOp::eClear); // to 0: far, as depth is reversed
+        commands.beginRendering(
+            vk::RenderingInfo({}, {{0, 0}, kSize}).setLayerCount(1).setPDepthAttachment(&attachment));
+        setViewport(commands, kSize);
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
         commands.bindVertexBuffers(0, vertices, {0});
         commands.bindIndexBuffer(indices, 0, vk::IndexType::eUint32);
@@ -197,7 +98,7 @@ struct Prepass {
             commands.drawIndexed(kIndices.size(), 1, 0, 0, 0);
         }
         commands.endRendering();
-        transition(commands, *image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+        transition(commands, *depth.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eDepthAttachmentOptimal,
                    vk::ImageLayout::eShaderReadOnlyOptimal);
     }
 };
@@ -242,25 +143,21 @@ int run(const std::string& folder)
 
     gnomon::Planner planner(gnomon::ShadowOptions{});
     gnomon::vulkan::ShadowRenderer shadows(d.view(), {}); // pcf with a 3 x 3 kernel, automatic bias
-    gnomon::vulkan::CasterDrawer casters(d.view(), {shadows.mapFormats(true), shadows.mapFormats(false)});
+    gnomon::vulkan::CasterDrawer casters(d.view(), {});
     const gnomon::vulkan::DrawPart cube{{0, kIndices.size(), 0}, 0};
     const std::array<gnomon::vulkan::DrawObject, 4> objects{{{0, 1}, {0, 1}, {0, 1}, {0, 1}}};
     casters.setScene({&cube, 1}, objects, std::array<gnomon::vulkan::CasterBatch, 1>{});
 
     for (int i = 0; i < kFrames; ++i) {
         const auto slot = static_cast<std::uint32_t>(i) % kSlots;
-        const vk::raii::CommandBuffer& commands = d.commands[slot];
-        (void)d.device.waitForFences(*d.done[slot], VK_TRUE, UINT64_MAX);
-        d.device.resetFences(*d.done[slot]);
-
+        const vk::raii::CommandBuffer& commands = d.begin(slot);
         const gnomon::Plan& plan = planner.plan(scene.frame);
         shadows.prepare(plan, kSize);
         casters.beginFrame(slot, plan, {*vertices.buffer, 0, nullptr, 0, *indices.buffer, 0}, scene.world_from_object);
-        commands.begin(vk::CommandBufferBeginInfo());
         prepass.record(commands, scene, *vertices.buffer, *indices.buffer);
         shadows.recordMaps(*commands, slot, scene.frame, plan,
                            [&](const gnomon::vulkan::MapPass& pass) { casters.draw(pass); });
-        shadows.recordMask(*commands, slot, scene.frame, plan, {kSize, *prepass.view});
+        shadows.recordMask(*commands, slot, scene.frame, plan, {kSize, *prepass.depth.view});
         // Here a renderer would shade with shadows.mask(); this one reads the last frame's back.
         const gnomon::vulkan::ImageRef mask = shadows.mask();
         transition(commands, mask.image, vk::ImageAspectFlagBits::eColor, vk::ImageLayout(mask.layout),
@@ -268,8 +165,7 @@ int run(const std::string& folder)
         const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
                                         {kSize.width, kSize.height, 1});
         commands.copyImageToBuffer(mask.image, vk::ImageLayout::eTransferSrcOptimal, *pixels.buffer, whole);
-        commands.end();
-        d.queue.submit(vk::SubmitInfo({}, {}, *commands), *d.done[slot]);
+        d.submit(slot);
     }
     d.device.waitIdle();
 

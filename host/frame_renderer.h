@@ -124,12 +124,12 @@ public:
     /// What making its maps filterable took; zeros without such passes.
     [[nodiscard]] vulkan::FilterCost filterCost() const;
     /// lvsm: the layers of depth of a view of plan(), nearest first; else empty.
-    [[nodiscard]] std::vector<vulkan::DepthLayer> depthLayers(std::uint32_t view) const;
+    [[nodiscard]] std::vector<pack::DepthLayer> depthLayers(std::uint32_t view) const;
 
     /// Bytes of every image and buffer, by purpose: the scene's, its own and the library's.
     [[nodiscard]] std::vector<vulkan::MemoryUse> memory() const;
     /// How cascades are drawn, if there are any: each or layered.
-    [[nodiscard]] vulkan::CascadePass cascadePass() const;
+    [[nodiscard]] CascadePass cascadePass() const;
 
 private:
     struct Impl;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps the names of the library's shaders out of the way of a host's that includes gnomon/visibility.glsl.
+"""Keeps the names of the library's shaders out of the way of a host's that includes shaders/include/gnomon.
 
 usage: public_names.py [--check | --host]
 
@@ -15,7 +15,8 @@ from pathlib import Path
 
 from sources import project_root
 
-HEADER = "shaders/include/gnomon/visibility.glsl"
+FOLDER = "shaders/include/gnomon"
+HEADERS = ["visibility.glsl", "caster.glsl"]
 TYPE = r"(?:void|bool|u?int|float|real[234]?|[biu]?vec[234]|[A-Z]\w+)"
 DECLARATIONS = [
     re.compile(rf"^(?:GN_FN )?{TYPE} (\w+)\([^;]*$", re.M),
@@ -38,7 +39,9 @@ def included_files(file: Path, seen: dict) -> dict:
 
 
 def global_names(root: Path) -> list[str]:
-    files = included_files((root / HEADER).resolve(), {})
+    files = {}
+    for header in HEADERS:
+        included_files((root / FOLDER / header).resolve(), files)
     found = {name for text in files.values() for pattern in DECLARATIONS for name in pattern.findall(text)}
     return sorted(name for name in found if not OWN.match(name))
 
@@ -54,10 +57,11 @@ def written(names: list[str]) -> dict[str, str]:
 def host_shader(names: list[str]) -> str:
     functions = "".join(f"float {name}() {{ return 1.0; }}\n" for name in [*names, "real", "real2", "real3", "real4"])
     return ("#version 460\n#extension GL_GOOGLE_include_directive : require\n"
-            '#include "gnomon/visibility.glsl"\n' + functions +
+            '#include "gnomon/caster.glsl"\n#include "gnomon/visibility.glsl"\n' + functions +
             "layout(location = 0) in vec3 point;\nlayout(location = 1) in vec3 normal;\n"
             "layout(location = 0) out float seen;\n"
-            "void main() { seen = gnomonLightVisibility(3u, point, normal, gl_FragCoord.xy); }\n")
+            "void main() { seen = gnomonLightVisibility(3u, point, normal, gl_FragCoord.xy) +\n"
+            "    gnomonCasterDepth(gnomonCasterMetric(point, vec4(normal, 1.0))); }\n")
 
 
 def main() -> int:
@@ -68,7 +72,7 @@ def main() -> int:
         return 0
     stale = []
     for name, text in written(names).items():
-        file = (root / HEADER).parent / name
+        file = root / FOLDER / name
         if "--check" in sys.argv[1:]:
             if not file.is_file() or file.read_text(encoding="utf-8") != text:
                 stale.append(name)

@@ -7,6 +7,7 @@
 #include "progress.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan_views.h>
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::uint32_t viewOf(const Plan& plan, std::uint32_t light, const glm::dvec3& po
 }
 
 /// 1 + the layer that each receiver reads; 0 for the background and what is in no map.
-ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::vector<vulkan::DepthLayer>>& layers)
+ImageOf<std::uint8_t> layersOfPixels(const Drawn& drawn, const std::vector<std::vector<pack::DepthLayer>>& layers)
 {
     const ImageF& depth = drawn.picture.depth;
     const Camera camera = host::cameraOf(drawn.shot.eye, depth.width, depth.height, drawn.shot.state.bounds_ws);
@@ -64,7 +65,7 @@ Image8 layersPicture(const Drawn& drawn)
 {
     const LightPlan& light = drawn.plan.lights[drawn.light];
     requireMap(drawn, "layers");
-    std::vector<std::vector<vulkan::DepthLayer>> layers;
+    std::vector<std::vector<pack::DepthLayer>> layers;
     for (std::uint32_t i = 0; i < light.view_count; ++i) {
         layers.push_back(drawn.renderer.depthLayers(light.first_view + i));
     }
@@ -77,7 +78,7 @@ Image8 layersPicture(const Drawn& drawn)
     legend.subtitle = "the layer a receiver reads; grey: no map here";
     for (std::uint32_t i = 0; i < options.layers; ++i) {
         const View& view = drawn.plan.views[light.first_view];
-        const std::vector<vulkan::DepthLayer>& first = layers.front();
+        const std::vector<pack::DepthLayer>& first = layers.front();
         const double ends = i + 1 < first.size() ? static_cast<double>(first[i + 1].begins) : 1.0;
         legend.kinds.push_back(light.view_count > 1
                                    ? fmt::format("layer {}", i)
@@ -93,18 +94,18 @@ Image8 layersPicture(const Drawn& drawn)
 Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
-    const vulkan::FilterOptions filter = vulkan::filterOptionsOf(drawn.settings.shadow);
+    const ResolvedOptions options = resolvedOrThrow(drawn.settings.shadow);
     const LightPlan& light = drawn.plan.lights[drawn.light];
     const auto views = viewsOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), strongerPosition(light.steps));
     const View& view = views.empty() ? drawn.plan.views[light.first_view] : views.front(); // a position may have none
     const Tile& tile = view.tile;
-    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(filter.filter, filter.moments));
+    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(options.filter(), options.moments()));
     ImageF depths(tile.width, tile.height, 1);
     float least = std::numeric_limits<float>::infinity();
     float most = -least;
     for (std::uint32_t y = 0; y < tile.height; ++y) {
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float depth = vulkan::mapDepth(filter, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
+            const float depth = pack::mapDepth(options, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
             *depths.pixel(x, y) = depth;
             if (std::isfinite(depth)) {
                 least = std::min(least, depth);

@@ -35,7 +35,7 @@ double metresOf(const View& view, const MomentOptions& options, double stored)
     return near_m + stored * (far_m - near_m);
 }
 
-std::size_t layerOf(std::span<const vulkan::DepthLayer> layers, double stored)
+std::size_t layerOf(std::span<const pack::DepthLayer> layers, double stored)
 {
     std::size_t found = 0;
     for (std::size_t i = 1; i < layers.size(); ++i) {

@@ -16,6 +16,6 @@ namespace gnomon::app {
 /// (directional).
 [[nodiscard]] double metresOf(const View& view, const MomentOptions& options, double stored);
 /// The layer that a receiver at this depth reads. Precondition: at least one layer, the first of which begins at 0.
-[[nodiscard]] std::size_t layerOf(std::span<const vulkan::DepthLayer> layers, double stored);
+[[nodiscard]] std::size_t layerOf(std::span<const pack::DepthLayer> layers, double stored);
 
 } // namespace gnomon::app

@@ -44,10 +44,10 @@ void PlanLayers::describe(const Plan& plan, Json& views) const
     assert(views.size() == plan.views.size());
     const MomentOptions& options = settings_.shadow.moments;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        const std::vector<vulkan::DepthLayer> layers =
-            drawing_ != nullptr ? drawing_->renderer.depthLayers(i) : vulkan::fixedDepthLayers(options);
+        const std::vector<pack::DepthLayer> layers =
+            drawing_ != nullptr ? drawing_->renderer.depthLayers(i) : pack::fixedDepthLayers(options);
         Json list = Json::array();
-        for (const vulkan::DepthLayer& layer : layers) {
+        for (const pack::DepthLayer& layer : layers) {
             const auto metres = [&](float stored) {
                 return metresOf(plan.views[i], options, static_cast<double>(stored));
             };

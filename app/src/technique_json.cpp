@@ -4,6 +4,7 @@
 #include "contestants.h"
 #include "lab/score/traffic.h"
 
+#include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
@@ -92,17 +93,16 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
 
 Json mapJson(const MapPages& atlas, const ShadowOptions& options)
 {
-    const vulkan::FilterOptions filter = vulkan::filterOptionsOf(options);
-    const std::uint32_t image_layers = imageLayersPerMap(filter.filter, filter.moments);
-    const std::uint32_t levels = vulkan::mipLevels(filter, atlas.width, atlas.height);
+    const std::uint32_t image_layers = imageLayersPerMap(options.technique.filter, options.moments);
+    const std::uint32_t levels = pack::mipLevels(resolvedOrThrow(options), atlas.width, atlas.height);
     std::uint64_t stored = 0; // texels of one layer
     for (std::uint32_t level = 0; level < levels; ++level) {
         stored += std::uint64_t{std::max(atlas.width >> level, 1U)} * std::max(atlas.height >> level, 1U);
     }
     const bool is_empty = atlas.width == 0 || atlas.height == 0;
     return {{"texels", std::uint64_t{atlas.width} * atlas.height * atlas.layers},
-            {"bytes", is_empty ? 0 : stored * atlas.layers * image_layers * lab::texelBytes(filter.format)},
-            {"format", nameOf(filter.format)},
+            {"bytes", is_empty ? 0 : stored * atlas.layers * image_layers * lab::texelBytes(formatOf(options))},
+            {"format", nameOf(formatOf(options))},
             {"image_layers", atlas.layers * image_layers},
             {"mip_levels", levels}};
 }
@@ -114,14 +114,14 @@ double filterRatio(const vulkan::FilterCost& filter)
                : static_cast<double>(filter.bytes_moved) / static_cast<double>(filter.bytes_minimum);
 }
 
-std::optional<vulkan::CascadePass> cascadePassOf(const lab::Timed& timed)
+std::optional<CascadePass> cascadePassOf(const lab::Timed& timed)
 {
     if (!timed.samples.empty() && timed.samples.back().reuse.together > 0) {
-        return vulkan::CascadePass::layered;
+        return CascadePass::layered;
     }
     for (std::uint32_t i = 0; i < timed.plan.views.size(); ++i) {
         if (viewsTogether(timed.plan, i, true) > 1) {
-            return vulkan::CascadePass::each;
+            return CascadePass::each;
         }
     }
     return std::nullopt;

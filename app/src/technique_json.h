@@ -50,7 +50,7 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 /// name are added up within each frame, as the stages are.
 [[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
 /// How the maps of cascades were drawn when these times were taken; nothing where there are none, or never two at once.
-[[nodiscard]] std::optional<vulkan::CascadePass> cascadePassOf(const lab::Timed& timed);
+[[nodiscard]] std::optional<CascadePass> cascadePassOf(const lab::Timed& timed);
 /// That, by its name, or null.
 [[nodiscard]] Json cascadePassJson(const lab::Timed& timed);
 /// Bytes that the blur moved by the least that it needs; 0 where nothing is blurred.

@@ -5,6 +5,7 @@
 #include "progress.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/filter_rule.h>
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ void noteLevels(const Settings& technique)
     constexpr std::uint32_t kFew = 3;
     const std::uint32_t side = technique.shadow.map_size;
     const MapSampling sampling = technique.shadow.moments.sampling;
-    const std::uint32_t levels = vulkan::mipLevels(vulkan::filterOptionsOf(technique.shadow), side, side);
+    const std::uint32_t levels = pack::mipLevels(resolvedOrThrow(technique.shadow), side, side);
     const FilterTraits* traits = filterTraits(technique.shadow.technique.filter);
     if (levels < kFew && traits->filterable &&
         (sampling == MapSampling::trilinear || sampling == MapSampling::anisotropic)) {

@@ -14,7 +14,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const CameraView& camera = input.camera;
     const ObjectSet& objects = *input.frame.objects;
     const bool steady = recipe.steady();
-    const double border_texels = recipe.borderTexels(input.map_size);
+    const double border_texels = recipe.resolved.borderOf(input.map_size);
 
     LightSpace space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
     if (recipe.levelsDepth()) {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <span>
 #include <utility>
 
 namespace gnomon {
@@ -137,6 +138,30 @@ void writeTechnique(Writer& json, const Technique& technique)
     json.value("soften", nameOf(technique.soften));
     json.value("motion", nameOf(technique.motion));
     json.closeLine('}');
+}
+
+void writeFade(Writer& json, const ResolvedOptions& options)
+{
+    json.openLine("fade", '{');
+    json.value("begin_m", options.fadeBegin_m());
+    json.value("end_m", options.fadeEnd_m());
+    json.closeLine('}');
+}
+
+// "technique" and "fade" are the first options'. A planner with one of them has no list.
+void writeFurtherOptions(Writer& json, const Plan& plan)
+{
+    if (plan.options->size() == 1) {
+        return;
+    }
+    json.open("further_options", '[');
+    for (const ResolvedOptions& options : std::span(*plan.options).subspan(1)) {
+        json.open({}, '{');
+        writeTechnique(json, options.technique());
+        writeFade(json, options);
+        json.close('}');
+    }
+    json.close(']');
 }
 
 std::string_view nameOf(SunPosition sun)
@@ -366,17 +391,15 @@ std::string toJson(const Plan& plan)
     Writer json;
     json.open({}, '{');
     json.value("frame", plan.frame);
-    writeTechnique(json, plan.technique);
+    writeTechnique(json, plan.options->front().technique());
     json.open("pages", '[');
     for (const MapPages& pages : plan.pages) {
         writePages(json, pages);
     }
     json.close(']');
     json.value("mask_layers", plan.mask_layers);
-    json.openLine("fade", '{');
-    json.value("begin_m", plan.fade_begin_m);
-    json.value("end_m", plan.fade_end_m);
-    json.closeLine('}');
+    writeFade(json, plan.options->front());
+    writeFurtherOptions(json, plan);
     json.open("lights", '[');
     for (const LightPlan& light : plan.lights) {
         writeLight(json, light);

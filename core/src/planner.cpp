@@ -128,13 +128,7 @@ const Plan& Planner::plan(const Frame& frame)
 
 void Planner::Impl::begin(const Frame& frame)
 {
-    const ShadowOptions& options = setups[0].recipe.options;
     plan.frame = frame.index;
-    plan.technique = options.technique;
-    plan.fade_end_m = options.max_distance_m;
-    plan.fade_begin_m = options.max_distance_m * (1.0 - options.fade);
-    plan.cascades = options.cascades;
-    plan.border_texels = setups[0].recipe.borderTexels(options.map_size);
     plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
     plan.lights.clear();
     plan.views.clear();

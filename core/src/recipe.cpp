@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipe.h"
 
-#include "fit/projection.h"
 #include "light_space.h"
 
 #include <algorithm>
@@ -75,11 +74,6 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index) const
     wish.keeps_still = !partition->fits_on_gpu && (options.keep_still == KeepStill::always ||
                                                    (options.keep_still == KeepStill::automatic && steps(light)));
     return wish;
-}
-
-double Recipe::borderTexels(std::uint32_t side) const
-{
-    return usableBorder(resolved.border_texels(), side);
 }
 
 bool Recipe::levelsDepth() const

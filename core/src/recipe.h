@@ -38,8 +38,6 @@ struct Recipe {
 
     /// Depth is measured from a plane that leans with what receives shadow.
     [[nodiscard]] bool levelsDepth() const;
-    /// Room around a map of this side, texels.
-    [[nodiscard]] double borderTexels(std::uint32_t side) const;
     [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
 };
 

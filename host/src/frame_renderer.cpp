@@ -147,12 +147,12 @@ vulkan::FilterCost FrameRenderer::filterCost() const
     return self.plan != nullptr ? self.now().shadows->renderer.filterCost(self.slot) : vulkan::FilterCost{};
 }
 
-std::vector<vulkan::DepthLayer> FrameRenderer::depthLayers(std::uint32_t view) const
+std::vector<pack::DepthLayer> FrameRenderer::depthLayers(std::uint32_t view) const
 {
     Impl& self = *impl_;
     self.finish();
     const bool known = self.plan != nullptr && view < self.plan->views.size();
-    return known ? self.now().shadows->renderer.depthLayers(view) : std::vector<vulkan::DepthLayer>{};
+    return known ? self.now().shadows->renderer.depthLayers(*self.plan, view) : std::vector<pack::DepthLayer>{};
 }
 
 std::vector<vulkan::MemoryUse> FrameRenderer::memory() const
@@ -172,9 +172,10 @@ std::vector<vulkan::MemoryUse> FrameRenderer::memory() const
     return uses;
 }
 
-vulkan::CascadePass FrameRenderer::cascadePass() const
+CascadePass FrameRenderer::cascadePass() const
 {
-    return impl_->shadows ? impl_->shadows->renderer.cascadePass() : vulkan::CascadePass::each;
+    const bool layered = impl_->shadows && impl_->options.shadow.cascades.pass == CascadePass::layered;
+    return layered ? CascadePass::layered : CascadePass::each;
 }
 
 } // namespace gnomon::host

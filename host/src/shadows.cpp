@@ -10,18 +10,14 @@ vulkan::ShadowRendererOptions rendererOptions(const Gpu& gpu, const RenderOption
 {
     vulkan::ShadowRendererOptions wish;
     wish.mask_shape = vulkan::MaskShape{true, true}; // recordShadows() gives both
-    wish.filter = vulkan::filterOptionsOf(options.shadow);
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = gpu.pipelineCache();
     return wish;
 }
 
-vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const vulkan::ShadowRenderer& renderer,
-                                          const RenderOptions& options)
+vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const RenderOptions& options)
 {
     vulkan::CasterDrawerOptions wish;
-    wish.orthographic = renderer.mapFormats(true);
-    wish.perspective = renderer.mapFormats(false);
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = gpu.pipelineCache();
     return wish;
@@ -36,11 +32,9 @@ bool isFitted(const View& view)
 
 Shadows::Shadows(const SceneData& scene, const RenderOptions& options)
     : planner(options.shadow), renderer(scene.gpu.view(), rendererOptions(scene.gpu, options)),
-      casters(scene.gpu.view(), casterOptions(scene.gpu, renderer, options))
+      casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);
-    renderer.setCascadePass(options.shadow.cascades.pass);
-    casters.setCascadePass(options.shadow.cascades.pass);
 }
 
 const Plan& Shadows::planAgain()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan_shapes.h"
 
+#include <gnomon/plan_views.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -83,8 +85,8 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     if (std::isfinite(view.slice.end_m)) {
         addDepth(view.slice.end_m, -1.0);
     }
-    if (plan.fade_end_m > 0.0) {
-        addDepth(plan.fade_end_m, -1.0);
+    if (const double end_m = optionsOf(plan, view).fadeEnd_m(); end_m > 0.0) {
+        addDepth(end_m, -1.0);
     }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
     const double tangent = std::tan(frame.lights[view.light].outer_half_angle_rad);

@@ -39,13 +39,13 @@ std::vector<Turn> makeTurns(const host::SceneOnGpu& scene, std::span<const Conte
 
 /// How many times the four bytes of a plain depth map one texel of this filter's map takes, with all that it is made
 /// from.
-std::uint64_t weightOf(const vulkan::FilterOptions& filter)
+std::uint64_t weightOf(const ShadowOptions& options)
 {
-    const FilterTraits* traits = filterTraits(filter.filter);
+    const FilterTraits* traits = filterTraits(options.technique.filter);
     const std::uint64_t map =
-        std::uint64_t{texelBytes(filter.format)} * imageLayersPerMap(filter.filter, filter.moments);
+        std::uint64_t{texelBytes(formatOf(options))} * imageLayersPerMap(options.technique.filter, options.moments);
     const bool filterable = traits != nullptr && traits->filterable;
-    const std::uint64_t made_from = filterable ? map + 4 * filter.moments.samples : 0; // scratch and depth
+    const std::uint64_t made_from = filterable ? map + 4 * options.moments.samples : 0; // scratch and depth
     return std::max<std::uint64_t>(1, (map + made_from + 3) / 4);
 }
 
@@ -204,7 +204,7 @@ std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants
     std::uint64_t texels = 0;
     for (const Contestant& contestant : contestants) {
         const std::uint64_t side = contestant.options.shadow.map_size;
-        const std::uint64_t needs = side * side * lights * weightOf(vulkan::filterOptionsOf(contestant.options.shadow));
+        const std::uint64_t needs = side * side * lights * weightOf(contestant.options.shadow);
         if (groups.empty() || groups.back() == kMaxTogether || texels + needs > kMaxTexelsTogether) {
             groups.push_back(0);
             texels = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/traffic.h"
 
+#include <gnomon/pack/filter_rule.h>
+
 #include <vector>
 
 namespace gnomon::lab {
@@ -8,13 +10,13 @@ namespace {
 
 /// How far the mask pass must read at least. A filterable map was blurred before; with mip levels the one that fits has
 /// a texel for each pixel, so that one of the finest level stands for what a pixel reads.
-double leastReach(const vulkan::FilterOptions& filter)
+double leastReach(const ShadowOptions& options)
 {
-    const FilterTraits* traits = filterTraits(filter.filter);
+    const FilterTraits* traits = filterTraits(options.technique.filter);
     if (traits == nullptr || !traits->filterable) {
-        return vulkan::filterReachTexels(filter);
+        return reachTexels(options);
     }
-    return filter.moments.sampling == MapSampling::bilinear ? 1.0 : 0.5;
+    return options.moments.sampling == MapSampling::bilinear ? 1.0 : 0.5;
 }
 
 } // namespace
@@ -32,10 +34,10 @@ std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject, 
     }
     TrafficOptions traffic;
     traffic.format = formatOf(options.shadow);
-    traffic.reach_texels = leastReach(vulkan::filterOptionsOf(options.shadow));
+    traffic.reach_texels = leastReach(options.shadow);
     traffic.image_layers = imageLayersPerMap(options.shadow.technique.filter, options.shadow.moments);
     const MapPages& atlas = renderer.plan().pages[0];
-    traffic.mip_levels = vulkan::mipLevels(vulkan::filterOptionsOf(options.shadow), atlas.width, atlas.height);
+    traffic.mip_levels = pack::mipLevels(resolvedOrThrow(options.shadow), atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;
     traffic.reads_object_ids = true;
     traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;

@@ -131,8 +131,7 @@ void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, const LightLists&
 {
     for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
         const Light& light = frame.lights[i];
-        const ScreenBounds bounds =
-            screenBounds(light, extentOf(light, scene_bounds_ws), frame.camera, frame.size_px);
+        const ScreenBounds bounds = screenBounds(light, extentOf(light, scene_bounds_ws), frame.camera, frame.size_px);
         if (bounds.empty()) {
             continue;
         }

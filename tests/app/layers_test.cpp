@@ -112,7 +112,7 @@ TEST(Depths, GoToMetresAndBack)
 
 TEST(Depths, HaveALayer)
 {
-    const std::vector<vulkan::DepthLayer> layers{{0.0F, 0.3F, 0.0F}, {0.2F, 0.7F, 0.25F}, {0.6F, 1.0F, 0.625F}};
+    const std::vector<pack::DepthLayer> layers{{0.0F, 0.3F, 0.0F}, {0.2F, 0.7F, 0.25F}, {0.6F, 1.0F, 0.625F}};
     EXPECT_EQ(app::layerOf(layers, 0.0), 0U);
     EXPECT_EQ(app::layerOf(layers, 0.2499), 0U);
     EXPECT_EQ(app::layerOf(layers, 0.25), 1U);

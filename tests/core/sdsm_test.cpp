@@ -50,8 +50,7 @@ TEST(Sdsm, ListsTheMapOfASingleCascadeOnceForEach)
         const Plan& base = single.plan(meadow.frame);
         ASSERT_EQ(base.views.size(), 2U);
         ASSERT_EQ(plan.views.size(), 6U);
-        EXPECT_EQ(plan.cascades.count, 3U);
-        EXPECT_EQ(plan.border_texels, resolvedOrThrow(options).border_texels());
+        EXPECT_EQ(plan.options->front().cascades().count, 3U);
         for (std::uint32_t i = 0; i < 6; ++i) {
             const View& view = plan.views[i];
             const View& one = base.views[i / 3];

@@ -14,8 +14,6 @@
 namespace gnomon::host::test {
 namespace {
 
-using vulkan::CascadePass;
-
 struct PassCase {
     const char* name;
     Partition partition;

@@ -6,6 +6,7 @@
 
 #include <gnomon/choices.h>
 #include <gnomon/error.h>
+#include <gnomon/pack/filter_rule.h>
 
 #include <gtest/gtest.h>
 
@@ -55,12 +56,13 @@ TEST(ReadMap, GivesTheSameDepthsFromEveryFormat)
         }
         const ImageF map = mapIn(gpu, Filter::pcf, format);
         ASSERT_EQ(map.values.size(), depth.values.size() * map.channels) << int{i};
-        vulkan::FilterOptions filter;
-        filter.filter = Filter::pcf;
+        ShadowOptions filter;
+        filter.technique.filter = Filter::pcf;
         filter.format = format; // some have two depths a texel, and one of them in two channels
         for (std::size_t t = 0; t < depth.values.size(); ++t) {
             const std::span texel = std::span(map.values).subspan(t * map.channels, map.channels);
-            ASSERT_NEAR(vulkan::mapDepth(filter, texel), depth.values[t], 1e-3F) << int{i} << " at " << t;
+            ASSERT_NEAR(pack::mapDepth(resolvedOrThrow(filter), texel), depth.values[t], 1e-3F)
+                << int{i} << " at " << t;
         }
     }
     for (const std::string& message : gpu.messages()) {

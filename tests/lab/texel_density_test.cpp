@@ -233,17 +233,17 @@ TEST(FitEfficiency, OfTwoPositionsTakesThoseThatAreRead)
 
 TEST(FitEfficiency, OfAFilterFollowsItsReach)
 {
-    vulkan::FilterOptions filter;
-    filter.filter = Filter::hard;
-    EXPECT_EQ(vulkan::filterReachTexels(filter), 0.5F);
-    filter.filter = Filter::pcf;
-    filter.pcf_kernel = PcfKernel::bilinear_2x2;
-    EXPECT_EQ(vulkan::filterReachTexels(filter), 1.0F);
-    filter.pcf_kernel = PcfKernel::gaussian_7x7;
-    EXPECT_EQ(vulkan::filterReachTexels(filter), 4.0F);
-    filter.pcf_kernel = PcfKernel::vogel;
-    filter.disc_radius_texels = 3.25F;
-    EXPECT_EQ(vulkan::filterReachTexels(filter), 4.25F);
+    ShadowOptions filter;
+    filter.technique.filter = Filter::hard;
+    EXPECT_EQ(reachTexels(filter), 0.5F);
+    filter.technique.filter = Filter::pcf;
+    filter.pcf.kernel = PcfKernel::bilinear_2x2;
+    EXPECT_EQ(reachTexels(filter), 1.0F);
+    filter.pcf.kernel = PcfKernel::gaussian_7x7;
+    EXPECT_EQ(reachTexels(filter), 4.0F);
+    filter.pcf.kernel = PcfKernel::vogel;
+    filter.pcf.radius_texels = 3.25F;
+    EXPECT_EQ(reachTexels(filter), 4.25F);
 }
 
 TEST(LeastBytes, AreWhatIsWrittenAndReadOnce)

@@ -9,7 +9,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
 using Texels = std::vector<glm::dvec4>; // of a tile, row by row
 
 std::vector<double> weightsOf(const MomentOptions& options)
@@ -29,7 +28,7 @@ std::vector<double> weightsOf(const MomentOptions& options)
 }
 
 // One direction; what is outside the tile is lit.
-Texels convolve(const Texels& in, const Tile& tile, const FilterOptions& filter, const glm::dvec4& lit, bool along_x)
+Texels convolve(const Texels& in, const Tile& tile, const ShadowOptions& filter, const glm::dvec4& lit, bool along_x)
 {
     const std::vector<double> weights = weightsOf(filter.moments);
     const int radius = static_cast<int>(weights.size() / 2);
@@ -99,9 +98,9 @@ TEST_P(Blur, isTheConvolutionOnBothPaths)
     const Case& c = GetParam();
     const Scene scene = makeScene();
     const Plan plan = momentPlan(scene);
-    FilterOptions filter = momentFilter(c.filter, c.format);
+    ShadowOptions filter = momentFilter(c.filter, c.format);
     c.change(filter.moments);
-    FilterOptions sharp = filter;
+    ShadowOptions sharp = filter;
     sharp.moments.blur = BlurKind::none;
     const DrawnMaps before = drawMaps(scene, plan, sharp);
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
@@ -168,7 +167,7 @@ TEST(BlurBlocks, withoutCastersInReachAreSkippedAndLit)
         --view.caster_count;
     }
     const CpuMap depths = drawDepths(scene, plan);
-    FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+    ShadowOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
     gaussian(filter.moments, 4);
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
         filter.moments.blur_path = path;
@@ -223,7 +222,7 @@ TEST(MipLevels, areAveragesOfFour)
     const Scene scene = makeScene();
     const Plan plan = momentPlan(scene);
     for (const bool logarithms : {false, true}) {
-        FilterOptions filter =
+        ShadowOptions filter =
             momentFilter(logarithms ? Filter::esm : Filter::vsm, logarithms ? MapFormat::r32f : MapFormat::rg32f);
         filter.moments.sampling = MapSampling::trilinear;
         filter.moments.log_space = logarithms;
@@ -244,7 +243,7 @@ TEST(MipLevels, areAveragesOfFour)
                         }
                         const glm::dvec4 expected = averageStored(filter, four);
                         const glm::vec4 stored = map.levels[level][y * std::size_t{map.width >> level} + x];
-                        for (int c = 0; c < channelsOf(filter.format); ++c) {
+                        for (int c = 0; c < channelsOf(formatOf(filter)); ++c) {
                             worst = std::max(worst, std::abs(double(stored[c]) - expected[c]));
                         }
                     }

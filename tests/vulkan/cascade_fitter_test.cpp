@@ -66,7 +66,11 @@ struct FittedHost {
                 plan.views.back().tile.layer = light * kCascades + i;
             }
         }
-        plan.cascades.count = kCascades;
+        ShadowOptions options;
+        options.technique.partition = Partition::sdsm;
+        options.cascades.count = kCascades;
+        options.border_texels = 0.0;
+        plan.options = planOptions(options);
         frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
         frame.lights = lights;
         inputs.extent = kScreen;

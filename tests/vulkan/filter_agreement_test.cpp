@@ -12,20 +12,19 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
-
 /// One renderer over two scenes with the same views.
 class Redrawn {
 public:
-    Redrawn(const Scene& scene, const Plan& plan, const FilterOptions& filter)
-        : filter_(filter), renderer_(gpu().view(), optionsOf(filter)), drawer_(gpu().view(), drawerOptions(renderer_)),
+    Redrawn(const Scene& scene, const Plan& plan, const ShadowOptions& filter)
+        : filter_(filter), renderer_(gpu().view(), {.frames_in_flight = 1}), drawer_(gpu().view(), drawerOptions()),
           mesh_(uploadMesh(gpu(), scene)), transforms_(scene.transforms())
     {
         drawer_.setScene(mesh_.parts, mesh_.objects, mesh_.batches);
-        (void)renderer_.prepare(plan, {8, 8});
+        (void)renderer_.prepare(withOptions(plan), {8, 8});
     }
-    void draw(const Plan& plan)
+    void draw(const Plan& given)
     {
+        const Plan plan = withOptions(given);
         const Frame frame;
         gpu().run([&](VkCommandBuffer commands) {
             drawer_.beginFrame(0, plan, mesh_.geometry, transforms_);
@@ -44,23 +43,19 @@ public:
     }
 
 private:
-    static vulkan::ShadowRendererOptions optionsOf(const FilterOptions& filter)
-    {
-        vulkan::ShadowRendererOptions options;
-        options.filter = filter;
-        options.frames_in_flight = 1;
-        return options;
-    }
-    static vulkan::CasterDrawerOptions drawerOptions(const vulkan::ShadowRenderer& renderer)
+    static vulkan::CasterDrawerOptions drawerOptions()
     {
         vulkan::CasterDrawerOptions options;
-        options.orthographic = renderer.mapFormats(true);
-        options.perspective = renderer.mapFormats(false);
         options.frames_in_flight = 1;
         return options;
     }
+    [[nodiscard]] Plan withOptions(Plan plan) const
+    {
+        plan.options = planOptions(filter_);
+        return plan;
+    }
 
-    FilterOptions filter_;
+    ShadowOptions filter_;
     vulkan::ShadowRenderer renderer_;
     vulkan::CasterDrawer drawer_;
     SceneMesh mesh_;
@@ -122,7 +117,7 @@ TEST_P(StaleScratch, isNeverRead)
                                           : std::vector<Tile>{{0, 0, 0, 256, 256}, {0, 288, 64, 160, 96}};
     const Plan dense = makePlan(scene, lights, tiles, {512, 256, 1});
     const Plan sparse = sparseOf(dense);
-    FilterOptions filter = momentFilter(c.filter, c.format);
+    ShadowOptions filter = momentFilter(c.filter, c.format);
     filter.moments.blur = BlurKind::gaussian;
     filter.moments.sampling = MapSampling::trilinear;
     filter.moments.blur_path = c.path;
@@ -175,8 +170,8 @@ class BlurPaths : public testing::TestWithParam<PathCase> {};
 // Merged taps round otherwise than single ones, and the mask by half a step more.
 TEST_P(BlurPaths, giveTheSameMask)
 {
-    FilterOptions filter;
-    filter.filter = GetParam().filter;
+    ShadowOptions filter;
+    filter.technique.filter = GetParam().filter;
     filter.format = GetParam().format;
     filter.moments.log_space = GetParam().log_space;
     filter.moments.blur_path = BlurPath::compute;

@@ -58,19 +58,9 @@ vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
 
 namespace {
 
-vulkan::ShadowRendererOptions rendererOptions(const vulkan::FilterOptions& filter)
-{
-    vulkan::ShadowRendererOptions options;
-    options.filter = filter;
-    options.frames_in_flight = 1;
-    return options;
-}
-
-vulkan::CasterDrawerOptions drawerOptions(const vulkan::ShadowRenderer& renderer, bool cull)
+vulkan::CasterDrawerOptions drawerOptions(bool cull)
 {
     vulkan::CasterDrawerOptions options;
-    options.orthographic = renderer.mapFormats(true);
-    options.perspective = renderer.mapFormats(false);
     options.frames_in_flight = 1;
     options.cull_back_faces = cull;
     return options;
@@ -83,24 +73,17 @@ vulkan::DeviceView viewWith(const vulkan::MemoryHooks& memory)
     return view;
 }
 
-vulkan::FilterOptions filterOf(MapFormat format)
-{
-    vulkan::FilterOptions filter;
-    filter.format = format;
-    return filter;
-}
-
 } // namespace
 
 Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
-    : Bench(screen, filterOf(format), reversed_z, cull)
+    : Bench(screen, ShadowOptions{.format = format}, reversed_z, cull)
 {
 }
 
-Bench::Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z, bool cull,
+Bench::Bench(VkExtent2D screen, const ShadowOptions& options_in, bool reversed_z, bool cull,
              const vulkan::MemoryHooks& memory)
-    : renderer(viewWith(memory), rendererOptions(filter)), drawer(gpu().view(), drawerOptions(renderer, cull)),
-      screen_(screen)
+    : options(options_in), renderer(viewWith(memory), {.frames_in_flight = 1}),
+      drawer(gpu().view(), drawerOptions(cull)), screen_(screen)
 {
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
 }
@@ -109,7 +92,7 @@ void Bench::setLights(std::vector<Light> new_lights, const std::vector<Tile>& ti
 {
     lights = std::move(new_lights);
     frame.lights = lights;
-    plan = makePlan(scene, lights, tiles, atlas);
+    plan = makePlan(scene, lights, tiles, atlas, options);
     picture = tracePicture(scene, frame.camera, screen_);
     inputs = uploadPicture(gpu(), picture);
     mesh = uploadMesh(gpu(), scene);

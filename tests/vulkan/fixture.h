@@ -21,7 +21,7 @@ void expectSilence(Gpu& gpu);
 class Bench {
 public:
     Bench(VkExtent2D screen, MapFormat format, bool reversed_z = true, bool cull = false);
-    Bench(VkExtent2D screen, const vulkan::FilterOptions& filter, bool reversed_z = true, bool cull = false,
+    Bench(VkExtent2D screen, const ShadowOptions& options, bool reversed_z = true, bool cull = false,
           const vulkan::MemoryHooks& memory = {});
 
     /// After changes to `scene`: makes plan, picture and mesh.
@@ -38,6 +38,7 @@ public:
     [[nodiscard]] std::vector<float> readMap(std::uint32_t layer);
     [[nodiscard]] std::vector<std::byte> readMask(std::uint32_t light);
 
+    ShadowOptions options;
     Scene scene = makeScene();
     SceneMesh mesh;
     std::vector<Light> lights;

@@ -18,8 +18,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
-
 constexpr VkExtent2D kScreen{160, 100};
 
 struct HostileCase {
@@ -39,7 +37,7 @@ class HostileMaps : public testing::TestWithParam<HostileCase> {
 protected:
     void make(MapSampling sampling)
     {
-        options_.filter = GetParam().filter;
+        options_.technique.filter = GetParam().filter;
         options_.format = GetParam().format;
         options_.moments.log_space = GetParam().logarithmic;
         options_.moments.sampling = sampling;
@@ -47,15 +45,13 @@ protected:
         options_.moments.samples = 1;
         lights_ = {makeSun({0.8, -0.9, -0.35}), makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6)};
         const Tile tiles[] = {{0, 0, 0, 128, 128}, {0, 128, 0, 128, 128}};
-        plan_ = makePlan(scene_, lights_, tiles, {256, 128, 1});
+        plan_ = makePlan(scene_, lights_, tiles, {256, 128, 1}, options_);
         frame_.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kScreen.width) / kScreen.height);
         frame_.lights = lights_;
         picture_ = tracePicture(scene_, frame_.camera, kScreen);
         inputs_ = uploadPicture(gpu(), picture_);
-        vulkan::ShadowRendererOptions options;
-        options.filter = options_;
-        options.frames_in_flight = 1;
-        renderer_ = std::make_unique<vulkan::ShadowRenderer>(gpu().view(), options);
+        renderer_ = std::make_unique<vulkan::ShadowRenderer>(gpu().view(),
+                                                             vulkan::ShadowRendererOptions{.frames_in_flight = 1});
         (void)renderer_->prepare(plan_, kScreen);
         gpu().run([&](VkCommandBuffer commands) {
             renderer_->recordMaps(commands, 0, frame_, plan_, [](const vulkan::MapPass&) {});
@@ -89,7 +85,7 @@ protected:
     }
     [[nodiscard]] bool isHalf() const
     {
-        const MapFormat f = options_.format;
+        const MapFormat f = formatOf(options_);
         return f == MapFormat::r16f || f == MapFormat::rg16f || f == MapFormat::rgba16f;
     }
     [[nodiscard]] bool isUnorm() const
@@ -144,7 +140,7 @@ protected:
     }
 
     Scene scene_ = makeScene();
-    FilterOptions options_;
+    ShadowOptions options_;
     std::vector<Light> lights_;
     Plan plan_;
     Frame frame_;

@@ -16,7 +16,7 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::DepthLayer;
+using pack::DepthLayer;
 
 constexpr std::uint32_t kSide = 256;
 constexpr int kBins = 1024;
@@ -26,10 +26,10 @@ protected:
     void TearDown() override { expectSilence(gpu()); }
 };
 
-vulkan::FilterOptions lvsm(LayerPlacement placement, std::uint32_t layers)
+ShadowOptions lvsm(LayerPlacement placement, std::uint32_t layers)
 {
-    vulkan::FilterOptions filter;
-    filter.filter = Filter::lvsm;
+    ShadowOptions filter;
+    filter.technique.filter = Filter::lvsm;
     filter.format = MapFormat::rgba16;
     filter.moments.placement = placement;
     filter.moments.layers = layers;
@@ -52,6 +52,7 @@ View viewOf(const Tile& tile, const glm::dvec3& direction_ws = {0.0, -1.0, 0.0},
 Plan planOf(const std::vector<View>& views)
 {
     Plan plan;
+    plan.lights.resize(4);
     plan.views = views;
     return plan;
 }
@@ -115,15 +116,17 @@ std::vector<double> lloydOnCpu(const std::vector<float>& depths, int count, int 
 
 class Placed {
 public:
-    explicit Placed(const vulkan::FilterOptions& filter)
-        : device_(gpu().view()), placer_(device_, filter, VK_NULL_HANDLE)
+    explicit Placed(const ShadowOptions& filter)
+        : device_(gpu().view()), filter_(filter), placer_(device_, resolvedOrThrow(filter), VK_NULL_HANDLE)
     {
     }
-    std::vector<DepthLayer> place(const View& view, const std::vector<float>& depths, Motion motion = Motion::free)
+    std::vector<pack::DepthLayer> place(const View& view, const std::vector<float>& depths,
+                                        Motion motion = Motion::free)
     {
         const TestImage image = gpu().makeImage(VK_FORMAT_R32_SFLOAT, {kSide, kSide}, std::as_bytes(std::span(depths)));
         Plan plan = planOf({view});
-        plan.technique.motion = motion;
+        filter_.technique.motion = motion;
+        plan.options = planOptions(filter_);
         (void)placer_.prepare(plan);
         placer_.setDepth(image.view);
         gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0); });
@@ -133,6 +136,7 @@ public:
 
 private:
     vulkan::Device device_;
+    ShadowOptions filter_;
     vulkan::LayerPlacer placer_;
 };
 
@@ -140,7 +144,7 @@ constexpr Tile kWhole{0, 0, 0, kSide, kSide};
 
 TEST_F(LayersOfDepth, areWhereTheHandPutThem)
 {
-    vulkan::FilterOptions filter = lvsm(LayerPlacement::by_hand, 3);
+    ShadowOptions filter = lvsm(LayerPlacement::by_hand, 3);
     filter.moments.splits = {0.2F, 0.6F};
     filter.moments.layer_overlap = 0.1F;
     Placed placed(filter);
@@ -152,7 +156,7 @@ TEST_F(LayersOfDepth, areWhereTheHandPutThem)
         EXPECT_NEAR(layers[i].far, expected[i][1], 1e-6);
         EXPECT_NEAR(layers[i].begins, expected[i][2], 1e-6);
     }
-    const auto fixed = vulkan::fixedDepthLayers(filter.moments);
+    const auto fixed = pack::fixedDepthLayers(filter.moments);
     ASSERT_EQ(fixed.size(), 3U);
     EXPECT_EQ(fixed[1].near, layers[1].near);
 }
@@ -168,7 +172,7 @@ TEST_F(LayersOfDepth, areOfOneWidthWhenUniform)
             EXPECT_NEAR(layers[i].far, std::min(1.0, (i + 1.05) / count), 1e-6);
         }
     }
-    EXPECT_TRUE(vulkan::fixedDepthLayers(lvsm(LayerPlacement::lloyd, 2).moments).empty());
+    EXPECT_TRUE(pack::fixedDepthLayers(lvsm(LayerPlacement::lloyd, 2).moments).empty());
 }
 
 TEST_F(LayersOfDepth, relaxOnTheGpuAsOnTheCpu)
@@ -190,7 +194,7 @@ TEST_F(LayersOfDepth, relaxOnTheGpuAsOnTheCpu)
 
 TEST_F(LayersOfDepth, followWhatIsStoredUnderASpot)
 {
-    vulkan::FilterOptions filter = lvsm(LayerPlacement::lloyd, 4);
+    ShadowOptions filter = lvsm(LayerPlacement::lloyd, 4);
     filter.moments.metric = DepthMetricKind::z_over_w;
     View view = viewOf(kWhole);
     view.orthographic = false;
@@ -335,7 +339,7 @@ TEST_F(LayersOfDepth, beginAnewForAnotherLight)
 TEST_F(LayersOfDepth, areTheirMapsOwnWhoeverElseIsThere)
 {
     vulkan::Device device(gpu().view());
-    vulkan::LayerPlacer placer(device, lvsm(LayerPlacement::lloyd, 2), VK_NULL_HANDLE);
+    vulkan::LayerPlacer placer(device, resolvedOrThrow(lvsm(LayerPlacement::lloyd, 2)), VK_NULL_HANDLE);
     const auto planWith = [](std::initializer_list<std::uint32_t> maps) {
         std::vector<View> views;
         for (const std::uint32_t map : maps) {
@@ -346,20 +350,23 @@ TEST_F(LayersOfDepth, areTheirMapsOwnWhoeverElseIsThere)
         plan.map_count = 3;
         return plan;
     };
-    EXPECT_TRUE(placer.prepare(planWith({0, 1})));
+    const Plan first = planWith({0, 1});
+    const Plan second = planWith({2});
+    const Plan third = planWith({2, 1});
+    EXPECT_TRUE(placer.prepare(first));
     EXPECT_GE(placer.bytes(), 3 * sizeof(shared::GpuDepthLayers)) << "for maps that are not in sight, too";
-    const std::uint32_t slot_of_b = placer.slotOf(1);
-    EXPECT_NE(placer.slotOf(0), slot_of_b);
-    EXPECT_FALSE(placer.prepare(planWith({2})));
-    EXPECT_NE(placer.slotOf(0), slot_of_b) << "nobody takes the layers of a map that is not in sight";
-    EXPECT_FALSE(placer.prepare(planWith({2, 1})));
-    EXPECT_EQ(placer.slotOf(1), slot_of_b);
+    const std::uint32_t slot_of_b = placer.slotOf(first, 1);
+    EXPECT_NE(placer.slotOf(first, 0), slot_of_b);
+    EXPECT_FALSE(placer.prepare(second));
+    EXPECT_NE(placer.slotOf(second, 0), slot_of_b) << "nobody takes the layers of a map that is not in sight";
+    EXPECT_FALSE(placer.prepare(third));
+    EXPECT_EQ(placer.slotOf(third, 1), slot_of_b);
 }
 
 TEST_F(LayersOfDepth, areNoneForOtherFilters)
 {
     vulkan::Device device(gpu().view());
-    vulkan::LayerPlacer placer(device, {}, VK_NULL_HANDLE);
+    vulkan::LayerPlacer placer(device, resolvedOrThrow({}), VK_NULL_HANDLE);
     EXPECT_FALSE(placer.prepare(planOf({viewOf(kWhole)})));
     EXPECT_NE(placer.buffer(), VK_NULL_HANDLE);
     EXPECT_TRUE(placer.read(0).empty());

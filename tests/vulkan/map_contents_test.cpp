@@ -27,6 +27,7 @@ View viewOf(MapId map, Tile tile, ContentNumber presumes, ContentNumber makes)
 Plan planOf(std::vector<View> views)
 {
     Plan plan;
+    plan.lights.resize(1);
     plan.views = std::move(views);
     plan.map_count = 8;
     return plan;
@@ -75,10 +76,7 @@ TEST(MapContents, aSkippedFrameIsMadeUpFor)
     work = drawn(contents, planOf({view}));
     EXPECT_TRUE(work.whole);
     EXPECT_FALSE(work.draw_kept) << "what stands still is there";
-    contents.loseKept();
-    view.presumes = view.makes = 4;
-    view.redraw = false;
-    EXPECT_FALSE(drawn(contents, planOf({view})).draw) << "nobody needs what stands still";
+    contents.lose(0);
     view.makes = 6;
     view.redraw = true;
     work = drawn(contents, planOf({view}));
@@ -125,7 +123,6 @@ protected:
                                        makeSpot({7.0, 4.0, 2.0}, {0.0, 0.0, 0.0}, 0.5),
                                        makeSpot({1.0, 12.0, -6.0}, {0.0, 0.0, 0.0}, 0.3)};
         bench_.setLights(spots, {{0, 0, 0, 64, 64}, {1, 0, 0, 64, 64}, {2, 0, 0, 64, 64}}, {64, 64, 3});
-        bench_.plan.technique.motion = Motion::snap;
         for (std::uint32_t i = 0; i < 3; ++i) {
             bench_.plan.views[i].map = {i, 0};
             bench_.plan.views[i].makes = 100 + i;
@@ -133,10 +130,11 @@ protected:
         bench_.plan.map_count = 3;
         all_ = bench_.plan;
     }
-    static vulkan::FilterOptions optionsOf()
+    static ShadowOptions optionsOf()
     {
-        vulkan::FilterOptions options;
-        options.filter = Filter::lvsm;
+        ShadowOptions options;
+        options.technique.filter = Filter::lvsm;
+        options.technique.motion = Motion::snap;
         options.format = MapFormat::rgba16;
         options.moments.placement = LayerPlacement::lloyd;
         return options;
@@ -170,11 +168,11 @@ TEST_F(Layered, mapsThatComeBackToSightAreReadWithTheirOwnLayers)
 {
     record({0, 1, 2}, false);
     const auto mask = bench_.readMask(2);
-    const auto layers = bench_.renderer.depthLayers(2);
+    const auto layers = bench_.renderer.depthLayers(bench_.plan, 2);
     record({0}, true);
     record({0, 2}, true);
     EXPECT_EQ(bench_.renderer.reuse(0).held, 2U);
-    const auto later = bench_.renderer.depthLayers(1);
+    const auto later = bench_.renderer.depthLayers(bench_.plan, 1);
     ASSERT_EQ(later.size(), layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         EXPECT_EQ(later[i].begins, layers[i].begins) << i;

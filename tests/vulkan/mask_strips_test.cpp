@@ -4,7 +4,7 @@
 #include "stepping_suns.h"
 #include "write_pgm.h"
 
-#include "mask_regions.h"
+#include "light_strip.h"
 
 #include <gpu_structs.h>
 
@@ -64,6 +64,13 @@ private:
     void* constants_ = nullptr;
 };
 
+std::size_t stripsOf(const Plan& plan)
+{
+    std::vector<pack::MaskDraw> draws;
+    pack::listMaskDraws(plan, kStepScreen.width, draws);
+    return draws.size();
+}
+
 /// Masks that are drawn at once: with bands wider than the picture, in place of which those that are wanted are put in.
 class AtOnce {
 public:
@@ -80,7 +87,7 @@ public:
         }
         Bench& bench = suns_.bench;
         bench.plan = suns_.planOf(wide);
-        EXPECT_EQ(vulkan::maskRegions(bench.plan, 0, kStepScreen.width).count, 1U);
+        EXPECT_EQ(stripsOf(bench.plan), 1U);
         bench.prepare();
         const auto transforms = bench.scene.transforms();
         gpu().run([&](VkCommandBuffer commands) {
@@ -89,7 +96,7 @@ public:
                                       [&](const vulkan::MapPass& pass) { bench.drawer.draw(pass); });
             bench.renderer.recordMask(commands, 0, bench.frame, bench.plan, bench.inputs);
             for (std::size_t i = 0; i < steps.size(); ++i) {
-                memory_.lights()[i].steps = vulkan::stepRule(steps[i]);
+                memory_.lights()[i].steps = pack::stepRule(steps[i]);
             }
         });
         std::vector<Mask> masks;
@@ -121,7 +128,7 @@ TEST_P(MaskInStrips, isTheMaskDrawnAtOnce)
     // Edges amid pixels and between them, and a band that hangs out of the picture on either side.
     for (const double edge : {0.13, 0.5, 0.6031, 1.1}) {
         const std::vector<SunSteps> steps{bandOf(edge, 0.25, edge == 0.5)};
-        EXPECT_GT(vulkan::maskRegions(suns.planOf(steps), 0, kStepScreen.width).count, 1U);
+        EXPECT_GT(stripsOf(suns.planOf(steps)), 1U);
         const Mask strips = suns.maskOf(steps)[0];
         EXPECT_EQ(countDifferent(strips, at_once.maskOf(steps)[0]), 0U) << edge;
         writePgm(std::string("strips_") + GetParam().name, strips, kStepScreen);
@@ -145,7 +152,7 @@ TEST(MaskInStripsOfManyLights, isTheMaskDrawnAtOnce)
     const Setting setting;
     const std::vector<SunSteps> steps{bandOf(0.5, 0.3, true), bandOf(0.9, 0.5, false), blendOf(0.4, true)};
     Suns suns(setting, steps.size());
-    EXPECT_EQ(vulkan::maskRegions(suns.planOf(steps), 0, kStepScreen.width).count, 5U);
+    EXPECT_EQ(stripsOf(suns.planOf(steps)), 5U);
     EXPECT_EQ(suns.maskOf(steps), AtOnce(setting, steps.size()).maskOf(steps));
     expectSilence(gpu());
 }

@@ -14,7 +14,7 @@
 namespace gnomon::test {
 namespace {
 
-shared::MomentRule ruleOf(const vulkan::FilterOptions& filter)
+shared::MomentRule ruleOf(const ShadowOptions& filter)
 {
     const MomentNumbers n = momentNumbers(filter);
     shared::MomentRule rule{};
@@ -26,7 +26,7 @@ shared::MomentRule ruleOf(const vulkan::FilterOptions& filter)
     return rule;
 }
 
-glm::dvec4 layerOf(const std::vector<vulkan::DepthLayer>& layers, std::size_t i)
+glm::dvec4 layerOf(const std::vector<pack::DepthLayer>& layers, std::size_t i)
 {
     return i < layers.size() ? glm::dvec4(layers[i].near, layers[i].far, layers[i].begins, 0.0)
                              : glm::dvec4(0.0, 1.0, 2.0, 0.0);
@@ -41,15 +41,12 @@ Plan momentPlan(const Scene& scene)
     return makePlan(scene, lights, tiles, {512, 256, 1});
 }
 
-DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOptions& filter)
+DrawnMaps drawMaps(const Scene& scene, const Plan& given, const ShadowOptions& filter)
 {
-    vulkan::ShadowRendererOptions options;
-    options.filter = filter;
-    options.frames_in_flight = 1;
-    vulkan::ShadowRenderer renderer(gpu().view(), options);
+    Plan plan = given;
+    plan.options = planOptions(filter);
+    vulkan::ShadowRenderer renderer(gpu().view(), {.frames_in_flight = 1});
     vulkan::CasterDrawerOptions drawer_options;
-    drawer_options.orthographic = renderer.mapFormats(true);
-    drawer_options.perspective = renderer.mapFormats(false);
     drawer_options.frames_in_flight = 1;
     vulkan::CasterDrawer drawer(gpu().view(), drawer_options);
     const SceneMesh mesh = uploadMesh(gpu(), scene);
@@ -68,7 +65,7 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOpt
     }
     drawn.cost = renderer.filterCost(0);
     for (std::uint32_t view = 0; view < plan.views.size(); ++view) {
-        drawn.depth_layers.push_back(renderer.depthLayers(view));
+        drawn.depth_layers.push_back(renderer.depthLayers(plan, view));
     }
     expectSilence(gpu());
     return drawn;
@@ -76,8 +73,8 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOpt
 
 CpuMap drawDepths(const Scene& scene, const Plan& plan)
 {
-    vulkan::FilterOptions filter;
-    filter.filter = Filter::hard;
+    ShadowOptions filter;
+    filter.technique.filter = Filter::hard;
     filter.format = MapFormat::d32f;
     // A filterable map's depths are drawn at the working image's first texel, wherever its tile is; elsewhere an edge
     // may fall to the next texel. So each view is drawn in a layer of its own, at that place.
@@ -99,10 +96,10 @@ CpuMap drawDepths(const Scene& scene, const Plan& plan)
     return depths;
 }
 
-vulkan::FilterOptions momentFilter(Filter filter, MapFormat format)
+ShadowOptions momentFilter(Filter filter, MapFormat format)
 {
-    vulkan::FilterOptions options;
-    options.filter = filter;
+    ShadowOptions options;
+    options.technique.filter = filter;
     options.format = format;
     options.moments.samples = 1;
     options.moments.blur = BlurKind::none;
@@ -112,9 +109,8 @@ vulkan::FilterOptions momentFilter(Filter filter, MapFormat format)
     return options;
 }
 
-glm::dvec4 encodeSamples(const vulkan::FilterOptions& filter, const View& view,
-                         const std::vector<vulkan::DepthLayer>& layers, std::uint32_t image_layer,
-                         std::span<const double> depths)
+glm::dvec4 encodeSamples(const ShadowOptions& filter, const View& view, const std::vector<pack::DepthLayer>& layers,
+                         std::uint32_t image_layer, std::span<const double> depths)
 {
     const shared::MomentRule rule = ruleOf(filter);
     const double near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
@@ -124,17 +120,17 @@ glm::dvec4 encodeSamples(const vulkan::FilterOptions& filter, const View& view,
     std::vector<std::pair<glm::dvec4, double>> encoded;
     for (const double depth : depths) {
         input.depth = shared::momentDepth(depth, rule.flags, near_over_far);
-        encoded.emplace_back(shared::encodeDepth(static_cast<int>(filter.filter), input, rule),
+        encoded.emplace_back(shared::encodeDepth(static_cast<int>(filter.technique.filter), input, rule),
                              1.0 / static_cast<double>(depths.size()));
     }
     return averageStored(filter, encoded);
 }
 
 // By the definition, not by the shaders' running sums.
-glm::dvec4 averageStored(const vulkan::FilterOptions& filter, std::span<const std::pair<glm::dvec4, double>> weighted)
+glm::dvec4 averageStored(const ShadowOptions& filter, std::span<const std::pair<glm::dvec4, double>> weighted)
 {
     const shared::MomentRule rule = ruleOf(filter);
-    const int number = static_cast<int>(filter.filter);
+    const int number = static_cast<int>(filter.technique.filter);
     const glm::dvec4 k = shared::averageExponents(number, rule);
     glm::dvec4 average(0.0);
     for (int c = 0; c < 4; ++c) {

@@ -15,20 +15,20 @@ namespace gnomon::test {
 struct DrawnMaps {
     std::vector<CpuMap> layers; // of the image, all of its mip levels
     vulkan::FilterCost cost;
-    std::vector<std::vector<vulkan::DepthLayer>> depth_layers; // by view
+    std::vector<std::vector<pack::DepthLayer>> depth_layers; // by view
 };
 /// Draws this plan's maps once, with validation.
-[[nodiscard]] DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const vulkan::FilterOptions& filter);
+[[nodiscard]] DrawnMaps drawMaps(const Scene& scene, const Plan& plan, const ShadowOptions& filter);
 /// What lies under each texel of a layer: a hard shadow's map.
 [[nodiscard]] CpuMap drawDepths(const Scene& scene, const Plan& plan);
 
-[[nodiscard]] vulkan::FilterOptions momentFilter(Filter filter, MapFormat format);
+[[nodiscard]] ShadowOptions momentFilter(Filter filter, MapFormat format);
 /// What the filter stores for depths in the linear metric, averaged; by image layer of the map.
-[[nodiscard]] glm::dvec4 encodeSamples(const vulkan::FilterOptions& filter, const View& view,
-                                       const std::vector<vulkan::DepthLayer>& layers, std::uint32_t image_layer,
+[[nodiscard]] glm::dvec4 encodeSamples(const ShadowOptions& filter, const View& view,
+                                       const std::vector<pack::DepthLayer>& layers, std::uint32_t image_layer,
                                        std::span<const double> depths);
 /// Averages as the filter's maps are to be averaged; the weights add up to 1.
-[[nodiscard]] glm::dvec4 averageStored(const vulkan::FilterOptions& filter,
+[[nodiscard]] glm::dvec4 averageStored(const ShadowOptions& filter,
                                        std::span<const std::pair<glm::dvec4, double>> weighted);
 
 /// How far a stored value may be from the exact one.

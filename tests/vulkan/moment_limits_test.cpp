@@ -39,7 +39,7 @@ TEST(MomentExponents, meanTheSameOfRemappedDepths)
 {
     for (const Filter which : {Filter::esm, Filter::evsm}) {
         for (const bool given : {false, true}) {
-            vulkan::FilterOptions filter = momentFilter(which, filterTraits(which)->formats.front());
+            ShadowOptions filter = momentFilter(which, filterTraits(which)->formats.front());
             if (given) {
                 filter.moments.esm_exponent = 30.0F;
                 filter.moments.evsm_positive = 30.0F;
@@ -57,7 +57,7 @@ TEST(MomentExponents, meanTheSameOfRemappedDepths)
 // A tile's level exists where its edges lie on the level's grid, and no map has more than its tiles can use.
 TEST(MipLevels, areThoseThatATileCanHave)
 {
-    vulkan::FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+    ShadowOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
     filter.moments.sampling = MapSampling::trilinear;
     const std::pair<std::uint32_t, std::uint32_t> cases[] = {{1, 1},    {2, 2},    {767, 1},  {768, 8}, {770, 2},
                                                              {1000, 4}, {1024, 8}, {1025, 1}, {64, 7}};
@@ -70,17 +70,22 @@ TEST(MipLevels, areThoseThatATileCanHave)
     EXPECT_EQ(levelsOf(filter, {1024, 1024, 1}), 1U);
 }
 
+ShadowOptions blurred(BlurPath path)
+{
+    ShadowOptions options = momentFilter(Filter::vsm, MapFormat::rg32f);
+    options.moments.blur = BlurKind::gaussian;
+    options.moments.blur_path = path;
+    return options;
+}
+
 TEST(MomentCounts, areMadeVisibleToTheHostLast)
 {
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
         using Kind = NullEvent::Kind;
         NullDriver driver;
-        vulkan::ShadowRendererOptions options;
-        options.filter = momentFilter(Filter::vsm, MapFormat::rg32f);
-        options.filter.moments.blur = BlurKind::gaussian;
-        options.filter.moments.blur_path = path;
-        vulkan::ShadowRenderer renderer(driver.view(), options);
-        const Plan plan = momentPlan(makeScene());
+        vulkan::ShadowRenderer renderer(driver.view(), {});
+        Plan plan = momentPlan(makeScene());
+        plan.options = planOptions(blurred(path));
         (void)renderer.prepare(plan, {8, 8});
         renderer.recordMaps(driver.commands(), 0, Frame(), plan, [](const vulkan::MapPass&) {});
         const auto events = driver.events();
@@ -100,15 +105,9 @@ TEST(MomentsAtRest, takeNoShaderAtAll)
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
         const Scene scene = makeScene();
         Plan plan = momentPlan(scene);
-        vulkan::ShadowRendererOptions options;
-        options.filter = momentFilter(Filter::vsm, MapFormat::rg32f);
-        options.filter.moments.blur = BlurKind::gaussian;
-        options.filter.moments.blur_path = path;
-        options.frames_in_flight = 1;
-        vulkan::ShadowRenderer renderer(gpu().view(), options);
+        plan.options = planOptions(blurred(path));
+        vulkan::ShadowRenderer renderer(gpu().view(), {.frames_in_flight = 1});
         vulkan::CasterDrawerOptions drawer_options;
-        drawer_options.orthographic = renderer.mapFormats(true);
-        drawer_options.perspective = renderer.mapFormats(false);
         drawer_options.frames_in_flight = 1;
         vulkan::CasterDrawer drawer(gpu().view(), drawer_options);
         const SceneMesh mesh = uploadMesh(gpu(), scene);

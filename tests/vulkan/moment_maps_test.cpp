@@ -10,8 +10,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
-
 struct Case {
     const char* name;
     Filter filter;
@@ -24,9 +22,9 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
     return out << c.name;
 }
 
-FilterOptions filterOf(const Case& c)
+ShadowOptions filterOf(const Case& c)
 {
-    FilterOptions filter = momentFilter(c.filter, c.format);
+    ShadowOptions filter = momentFilter(c.filter, c.format);
     c.change(filter.moments);
     return filter;
 }
@@ -57,9 +55,9 @@ TEST_P(MomentMaps, encodeTheDepthsOfTheirTexels)
     const Scene scene = makeScene();
     const Plan plan = momentPlan(scene);
     const CpuMap depths = drawDepths(scene, plan);
-    const FilterOptions filter = filterOf(GetParam());
+    const ShadowOptions filter = filterOf(GetParam());
     const DrawnMaps drawn = drawMaps(scene, plan, filter);
-    ASSERT_EQ(drawn.layers.size(), imageLayersPerMap(filter.filter, filter.moments));
+    ASSERT_EQ(drawn.layers.size(), imageLayersPerMap(filter.technique.filter, filter.moments));
     for (std::uint32_t v = 0; v < plan.views.size(); ++v) {
         const View& view = plan.views[v];
         const Tile& tile = view.tile;
@@ -74,7 +72,7 @@ TEST_P(MomentMaps, encodeTheDepthsOfTheirTexels)
                     const glm::dvec4 expected =
                         encodeSamples(filter, view, drawn.depth_layers[v], layer, std::array{depth});
                     // An exponential turns an error of 1e-7 in c d into one of its value.
-                    wrong += differs(drawn.layers[layer].levels[0][at], expected, filter.format, 5e-5) ? 1 : 0;
+                    wrong += differs(drawn.layers[layer].levels[0][at], expected, formatOf(filter), 5e-5) ? 1 : 0;
                     casters += depth < 1.0 ? 1 : 0;
                 }
             }
@@ -140,7 +138,7 @@ TEST(MomentSamples, areAveragedAsMoments)
     constexpr std::array<glm::dvec2, 4> kPlaces{{{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
     const Scene scene = makeScene();
     const Plan plan = momentPlan(scene);
-    FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+    ShadowOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
     filter.moments.samples = 4;
     const DrawnMaps drawn = drawMaps(scene, plan, filter);
     for (const View& view : plan.views) {
@@ -156,7 +154,7 @@ TEST(MomentSamples, areAveragedAsMoments)
                 const glm::dvec4 expected = encodeSamples(filter, view, {}, 0, depths);
                 const glm::vec4 stored =
                     drawn.layers[0].levels[0][std::size_t{tile.y + y} * drawn.layers[0].width + tile.x + x];
-                wrong += differs(stored, expected, filter.format, view.orthographic ? 3e-5 : 3e-3) ? 1 : 0;
+                wrong += differs(stored, expected, formatOf(filter), view.orthographic ? 3e-5 : 3e-3) ? 1 : 0;
                 // Where moments and the square of a mean depth are far apart.
                 edges += expected.y - expected.x * expected.x > 1e-3 ? 1 : 0;
             }
@@ -171,7 +169,7 @@ TEST(MomentDerivatives, addTheSmallerStepsOfBothAxes)
     const Scene scene = makeScene();
     const Plan plan = momentPlan(scene);
     const CpuMap depths = drawDepths(scene, plan);
-    FilterOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
+    ShadowOptions filter = momentFilter(Filter::vsm, MapFormat::rg32f);
     const DrawnMaps without = drawMaps(scene, plan, filter);
     filter.moments.derivative_variance = true;
     const DrawnMaps with = drawMaps(scene, plan, filter);
@@ -203,7 +201,7 @@ TEST(MomentGuard, depthsThatAreNoNumbersAreNotStored)
     Plan plan = momentPlan(scene);
     plan.views[1].metric.metric_ws.x = std::numeric_limits<double>::quiet_NaN();
     for (const std::uint32_t samples : {1U, 4U}) {
-        FilterOptions filter = momentFilter(Filter::evsm, MapFormat::rgba32f);
+        ShadowOptions filter = momentFilter(Filter::evsm, MapFormat::rgba32f);
         filter.moments.samples = samples;
         const DrawnMaps drawn = drawMaps(scene, plan, filter);
         std::size_t bad = 0;

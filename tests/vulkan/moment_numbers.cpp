@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moment_numbers.h"
 
-#include <mip_level.h>
-#include <moment_rule_of.h>
+#include <gnomon/pack/filter_rule.h>
 
 namespace gnomon::test {
 
 bool isFilterable(Filter filter)
 {
-    return vulkan::isFilterable(filter);
+    return filterTraits(filter)->filterable;
 }
 
-MomentNumbers momentNumbers(const vulkan::FilterOptions& filter)
+MomentNumbers momentNumbers(const ShadowOptions& filter)
 {
-    if (!isFilterable(filter.filter)) {
+    if (!isFilterable(filter.technique.filter)) {
         return {};
     }
-    const auto r = vulkan::momentRuleOf(filter);
+    const auto r = pack::momentRuleOf(resolvedOrThrow(filter));
     return {r.flags,
             r.sampling,
             r.layers,
@@ -33,14 +32,14 @@ MomentNumbers momentNumbers(const vulkan::FilterOptions& filter)
             r.anisotropy};
 }
 
-std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const MapPages& atlas)
+std::uint32_t levelsOf(const ShadowOptions& filter, const MapPages& atlas)
 {
-    return vulkan::mipLevels(filter, atlas.width, atlas.height);
+    return pack::mipLevels(resolvedOrThrow(filter), atlas.width, atlas.height);
 }
 
 double coarsestOf(const Tile& tile, std::uint32_t levels)
 {
-    return vulkan::coarsestLevel(tile, levels);
+    return pack::coarsestLevel(tile, levels);
 }
 
 } // namespace gnomon::test

@@ -26,9 +26,9 @@ struct MomentNumbers {
 };
 [[nodiscard]] bool isFilterable(Filter filter);
 /// Zeros for a filter that is not filterable.
-[[nodiscard]] MomentNumbers momentNumbers(const vulkan::FilterOptions& filter);
+[[nodiscard]] MomentNumbers momentNumbers(const ShadowOptions& filter);
 /// Mip levels of the maps' image.
-[[nodiscard]] std::uint32_t levelsOf(const vulkan::FilterOptions& filter, const MapPages& atlas);
+[[nodiscard]] std::uint32_t levelsOf(const ShadowOptions& filter, const MapPages& atlas);
 /// The last of them that a tile may be read at.
 [[nodiscard]] double coarsestOf(const Tile& tile, std::uint32_t levels);
 

@@ -13,8 +13,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
-
 void unchanged(MomentOptions&) {}
 
 struct MomentCase {
@@ -30,10 +28,10 @@ std::ostream& operator<<(std::ostream& out, const MomentCase& c)
     return out << c.name;
 }
 
-FilterOptions optionsOf(const MomentCase& c)
+ShadowOptions optionsOf(const MomentCase& c)
 {
-    FilterOptions options;
-    options.filter = c.filter;
+    ShadowOptions options;
+    options.technique.filter = c.filter;
     options.format = c.format;
     c.change(options.moments);
     return options;
@@ -43,7 +41,7 @@ class MomentParity : public testing::TestWithParam<MomentCase> {};
 
 TEST_P(MomentParity, maskIsThatOfTheCpu)
 {
-    const FilterOptions options = optionsOf(GetParam());
+    const ShadowOptions options = optionsOf(GetParam());
     const ParityFigures figures = expectParity(renderParity(options, GetParam().lights), options, GetParam().name);
     std::printf("%-28s %4zu of %zu pixels differ, worst %.2f of 255; %zu may by rounding\n", GetParam().name.c_str(),
                 figures.different, figures.pixels, figures.worst, figures.loose);
@@ -205,8 +203,8 @@ INSTANTIATE_TEST_SUITE_P(Msm, MomentParity, testing::ValuesIn(kMsm), nameOfCase)
 // The reference must be able to tell: what is not the GPU's rule gives other masks.
 TEST(MomentParityItself, tellsAnotherRuleApart)
 {
-    FilterOptions options;
-    options.filter = Filter::vsm;
+    ShadowOptions options;
+    options.technique.filter = Filter::vsm;
     options.format = MapFormat::rg32f;
     const Rendered r = renderParity(options, ParityLights::sun_alone);
     options.moments.bleeding_linstep = 0.05F;

@@ -7,10 +7,10 @@
 namespace gnomon::test {
 namespace {
 
-vulkan::FilterOptions evsm(MapFormat format, bool log_space)
+ShadowOptions evsm(MapFormat format, bool log_space)
 {
-    vulkan::FilterOptions filter;
-    filter.filter = Filter::evsm;
+    ShadowOptions filter;
+    filter.technique.filter = Filter::evsm;
     filter.format = format;
     filter.moments.log_space = log_space;
     return filter;
@@ -24,8 +24,8 @@ double varianceOf(double step)
 
 TEST(MomentRule, leastVarianceIsWhatRoundingTakes)
 {
-    vulkan::FilterOptions filter;
-    filter.filter = Filter::vsm;
+    ShadowOptions filter;
+    filter.technique.filter = Filter::vsm;
     for (const auto& [format, step] :
          {std::pair{MapFormat::rg16, 1.0 / 65535.0}, {MapFormat::rg16f, 0x1p-11}, {MapFormat::rg32f, 0x1p-24}}) {
         filter.format = format;
@@ -48,14 +48,14 @@ TEST(MomentRule, eachWarpHasItsOwnShareOfRounding)
         EXPECT_NEAR(logarithms.rounding_negative, 5.0 * 4.0 / 3.0 * varianceOf(step),
                     1e-3 * logarithms.rounding_negative);
     }
-    vulkan::FilterOptions huge = evsm(MapFormat::rgba16f, true);
-    huge.moments.evsm_positive = 3e38F;
+    ShadowOptions huge = evsm(MapFormat::rgba16f, true);
+    huge.moments.evsm_positive = 10000.0F; // the most that options may have
     EXPECT_EQ(momentNumbers(huge).rounding, 1.0) << "all of it is the most";
 }
 
 TEST(MomentRule, whatIsAskedForTakesThePlaceOfBoth)
 {
-    vulkan::FilterOptions filter = evsm(MapFormat::rgba32f, false);
+    ShadowOptions filter = evsm(MapFormat::rgba32f, false);
     filter.moments.min_variance = 0.25F;
     const MomentNumbers rule = momentNumbers(filter);
     EXPECT_EQ(rule.min_variance, 0.25);

@@ -14,11 +14,9 @@ namespace gnomon::test {
 namespace {
 
 using vulkan::CasterDrawer;
-using vulkan::CasterDrawerOptions;
 using vulkan::MapPass;
 using vulkan::Profiler;
 using vulkan::ShadowRenderer;
-using vulkan::ShadowRendererOptions;
 using Kind = NullEvent::Kind;
 
 constexpr VkExtent2D kScreen{64, 48};
@@ -27,14 +25,15 @@ constexpr VkExtent2D kScreen{64, 48};
 class NullHost {
 public:
     explicit NullHost(NullDriver& driver_in, MapFormat format = MapFormat::d32f, std::uint32_t light_count = 2)
-        : driver(driver_in), renderer(driver.view(), options(format)), drawer(driver.view(), drawerOptions())
+        : driver(driver_in), renderer(driver.view(), {.mask_shape = vulkan::MaskShape{.normals = true}}),
+          drawer(driver.view(), {})
     {
         std::vector<Tile> tiles;
         for (std::uint32_t i = 0; i < light_count; ++i) {
             lights.push_back(i == 0 ? makeSun({0.5, -1.0, 0.2}) : makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
             tiles.push_back({i, 0, 0, 256, 256});
         }
-        plan = makePlan(scene, lights, tiles, {256, 256, light_count});
+        plan = makePlan(scene, lights, tiles, {256, 256, light_count}, {.format = format});
         frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
         frame.lights = lights;
         inputs.extent = kScreen;
@@ -47,21 +46,6 @@ public:
         geometry.positions = driver.makeBuffer();
         geometry.indices = driver.makeBuffer();
         transforms = scene.transforms();
-    }
-
-    static ShadowRendererOptions options(MapFormat format)
-    {
-        ShadowRendererOptions options;
-        options.filter.format = format;
-        options.mask_shape = vulkan::MaskShape{.normals = true};
-        return options;
-    }
-    CasterDrawerOptions drawerOptions() const
-    {
-        CasterDrawerOptions options;
-        options.orthographic = renderer.mapFormats(true);
-        options.perspective = renderer.mapFormats(false);
-        return options;
     }
 
     void record(std::uint32_t slot, Profiler* profiler = nullptr)
@@ -184,11 +168,12 @@ TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
     for (const BlurPath path : {BlurPath::compute, BlurPath::fragment}) {
         NullDriver driver;
         const NullHost host(driver);
-        ShadowRendererOptions options = NullHost::options(MapFormat::rg16f);
-        options.filter.filter = Filter::vsm;
-        options.filter.moments.blur_path = path;
-        ShadowRenderer renderer(driver.view(), options);
+        ShadowRenderer renderer(driver.view(), {});
         Plan plan = host.plan;
+        ShadowOptions options{.format = MapFormat::rg16f};
+        options.technique.filter = Filter::vsm;
+        options.moments.blur_path = path;
+        plan.options = planOptions(options);
         const vulkan::DrawCasters nothing = [](const MapPass&) {
         };
         (void)renderer.prepare(plan, kScreen);
@@ -316,14 +301,17 @@ TEST(NullRecording, anInstanceThatIsTooOldIsToldApartFromADriverThatIs)
 TEST(NullRecording, aFormatThatTheFilterCannotUseIsRefused)
 {
     NullDriver driver;
-    EXPECT_THROW(ShadowRenderer(driver.view(), NullHost::options(MapFormat::rgba16f)), Error);
+    {
+        NullHost host(driver);
+        EXPECT_THROW(host.plan.options = planOptions({.format = MapFormat::rgba16f}), Error);
+    }
     EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
 }
 
 TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
 {
-    ShadowRendererOptions options = NullHost::options(MapFormat::rg32f);
-    options.filter.filter = Filter::vsm;
+    ShadowOptions options{.format = MapFormat::rg32f};
+    options.technique.filter = Filter::vsm;
     struct Lack {
         VkFormatFeatureFlags feature;
         const char* said;
@@ -337,7 +325,10 @@ TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
         NullDriver driver;
         driver.hideFormatFeatures(lack.feature);
         try {
-            const ShadowRenderer renderer(driver.view(), options);
+            ShadowRenderer renderer(driver.view(), {});
+            Plan plan = NullHost(driver).plan;
+            plan.options = planOptions(options);
+            (void)renderer.prepare(plan, kScreen);
             FAIL() << lack.said;
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find(lack.said), std::string::npos) << error.what();

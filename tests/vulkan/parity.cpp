@@ -14,11 +14,10 @@ namespace gnomon::test {
 namespace {
 
 using vulkan::CasterDrawer;
-using vulkan::FilterOptions;
 using vulkan::MapPass;
 using vulkan::ShadowRenderer;
 
-void readBack(const ShadowRenderer& renderer, const FilterOptions& options, Rendered& r)
+void readBack(const ShadowRenderer& renderer, const ShadowOptions& options, Rendered& r)
 {
     const auto maps = renderer.maps();
     for (std::uint32_t layer = 0; layer < maps.layers; ++layer) {
@@ -28,13 +27,13 @@ void readBack(const ShadowRenderer& renderer, const FilterOptions& options, Rend
         r.masks.push_back(readMaskChannel(gpu(), renderer.mask(), light));
     }
     for (std::uint32_t view = 0; view < r.plan.views.size(); ++view) {
-        r.layers.push_back(renderer.depthLayers(view));
+        r.layers.push_back(renderer.depthLayers(r.plan, view));
     }
 }
 
-bool hasTwoMapsInATexel(const FilterOptions& options)
+bool hasTwoMapsInATexel(const ShadowOptions& options)
 {
-    return !isFilterable(options.filter) && (options.format == MapFormat::rg16 || options.format == MapFormat::rgba8);
+    return !isFilterable(options.technique.filter) && resolvedOrThrow(options).paired_maps();
 }
 
 /// A sun whose maps are of before and after it.
@@ -68,7 +67,7 @@ void setSteppingSun(bool band, bool share_texels, Rendered& r)
     light.steps.edge = band ? 0.7 : 0.0;
 }
 
-void setLights(ParityLights lights, const FilterOptions& options, Rendered& r)
+void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
 {
     if (lights == ParityLights::stepping_sun || lights == ParityLights::stepping_band) {
         setSteppingSun(lights == ParityLights::stepping_band, hasTwoMapsInATexel(options), r);
@@ -100,10 +99,11 @@ std::vector<std::byte> toBytes(const std::vector<double>& mask)
 
 } // namespace
 
-Rendered renderParity(const FilterOptions& options, ParityLights lights)
+Rendered renderParity(const ShadowOptions& options, ParityLights lights)
 {
     Rendered r;
     setLights(lights, options, r);
+    r.plan.options = planOptions(options);
     constexpr std::uint32_t kFrames = 3;
     Frame frame;
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(kParityScreen.width) / kParityScreen.height);
@@ -113,12 +113,9 @@ Rendered renderParity(const FilterOptions& options, ParityLights lights)
     const vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
 
     vulkan::ShadowRendererOptions renderer_options;
-    renderer_options.filter = options;
     renderer_options.frames_in_flight = kFrames;
     ShadowRenderer renderer(gpu().view(), renderer_options);
     vulkan::CasterDrawerOptions drawer_options;
-    drawer_options.orthographic = renderer.mapFormats(true);
-    drawer_options.perspective = renderer.mapFormats(false);
     drawer_options.frames_in_flight = kFrames;
     CasterDrawer drawer(gpu().view(), drawer_options);
     const SceneMesh mesh = uploadMesh(gpu(), r.scene);
@@ -155,14 +152,15 @@ struct Bounds {
     std::vector<double> low;
     std::vector<double> high;
 };
-Bounds boundsOf(const Rendered& r, std::uint32_t light, const FilterOptions& options,
+Bounds boundsOf(const Rendered& r, std::uint32_t light, const ShadowOptions& options,
                 const std::vector<double>& reference)
 {
     Bounds bounds{reference, reference};
-    if (!isFilterable(options.filter) || !isSingle(options.format)) {
+    if (!isFilterable(options.technique.filter) || !isSingle(formatOf(options))) {
         return bounds;
     }
-    const int channels = options.format == MapFormat::r32f ? 1 : options.format == MapFormat::rg32f ? 2 : 4;
+    const MapFormat format = formatOf(options);
+    const int channels = format == MapFormat::r32f ? 1 : format == MapFormat::rg32f ? 2 : 4;
     for (int signs = 0; signs < 1 << channels; ++signs) {
         glm::dvec4 nudge(0.0);
         for (int c = 0; c < channels; ++c) {
@@ -180,7 +178,7 @@ Bounds boundsOf(const Rendered& r, std::uint32_t light, const FilterOptions& opt
 
 } // namespace
 
-ParityFigures expectParity(const Rendered& r, const FilterOptions& options, const std::string& name, double steps)
+ParityFigures expectParity(const Rendered& r, const ShadowOptions& options, const std::string& name, double steps)
 {
     ParityFigures worst;
     for (std::uint32_t light = 0; light < r.lights.size(); ++light) {

@@ -28,12 +28,11 @@ struct Rendered {
     Plan plan;
     Camera camera;
     Picture picture;
-    std::vector<CpuMap> maps;                            // by layer of the image
-    std::vector<std::vector<std::byte>> masks;           // by light, one byte a pixel
-    std::vector<std::vector<vulkan::DepthLayer>> layers; // by view
+    std::vector<CpuMap> maps;                          // by layer of the image
+    std::vector<std::vector<std::byte>> masks;         // by light, one byte a pixel
+    std::vector<std::vector<pack::DepthLayer>> layers; // by view
 };
-[[nodiscard]] Rendered renderParity(const vulkan::FilterOptions& options,
-                                    ParityLights lights = ParityLights::sun_and_spot);
+[[nodiscard]] Rendered renderParity(const ShadowOptions& options, ParityLights lights = ParityLights::sun_and_spot);
 
 struct ParityFigures {
     std::size_t pixels = 0;
@@ -44,7 +43,7 @@ struct ParityFigures {
 /// Every mask against the reference: at most a pixel in a thousand may be off by more than `steps` of the mask's 255
 /// from what rounding may make of it.
 /// Writes the masks as pictures named for the case, and returns the light that is worst.
-ParityFigures expectParity(const Rendered& r, const vulkan::FilterOptions& options, const std::string& name,
+ParityFigures expectParity(const Rendered& r, const ShadowOptions& options, const std::string& name,
                            double steps = 1.001);
 
 } // namespace gnomon::test

@@ -11,8 +11,6 @@
 namespace gnomon::test {
 namespace {
 
-using vulkan::FilterOptions;
-
 struct Case {
     const char* name;
     Filter filter;
@@ -29,9 +27,9 @@ class Parity : public testing::TestWithParam<Case> {};
 
 TEST_P(Parity, maskIsThatOfTheCpu)
 {
-    FilterOptions options;
-    options.filter = GetParam().filter;
-    options.pcf_kernel = GetParam().kernel;
+    ShadowOptions options;
+    options.technique.filter = GetParam().filter;
+    options.pcf.kernel = GetParam().kernel;
     options.format = GetParam().format;
     expectParity(renderParity(options), options, GetParam().name);
     expectParity(renderParity(options, ParityLights::sun_alone), options, std::string(GetParam().name) + "_alone");
@@ -61,9 +59,9 @@ class ParityOfSteps : public testing::TestWithParam<Case> {};
 
 TEST_P(ParityOfSteps, maskIsThatOfTheCpu)
 {
-    FilterOptions options;
-    options.filter = GetParam().filter;
-    options.pcf_kernel = GetParam().kernel;
+    ShadowOptions options;
+    options.technique.filter = GetParam().filter;
+    options.pcf.kernel = GetParam().kernel;
     options.format = GetParam().format;
     const std::string name = std::string("steps_") + GetParam().name;
     expectParity(renderParity(options, ParityLights::stepping_sun), options, name);
@@ -82,8 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Filters, ParityOfSteps,
 // The reference must be able to tell: a weight that is off by a tenth, and positions the wrong way round.
 TEST(ParityOfStepsItself, tellsAnotherBlendApart)
 {
-    FilterOptions options;
-    options.filter = Filter::pcf;
+    ShadowOptions options;
+    options.technique.filter = Filter::pcf;
     options.format = MapFormat::rgba8;
     const Rendered r = renderParity(options, ParityLights::stepping_sun);
     const auto countOff = [&](const Plan& plan) {
@@ -106,7 +104,7 @@ TEST(ParityOfStepsItself, tellsAnotherBlendApart)
 
 TEST(ParityOfBias, manualRulesAreThoseOfTheCpu)
 {
-    FilterOptions options;
+    ShadowOptions options;
     options.bias = {false, 0.02F, 1.5F, 0.0F, false};
     expectParity(renderParity(options), options, "bias_slope");
     options.bias = {false, 0.0F, 0.0F, 2.0F, false};
@@ -138,8 +136,8 @@ class MapContents : public testing::TestWithParam<MapFormat> {};
 
 TEST_P(MapContents, areTheDepthMetric)
 {
-    FilterOptions options;
-    options.filter = Filter::hard;
+    ShadowOptions options;
+    options.technique.filter = Filter::hard;
     options.format = GetParam();
     const Rendered r = renderParity(options);
     const double tolerance = GetParam() == MapFormat::d16 ? 3e-5 : 1e-5;

@@ -55,10 +55,10 @@ protected:
             (void)objects_.add(boundsOf(kept_.scene.boxes[i]), {.dynamic = i >= 3});
         }
     }
-    static vulkan::FilterOptions filterOf()
+    static ShadowOptions filterOf()
     {
-        vulkan::FilterOptions options;
-        options.filter = GetParam().filter;
+        ShadowOptions options;
+        options.technique.filter = GetParam().filter;
         options.format = GetParam().format;
         options.moments.samples = 1;
         return options;

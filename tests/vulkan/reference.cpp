@@ -14,7 +14,7 @@
 namespace gnomon::test {
 namespace {
 std::span<const CpuMap> current_maps;
-std::span<const vulkan::DepthLayer> current_layers;
+std::span<const pack::DepthLayer> current_layers;
 glm::dvec4 current_nudge(0.0);
 bool current_poisson = false;
 int current_taps = 0;
@@ -53,7 +53,7 @@ inline real4 mapDepthLayer(int, int i)
     if (index >= test::current_layers.size()) {
         return {0.0, 1.0, 2.0, 0.0};
     }
-    const vulkan::DepthLayer& layer = test::current_layers[index];
+    const pack::DepthLayer& layer = test::current_layers[index];
     return {layer.near, layer.far, layer.begins, 0.0};
 }
 inline real2 discPoint(int i)
@@ -124,42 +124,42 @@ double quantumOf(MapFormat format)
 }
 
 // How far from the receiver the centres of the texels are that the filter reads.
-double reachOf(const vulkan::FilterOptions& options)
+double reachOf(const ShadowOptions& options)
 {
-    if (options.filter == Filter::hard) {
+    if (options.technique.filter == Filter::hard) {
         return 0.5;
     }
-    if (isFilterable(options.filter)) {
+    if (isFilterable(options.technique.filter)) {
         return blurRadius(options.moments) + 1.0;
     }
-    const double width = widthOf(options.pcf_kernel);
-    return width > 0 ? (width + 1) / 2 : double(options.disc_radius_texels) + 1.0;
+    const double width = widthOf(options.pcf.kernel);
+    return width > 0 ? (width + 1) / 2 : double(options.pcf.radius_texels) + 1.0;
 }
 
 // How far away what the receiver is compared with typically is.
-double biasReachOf(const vulkan::FilterOptions& options)
+double biasReachOf(const ShadowOptions& options)
 {
-    if (!isFilterable(options.filter)) {
+    if (!isFilterable(options.technique.filter)) {
         return reachOf(options);
     }
     const MomentOptions& o = options.moments;
     const double radius = blurRadius(o);
     const double of_blur =
         o.blur == BlurKind::gaussian ? std::min(double(o.blur_sigma_texels), radius) : radius / std::sqrt(3.0);
-    return std::max(of_blur + 0.5, options.filter == Filter::esm ? 3.0 : 0.0);
+    return std::max(of_blur + 0.5, options.technique.filter == Filter::esm ? 3.0 : 0.0);
 }
 
-int holdingOf(const vulkan::FilterOptions& options)
+int holdingOf(const ShadowOptions& options)
 {
-    if (isFilterable(options.filter)) {
+    if (isFilterable(options.technique.filter)) {
         return shared::kDepthAlone;
     }
-    return options.format == MapFormat::rg16    ? shared::kDepthChannel
-           : options.format == MapFormat::rgba8 ? shared::kDepthBytes
-                                                : shared::kDepthAlone;
+    return formatOf(options) == MapFormat::rg16    ? shared::kDepthChannel
+           : formatOf(options) == MapFormat::rgba8 ? shared::kDepthBytes
+                                                   : shared::kDepthAlone;
 }
 
-BiasRule ruleOf(const vulkan::FilterOptions& options)
+BiasRule ruleOf(const ShadowOptions& options)
 {
     const BiasOptions& bias = options.bias;
     BiasRule rule;
@@ -169,11 +169,11 @@ BiasRule ruleOf(const vulkan::FilterOptions& options)
     rule.normal_texels = bias.normal_texels;
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
     rule.reach_texels = biasReachOf(options);
-    rule.quantum = quantumOf(options.format);
+    rule.quantum = quantumOf(formatOf(options));
     return rule;
 }
 
-shared::MomentRule momentsOf(const vulkan::FilterOptions& options)
+shared::MomentRule momentsOf(const ShadowOptions& options)
 {
     const MomentNumbers n = momentNumbers(options);
     shared::MomentRule rule;
@@ -194,15 +194,16 @@ shared::MomentRule momentsOf(const vulkan::FilterOptions& options)
     return rule;
 }
 
-FilterInput inputOf(const ReferenceScene& scene, const View& view, const vulkan::FilterOptions& options)
+FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowOptions& options)
 {
     FilterInput input{};
     input.layer = view.tile.layer;
     input.part = view.part == TexelPart::second ? 1.0 : 0.0;
-    input.kernel_width = widthOf(options.pcf_kernel);
-    input.disc_taps = int(options.disc_taps);
-    input.disc_radius = options.disc_radius_texels;
-    input.kernel = shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.gaussian_sigma_texels));
+    input.kernel_width = widthOf(options.pcf.kernel);
+    input.disc_taps = int(options.pcf.taps);
+    input.disc_radius = options.pcf.radius_texels;
+    input.kernel =
+        shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.pcf.sigma_texels.value_or(0.0F)));
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
     input.coarsest = coarsestOf(view.tile, levelsOf(options, scene.plan.pages[0]));
@@ -238,13 +239,13 @@ private:
 
 /// What one view alone says.
 std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, const View& view,
-                               const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
+                               const ShadowOptions& options, std::span<const pack::DepthLayer> layers)
 {
     current_maps = scene.maps;
     current_layers = layers;
     current_nudge = scene.nudge;
-    current_poisson = options.pcf_kernel == PcfKernel::poisson;
-    current_taps = int(options.disc_taps);
+    current_poisson = options.pcf.kernel == PcfKernel::poisson;
+    current_taps = int(options.pcf.taps);
     current_holding = holdingOf(options);
     const Picture& picture = scene.picture;
     const MapRows rows = rowsOf(view);
@@ -275,8 +276,8 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }
-            mask.push_back(
-                shared::boundedVisibility(shared::applyFilter(static_cast<int>(options.filter), point, input)));
+            mask.push_back(shared::boundedVisibility(
+                shared::applyFilter(static_cast<int>(options.technique.filter), point, input)));
         }
     }
     current_maps = {};
@@ -287,8 +288,8 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
 
 } // namespace
 
-std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
-                                  const vulkan::FilterOptions& options, std::span<const vulkan::DepthLayer> layers)
+std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index, const ShadowOptions& options,
+                                  std::span<const pack::DepthLayer> layers)
 {
     const Light& light = scene.lights[index];
     const LightPlan& planned = scene.plan.lights[index];

@@ -21,7 +21,7 @@ struct ReferenceScene {
 /// Visibility per pixel of the picture for light `index` of the plan: by its first view, or of a sun between two
 /// positions by the first two, which are one of each. `layers`: of depth, of the light's view (lvsm).
 [[nodiscard]] std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index,
-                                                const vulkan::FilterOptions& options,
-                                                std::span<const vulkan::DepthLayer> layers = {});
+                                                const ShadowOptions& options,
+                                                std::span<const pack::DepthLayer> layers = {});
 
 } // namespace gnomon::test

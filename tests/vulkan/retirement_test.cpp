@@ -11,7 +11,6 @@ namespace gnomon::test {
 namespace {
 
 using vulkan::ShadowRenderer;
-using vulkan::ShadowRendererOptions;
 
 struct Case {
     const char* name;
@@ -25,11 +24,11 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
     return out << c.name;
 }
 
-ShadowRendererOptions optionsOf(const Case& c)
+ShadowOptions optionsOf(const Case& c)
 {
-    ShadowRendererOptions options;
-    options.filter.filter = c.filter;
-    options.filter.format = c.format;
+    ShadowOptions options;
+    options.technique.filter = c.filter;
+    options.format = c.format;
     return options;
 }
 
@@ -37,7 +36,7 @@ ShadowRendererOptions optionsOf(const Case& c)
 class Flight {
 public:
     Flight(NullDriver& driver_in, const Case& c)
-        : driver(driver_in), renderer(driver.view(), optionsOf(c)), drawer(driver.view(), drawerOptions())
+        : driver(driver_in), options(optionsOf(c)), renderer(driver.view(), {}), drawer(driver.view(), {})
     {
         inputs.depth = driver.makeView();
         inputs.normal = driver.makeView();
@@ -77,6 +76,7 @@ public:
     }
 
     NullDriver& driver;
+    ShadowOptions options;
     Scene scene = makeScene();
     ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;
@@ -86,13 +86,6 @@ public:
     std::uint64_t made_while_recording = 0;
 
 private:
-    vulkan::CasterDrawerOptions drawerOptions() const
-    {
-        vulkan::CasterDrawerOptions options;
-        options.orthographic = renderer.mapFormats(true);
-        options.perspective = renderer.mapFormats(false);
-        return options;
-    }
     void makePlan(std::uint32_t lights, std::uint32_t map_size, std::uint32_t kept)
     {
         lights_.clear();
@@ -101,7 +94,7 @@ private:
             lights_.push_back(i == 0 ? makeSun({0.5, -1.0, 0.2}) : makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
             tiles.push_back({i, 0, 0, map_size, map_size});
         }
-        plan_ = test::makePlan(scene, lights_, tiles, {map_size, map_size, lights, kept});
+        plan_ = test::makePlan(scene, lights_, tiles, {map_size, map_size, lights, kept}, options);
         for (std::uint32_t i = 0; i < std::min(lights, kept); ++i) {
             plan_.views[i].kept_layer = i;
             plan_.views[i].still_count = 2;
@@ -110,7 +103,10 @@ private:
         }
         if (cascades_) {
             plan_.views[0].gpu_cascade = 0;
-            plan_.cascades.count = 1;
+            ShadowOptions one = options;
+            one.technique.partition = Partition::sdsm;
+            one.cascades.count = 1;
+            plan_.options = planOptions(one);
         }
         names_.name(plan_);
     }
@@ -172,11 +168,11 @@ TEST_P(Retired, allIsDestroyedInTheEnd)
 TEST_P(Retired, theDriverSeesWhatIsFreedTooEarly)
 {
     NullDriver driver;
-    auto renderer = std::make_unique<ShadowRenderer>(driver.view(), optionsOf(GetParam()));
+    auto renderer = std::make_unique<ShadowRenderer>(driver.view(), vulkan::ShadowRendererOptions{});
     const Scene scene = makeScene();
     const std::vector<Light> lights{makeSun({0.5, -1.0, 0.2})};
     const Tile tile{0, 0, 0, 64, 64};
-    const Plan plan = makePlan(scene, lights, {&tile, 1}, {64, 64, 1});
+    const Plan plan = makePlan(scene, lights, {&tile, 1}, {64, 64, 1}, optionsOf(GetParam()));
     Frame frame;
     frame.lights = lights;
     (void)renderer->prepare(plan, {64, 48});

@@ -211,9 +211,16 @@ View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile 
     return view;
 }
 
-Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles, MapPages atlas)
+std::shared_ptr<const std::vector<ResolvedOptions>> planOptions(const ShadowOptions& options)
+{
+    return std::make_shared<const std::vector<ResolvedOptions>>(1, resolvedOrThrow(options));
+}
+
+Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles, MapPages atlas,
+              const ShadowOptions& options)
 {
     Plan plan;
+    plan.options = planOptions(options);
     plan.pages[0] = atlas;
     plan.mask_layers = static_cast<std::uint32_t>((lights.size() + 3) / 4);
     for (std::uint32_t i = 0; i <= scene.boxes.size(); ++i) {

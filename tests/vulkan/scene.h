@@ -66,9 +66,11 @@ struct Picture {
 [[nodiscard]] Light makeSpot(glm::dvec3 position, glm::dvec3 target, double half_angle);
 /// A view that covers the whole scene (sun) or cone (spot). `light` is its index.
 [[nodiscard]] View makeView(const Scene& scene, const Light& light, std::uint32_t index, Tile tile);
+/// As a planner with these options has them.
+[[nodiscard]] std::shared_ptr<const std::vector<ResolvedOptions>> planOptions(const ShadowOptions& options);
 /// One view a light; casters: everything.
 [[nodiscard]] Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles,
-                            MapPages atlas);
+                            MapPages atlas, const ShadowOptions& options = {});
 
 /// Names the maps of plans that are made by hand, by their place among the views, and numbers their contents by what
 /// the views' flags say of them: `redraw` makes something new of the map, `redraw_kept` of the kept one.

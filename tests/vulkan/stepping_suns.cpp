@@ -63,9 +63,9 @@ void addViews(const Setting& setting, const Scene& scene, const Camera& camera, 
     }
 }
 
-Plan emptyPlan(const Scene& scene, std::size_t lights)
+Plan emptyPlan(const Setting& setting, const Scene& scene, std::size_t lights)
 {
-    Plan plan = makePlan(scene, {}, {}, {kMapSize, kMapSize, 0});
+    Plan plan = makePlan(scene, {}, {}, {kMapSize, kMapSize, 0}, setting.options);
     plan.mask_layers = 1;
     for (std::uint32_t i = 0; i < lights; ++i) {
         plan.lights.push_back({0, 0, 0, i, {}});
@@ -83,7 +83,7 @@ shared::real4 ruleOf(const SunSteps& s)
 Setting settingOf(const StepCase& c)
 {
     Setting setting;
-    setting.options.filter = c.filter;
+    setting.options.technique.filter = c.filter;
     setting.options.format = c.format;
     setting.slices = c.slices;
     setting.paired_texels = c.paired_texels;
@@ -106,7 +106,7 @@ Suns::Suns(const Setting& setting_in, std::size_t lights, const vulkan::MemoryHo
 
 std::vector<Mask> Suns::maskOf(SunPosition position)
 {
-    Plan plan = emptyPlan(bench.scene, bench.lights.size());
+    Plan plan = emptyPlan(setting, bench.scene, bench.lights.size());
     for (std::uint32_t i = 0; i < bench.lights.size(); ++i) {
         plan.lights[i].first_view = static_cast<std::uint32_t>(plan.views.size());
         addViews(setting, bench.scene, bench.frame.camera, directionOf(i, position), SunPosition::only, i, plan);
@@ -121,7 +121,7 @@ std::vector<Mask> Suns::maskOf(SunPosition position)
 
 Plan Suns::planOf(const std::vector<SunSteps>& steps) const
 {
-    Plan plan = emptyPlan(bench.scene, bench.lights.size());
+    Plan plan = emptyPlan(setting, bench.scene, bench.lights.size());
     for (std::uint32_t i = 0; i < bench.lights.size(); ++i) {
         LightPlan& light = plan.lights[i];
         light.first_view = static_cast<std::uint32_t>(plan.views.size());

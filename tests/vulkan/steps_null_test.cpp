@@ -19,11 +19,10 @@ constexpr VkExtent2D kScreen{64, 48};
 // A sun's two positions over the scene of boxes.
 class Host {
 public:
-    Host(NullDriver& driver_in, Filter filter, MapFormat format)
-        : driver(driver_in), renderer(driver.view(), optionsOf(filter, format))
+    Host(NullDriver& driver_in, Filter filter, MapFormat format) : driver(driver_in), renderer(driver.view(), {})
     {
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}};
-        plan = makePlan(scene, lights, tiles, {256, 256, 2});
+        plan = makePlan(scene, lights, tiles, {256, 256, 2}, optionsOf(filter, format));
         View later = makeView(scene, makeSun({0.4, -1.0, 0.3}), 0, {1, 0, 0, 256, 256});
         later.caster_count = plan.views[0].caster_count;
         later.sun = SunPosition::later;
@@ -74,11 +73,11 @@ public:
                                                       [&](const NullEvent& event) { return event.kind == kind; }));
     }
 
-    static vulkan::ShadowRendererOptions optionsOf(Filter filter, MapFormat format)
+    static ShadowOptions optionsOf(Filter filter, MapFormat format)
     {
-        vulkan::ShadowRendererOptions options;
-        options.filter.filter = filter;
-        options.filter.format = format;
+        ShadowOptions options;
+        options.technique.filter = filter;
+        options.format = format;
         return options;
     }
 

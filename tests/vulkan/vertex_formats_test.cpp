@@ -155,8 +155,6 @@ TEST_P(VertexFormats, giveTheSameMaps)
     bench_.record(1);
     const std::vector<std::vector<float>> expected{bench_.readMap(0), bench_.readMap(1)};
     CasterDrawerOptions options;
-    options.orthographic = bench_.renderer.mapFormats(true);
-    options.perspective = bench_.renderer.mapFormats(false);
     options.vertices = verticesOf(GetParam());
     CasterDrawer drawer(gpu().view(), options);
     drawer.setScene(bench_.mesh.parts, bench_.mesh.objects, bench_.mesh.batches);

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "alternate_pass.h"
 
-#include "barriers.h"
-#include "mask_regions.h"
 #include "pipelines.h"
 #include "samplers.h"
 
+#include <gnomon/pack/frame_passes.h>
 #include <gnomon/plan_views.h>
 
 #include <gnomon_spirv.h>
 #include <sun_steps.h>
 
-#include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 
@@ -26,11 +24,8 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 // Push constants of alternate.frag.
-struct Before {
-    glm::vec4 x;
-    glm::vec4 y;
-    glm::vec4 w;
-    glm::vec4 eye;
+struct Push {
+    Reprojection before; // eye.w: layer of the images
     glm::vec4 weights;
 };
 
@@ -51,32 +46,13 @@ const glm::dvec3& directionNotRead(const SunSteps& steps)
     return steps.read == SunPosition::later ? steps.earlier_ws : steps.later_ws;
 }
 
-bool alternates(const LightPlan& light)
-{
-    return light.outcome.hasMap() && light.steps.paired && light.steps.alternate;
-}
-
-ImageBarrier barrierOf(const Image& image)
-{
-    ImageBarrier barrier;
-    barrier.image = image.image();
-    barrier.layer_count = image.info().layers;
-    return barrier;
-}
-
 } // namespace
-
-bool alternates(const Plan& plan)
-{
-    return std::any_of(plan.lights.begin(), plan.lights.end(),
-                       [](const LightPlan& light) { return alternates(light); });
-}
 
 AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
     : device_(device), cache_(cache), sampler_(makeSampler(device, VK_FILTER_NEAREST)),
       sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
-      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Before))),
-      slots_(frames_in_flight)
+      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Push))),
+      slots_(frames_in_flight), history_(device)
 {
     sets_.reset(2 * frames_in_flight);
     for (auto& turns : slots_) {
@@ -95,7 +71,7 @@ void AlternatePass::makePipeline(VkFormat mask_format)
     state.stages = stages;
     state.layout = layout_.get();
     state.colour_format = mask_format;
-    state.second_format = VK_FORMAT_R32_SFLOAT;
+    state.second_format = MaskHistory::distanceFormat();
     state.cache = cache_;
     state.name = "alternate";
     device_.retire(std::move(pipeline_));
@@ -104,28 +80,14 @@ void AlternatePass::makePipeline(VkFormat mask_format)
 
 void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
 {
-    const ImageInfo& have = now().visibility.info();
-    if (now().visibility && have.format == mask.format && have.layers == mask.layers &&
-        have.extent.width == mask.extent.width && have.extent.height == mask.extent.height &&
-        lights_.size() >= lights) {
-        return;
-    }
-    if (!pipeline_ || have.format != mask.format) {
+    if (!pipeline_ || format_ != mask.format) {
         makePipeline(mask.format);
+        format_ = mask.format;
     }
-    for (History& history : history_) {
-        device_.retire(std::move(history.visibility));
-        device_.retire(std::move(history.distances));
-        ImageInfo info = mask;
-        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-        info.purpose = "mask of the frame before";
-        history.visibility = Image(device_, info);
-        info.format = VK_FORMAT_R32_SFLOAT;
-        history.distances = Image(device_, info);
+    lights_.resize(std::max(lights_.size(), lights));
+    if (history_.prepare(mask)) {
+        forget();
     }
-    lights_.resize(lights);
-    fresh_ = true;
-    forget();
 }
 
 void AlternatePass::forget()
@@ -140,9 +102,9 @@ void AlternatePass::writeSet(VkDescriptorSet set, const AlternateInputs& inputs)
     const std::array<DescriptorSets::Write, kBindingCount> writes{
         DescriptorSets::buffer(kConstants, inputs.constants, sizeof(shared::GpuConstants)),
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
-        DescriptorSets::image(kNow, sampler, now().visibility.view(), kRead),
-        DescriptorSets::image(kBefore, sampler, before().visibility.view(), kRead),
-        DescriptorSets::image(kDistances, sampler, before().distances.view(), kRead)};
+        DescriptorSets::image(kNow, sampler, history_.now().visibility.view(), kRead),
+        DescriptorSets::image(kBefore, sampler, history_.before().visibility.view(), kRead),
+        DescriptorSets::image(kDistances, sampler, history_.before().distances.view(), kRead)};
     sets_.write(set, writes);
 }
 
@@ -152,7 +114,7 @@ glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) 
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         const SunSteps& steps = light.steps;
-        if (light.mask_layer == layer && alternates(light) && lights_[i].known &&
+        if (light.mask_layer == layer && pack::takesTurns(light) && lights_[i].known &&
             isSameDirection(lights_[i].direction_ws, directionNotRead(steps))) {
             const auto weight = static_cast<float>(laterWeight(steps, 0.0));
             weights[static_cast<int>(light.mask_channel)] =
@@ -162,16 +124,13 @@ glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) 
     return weights;
 }
 
-void AlternatePass::remember(const Frame& frame, const Plan& plan)
+void AlternatePass::remember(const Plan& plan)
 {
-    camera_ = frame.camera;
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
-        lights_[i].known = alternates(light);
+        lights_[i].known = pack::takesTurns(light);
         lights_[i].direction_ws = directionRead(light.steps);
     }
-    turn_ = 1 - turn_;
-    fresh_ = false;
 }
 
 void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
@@ -186,7 +145,7 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
         colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     }
     colours[0].imageView = mask.layer(layer);
-    colours[1].imageView = now().distances.layer(layer);
+    colours[1].imageView = history_.now().distances.layer(layer);
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea.extent = extent;
     info.layerCount = 1;
@@ -197,13 +156,9 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
                               0.0F, 1.0F};
     device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
     device_.vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
-    const glm::dmat4 before_from_eye = camera_.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
-    const glm::dvec4 w = glm::row(before_from_eye, 3);
-    Before push{};
-    push.x = (glm::row(before_from_eye, 0) + w) * (0.5 * extent.width);
-    push.y = (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height);
-    push.w = w;
-    push.eye = glm::dvec4(frame.camera.eye_ws - camera_.eye_ws, layer);
+    Push push{};
+    push.before = history_.reprojection(frame);
+    push.before.eye.w = static_cast<float>(layer);
     push.weights = weightsOfBefore(plan, layer);
     device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
     device_.vk.CmdDraw(commands, 3, 1, 0, 0);
@@ -213,23 +168,9 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
 void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                            const AlternateInputs& inputs, const Image& mask)
 {
-    const VkDescriptorSet set = slots_[slot][turn_];
+    const VkDescriptorSet set = slots_[slot][history_.turn()];
     writeSet(set, inputs);
-    if (fresh_) { // nobody reads what is not there, but shaders name it
-        for (const Image* image : {&before().visibility, &before().distances}) {
-            ImageBarrier barrier = barrierOf(*image);
-            barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-            barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-            barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-            recordBarrier(device_, commands, barrier);
-        }
-    }
-    ImageBarrier barrier = barrierOf(now().distances);
-    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; // every pixel is written
-    barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
+    history_.begin(commands);
     device_.beginLabel(commands, "alternate");
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
@@ -237,14 +178,8 @@ void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const F
         recordLayer(commands, frame, plan, layer, mask);
     }
     device_.endLabel(commands);
-    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    recordBarrier(device_, commands, barrier);
-    remember(frame, plan);
+    remember(plan);
+    history_.end(commands, frame);
 }
 
 } // namespace gnomon::vulkan

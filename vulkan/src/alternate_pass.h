@@ -5,13 +5,11 @@
 #pragma once
 
 #include "descriptors.h"
+#include "mask_history.h"
 
 #include <array>
 
 namespace gnomon::vulkan {
-
-/// Does the plan have a light whose positions take turns?
-[[nodiscard]] bool alternates(const Plan& plan);
 
 /// What the pass reads besides its own images.
 struct AlternateInputs {
@@ -29,16 +27,12 @@ public:
     /// The next frame has no frame before it.
     void forget();
     /// Where the visibility by this frame's maps alone is to be drawn; afterwards it is readable by fragment shaders.
-    [[nodiscard]] const Image& target() const { return now().visibility; }
+    [[nodiscard]] const Image& target() const { return history_.now().visibility; }
     /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const AlternateInputs& inputs, const Image& mask);
 
 private:
-    struct History {
-        Image visibility;
-        Image distances; // from the eye, metres; 0: no surface
-    };
     struct LightHistory {
         bool known = false;
         glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
@@ -48,9 +42,7 @@ private:
     void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
                      const Image& mask);
     [[nodiscard]] glm::vec4 weightsOfBefore(const Plan& plan, std::uint32_t layer) const;
-    void remember(const Frame& frame, const Plan& plan);
-    [[nodiscard]] const History& now() const { return history_[turn_]; }
-    [[nodiscard]] const History& before() const { return history_[1 - turn_]; }
+    void remember(const Plan& plan);
 
     Device& device_;
     VkPipelineCache cache_;
@@ -59,11 +51,9 @@ private:
     PipelineLayout layout_;
     Pipeline pipeline_;
     std::vector<std::array<VkDescriptorSet, 2>> slots_; // by slot and turn
-    std::array<History, 2> history_;
-    std::size_t turn_ = 0;
-    Camera camera_; // of the frame before
+    MaskHistory history_;
+    VkFormat format_ = VK_FORMAT_UNDEFINED; // of the mask that the pipeline was made for
     std::vector<LightHistory> lights_;
-    bool fresh_ = true; // the images of the frame before hold nothing
 };
 
 } // namespace gnomon::vulkan

@@ -3,7 +3,7 @@
 
 #include "barriers.h"
 #include "draw_view.h"
-#include "moment_rule_of.h"
+#include <gnomon/pack/filter_rule.h>
 
 #include <gnomon_spirv.h>
 

@@ -13,7 +13,7 @@ namespace gnomon::vulkan {
 
 class CascadeFitter {
 public:
-    CascadeFitter(Device& device, const ShadowRendererOptions& options);
+    CascadeFitter(Device& device, std::uint32_t slots, VkPipelineCache cache);
 
     /// Makes what such a plan needs; nothing for a plan without such views.
     void prepare(const Plan& plan);
@@ -25,10 +25,16 @@ public:
     /// Has record() been given this plan, or does it need none?
     [[nodiscard]] bool isFitted(const Plan& plan) const;
     [[nodiscard]] VkBuffer views() const { return views_.buffer(); } // GpuFittedView by view of the plan
-    /// Completes the mask's `count` views at `offset` of a buffer: those that say in slice.w for which view of the
-    /// plan, counted from 1. Afterwards they are visible to FRAGMENT_SHADER as storage buffer.
-    void recordConstants(VkCommandBuffer commands, std::uint32_t slot, const Buffer& buffer, VkDeviceSize offset,
-                         std::uint32_t count);
+    /// Whose views are completed: each has a descriptor set of its own for every slot.
+    enum class Reader : std::uint8_t { mask, host };
+    struct Views {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        VkDeviceSize offset = 0; // bytes
+        std::uint32_t count = 0;
+    };
+    /// Completes views in a storage buffer: those that say in slice.w for which view of the plan, counted from 1.
+    /// Afterwards they are visible to FRAGMENT_SHADER and COMPUTE_SHADER as storage buffer.
+    void recordViews(VkCommandBuffer commands, std::uint32_t slot, Reader reader, const Views& views);
     /// Of every view of the last plan that was recorded with this slot, once the GPU has finished. Empty without such
     /// views.
     [[nodiscard]] std::vector<FittedView> read(std::uint32_t slot) const;
@@ -39,7 +45,7 @@ private:
         HostBuffer report;
         std::uint32_t view_count = 0; // in the report
         VkDescriptorSet fit = VK_NULL_HANDLE;
-        VkDescriptorSet complete = VK_NULL_HANDLE;
+        std::array<VkDescriptorSet, 2> complete{}; // by Reader
     };
     enum Pass : std::uint32_t { kDepth, kDepthIds, kBounds, kBoundsIds, kFinish, kPassCount };
 
@@ -47,12 +53,9 @@ private:
     void makeSets();
     void makeBuffers(std::uint32_t views, std::uint32_t lights);
     void writeFitSet(Slot& slot, const MaskInputs& inputs);
-    [[nodiscard]] std::uint32_t fillLights(Slot& slot, const Frame& frame, const Plan& plan,
-                                           const MaskInputs& inputs) const;
     void dispatch(VkCommandBuffer commands, Pass pass, const glm::uvec3& groups) const;
 
     Device& device_;
-    float reach_texels_;
     std::uint32_t slot_count_;
     VkPipelineCache cache_;
     DescriptorSets fit_sets_;

@@ -37,11 +37,13 @@ void CascadeFitter::makePipelines()
 void CascadeFitter::makeSets()
 {
     fit_sets_.reset(slot_count_);
-    complete_sets_.reset(slot_count_);
+    complete_sets_.reset(2 * slot_count_);
     slots_.resize(slot_count_);
     for (Slot& slot : slots_) {
         slot.fit = fit_sets_.take("cascade bounds");
-        slot.complete = complete_sets_.take("cascade constants");
+        for (VkDescriptorSet& set : slot.complete) {
+            set = complete_sets_.take("cascade views");
+        }
     }
 }
 

@@ -45,6 +45,8 @@ struct CasterDrawer::Impl {
 
     void reserve(const Plan& plan);
     void ensurePipelines(const Plan& plan);
+    void ensureBatches(CasterPipelineKey key);
+    void makePlaces(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
     void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
     void bindGeometry(const MapPass& pass) const;
@@ -60,7 +62,7 @@ struct CasterDrawer::Impl {
     std::vector<Slot> slots;
     std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
     std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
-    bool together = false;              // CascadePass::layered
+    bool together = false;              // some of this plan's views may be drawn in passes of several
 
     // This frame's.
     Slot* slot = nullptr;
@@ -92,22 +94,6 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     }
 }
 
-void CasterDrawer::setCascadePass(CascadePass pass)
-{
-    const bool together = pass == CascadePass::layered;
-    if (together == impl_->together) {
-        return;
-    }
-    impl_->together = together;
-    if (together) {
-        impl_->pipelines.places().reset(static_cast<std::uint32_t>(impl_->slots.size()));
-    }
-    for (Impl::Slot& slot : impl_->slots) {
-        slot.places = together ? impl_->pipelines.places().take("caster places") : VK_NULL_HANDLE;
-        impl_->device.retire(std::move(slot.instances)); // the other way has its own need of room
-    }
-}
-
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
 void CasterDrawer::Impl::reserve(const Plan& plan)
 {
@@ -116,7 +102,7 @@ void CasterDrawer::Impl::reserve(const Plan& plan)
     std::uint32_t most = 0;
     std::size_t most_listed = 0;
     for (std::uint32_t i = 0; i < plan.views.size();) {
-        const std::uint32_t end = i + (together ? viewsTogether(plan, i, true) : 1);
+        const std::uint32_t end = i + (isDrawnTogether(plan, i) ? viewsTogether(plan, i, true) : 1);
         std::uint32_t in_pass = 0;
         std::size_t listed_in_pass = 0;
         for (; i < end; ++i) {
@@ -156,23 +142,79 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
     std::uint32_t end_of_group = 0;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        if (together && i >= end_of_group) {
+        if (i >= end_of_group && isDrawnTogether(plan, i)) {
             end_of_group = i + viewsTogether(plan, i, true);
         }
-        for (const CasterBatch& batch : batches) {
-            CasterPipelineKey key{!view.orthographic,
-                                  batch.texture != VK_NULL_HANDLE,
-                                  view.clamp_near,
-                                  options.cull_back_faces && !batch.two_sided,
-                                  view.part,
-                                  view.gpu_cascade != kNoIndex,
-                                  false};
-            pipelines.ensure(key);
-            if (i + 1 < end_of_group) { // with the next one at least
-                key.layered = true;
-                pipelines.ensure(key);
+        CasterPipelineKey key;
+        key.formats = mapFormats(optionsOf(plan, view), view.orthographic);
+        key.perspective = !view.orthographic;
+        key.clamp = view.clamp_near;
+        key.part = view.part;
+        key.placed = view.gpu_cascade != kNoIndex;
+        ensureBatches(key);
+        if (i + 1 < end_of_group) { // with the next one at least
+            key.layered = true;
+            ensureBatches(key);
+        }
+    }
+}
+
+void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
+{
+    for (const CasterBatch& batch : batches) {
+        key.masked = batch.texture != VK_NULL_HANDLE;
+        key.cull = options.cull_back_faces && !batch.two_sided;
+        pipelines.ensure(key);
+    }
+}
+
+void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
+{
+    const Technique& technique = options.technique();
+    const bool placed = technique.partition == Partition::sdsm;
+    const bool layered = options.cascades().pass == CascadePass::layered && !options.filterable();
+    const bool paired =
+        options.paired_maps() && (technique.motion == Motion::step_band || technique.motion == Motion::step_blend ||
+                                  technique.motion == Motion::step_alternate);
+    for (unsigned bits = 0; bits < 16; ++bits) {
+        CasterPipelineKey key;
+        key.perspective = (bits & 1U) != 0;
+        key.clamp = (bits & 2U) != 0;
+        key.placed = (bits & 4U) != 0;
+        key.layered = (bits & 8U) != 0;
+        key.formats = mapFormats(options, !key.perspective);
+        if ((key.perspective && !perspective) || (key.placed && !placed) || (key.layered && !layered)) {
+            continue;
+        }
+        impl_->ensureBatches(key);
+        if (paired && !key.layered) {
+            for (const TexelPart part : {TexelPart::first, TexelPart::second}) {
+                key.part = part;
+                impl_->ensureBatches(key);
             }
         }
+    }
+}
+
+/// What passes of several views that the GPU has placed read their places by.
+void CasterDrawer::Impl::makePlaces(const Plan& plan)
+{
+    const bool was_together = together;
+    together = false;
+    for (std::uint32_t i = 0; i < plan.views.size() && !together; ++i) {
+        together = isDrawnTogether(plan, i);
+    }
+    for (Slot& one : slots) {
+        if (together != was_together) { // either way has its own need of room
+            device.retire(std::move(one.instances));
+        }
+    }
+    if (!together || slots.front().places != VK_NULL_HANDLE) {
+        return;
+    }
+    pipelines.places().reset(static_cast<std::uint32_t>(slots.size()));
+    for (Slot& one : slots) {
+        one.places = pipelines.places().take("caster places");
     }
 }
 
@@ -188,6 +230,7 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     impl_->instances_used = 0;
     impl_->triangles = 0;
     impl_->slot->places_written = false;
+    impl_->makePlaces(plan);
     impl_->reserve(plan);
     impl_->ensurePipelines(plan);
 }
@@ -288,8 +331,13 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
 
     self.bound = VK_NULL_HANDLE;
     self.bindGeometry(pass);
-    const CasterPipelineKey key{
-        !view.orthographic, false, view.clamp_near, false, view.part, pass.placement != VK_NULL_HANDLE, layered};
+    CasterPipelineKey key;
+    key.formats = pass.formats;
+    key.perspective = !view.orthographic;
+    key.clamp = view.clamp_near;
+    key.part = view.part;
+    key.placed = pass.placement != VK_NULL_HANDLE;
+    key.layered = layered;
     for (const BatchDraws& draws : lists.batches) {
         self.drawBatch(pass, draws, key);
     }

@@ -13,15 +13,10 @@
 
 namespace gnomon::vulkan {
 
-/// Vec4s that an instance brings: rows x, y and metric; a perspective view adds rows z and w before the metric.
-[[nodiscard]] constexpr std::uint32_t instanceRows(bool perspective)
-{
-    return perspective ? 5 : 3;
-}
 /// Bytes: the rows, and of several views one more vec4, whose first four bytes are the layer.
 [[nodiscard]] constexpr std::uint32_t instanceBytes(bool perspective, bool layered)
 {
-    return (instanceRows(perspective) + (layered ? 1U : 0U)) * static_cast<std::uint32_t>(sizeof(glm::vec4));
+    return (pack::casterRowCount(!perspective) + (layered ? 1U : 0U)) * static_cast<std::uint32_t>(sizeof(glm::vec4));
 }
 
 /// For each handle of `list`, an index into `transforms`.

@@ -23,7 +23,7 @@ struct VertexCodes {
     std::span<const std::uint32_t> perspective, perspective_masked;
 };
 
-VertexCodes vertexCodes(CasterPipelineKey key)
+VertexCodes vertexCodes(const CasterPipelineKey& key)
 {
     using namespace spirv;
     if (key.layered && key.placed) {
@@ -46,7 +46,7 @@ VertexCodes vertexCodes(CasterPipelineKey key)
             caster_perspective_vert,         caster_perspective_masked_vert};
 }
 
-std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, CasterPipelineKey key)
+std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
 {
     const VertexCodes codes = vertexCodes(key);
     if (key.perspective) {
@@ -102,10 +102,10 @@ struct VertexInput {
     std::uint32_t attribute_count = 0;
 };
 
-VertexInput vertexInput(CasterPipelineKey key, const CasterVertices& vertices)
+VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vertices)
 {
     constexpr std::uint32_t kRowBytes = sizeof(glm::vec4);
-    const std::uint32_t rows = instanceRows(key.perspective);
+    const std::uint32_t rows = pack::casterRowCount(!key.perspective);
     VertexInput input;
     input.bindings[input.binding_count++] = {0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX};
     input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered),
@@ -147,17 +147,22 @@ CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& opti
     layout_ = {device, layout};
 }
 
-void CasterPipelines::ensure(CasterPipelineKey key)
+void CasterPipelines::ensure(const CasterPipelineKey& key)
 {
-    Pipeline& pipeline = pipelines_[key.index()];
-    if (!pipeline) {
-        pipeline = make(key);
+    if (get(key) == VK_NULL_HANDLE) {
+        made_.push_back({key, make(key)});
     }
 }
 
-Pipeline CasterPipelines::make(CasterPipelineKey key)
+VkPipeline CasterPipelines::get(const CasterPipelineKey& key) const
 {
-    const MapPassFormats& formats = key.perspective ? options_.perspective : options_.orthographic;
+    const auto found = std::ranges::find(made_, key, &Made::key);
+    return found != made_.end() ? found->pipeline.get() : VK_NULL_HANDLE;
+}
+
+Pipeline CasterPipelines::make(const CasterPipelineKey& key)
+{
+    const MapPassFormats& formats = key.formats;
     const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
     ShaderModule fragment;

@@ -12,6 +12,7 @@ namespace gnomon::vulkan {
 
 /// What distinguishes them.
 struct CasterPipelineKey {
+    MapPassFormats formats;
     bool perspective = false;
     bool masked = false;
     bool clamp = true; // casters before the near plane are clamped onto it
@@ -19,12 +20,8 @@ struct CasterPipelineKey {
     TexelPart part = TexelPart::whole;
     bool placed = false;  // MapPass::placement
     bool layered = false; // MapPass::view_count above 1; then `part` is whole
-    [[nodiscard]] std::size_t index() const
-    {
-        const std::size_t parts = (layered ? 6U : static_cast<std::size_t>(part)) + (placed ? (layered ? 1U : 3U) : 0U);
-        return (perspective ? 1U : 0U) | (masked ? 2U : 0U) | (clamp ? 4U : 0U) | (cull ? 8U : 0U) | parts << 4;
-    }
-    static constexpr std::size_t kCount = std::size_t{8} << 4;
+
+    bool operator==(const CasterPipelineKey&) const = default;
 };
 
 /// Push constants: caster.vert, Material.
@@ -42,23 +39,28 @@ inline constexpr std::uint32_t kPlacementBinding = 3;
 class CasterPipelines {
 public:
     CasterPipelines(Device& device, const CasterDrawerOptions& options);
-    void ensure(CasterPipelineKey key);
+    void ensure(const CasterPipelineKey& key);
     /// Precondition: ensure(key).
-    [[nodiscard]] VkPipeline get(CasterPipelineKey key) const { return pipelines_[key.index()].get(); }
+    [[nodiscard]] VkPipeline get(const CasterPipelineKey& key) const;
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
     [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const { return textures_.layout(); }
     /// Set 1 of passes of several views that the GPU has placed: GpuFittedView by view of the plan.
     [[nodiscard]] DescriptorSets& places() { return places_; }
 
 private:
-    [[nodiscard]] Pipeline make(CasterPipelineKey key);
+    struct Made {
+        CasterPipelineKey key;
+        Pipeline pipeline;
+    };
+
+    [[nodiscard]] Pipeline make(const CasterPipelineKey& key);
 
     Device& device_;
     CasterDrawerOptions options_;
     DescriptorSets textures_; // for its layout: the host makes the sets
     DescriptorSets places_;
     PipelineLayout layout_;
-    std::array<Pipeline, CasterPipelineKey::kCount> pipelines_;
+    std::vector<Made> made_;
 };
 
 } // namespace gnomon::vulkan

@@ -48,6 +48,7 @@ MapPass passOf(VkCommandBuffer commands, const Plan& plan, std::uint32_t index, 
     const View& view = plan.views[index];
     MapPass pass;
     pass.commands = commands;
+    pass.formats = mapFormats(optionsOf(plan, view), view.orthographic);
     pass.plan = &plan;
     pass.view = &view;
     pass.view_index = index;
@@ -77,9 +78,15 @@ VkRect2D redrawnArea(const View& view, bool all)
             {dirty.width, dirty.height}};
 }
 
+bool isDrawnTogether(const Plan& plan, std::uint32_t view)
+{
+    const ResolvedOptions& options = optionsOf(plan, plan.views[view]);
+    return options.cascades().pass == CascadePass::layered && !options.filterable();
+}
+
 std::uint32_t drawnTogether(const Plan& plan, std::span<const ViewWork> work, std::uint32_t first)
 {
-    const std::uint32_t most = viewsTogether(plan, first, true);
+    const std::uint32_t most = isDrawnTogether(plan, first) ? viewsTogether(plan, first, true) : 1;
     std::uint32_t count = 0;
     while (count < most && work[first + count].draw) {
         ++count;

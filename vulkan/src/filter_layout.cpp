@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filter_layout.h"
 
-#include "moment_rule_of.h"
 #include "pipelines.h"
 #include "samplers.h"
 #include "specialisation.h"
+
+#include <gnomon/pack/filter_rule.h>
 
 #include <gnomon_spirv.h>
 
@@ -28,17 +29,17 @@ constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_S
 
 } // namespace
 
-FilterConstants filterConstants(const FilterOptions& filter)
+FilterConstants filterConstants(const ResolvedOptions& options)
 {
-    const shared::MomentRule rule = momentRuleOf(filter);
+    const shared::MomentRule rule = pack::momentRuleOf(options);
     FilterConstants constants;
-    constants.filter = static_cast<std::int32_t>(filter.filter);
+    constants.filter = static_cast<std::int32_t>(options.filter());
     constants.flags = rule.flags;
     constants.layers = rule.layers;
     constants.exponent = rule.exponent;
     constants.exponent_negative = rule.exponent_negative;
     constants.moment_bias = rule.moment_bias;
-    constants.radius = static_cast<std::int32_t>(blurRadius(filter.moments));
+    constants.radius = static_cast<std::int32_t>(blurRadius(options.moments()));
     return constants;
 }
 

@@ -20,7 +20,7 @@ struct FilterConstants {
     std::int32_t radius = 0;
     std::int32_t axis = 0; // of the blur: 0 along x, 1 along y
 };
-[[nodiscard]] FilterConstants filterConstants(const FilterOptions& filter);
+[[nodiscard]] FilterConstants filterConstants(const ResolvedOptions& options);
 
 /// What one set names. lavapipe 22.3 crashes on descriptors that were never written, so all are given always.
 struct FilterBindings {

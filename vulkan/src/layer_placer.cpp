@@ -3,6 +3,9 @@
 
 #include "barriers.h"
 
+#include <gnomon/pack/depth_layers.h>
+#include <gnomon/plan_views.h>
+
 #include <depth_layers.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -13,26 +16,9 @@
 namespace gnomon::vulkan {
 namespace {
 
-/// What the placements that look at nothing say of every view. Those that look start from it.
-shared::GpuDepthLayers fixedLayers(const MomentOptions& options)
+int depthFlags(const ResolvedOptions& options)
 {
-    const auto count = static_cast<int>(options.layers);
-    shared::GpuDepthLayers layers{};
-    for (int i = 0; i < shared::kDepthLayers; ++i) {
-        const auto split = [&](int after) {
-            return after > 0 && after < count ? options.splits[static_cast<std::size_t>(after) - 1] : 0.0F;
-        };
-        layers.layer[i] = i >= count ? shared::noLayer()
-                          : options.placement == LayerPlacement::by_hand
-                              ? shared::layerByHand(i, count, split(i), split(i + 1), options.layer_overlap)
-                              : shared::uniformLayer(i, count, options.layer_overlap);
-    }
-    return layers;
-}
-
-int depthFlags(const FilterOptions& filter)
-{
-    return filter.moments.metric == DepthMetricKind::z_over_w ? shared::kMomentZOverW : 0;
+    return options.moments().metric == DepthMetricKind::z_over_w ? shared::kMomentZOverW : 0;
 }
 
 float nearOverFar(const View& view, const DepthMetric& metric)
@@ -60,29 +46,13 @@ constexpr int kFirstSteps = 256;
 constexpr int kLaterSteps = 2;
 constexpr float kLaterShare = 0.5F;
 
-std::vector<DepthLayer> described(const shared::GpuDepthLayers& entry, const MomentOptions& options)
-{
-    std::vector<DepthLayer> layers;
-    for (std::uint32_t i = 0; i < options.layers; ++i) {
-        const glm::vec4& layer = entry.layer[i];
-        layers.push_back({layer.x, layer.y, layer.z});
-    }
-    return layers;
-}
-
 } // namespace
 
-std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options)
+LayerPlacer::LayerPlacer(Device& device, const ResolvedOptions& options, VkPipelineCache cache)
+    : device_(device), options_(options)
 {
-    return options.placement == LayerPlacement::lloyd ? std::vector<DepthLayer>{}
-                                                      : described(fixedLayers(options), options);
-}
-
-LayerPlacer::LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache)
-    : device_(device), filter_(filter)
-{
-    if (filter.filter == Filter::lvsm && filter.moments.placement == LayerPlacement::lloyd) {
-        relaxation_.emplace(device, filter, cache);
+    if (options.filter() == Filter::lvsm && options.moments().placement == LayerPlacement::lloyd) {
+        relaxation_.emplace(device, options, cache);
     }
     makeBuffer(1);
 }
@@ -101,7 +71,7 @@ void LayerPlacer::makeBuffer(std::uint32_t slots)
     }
     buffer_ = std::move(larger);
     slots_.resize(slots);
-    std::fill_n(entries(), slots, fixedLayers(filter_.moments));
+    std::fill_n(entries(), slots, pack::firstDepthLayers(options_.moments()));
 }
 
 shared::GpuDepthLayers* LayerPlacer::entries() const
@@ -111,19 +81,13 @@ shared::GpuDepthLayers* LayerPlacer::entries() const
 
 bool LayerPlacer::prepare(const Plan& plan)
 {
-    if (filter_.filter != Filter::lvsm) {
+    if (options_.filter() != Filter::lvsm) {
         return false;
     }
-    std::size_t most = std::max<std::size_t>(plan.map_count, plan.views.size());
-    slot_of_view_.clear();
-    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
-        const View& view = plan.views[i];
-        slot_of_view_.push_back(view.map ? view.map.index : i);
-        most = std::max<std::size_t>(most, slot_of_view_.back() + 1);
-    }
-    const bool grows = most > slots_.size();
+    const std::uint32_t need = pack::depthLayersCount(plan);
+    const bool grows = need > slots_.size();
     if (grows) {
-        makeBuffer(static_cast<std::uint32_t>(most));
+        makeBuffer(need);
     }
     return grows;
 }
@@ -154,9 +118,9 @@ void LayerPlacer::copyOutgrown(VkCommandBuffer commands)
     device_.retire(std::move(outgrown_));
 }
 
-std::uint32_t LayerPlacer::slotOf(std::uint32_t view) const
+std::uint32_t LayerPlacer::slotOf(const Plan& plan, std::uint32_t view) const
 {
-    return filter_.filter == Filter::lvsm ? slot_of_view_[view] : 0;
+    return options_.filter() == Filter::lvsm ? pack::depthLayersSlot(plan, view) : 0;
 }
 
 shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
@@ -165,7 +129,7 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
     const auto side = static_cast<int>(std::max(tile.width, tile.height));
     shared::GpuHistogramPush push;
     push.tile = {0, 0, tile.width, tile.height};
-    push.more = {(side + shared::kMostSamplesAlong - 1) / shared::kMostSamplesAlong, depthFlags(filter_), 0, 0};
+    push.more = {(side + shared::kMostSamplesAlong - 1) / shared::kMostSamplesAlong, depthFlags(options_), 0, 0};
     push.metric = {nearOverFar(view, view.metric), 0.0F, 0.0F, 0.0F};
     return push;
 }
@@ -178,8 +142,8 @@ shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t inde
     const glm::dvec2 carry = carryOver(before, view);
     shared::GpuPlacePush push;
     const bool to_rest = anew || held;
-    push.slot = {index, filter_.moments.layers, to_rest ? kFirstSteps : kLaterSteps, depthFlags(filter_)};
-    push.how = {filter_.moments.layer_overlap, to_rest ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F,
+    push.slot = {index, options_.moments().layers, to_rest ? kFirstSteps : kLaterSteps, depthFlags(options_)};
+    push.how = {options_.moments().layer_overlap, to_rest ? 1.0F : kLaterShare, anew ? 1.0F : 0.0F,
                 held && !anew ? 1.0F : 0.0F};
     push.carry = {carry.x, carry.y, nearOverFar(view, before), nearOverFar(view, view.metric)};
     return push;
@@ -191,8 +155,8 @@ void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32
         return;
     }
     const View& view = plan.views[view_index];
-    const std::uint32_t index = slotOf(view_index);
-    const bool held = plan.technique.motion != Motion::free;
+    const std::uint32_t index = slotOf(plan, view_index);
+    const bool held = optionsOf(plan, view).technique().motion != Motion::free;
     relaxation_->record(commands, {histogramPush(view), placePush(view, index, held)});
     slots_[index].map = view.map;
     slots_[index].light = view.light;
@@ -209,12 +173,12 @@ VkDeviceSize LayerPlacer::bytes() const
     return buffer_.size();
 }
 
-std::vector<DepthLayer> LayerPlacer::read(std::uint32_t view) const
+std::vector<pack::DepthLayer> LayerPlacer::read(std::uint32_t slot) const
 {
-    if (filter_.filter != Filter::lvsm || view >= slot_of_view_.size()) {
+    if (options_.filter() != Filter::lvsm || slot >= slots_.size()) {
         return {};
     }
-    return described(entries()[slot_of_view_[view]], filter_.moments);
+    return pack::describeLayers(entries()[slot], options_.moments());
 }
 
 } // namespace gnomon::vulkan

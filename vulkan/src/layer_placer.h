@@ -13,7 +13,7 @@ namespace gnomon::vulkan {
 class LayerPlacer {
 public:
     /// For other filters than lvsm the buffer has one entry that nothing reads, so that descriptors have something.
-    LayerPlacer(Device& device, const FilterOptions& filter, VkPipelineCache cache);
+    LayerPlacer(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
 
     /// A map's layers have the slot of its MapId::index, whether or not a view of this plan draws or reads it: what was
     /// drawn with them may be read later. True when the buffer was made anew, larger.
@@ -23,16 +23,16 @@ public:
     /// To be called before anything else is recorded after prepare(): what the layers of a buffer that has grown were
     /// is copied.
     void copyOutgrown(VkCommandBuffer commands);
-    /// Of a view of the plan that was prepared last.
-    [[nodiscard]] std::uint32_t slotOf(std::uint32_t view) const;
+    /// pack::depthLayersSlot() for lvsm, 0 for others.
+    [[nodiscard]] std::uint32_t slotOf(const Plan& plan, std::uint32_t view) const;
     /// Places the layers of a view whose depths have just been drawn (its own tile's rectangle, `samples` each,
     /// SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER reads). Afterwards the buffer is visible to
     /// COMPUTE_SHADER, FRAGMENT_SHADER and host reads.
     void record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view);
     [[nodiscard]] VkBuffer buffer() const; // std430: GpuDepthLayers by slot
     [[nodiscard]] VkDeviceSize bytes() const;
-    /// Once the GPU has finished.
-    [[nodiscard]] std::vector<DepthLayer> read(std::uint32_t view) const;
+    /// Of a slot, once the GPU has finished. Empty for other filters.
+    [[nodiscard]] std::vector<pack::DepthLayer> read(std::uint32_t slot) const;
 
 private:
     // What the layers of one map were placed for; nothing placed yet without a metric.
@@ -48,12 +48,11 @@ private:
     [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot, bool held) const;
 
     Device& device_;
-    FilterOptions filter_;
+    ResolvedOptions options_;
     std::optional<LayerRelaxation> relaxation_; // lvsm with layers placed by Lloyd's rule
     HostBuffer buffer_;
     HostBuffer outgrown_; // what was placed is there until it has been copied
     std::vector<Slot> slots_;
-    std::vector<std::uint32_t> slot_of_view_;
 };
 
 } // namespace gnomon::vulkan

@@ -27,7 +27,7 @@ std::uint32_t groupsFor(std::int32_t texels, std::int32_t step)
 
 } // namespace
 
-LayerRelaxation::LayerRelaxation(Device& device, const FilterOptions& filter, VkPipelineCache cache)
+LayerRelaxation::LayerRelaxation(Device& device, const ResolvedOptions& options, VkPipelineCache cache)
     : device_(device),
       histogram_(device, kHistogramBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                  "histogram of depths"),
@@ -35,8 +35,8 @@ LayerRelaxation::LayerRelaxation(Device& device, const FilterOptions& filter, Vk
       count_layout_(makePipelineLayout(device, sets_.layout(), kStage, sizeof(shared::GpuHistogramPush))),
       place_layout_(makePipelineLayout(device, sets_.layout(), kStage, sizeof(shared::GpuPlacePush)))
 {
-    const auto histogram = filter.moments.samples > 1 ? std::span(spirv::depth_layers_histogram_samples_comp)
-                                                      : std::span(spirv::depth_layers_histogram_comp);
+    const auto histogram = options.moments().samples > 1 ? std::span(spirv::depth_layers_histogram_samples_comp)
+                                                         : std::span(spirv::depth_layers_histogram_comp);
     count_ = makeComputePipeline(device, {histogram, nullptr, count_layout_.get(), cache, "histogram of depths"});
     place_ = makeComputePipeline(
         device, {spirv::depth_layers_place_comp, nullptr, place_layout_.get(), cache, "places of layers"});

@@ -10,7 +10,7 @@ namespace gnomon::vulkan {
 
 class LayerRelaxation {
 public:
-    LayerRelaxation(Device& device, const FilterOptions& filter, VkPipelineCache cache);
+    LayerRelaxation(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
 
     /// What every job reads from and writes to, from here on. They are new: a handle may be one that was used before.
     void setImages(VkImageView depth, VkBuffer layers);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_contents.h"
 
+#include <gnomon/plan_views.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -34,16 +36,16 @@ ViewWork asTheViewSays(const View& view)
 
 } // namespace
 
-MapContents::Held MapContents::mapOf(const View& view)
+MapContents::Held MapContents::mapOf(const Plan& plan, const View& view)
 {
-    return {view.makes, view.tile, view.part, false};
+    return {view.makes, optionsIndexOf(plan, view), view.tile, view.part, false};
 }
 
-MapContents::Held MapContents::keptOf(const View& view)
+MapContents::Held MapContents::keptOf(const Plan& plan, const View& view)
 {
     Tile tile = view.tile;
     tile.layer = view.kept_layer;
-    return {view.kept_makes, tile, view.part, true};
+    return {view.kept_makes, optionsIndexOf(plan, view), tile, view.part, true};
 }
 
 bool MapContents::holds(MapId id, const Held& wanted) const
@@ -52,8 +54,8 @@ bool MapContents::holds(MapId id, const Held& wanted) const
         return false;
     }
     const Held& held = held_[id.index];
-    return held.content == wanted.content && isSame(held.tile, wanted.tile) && held.part == wanted.part &&
-           held.kept == wanted.kept;
+    return held.content == wanted.content && held.options == wanted.options && isSame(held.tile, wanted.tile) &&
+           held.part == wanted.part && held.kept == wanted.kept;
 }
 
 void MapContents::reserve(const Plan& plan)
@@ -76,13 +78,13 @@ std::span<const ViewWork> MapContents::workFor(const Plan& plan)
         if (view.map && view.makes == 0) {
             work = {};
         } else if (view.map) {
-            Held presumed = mapOf(view);
+            Held presumed = mapOf(plan, view);
             presumed.content = view.presumes;
             const bool map_holds = holds(view.map, presumed);
             work.draw = view.redraw || !map_holds;
             work.whole = !map_holds || view.kept_layer == kNoIndex;
             if (view.kept_layer != kNoIndex) {
-                Held kept = keptOf(view);
+                Held kept = keptOf(plan, view);
                 kept.content = view.kept_presumes;
                 work.draw_kept = work.draw && (view.redraw_kept || !holds(view.kept_map, kept));
                 work.whole = work.whole || work.draw_kept;
@@ -100,7 +102,8 @@ std::span<const ViewWork> MapContents::workFor(const Plan& plan)
 void MapContents::forgetUnder(const Held& held)
 {
     for (Held& other : held_) {
-        if (other.kept == held.kept && overlap(other.tile, held.tile) && overlap(other.part, held.part)) {
+        if (other.kept == held.kept && other.options == held.options && overlap(other.tile, held.tile) &&
+            overlap(other.part, held.part)) {
             other.content = 0;
         }
     }
@@ -109,7 +112,8 @@ void MapContents::forgetUnder(const Held& held)
 void MapContents::note(MapId id, const Held& held)
 {
     Held& entry = held_[id.index];
-    const bool was_there = entry.content != 0 && entry.kept == held.kept && isSame(entry.tile, held.tile);
+    const bool was_there =
+        entry.content != 0 && entry.kept == held.kept && entry.options == held.options && isSame(entry.tile, held.tile);
     if (!was_there || entry.part != held.part) {
         forgetUnder(held);
     }
@@ -122,20 +126,20 @@ void MapContents::done(const Plan& plan)
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
         if (view.kept_map && work_[i].draw_kept) {
-            note(view.kept_map, keptOf(view));
+            note(view.kept_map, keptOf(plan, view));
         }
         if (view.map && view.makes != 0 && (work_[i].draw || view.redraw)) {
-            note(view.map, mapOf(view));
+            note(view.map, mapOf(plan, view));
         } else if (!view.map && work_[i].draw) {
-            forgetUnder(mapOf(view));
+            forgetUnder(mapOf(plan, view));
         }
     }
 }
 
-void MapContents::lose(bool kept)
+void MapContents::lose(std::uint32_t options)
 {
     for (Held& held : held_) {
-        if (held.kept == kept) {
+        if (held.options == options) {
             held.content = 0;
         }
     }

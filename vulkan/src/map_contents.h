@@ -26,25 +26,24 @@ public:
     void done(const Plan& plan);
     /// Room for such a plan, so that neither of the above allocates.
     void reserve(const Plan& plan);
-    /// The texels of all maps, or of all kept ones, are gone.
-    void loseMaps() { lose(false); }
-    void loseKept() { lose(true); }
+    /// The texels of all maps of one of the plan's options are gone, and of the kept ones, too.
+    void lose(std::uint32_t options);
 
 private:
     // Where a map lies, and what it holds. 0: nothing that is known.
     struct Held {
         ContentNumber content = 0;
+        std::uint32_t options = 0; // of Plan::options: whose images
         Tile tile;
         TexelPart part = TexelPart::whole;
         bool kept = false; // in the images of what stands still
     };
 
-    [[nodiscard]] static Held mapOf(const View& view);
-    [[nodiscard]] static Held keptOf(const View& view);
+    [[nodiscard]] static Held mapOf(const Plan& plan, const View& view);
+    [[nodiscard]] static Held keptOf(const Plan& plan, const View& view);
     [[nodiscard]] bool holds(MapId id, const Held& wanted) const;
     void forgetUnder(const Held& held);
     void note(MapId id, const Held& held);
-    void lose(bool kept);
 
     std::vector<Held> held_; // by MapId::index
     std::vector<ViewWork> work_;

@@ -21,16 +21,17 @@ bool isKept(const View& view)
     return view.kept_layer != kNoIndex;
 }
 
-bool sharesTexels(const Plan& plan)
+bool sharesTexels(const Plan& plan, std::uint32_t options)
 {
-    return std::any_of(plan.views.begin(), plan.views.end(),
-                       [](const View& view) { return view.part != TexelPart::whole; });
+    return std::any_of(plan.views.begin(), plan.views.end(), [&](const View& view) {
+        return optionsIndexOf(plan, view) == options && view.part != TexelPart::whole;
+    });
 }
 
 } // namespace
 
-DepthMaps::DepthMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage)
-    : device_(device), storage_(storage), cache_(options.pipeline_cache)
+DepthMaps::DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache)
+    : device_(device), storage_(storage), cache_(cache)
 {
 }
 
@@ -70,20 +71,20 @@ void DepthMaps::makeKept(std::uint32_t layers)
     restorer_->setKept(kept_depths_.image().view(), kept_colours_.image().view());
 }
 
-MapRecorder::Prepared DepthMaps::prepare(const Plan& plan)
+MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options)
 {
-    const MapPages& pages = plan.pages[0];
+    const MapPages& pages = plan.pages[options];
     const MapPages need{std::max(pages.width, 1U), std::max(pages.height, 1U), std::max(pages.layers, 1U)};
     Prepared prepared;
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
         prepared.changed = true;
     }
-    if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan))) {
+    if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan, options))) {
         restorer_.emplace(device_, storage_, cache_);
     }
     for (const View& view : plan.views) {
-        if (restorer_) {
+        if (restorer_ && optionsIndexOf(plan, view) == options) {
             restorer_->ensure(view.part);
         }
     }
@@ -91,7 +92,7 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan)
         makeKept(pages.kept_layers);
         prepared.changed = true;
     }
-    prepareTogether(plan);
+    prepareTogether(plan, options);
     return prepared;
 }
 
@@ -104,11 +105,12 @@ const DepthMaps::Layers* DepthMaps::layersFrom(std::uint32_t first) const
 
 /// What passes of several views draw to: an image view of the layers from wherever one may begin, whichever views there
 /// are to be drawn, and as many layers of depth.
-void DepthMaps::prepareTogether(const Plan& plan)
+void DepthMaps::prepareTogether(const Plan& plan, std::uint32_t options)
 {
     std::uint32_t most = 1;
     for (std::uint32_t i = 0; i < plan.views.size();) {
-        const std::uint32_t count = pass_ == CascadePass::layered ? viewsTogether(plan, i, true) : 1;
+        const bool together = optionsIndexOf(plan, plan.views[i]) == options && isDrawnTogether(plan, i);
+        const std::uint32_t count = together ? viewsTogether(plan, i, true) : 1;
         for (std::uint32_t rest = count; rest > 1; --rest) {
             const std::uint32_t first = plan.views[i].tile.layer + count - rest;
             const Layers* const had = layersFrom(first);
@@ -126,18 +128,14 @@ void DepthMaps::prepareTogether(const Plan& plan)
         most = std::max(most, count);
         i += count;
     }
-    const bool drops = pass_ != CascadePass::layered && depth_ && depth_.info().layers > 1;
+    const bool layered = (*plan.options)[options].cascades().pass == CascadePass::layered;
+    const bool drops = !layered && depth_ && depth_.info().layers > 1;
     if (depth_ && (depth_.info().layers < most || drops)) {
         ImageInfo info = depth_.info();
         info.layers = most;
         device_.retire(std::move(depth_));
         depth_ = Image(device_, info);
     }
-}
-
-MapPassFormats DepthMaps::formats(bool orthographic) const
-{
-    return {storage_.colour, storage_.depth, VK_SAMPLE_COUNT_1_BIT, storage_.depthOnly() && !orthographic};
 }
 
 DepthMaps::Target DepthMaps::mapTarget(const View& view, const ViewWork& work) const
@@ -219,7 +217,7 @@ void DepthMaps::drawKept(const MapJob& job)
     const std::span<const View> views = job.plan.views;
     BarrierBatch before(device_, job.commands);
     for (std::uint32_t i = 0; i < views.size(); ++i) {
-        if (job.work[i].draw_kept) {
+        if (job.of(i).draw_kept) {
             kept_depths_.toAttachment(before, views[i].kept_layer);
             if (kept_colours_) {
                 kept_colours_.toAttachment(before, views[i].kept_layer);
@@ -228,7 +226,7 @@ void DepthMaps::drawKept(const MapJob& job)
     }
     before.record();
     for (std::uint32_t i = 0; i < views.size(); ++i) {
-        if (job.work[i].draw_kept) {
+        if (job.of(i).draw_kept) {
             beginViewLabel(device_, job.commands, job.plan, i);
             beginRendering(job.commands, views[i].tile, keptTarget(views[i]));
             drawView(job.commands, job.plan, i, CasterShare::still, colourMaskOf(storage_.colour, views[i].part),
@@ -249,7 +247,7 @@ void DepthMaps::drawMaps(const MapJob& job)
     BarrierBatch before(device_, job.commands);
     for (std::uint32_t layer = 0; layer < maps_.image().info().layers; ++layer) {
         for (std::uint32_t i = 0; i < views.size(); ++i) {
-            if (job.work[i].draw && views[i].tile.layer == layer) {
+            if (job.of(i).draw && views[i].tile.layer == layer) {
                 maps_.toAttachment(before, layer);
                 break;
             }
@@ -257,10 +255,10 @@ void DepthMaps::drawMaps(const MapJob& job)
     }
     before.record();
     for (std::uint32_t i = 0; i < views.size();) {
-        const std::uint32_t count = pass_ == CascadePass::layered ? drawnTogether(job.plan, job.work, i) : 1;
-        if (count > 1) {
+        const std::uint32_t count = drawnTogether(job.plan, job.work, i);
+        if (count > 1 && job.of(i).draw) {
             drawTogether(job, i, count);
-        } else if (job.work[i].draw) {
+        } else if (job.of(i).draw) {
             drawMap(job, i);
         }
         i += count;
@@ -282,7 +280,7 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
         maps_.waitForDrawing(barriers, view.tile.layer);
     }
     barriers.record();
-    beginRendering(commands, view.tile, mapTarget(view, job.work[index]));
+    beginRendering(commands, view.tile, mapTarget(view, job.of(index)));
     if (isKept(view)) {
         restorer_->restore(commands, view.part, view.kept_layer);
     } else if (view.part != TexelPart::whole) {

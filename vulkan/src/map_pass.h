@@ -16,15 +16,12 @@ namespace gnomon::vulkan {
 
 class DepthMaps final : public MapRecorder {
 public:
-    DepthMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage);
+    DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
-    Prepared prepare(const Plan& plan) override;
-    void setPass(CascadePass pass) override { pass_ = pass; }
-    [[nodiscard]] bool drawsTogether() const override { return true; }
+    Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
-    [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
@@ -46,7 +43,7 @@ private:
 
     void makeMaps(const MapPages& size);
     void makeKept(std::uint32_t layers);
-    void prepareTogether(const Plan& plan);
+    void prepareTogether(const Plan& plan, std::uint32_t options);
     void copyOutgrown(VkCommandBuffer commands);
     void drawKept(const MapJob& job);
     void drawMaps(const MapJob& job);
@@ -65,7 +62,6 @@ private:
     LayeredTarget maps_;
     Image depth_; // of a map in a colour format: decides which fragment wins, then is forgotten; a layer for each view
     std::vector<Layers> layers_; // views of maps_
-    CascadePass pass_ = CascadePass::each;
     LayeredTarget kept_colours_;
     LayeredTarget kept_depths_;
     std::optional<MapRestorer> restorer_; // made when first needed

@@ -6,6 +6,8 @@
 #include "device.h"
 #include "map_contents.h"
 
+#include <gnomon/plan_views.h>
+
 namespace gnomon::vulkan {
 
 /// What one recording is given.
@@ -13,9 +15,15 @@ struct MapJob {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     std::uint32_t slot = 0;
     const Plan& plan;
+    std::uint32_t options = 0;      // of Plan::options: views of others are left alone
     std::span<const ViewWork> work; // by view
     const DrawCasters& draw;
     Profiler* profiler = nullptr;
+
+    [[nodiscard]] ViewWork of(std::uint32_t view) const
+    {
+        return optionsIndexOf(plan, plan.views[view]) == options ? work[view] : ViewWork{};
+    }
 };
 
 class MapRecorder {
@@ -30,16 +38,13 @@ public:
         bool lost = false;    // and what maps held could not be taken over
     };
     /// Makes larger images and buffers if the plan does not fit. What they hold is copied at the next record().
-    virtual Prepared prepare(const Plan& plan) = 0;
-    /// See ShadowRenderer::setCascadePass. Never layered where drawsTogether() is false.
-    virtual void setPass(CascadePass /*pass*/) {}
-    [[nodiscard]] virtual bool drawsTogether() const { return false; }
+    /// `options`: of Plan::options.
+    virtual Prepared prepare(const Plan& plan, std::uint32_t options) = 0;
     /// Does what `job.work` says of each view of the plan.
     virtual void record(const MapJob& job) = 0;
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.
     virtual void makeReadable(VkCommandBuffer commands) = 0;
     [[nodiscard]] virtual const Image& maps() const = 0;
-    [[nodiscard]] virtual MapPassFormats formats(bool orthographic) const = 0;
     [[nodiscard]] virtual FilterCost cost(std::uint32_t slot) const = 0;
 };
 

@@ -1,52 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_storage.h"
 
-#include "moment_rule_of.h"
-
 #include <gnomon/error.h>
 
-#include <paired_depth.h>
-
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <string>
 
 namespace gnomon::vulkan {
 namespace {
 
-// Single precision carries about 4e-6 through matrix, interpolation and comparison; 16 bits add one step and a half.
-constexpr float kArithmetic = 4e-6F;
 constexpr MapStorage kStorages[] = {
-    {MapFormat::d16, VK_FORMAT_UNDEFINED, VK_FORMAT_D16_UNORM, 1.5F / 65535.0F + kArithmetic},
-    {MapFormat::d32f, VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT, kArithmetic},
-    {MapFormat::r32f, VK_FORMAT_R32_SFLOAT, VK_FORMAT_D32_SFLOAT, kArithmetic},
-    {MapFormat::rg16, VK_FORMAT_R16G16_UNORM, VK_FORMAT_D32_SFLOAT, 1.5F / 65535.0F + kArithmetic},
-    {MapFormat::rg16f, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_D32_SFLOAT, 1.0F / 2048.0F},
-    {MapFormat::rg32f, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_D32_SFLOAT, kArithmetic},
-    {MapFormat::rgba16, VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_D32_SFLOAT, 1.5F / 65535.0F + kArithmetic},
-    {MapFormat::rgba16f, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_D32_SFLOAT, 1.0F / 2048.0F},
-    {MapFormat::rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT, kArithmetic},
-    {MapFormat::r16f, VK_FORMAT_R16_SFLOAT, VK_FORMAT_D32_SFLOAT, 1.0F / 2048.0F},
-    {MapFormat::rgba8, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT, 1.5F / 65535.0F + kArithmetic},
+    {MapFormat::d16, VK_FORMAT_UNDEFINED, VK_FORMAT_D16_UNORM},
+    {MapFormat::d32f, VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::r32f, VK_FORMAT_R32_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rg16, VK_FORMAT_R16G16_UNORM, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rg16f, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rg32f, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rgba16, VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rgba16f, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::r16f, VK_FORMAT_R16_SFLOAT, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rgba8, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT},
 };
 
 } // namespace
 
-const MapStorage* findMapStorage(MapFormat format)
+const MapStorage& mapStorage(MapFormat format)
 {
     const auto* found = std::find_if(std::begin(kStorages), std::end(kStorages),
                                      [&](const MapStorage& storage) { return storage.format == format; });
-    return found != std::end(kStorages) ? found : nullptr;
+    assert(found != std::end(kStorages));
+    return *found;
 }
 
-int depthHolding(Filter filter, MapFormat format)
+MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
-    if (isFilterable(filter)) {
-        return shared::kDepthAlone;
+    const MapStorage& storage = mapStorage(options.format());
+    if (options.filterable()) { // moments are made of the depths
+        return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
+                !orthographic};
     }
-    return format == MapFormat::rg16    ? shared::kDepthChannel
-           : format == MapFormat::rgba8 ? shared::kDepthBytes
-                                        : shared::kDepthAlone;
+    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic};
 }
 
 VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part)

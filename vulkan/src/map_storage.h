@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/plan.h>
+#include <gnomon/vulkan/shadow_renderer.h>
 
 #include <vulkan/vulkan_core.h>
 
@@ -12,7 +13,6 @@ struct MapStorage {
     MapFormat format;
     VkFormat colour; // UNDEFINED: the depth image is the map
     VkFormat depth;
-    float quantum; // bound on the error of a stored depth: storage and the arithmetic that led to it
 
     [[nodiscard]] bool depthOnly() const { return colour == VK_FORMAT_UNDEFINED; }
     [[nodiscard]] VkFormat mapFormat() const { return depthOnly() ? depth : colour; }
@@ -22,11 +22,8 @@ struct MapStorage {
     }
 };
 
-/// Null for a format that no pass of this version writes.
-[[nodiscard]] const MapStorage* findMapStorage(MapFormat format);
-/// How a texel of a map holds depths: a kDepth constant of shared/paired_depth.h. That of a filterable map holds other
-/// things: kDepthAlone.
-[[nodiscard]] int depthHolding(Filter filter, MapFormat format);
+/// There is one for every format.
+[[nodiscard]] const MapStorage& mapStorage(MapFormat format);
 /// What is written of a colour attachment for one part of its texels; 0 for no attachment. Of a format that holds one
 /// map a texel there is no part but the whole.
 [[nodiscard]] VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part);

@@ -2,13 +2,16 @@
 #include "mask_pass.h"
 
 #include "barriers.h"
+#include "samplers.h"
 
-#include <gnomon_spirv.h>
+#include <gnomon/pack/frame_passes.h>
+
+#include <gpu_structs.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdio>
-#include <cstring>
 
 namespace gnomon::vulkan {
 namespace {
@@ -18,7 +21,7 @@ constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_B
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 
-// To be drawn to. Every pixel is written.
+// To be drawn to. What it held is not needed.
 void toAttachment(const Device& device, VkCommandBuffer commands, const Image& image)
 {
     ImageBarrier barrier;
@@ -28,7 +31,7 @@ void toAttachment(const Device& device, VkCommandBuffer commands, const Image& i
     barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     barrier.source_stages = kReaders;
     barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
     recordBarrier(device, commands, barrier);
 }
 
@@ -46,44 +49,81 @@ void toReadable(const Device& device, VkCommandBuffer commands, const Image& ima
     recordBarrier(device, commands, barrier);
 }
 
-// Whether the motion, which does not change from frame to frame, may part the screen.
-bool mayHaveBands(const Plan& plan)
-{
-    return plan.technique.motion == Motion::step_band ||
-           std::any_of(plan.lights.begin(), plan.lights.end(),
-                       [](const LightPlan& light) { return light.steps.band > 0.0; });
-}
+enum Binding : std::uint32_t {
+    kConstants,
+    kMaps,
+    kLights,
+    kViews,
+    kLayers,
+    kDepth,
+    kNormal,
+    kObjectId,
+    kFewViews,
+    kBindingCount
+};
+constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 
-VkFormat maskFormat(const Plan& plan)
+VkFormat maskFormat(bool several_lights)
 {
-    return plan.lights.size() <= 1 ? VK_FORMAT_R8_UNORM : VK_FORMAT_R8G8B8A8_UNORM;
+    return several_lights ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8_UNORM;
 }
 
 } // namespace
 
-MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options, float quantum)
-    : device_(device), options_(options), quantum_(quantum), vertex_(makeShader(device, spirv::mask_numbers_vert))
+MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
+    : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
+      pipelines_(device, options.pipeline_cache), slots_(options.frames_in_flight), shape_(options.mask_shape)
 {
     makeLayouts();
-    makeSlots();
+}
+
+void MaskPassRecorder::makeLayouts()
+{
+    sets_ = DescriptorSets(device_, kTypes, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT);
+    layout_ = makePipelineLayout(device_, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(MaskPush));
+    // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
+    nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
+    linear_ = makeSampler(device_, VK_FILTER_LINEAR);
+}
+
+void MaskPassRecorder::makeSets(std::uint32_t options)
+{
+    sets_.reset(slot_count_ * options);
+    for (Slot& slot : slots_) {
+        slot.sets.clear();
+        for (std::uint32_t i = 0; i < options; ++i) {
+            slot.sets.push_back(sets_.take("mask"));
+        }
+    }
 }
 
 void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
+    const auto options = static_cast<std::uint32_t>(plan.options->size());
+    const std::uint32_t lights = pack::maskLightCount(plan);
+    const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
+    if (options <= room_.options && lights <= room_.lights && views <= room_.views) {
+        return;
+    }
+    if (options > room_.options) {
+        makeSets(options);
+    }
     const VkPhysicalDeviceLimits& limits = device_.limits();
     const VkDeviceSize align =
         std::max<VkDeviceSize>({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, 16});
     const auto aligned = [&](VkDeviceSize bytes) {
         return (bytes + align - 1) / align * align;
     };
-    const std::uint32_t lights = maskLightCount(std::max(plan.mask_layers, 1U), mayHaveBands(plan));
-    const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
-    if (lights <= room_.lights && views <= room_.views) {
-        return;
-    }
+    room_.options = std::max(room_.options, options);
     room_.lights = std::max(room_.lights, lights);
     room_.views = std::max(room_.views, views);
-    room_.lights_at = aligned(sizeof(shared::GpuConstants));
+    room_.constants_stride = aligned(sizeof(shared::GpuConstants));
+    room_.lights_at = room_.options * room_.constants_stride;
     room_.views_at = room_.lights_at + aligned(room_.lights * sizeof(shared::GpuLight));
     const VkDeviceSize bytes = room_.views_at + room_.views * sizeof(shared::GpuView);
     for (Slot& slot : slots_) {
@@ -91,64 +131,152 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
     }
-    draws_.reserve(lights);
+    draws_.reserve(std::size_t{lights} * options);
+    map_images_.resize(options);
+}
+
+void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
+{
+    device_.retire(std::move(mask_));
+    mask_ = Image(device_,
+                  {maskFormat(plan.lights.size() > 1), screen, std::max(plan.mask_layers, 1U),
+                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                   VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
+}
+
+VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape)
+{
+    MaskPipelineKey key = maskPipelineKey((*plan.options)[draw.options], shape);
+    key.format = mask_.info().format;
+    key.orthographic = draw.orthographic;
+    key.shares = draw.shares;
+    key.constants.few_views = draw.few_views;
+    return pipelines_.get(key, layout_.get());
+}
+
+void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
+{
+    pack::listMaskDraws(plan, mask_.info().extent.width, draws_);
+    for (const pack::MaskDraw& draw : draws_) {
+        (void)pipeline(plan, draw, shape);
+    }
+}
+
+void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
+{
+    MaskPipelineKey key = maskPipelineKey(options, what.inputs);
+    const auto make = [&] {
+        for (const bool orthographic : {true, false}) {
+            key.orthographic = orthographic;
+            if (orthographic || what.perspective) {
+                (void)pipelines_.get(key, layout_.get());
+            }
+        }
+    };
+    key.format = maskFormat(false);
+    key.constants.few_views = pack::fewViews(options);
+    make();
+    if (key.constants.few_views > 1) { // a spot has one map
+        key.constants.few_views = 1;
+        make();
+    }
+    key.constants.few_views = 0;
+    key.format = maskFormat(true);
+    if (what.several_lights) {
+        make();
+    }
+    key.shares = true;
+    if (what.several_lights && what.several_options) {
+        make();
+    }
 }
 
 bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
 {
-    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
     makeBuffers(plan);
-    const VkFormat format = maskFormat(plan);
     const ImageInfo& have = mask_.info();
-    const bool fits = mask_ && have.format == format && have.layers >= layers && have.extent.width == screen.width &&
+    const bool fits = mask_ && have.format == maskFormat(plan.lights.size() > 1) &&
+                      have.layers >= std::max(plan.mask_layers, 1U) && have.extent.width == screen.width &&
                       have.extent.height == screen.height;
     if (!fits) {
-        if (!mask_ || have.format != format) {
-            for (Pipeline& pipeline : pipelines_) {
-                device_.retire(std::move(pipeline));
-            }
-        }
-        device_.retire(std::move(mask_));
-        mask_ = Image(device_, {format, screen, layers,
-                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
+        makeMask(plan, screen);
     }
-    shape_ = shape_ ? shape_ : options_.mask_shape;
     if (shape_) {
         makePipelines(plan, *shape_);
     }
-    if (plan.technique.motion == Motion::step_alternate || alternates(plan)) {
+    const bool may_take_turns = std::ranges::any_of(*plan.options, [](const ResolvedOptions& options) {
+        return options.technique().motion == Motion::step_alternate;
+    });
+    if (may_take_turns || std::ranges::any_of(plan.lights, pack::takesTurns)) {
         if (!alternate_) {
-            alternate_.emplace(device_, static_cast<std::uint32_t>(slots_.size()), options_.pipeline_cache);
+            alternate_.emplace(device_, slot_count_, cache_);
         }
         alternate_->prepare(mask_.info(), plan.lights.size());
     }
     return !fits;
 }
 
-void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskSurroundings& around)
+void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps)
 {
-    auto* const bytes = static_cast<std::byte*>(slot.constants.data());
-    fillMaskConstants(frame, plan, around, *reinterpret_cast<shared::GpuConstants*>(bytes));
-    fillMaskLights(frame, plan, around.screen.width,
-                   {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights}, draws_);
-    fillMaskViews(frame, plan, around, {reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views});
+    constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkSampler sampler = nearest_.get();
+    // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
+    // never written even if no shader names it; so what is absent is filled with the depth.
+    const auto orDepth = [&](std::uint32_t binding, VkImageView view) {
+        return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
+                                      : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);
+    };
+    const VkBuffer constants = slot.constants.buffer();
+    const VkSampler of_maps = maps.filterable() ? linear_.get() : nearest_.get();
+    const std::array<DescriptorSets::Write, kBindingCount> writes{
+        DescriptorSets::buffer(kConstants, constants, sizeof(shared::GpuConstants), options * room_.constants_stride),
+        DescriptorSets::image(kMaps, of_maps, maps.recorder->maps().view(), kRead),
+        DescriptorSets::buffer(kLights, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at),
+        DescriptorSets::buffer(kViews, constants, room_.views * sizeof(shared::GpuView), room_.views_at),
+        DescriptorSets::buffer(kLayers, maps.placer.buffer()),
+        DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
+        orDepth(kNormal, inputs.normal),
+        orDepth(kObjectId, inputs.object_id),
+        DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at)};
+    sets_.write(slot.sets[options], writes);
 }
 
-void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const MaskDraw& draw, const MaskInputs& inputs)
+void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs,
+                            const MapClasses& maps)
 {
-    const VkRect2D scissor{{static_cast<std::int32_t>(draw.begin), 0}, {draw.end - draw.begin, inputs.extent.height}};
+    auto* const bytes = static_cast<std::byte*>(slot.constants.data());
+    const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        map_images_[i] = {};
+        if (maps[i]) {
+            const ImageInfo& info = maps[i]->recorder->maps().info();
+            map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
+            writeSet(slot, i, inputs, *maps[i]);
+        }
+        pack::fillConstants(frame, plan, i, screen_px, map_images_[i],
+                            *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride));
+    }
+    pack::fillMaskLights(frame, plan, draws_,
+                         {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights});
+    pack::fillViews(frame, plan, map_images_,
+                    {reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views});
+}
+
+void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot,
+                                  const pack::MaskDraw& draw)
+{
+    const VkRect2D scissor{{static_cast<std::int32_t>(draw.begin), 0},
+                           {draw.end - draw.begin, mask_.info().extent.height}};
     device_.vk.CmdSetScissor(commands, 0, 1, &scissor);
-    const Variant variant{draw.orthographic, inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE,
-                          draw.few_views};
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(variant));
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(plan, draw, *shape_));
+    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1,
+                                     &slot.sets[draw.options], 0, nullptr);
     const MaskPush push{draw.first_light, draw.channels};
     device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
     device_.vk.CmdDraw(commands, 3, 1, 0, 0);
 }
 
-void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const MaskInputs& inputs, const Image& target,
+void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                                    std::uint32_t layer)
 {
     char label[32];
@@ -158,7 +286,7 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const MaskInputs& i
     VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     colour.imageView = target.layer(layer);
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // a layer beyond the plan's lights is lit
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // what no light has drawn is lit
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
@@ -170,9 +298,9 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const MaskInputs& i
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
     device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    for (const MaskDraw& draw : draws_) {
+    for (const pack::MaskDraw& draw : draws_) {
         if (draw.layer == layer) {
-            recordDraw(commands, draw, inputs);
+            recordDraw(commands, plan, slot, draw);
         }
     }
     device_.vk.CmdEndRendering(commands);
@@ -180,8 +308,7 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const MaskInputs& i
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
-                              const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer,
-                              CascadeFitter& fitter)
+                              const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter)
 {
     assert(slot_index < slots_.size());
     assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
@@ -189,19 +316,17 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     shape_ = MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE};
     Slot& slot = slots_[slot_index];
-    writeSet(slot, inputs, maps.view(), placer.buffer());
-    fill(slot, frame, plan, {options_.filter, quantum_, inputs.extent, maps.info().extent, maps.info().levels, placer});
+    pack::listMaskDraws(plan, inputs.extent.width, draws_);
+    fill(slot, frame, plan, inputs, maps);
     if (CascadeFitter::fits(plan)) {
-        fitter.recordConstants(commands, slot_index, slot.constants, room_.views_at,
-                               static_cast<std::uint32_t>(plan.views.size()));
+        fitter.recordViews(commands, slot_index, CascadeFitter::Reader::mask,
+                           {slot.constants.buffer(), room_.views_at, static_cast<std::uint32_t>(plan.views.size())});
     }
-    const bool joins = alternate_ && alternates(plan);
+    const bool joins = alternate_ && std::ranges::any_of(plan.lights, pack::takesTurns);
     const Image& target = joins ? alternate_->target() : mask_;
     toAttachment(device_, commands, target);
-    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &slot.set, 0,
-                                     nullptr);
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
-        recordLayer(commands, inputs, target, layer);
+        recordLayer(commands, plan, slot, target, layer);
     }
     toReadable(device_, commands, target);
     if (joins) {

@@ -4,10 +4,12 @@
 
 #include "alternate_pass.h"
 #include "cascade_fitter.h"
-#include "layer_placer.h"
-#include "mask_constants.h"
+#include "map_class.h"
+#include "mask_pipelines.h"
 
-#include <array>
+#include <gnomon/pack/mask_draws.h>
+#include <gnomon/pack/shading_buffers.h>
+
 #include <optional>
 
 namespace gnomon::vulkan {
@@ -18,70 +20,66 @@ struct MaskPush {
     std::uint32_t channels;
 };
 
+/// By options; null where they have no maps.
+using MapClasses = std::vector<std::unique_ptr<MapClass>>;
+
 class MaskPassRecorder {
 public:
-    MaskPassRecorder(Device& device, const ShadowRendererOptions& options, float quantum);
+    MaskPassRecorder(Device& device, const ShadowRendererOptions& options);
 
+    void warmUp(const ResolvedOptions& options, const WarmUp& what);
     /// Makes the mask image if size, format or layers changed; true when it did. Makes the pipelines, too, that this
     /// plan needs for inputs of the options' shape; without one, for inputs as record() was given last. Only a first
     /// record() whose shape nobody told makes its own.
     bool prepare(const Plan& plan, VkExtent2D screen);
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
-                const MaskInputs& inputs, const Image& maps, const LayerPlacer& placer, CascadeFitter& fitter);
+                const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
     [[nodiscard]] const Image& mask() const { return mask_; }
 
 private:
     struct Slot {
-        HostBuffer constants; // a GpuConstants, then lights and views
-        VkDescriptorSet set = VK_NULL_HANDLE;
+        HostBuffer constants;              // GpuConstants by options, then lights and views
+        std::vector<VkDescriptorSet> sets; // by options
     };
     // Of a slot's buffer.
     struct Room {
+        std::uint32_t options = 0;
         std::uint32_t lights = 0;
         std::uint32_t views = 0;
-        VkDeviceSize lights_at = 0; // bytes
+        VkDeviceSize constants_stride = 0; // bytes
+        VkDeviceSize lights_at = 0;
         VkDeviceSize views_at = 0;
-    };
-    struct Variant {
-        bool orthographic = false;
-        bool normals = false;
-        bool ids = false;
-        std::uint32_t few_views = 0; // MaskDraw::few_views
-        static constexpr std::size_t kCount = 8 * (1 + shared::kFewViews);
-        [[nodiscard]] std::size_t index() const
-        {
-            return (orthographic ? 1U : 0U) | (normals ? 2U : 0U) | (ids ? 4U : 0U) | few_views * 8;
-        }
     };
 
     void makeLayouts();
-    void makeSlots();
+    void makeSets(std::uint32_t options);
     void makeBuffers(const Plan& plan);
-    // Always, and not only where a handle is another one: a view that was made after its predecessor was destroyed may
-    // have the same handle.
-    void writeSet(Slot& slot, const MaskInputs& inputs, VkImageView maps, VkBuffer layers);
-    [[nodiscard]] VkPipeline pipeline(Variant variant);
+    void makeMask(const Plan& plan, VkExtent2D screen);
     void makePipelines(const Plan& plan, MaskShape shape);
-    [[nodiscard]] Pipeline makePipeline(Variant variant);
-    void fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskSurroundings& around);
-    void recordLayer(VkCommandBuffer commands, const MaskInputs& inputs, const Image& target, std::uint32_t layer);
-    void recordDraw(VkCommandBuffer commands, const MaskDraw& draw, const MaskInputs& inputs);
+    // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
+    // destroyed may have the same handle.
+    void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
+    [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape);
+    void fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
+    void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
+                     std::uint32_t layer);
+    void recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const pack::MaskDraw& draw);
 
     Device& device_;
-    ShadowRendererOptions options_;
-    float quantum_;
+    std::uint32_t slot_count_;
+    VkPipelineCache cache_;
     Image mask_;
     DescriptorSets sets_;
     PipelineLayout layout_;
-    Sampler sampler_;     // of what is read texel by texel
-    Sampler map_sampler_; // of the maps
+    Sampler nearest_; // of what is read texel by texel
+    Sampler linear_;  // of filterable maps
+    MaskPipelines pipelines_;
     std::vector<Slot> slots_;
     Room room_;
-    std::vector<MaskDraw> draws_;            // of the frame that is being recorded
+    std::vector<pack::MaskDraw> draws_;      // of the frame that is being recorded
+    std::vector<pack::MapImage> map_images_; // likewise, by options
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
-    ShaderModule vertex_;
-    std::array<Pipeline, Variant::kCount> pipelines_; // by Variant::index()
-    std::optional<MaskShape> shape_;                  // of the inputs, as far as it is known
+    std::optional<MaskShape> shape_;         // of the inputs, as far as it is known
 };
 
 } // namespace gnomon::vulkan

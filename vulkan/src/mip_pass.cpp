@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mip_pass.h"
 
-#include "mip_level.h"
+#include <gnomon/pack/filter_rule.h>
 
 #include <gnomon_spirv.h>
 
@@ -23,7 +23,7 @@ void MipPass::makeSets(const MomentImages& images)
 void MipPass::record(const FilterStep& step) const
 {
     const Tile& tile = step.tile;
-    const std::uint32_t coarsest = coarsestLevel(tile, static_cast<std::uint32_t>(sets_.size()) + 1);
+    const std::uint32_t coarsest = pack::coarsestLevel(tile, static_cast<std::uint32_t>(sets_.size()) + 1);
     for (std::uint32_t level = 1; level <= coarsest; ++level) {
         if (level > 1) {
             waitForShaders(layout_.device(), step.commands);

@@ -2,10 +2,10 @@
 #include "moment_maps.h"
 
 #include "barriers.h"
-#include "blur_kernel.h"
 #include "draw_view.h"
-#include "moment_rule_of.h"
 #include "timed.h"
+
+#include <gnomon/pack/filter_rule.h>
 
 #include <algorithm>
 #include <cassert>
@@ -17,9 +17,9 @@ constexpr VkPipelineStageFlags2 kShaders =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 
 /// Checks before anything is made.
-Device& checkedDevice(Device& device, const FilterOptions& filter, const MapStorage& storage)
+Device& checkedDevice(Device& device, const ResolvedOptions& options, const MapStorage& storage)
 {
-    requireAveraging(device.features(storage.colour), filter.filter, filter.format, "create the shadow renderer");
+    requireAveraging(device.features(storage.colour), options.filter(), options.format(), "make shadow maps");
     return device;
 }
 
@@ -31,20 +31,21 @@ std::uint32_t alignedCounts(const Device& device)
 
 } // namespace
 
-MomentMaps::MomentMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage,
-                       LayerPlacer& placer)
-    : device_(checkedDevice(device, options.filter, storage)), filter_(options.filter), storage_(storage),
-      placer_(placer), slots_(options.frames_in_flight), counts_stride_(alignedCounts(device)),
-      layers_per_map_(imageLayersPerMap(filter_.filter, filter_.moments)), layout_(device, options.pipeline_cache),
-      moments_(layout_, filter_), mips_(layout_, filterConstants(filter_)), kept_(device)
+MomentMaps::MomentMaps(Device& device, const ResolvedOptions& options, const MapStorage& storage, LayerPlacer& placer,
+                       std::uint32_t slots, VkPipelineCache cache)
+    : device_(checkedDevice(device, options, storage)), options_(options), storage_(storage), placer_(placer),
+      slots_(slots), counts_stride_(alignedCounts(device)),
+      layers_per_map_(imageLayersPerMap(options.filter(), options.moments())), layout_(device, cache),
+      moments_(layout_, options), mips_(layout_, filterConstants(options)), kept_(device)
 {
+    const MomentOptions& o = options.moments();
     images_.kernel =
         HostBuffer(device, sizeof(shared::BlurKernel), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "shadow filter buffers");
-    if (blurRadius(filter_.moments) > 0) {
-        const BlurPath path = filter_.moments.blur_path;
-        blur_.emplace(layout_, filterConstants(filter_), storage.colour,
+    if (blurRadius(o) > 0) {
+        const BlurPath path = o.blur_path;
+        blur_.emplace(layout_, filterConstants(options), storage.colour,
                       path == BlurPath::automatic ? BlurPath::compute : path);
-        *static_cast<shared::BlurKernel*>(images_.kernel.data()) = blurKernel(filter_.moments);
+        *static_cast<shared::BlurKernel*>(images_.kernel.data()) = pack::blurKernel(o);
     }
     images_.counts = HostBuffer(device, VkDeviceSize{counts_stride_} * slots_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                 "shadow filter buffers");
@@ -53,17 +54,19 @@ MomentMaps::MomentMaps(Device& device, const ShadowRendererOptions& options, con
     }
 }
 
-MomentMaps::Need MomentMaps::needOf(const Plan& plan)
+MomentMaps::Need MomentMaps::needOf(const Plan& plan, std::uint32_t options)
 {
-    const MapPages& atlas = plan.pages[0];
+    const MapPages& atlas = plan.pages[options];
     Need need;
     need.atlas = {std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
     need.tile = {1, 1};
     for (const View& view : plan.views) {
-        need.tile.width = std::max(need.tile.width, view.tile.width);
-        need.tile.height = std::max(need.tile.height, view.tile.height);
+        if (optionsIndexOf(plan, view) == options) {
+            need.tile.width = std::max(need.tile.width, view.tile.width);
+            need.tile.height = std::max(need.tile.height, view.tile.height);
+        }
     }
-    need.kept_layers = plan.pages[0].kept_layers;
+    need.kept_layers = atlas.kept_layers;
     return need;
 }
 
@@ -93,7 +96,7 @@ bool MomentMaps::growMaps(const MapPages& atlas)
     }
     info.usage = kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.purpose = "shadow maps";
-    info.levels = mipLevels(filter_, info.extent.width, info.extent.height);
+    info.levels = pack::mipLevels(options_, info.extent.width, info.extent.height);
     Image larger(device_, info);
     if (images_.maps) {
         const bool has_levels = have.levels >= info.levels;
@@ -157,9 +160,9 @@ void MomentMaps::makeSets()
     mips_.makeSets(images_);
 }
 
-MapRecorder::Prepared MomentMaps::prepare(const Plan& plan)
+MapRecorder::Prepared MomentMaps::prepare(const Plan& plan, std::uint32_t options)
 {
-    const Need need = needOf(plan);
+    const Need need = needOf(plan, options);
     const bool grows_maps =
         !covers(images_.maps, {need.atlas.width, need.atlas.height}, need.atlas.layers * layers_per_map_);
     const bool grows_working = !images_.blocks || !covers(images_.depth, need.tile, 1);
@@ -180,11 +183,6 @@ MapRecorder::Prepared MomentMaps::prepare(const Plan& plan)
         prepared.changed = true;
     }
     return prepared;
-}
-
-MapPassFormats MomentMaps::formats(bool orthographic) const
-{
-    return {VK_FORMAT_UNDEFINED, storage_.depth, samples(), !orthographic};
 }
 
 // The image as a whole: sets name all of its layers, and are used with all of them in one layout.
@@ -285,7 +283,7 @@ void MomentMaps::record(const MapJob& job)
     fillNewImages(commands);
     bool drawn = false;
     for (std::uint32_t i = 0; i < job.plan.views.size(); ++i) {
-        if (!job.work[i].draw) {
+        if (!job.of(i).draw) {
             continue;
         }
         drawn = true;
@@ -324,7 +322,7 @@ void MomentMaps::recordDepth(const MapJob& job, std::uint32_t index)
     barrier.image = images_.depth.image();
     barrier.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
     if (view.kept_layer != kNoIndex) {
-        if (job.work[index].draw_kept) {
+        if (job.of(index).draw_kept) {
             kept_.draw(commands, plan, index, job.draw);
         }
         kept_.restore(commands, view, images_.depth);
@@ -360,7 +358,7 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     step.tile = view.tile;
     step.first_layer = view.tile.layer * layers_per_map_;
     step.image_layers = layers_per_map_;
-    step.depth_slot = placer_.slotOf(index);
+    step.depth_slot = placer_.slotOf(plan, index);
     step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
     step.counts_offset = job.slot * counts_stride_;
 

@@ -20,14 +20,14 @@ namespace gnomon::vulkan {
 class MomentMaps final : public MapRecorder {
 public:
     /// Throws Error when the device cannot do with the format what these passes do.
-    MomentMaps(Device& device, const ShadowRendererOptions& options, const MapStorage& storage, LayerPlacer& placer);
+    MomentMaps(Device& device, const ResolvedOptions& options, const MapStorage& storage, LayerPlacer& placer,
+               std::uint32_t slots, VkPipelineCache cache);
 
     /// Prepares the layers of depth, too.
-    Prepared prepare(const Plan& plan) override;
+    Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return images_.maps; }
-    [[nodiscard]] MapPassFormats formats(bool orthographic) const override;
     [[nodiscard]] FilterCost cost(std::uint32_t slot) const override;
 
 private:
@@ -37,10 +37,10 @@ private:
         std::uint32_t kept_layers = 0;
     };
 
-    [[nodiscard]] static Need needOf(const Plan& plan);
+    [[nodiscard]] static Need needOf(const Plan& plan, std::uint32_t options);
     [[nodiscard]] VkSampleCountFlagBits samples() const
     {
-        return static_cast<VkSampleCountFlagBits>(filter_.moments.samples);
+        return static_cast<VkSampleCountFlagBits>(options_.moments().samples);
     }
     /// Did what maps held get lost?
     [[nodiscard]] bool growMaps(const MapPages& atlas);
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] shared::BlurCounts& counts(std::uint32_t slot) const;
 
     Device& device_;
-    FilterOptions filter_;
+    ResolvedOptions options_;
     const MapStorage& storage_;
     LayerPlacer& placer_;
     std::uint32_t slots_;

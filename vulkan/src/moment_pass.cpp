@@ -5,10 +5,10 @@
 
 namespace gnomon::vulkan {
 
-MomentPass::MomentPass(FilterLayout& layout, const FilterOptions& filter) : layout_(layout)
+MomentPass::MomentPass(FilterLayout& layout, const ResolvedOptions& options) : layout_(layout)
 {
-    const auto code = filter.moments.samples == 1 ? spirv::moments_comp : spirv::moments_samples_comp;
-    pipeline_ = layout.makeCompute(code, filterConstants(filter), "moments");
+    const auto code = options.moments().samples == 1 ? spirv::moments_comp : spirv::moments_samples_comp;
+    pipeline_ = layout.makeCompute(code, filterConstants(options), "moments");
 }
 
 void MomentPass::makeSets(const MomentImages& images)

@@ -8,7 +8,7 @@ namespace gnomon::vulkan {
 
 class MomentPass {
 public:
-    MomentPass(FilterLayout& layout, const FilterOptions& filter);
+    MomentPass(FilterLayout& layout, const ResolvedOptions& options);
 
     static constexpr std::uint32_t kSets = 1;
     void makeSets(const MomentImages& images);

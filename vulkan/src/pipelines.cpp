@@ -45,6 +45,9 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     std::array<VkPipelineColorBlendAttachmentState, 2> attachments{};
     attachments[0].colorWriteMask = state.colour_mask;
+    attachments[0].blendEnable = state.keeps_least ? VK_TRUE : VK_FALSE;
+    attachments[0].colorBlendOp = state.keeps_least ? VK_BLEND_OP_MIN : VK_BLEND_OP_ADD;
+    attachments[0].alphaBlendOp = attachments[0].colorBlendOp;
     attachments[1].colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     const std::array<VkFormat, 2> colour_formats{state.colour_format, state.second_format};

@@ -23,6 +23,7 @@ struct GraphicsState {
     VkFormat second_format = VK_FORMAT_UNDEFINED; // of a second colour attachment, likewise
     VkColorComponentFlags colour_mask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                                         VK_COLOR_COMPONENT_A_BIT; // what is written of it
+    bool keeps_least = false;                    // of what is there and what is drawn, the lesser one of each channel
     VkFormat depth_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool shade_samples = false;               // the fragment shader runs for each

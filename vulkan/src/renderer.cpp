@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cascade_fitter.h"
-#include "device.h"
-#include "layer_placer.h"
-#include "map_pass.h"
-#include "mask_constants.h"
+#include "map_class.h"
 #include "mask_pass.h"
-#include "moment_maps.h"
-#include "moment_rule_of.h"
 #include "reuse_count.h"
 #include "timed.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/frame_passes.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
+#include <algorithm>
 #include <cassert>
 
 namespace gnomon::vulkan {
@@ -20,118 +17,118 @@ namespace {
 
 static_assert(kPlacementStride == sizeof(shared::GpuFittedView));
 
-constexpr const char* kCreating = "create the shadow renderer";
-
-const MapStorage& storageFor(const Device& device, const FilterOptions& filter)
-{
-    if (const auto reason = refusal(filter.filter, filter.format, filter.moments)) {
-        throw Error(kCreating, *reason);
-    }
-    const MapStorage* storage = findMapStorage(filter.format);
-    if (storage == nullptr) {
-        throw Error(kCreating, "no pass writes maps of format " + std::string(nameOf(filter.format)));
-    }
-    const VkFormatFeatureFlags attachment =
-        storage->depthOnly() ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
-    const VkFormatFeatureFlags needed = attachment | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
-    if ((device.features(storage->mapFormat()) & needed) != needed) {
-        throw Error(kCreating,
-                    "the device cannot draw to and read maps of format " + std::string(nameOf(filter.format)),
-                    "choose another map format");
-    }
-    return *storage;
-}
-
-std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ShadowRendererOptions& options,
-                                          const MapStorage& storage, LayerPlacer& placer)
-{
-    if (isFilterable(options.filter.filter)) {
-        return std::make_unique<MomentMaps>(device, options, storage, placer);
-    }
-    return std::make_unique<DepthMaps>(device, options, storage);
-}
-
 ImageRef describe(const Image& image)
 {
     return {image.image(),       image.view(),        image.info().format,
-            image.info().extent, image.info().layers, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            image.info().extent, image.info().layers, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+            image.info().levels};
 }
 
 } // namespace
 
 struct ShadowRenderer::Impl {
-    Impl(const DeviceView& view, const ShadowRendererOptions& options)
-        : device(view), storage(storageFor(device, options.filter)),
-          placer(device, options.filter, options.pipeline_cache), maps(makeRecorder(device, options, storage, placer)),
-          fitter(device, options), mask(device, options, storage.quantum),
-          filterable(isFilterable(options.filter.filter)), layered(view.layered), reuse(options.frames_in_flight)
+    Impl(const DeviceView& view, const ShadowRendererOptions& options_in)
+        : device(view), options(options_in), fitter(device, options.frames_in_flight, options.pipeline_cache),
+          mask(device, options), layered(view.layered), reuse(options.frames_in_flight)
     {
     }
 
+    [[nodiscard]] std::unique_ptr<MapClass> takeClass(const ResolvedOptions& wanted);
+    void matchClasses(const Plan& plan);
+    void check(const ResolvedOptions& wanted) const;
+
     Device device;
-    const MapStorage& storage;
-    LayerPlacer placer;
-    std::unique_ptr<MapRecorder> maps;
+    ShadowRendererOptions options;
+    MapClasses classes;                            // by options of the last plan; null where they have had no maps
+    std::vector<std::unique_ptr<MapClass>> spares; // made by warmUp(), without images
     CascadeFitter fitter;
     MaskPassRecorder mask;
-    bool filterable;
-    bool layered; // the device can
-    CascadePass pass = CascadePass::each;
-    std::vector<MapReuse> reuse; // by slot
+    bool layered;                        // the device can
+    std::vector<pack::FramePass> passes; // of the plan that was prepared last
+    std::vector<MapReuse> reuse;         // by slot
     MapContents contents;
 };
 
 ShadowRenderer::ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options)
 {
     assert(options.frames_in_flight > 0);
-    const FilterOptions& filter = options.filter;
-    if (filter.disc_taps < 4 || filter.disc_taps > 64) {
-        throw Error(kCreating, "a disc of " + std::to_string(filter.disc_taps) + " taps", "choose 4 to 64");
-    }
     impl_ = std::make_unique<Impl>(device, options);
 }
 
 ShadowRenderer::~ShadowRenderer() = default;
 
-bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
+void ShadowRenderer::Impl::check(const ResolvedOptions& wanted) const
 {
-    impl_->contents.reserve(plan);
-    const MapRecorder::Prepared maps = impl_->maps->prepare(plan);
-    if (maps.lost) {
-        impl_->contents.loseMaps();
-    }
-    impl_->fitter.prepare(plan);
-    const bool mask_changed = impl_->mask.prepare(plan, screen);
-    return maps.changed || mask_changed;
-}
-
-void ShadowRenderer::setCascadePass(CascadePass pass)
-{
-    if (pass == CascadePass::layered && !canDrawTogether()) {
-        throw Error("drawing cascades in one pass",
-                    impl_->layered ? "maps that are averaged are made one by one"
-                                   : "the device was made without shaderOutputLayer",
+    if (wanted.cascades().pass == CascadePass::layered && !layered) {
+        throw Error("draw cascades in one pass", "the device was made without shaderOutputLayer",
                     "draw each in a pass of its own");
     }
-    impl_->pass = pass == CascadePass::layered ? pass : CascadePass::each;
-    impl_->maps->setPass(impl_->pass);
 }
 
-CascadePass ShadowRenderer::cascadePass() const
+std::unique_ptr<MapClass> ShadowRenderer::Impl::takeClass(const ResolvedOptions& wanted)
 {
-    return impl_->pass;
+    check(wanted);
+    const auto found = std::ranges::find_if(spares, [&](const auto& spare) { return spare->serves(wanted); });
+    if (found == spares.end()) {
+        return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache);
+    }
+    std::unique_ptr<MapClass> taken = std::move(*found);
+    spares.erase(found);
+    return taken;
 }
 
-bool ShadowRenderer::canDrawTogether() const
+/// Options that are others than those of the last plan lose their maps, unless these are made in the same way.
+void ShadowRenderer::Impl::matchClasses(const Plan& plan)
 {
-    return impl_->layered && impl_->maps->drawsTogether();
+    for (std::uint32_t i = 0; i < classes.size(); ++i) {
+        const bool goes_on = i < plan.options->size() && classes[i] && classes[i]->serves((*plan.options)[i]);
+        if (classes[i] && !goes_on) {
+            device.retire(std::move(classes[i]));
+            contents.lose(i);
+        }
+    }
+    classes.resize(std::max(classes.size(), plan.options->size()));
+    for (const pack::FramePass& pass : passes) {
+        if (pass.kind == pack::FramePassKind::maps && !classes[pass.options]) {
+            classes[pass.options] = takeClass((*plan.options)[pass.options]);
+        }
+    }
+}
+
+void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
+{
+    impl_->spares.push_back(impl_->takeClass(options));
+    impl_->mask.warmUp(options, what);
+}
+
+bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
+{
+    assert(plan.options != nullptr && !plan.options->empty() && plan.pages.size() >= plan.options->size());
+    pack::listFramePasses(plan, impl_->passes);
+    impl_->matchClasses(plan);
+    impl_->contents.reserve(plan);
+    bool changed = false;
+    for (const pack::FramePass& pass : impl_->passes) {
+        if (pass.kind == pack::FramePassKind::maps) {
+            impl_->check((*plan.options)[pass.options]);
+            const MapRecorder::Prepared maps = impl_->classes[pass.options]->recorder->prepare(plan, pass.options);
+            changed = changed || maps.changed;
+            if (maps.lost) {
+                impl_->contents.lose(pass.options);
+            }
+        }
+    }
+    impl_->fitter.prepare(plan);
+    const bool wants_mask = screen.width > 0 && screen.height > 0;
+    const bool mask_changed = wants_mask && impl_->mask.prepare(plan, screen);
+    return changed || mask_changed;
 }
 
 void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                   const MaskInputs& inputs, Profiler* profiler)
 {
     impl_->device.enter(slot, Retirement::Work::bounds);
-    if (CascadeFitter::fits(plan)) {
+    if (pack::has(impl_->passes, pack::FramePassKind::bounds)) {
         const Timed timed(profiler, commands, "shadow bounds");
         impl_->fitter.record(commands, slot, frame, plan, inputs);
     }
@@ -142,7 +139,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
 {
     impl_->device.enter(slot, Retirement::Work::maps);
     const std::span<const ViewWork> work = impl_->contents.workFor(plan);
-    impl_->reuse[slot] = countReuse(plan, work, impl_->filterable, impl_->pass);
+    impl_->reuse[slot] = countReuse(plan, work);
     assert(impl_->fitter.isFitted(plan));
     const DrawCasters placed = [&](const MapPass& pass) {
         MapPass with = pass;
@@ -152,7 +149,12 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
         }
         draw(with);
     };
-    impl_->maps->record({commands, slot, plan, work, placed, profiler});
+    for (const pack::FramePass& pass : impl_->passes) {
+        if (pass.kind == pack::FramePassKind::maps) {
+            impl_->classes[pass.options]->recorder->record(
+                {commands, slot, plan, pass.options, work, placed, profiler});
+        }
+    }
     impl_->contents.done(plan);
 }
 
@@ -161,13 +163,21 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
 {
     impl_->device.enter(slot, Retirement::Work::mask);
     const Timed timed(profiler, commands, "mask");
-    impl_->maps->makeReadable(commands);
-    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->maps->maps(), impl_->placer, impl_->fitter);
+    for (const std::unique_ptr<MapClass>& maps : impl_->classes) {
+        if (maps) {
+            maps->recorder->makeReadable(commands);
+        }
+    }
+    impl_->mask.record(commands, slot, frame, plan, inputs, impl_->classes, impl_->fitter);
 }
 
-MapPassFormats ShadowRenderer::mapFormats(bool orthographic) const
+void ShadowRenderer::recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,
+                                 VkDeviceSize offset)
 {
-    return impl_->maps->formats(orthographic);
+    if (pack::has(impl_->passes, pack::FramePassKind::bounds)) {
+        impl_->fitter.recordViews(commands, slot, CascadeFitter::Reader::host,
+                                  {views, offset, static_cast<std::uint32_t>(plan.views.size())});
+    }
 }
 
 ImageRef ShadowRenderer::mask() const
@@ -175,14 +185,30 @@ ImageRef ShadowRenderer::mask() const
     return describe(impl_->mask.mask());
 }
 
-ImageRef ShadowRenderer::maps() const
+ImageRef ShadowRenderer::maps(std::uint32_t options) const
 {
-    return describe(impl_->maps->maps());
+    const bool made = options < impl_->classes.size() && impl_->classes[options];
+    return made ? describe(impl_->classes[options]->recorder->maps()) : ImageRef{};
+}
+
+BufferRef ShadowRenderer::depthLayersBuffer(std::uint32_t options) const
+{
+    const bool made = options < impl_->classes.size() && impl_->classes[options];
+    return made ? BufferRef{impl_->classes[options]->placer.buffer(), impl_->classes[options]->placer.bytes()}
+                : BufferRef{};
 }
 
 FilterCost ShadowRenderer::filterCost(std::uint32_t slot) const
 {
-    return impl_->maps->cost(slot);
+    FilterCost sum;
+    for (const std::unique_ptr<MapClass>& maps : impl_->classes) {
+        if (maps && maps->filterable()) {
+            const FilterCost one = maps->recorder->cost(slot);
+            sum = {sum.texels + one.texels, sum.taps + one.taps, sum.bytes_moved + one.bytes_moved,
+                   sum.bytes_minimum + one.bytes_minimum, one.path};
+        }
+    }
+    return sum;
 }
 
 MapReuse ShadowRenderer::reuse(std::uint32_t slot) const
@@ -190,9 +216,12 @@ MapReuse ShadowRenderer::reuse(std::uint32_t slot) const
     return impl_->reuse[slot];
 }
 
-std::vector<DepthLayer> ShadowRenderer::depthLayers(std::uint32_t view) const
+std::vector<pack::DepthLayer> ShadowRenderer::depthLayers(const Plan& plan, std::uint32_t view) const
 {
-    return impl_->placer.read(view);
+    const std::uint32_t options = optionsIndexOf(plan, plan.views[view]);
+    const bool made = options < impl_->classes.size() && impl_->classes[options];
+    return made ? impl_->classes[options]->placer.read(pack::depthLayersSlot(plan, view))
+                : std::vector<pack::DepthLayer>{};
 }
 
 std::vector<FittedView> ShadowRenderer::fittedViews(std::uint32_t slot) const

@@ -3,9 +3,11 @@
 
 #include "draw_view.h"
 
+#include <gnomon/plan_views.h>
+
 namespace gnomon::vulkan {
 
-MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work, bool filterable, CascadePass pass)
+MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work)
 {
     MapReuse reuse;
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
@@ -24,13 +26,14 @@ MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work, bool filte
                 ++reuse.kept_drawn;
                 reuse.still_casters += count(CasterShare::still);
             }
-            const VkRect2D area = filterable ? areaOf(view.tile) : redrawnArea(view, work[i].whole);
+            const VkRect2D area =
+                optionsOf(plan, view).filterable() ? areaOf(view.tile) : redrawnArea(view, work[i].whole);
             ++reuse.restored;
             reuse.restored_texels += std::uint64_t{area.extent.width} * area.extent.height;
             reuse.moving_casters += count(CasterShare::moving);
         }
     }
-    for (std::uint32_t i = 0; pass == CascadePass::layered && i < plan.views.size();) {
+    for (std::uint32_t i = 0; i < plan.views.size();) {
         const std::uint32_t count = drawnTogether(plan, work, i);
         reuse.together += count > 1 ? count : 0;
         i += count;

@@ -8,6 +8,6 @@
 namespace gnomon::vulkan {
 
 /// What recording the maps of this plan draws and what it does not. A filterable map is restored whole.
-[[nodiscard]] MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work, bool filterable, CascadePass pass);
+[[nodiscard]] MapReuse countReuse(const Plan& plan, std::span<const ViewWork> work);
 
 } // namespace gnomon::vulkan

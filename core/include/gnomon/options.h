@@ -8,6 +8,7 @@
 #include <gnomon/choices.h>
 #include <gnomon/moment_options.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -112,10 +113,18 @@ public:
     [[nodiscard]] Filter filter() const { return asked_.technique.filter; }
     [[nodiscard]] const FilterTraits& traits() const { return *traits_; }
     [[nodiscard]] MapFormat format() const { return format_; }
+    [[nodiscard]] bool filterable() const { return traits_->filterable; }
     [[nodiscard]] const PcfOptions& pcf() const { return asked_.pcf; }
     [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
+    [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
     [[nodiscard]] double border_texels() const { return border_texels_; }
+    /// Of a map with this many texels on a side: at most a quarter of them.
+    [[nodiscard]] double borderOf(std::uint32_t side) const { return std::min(border_texels_, 0.25 * side); }
+    /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. End 0:
+    /// nothing fades.
+    [[nodiscard]] double fadeBegin_m() const { return asked_.max_distance_m * (1.0 - asked_.fade); }
+    [[nodiscard]] double fadeEnd_m() const { return asked_.max_distance_m; }
     /// How far from a receiver's place in the map the filter reads, reachTexels().
     [[nodiscard]] float reach_texels() const { return reach_texels_; }
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.

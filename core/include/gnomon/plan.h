@@ -246,9 +246,8 @@ struct Plan {
     /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
     /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
     std::uint64_t planner = 0;
-    Technique technique;
-    /// Those of the planner, never null in a plan that it made: LightPlan::options is the index. The defaults stand for
-    /// options that are refused. They last as long as any copy of the plan.
+    /// Those of the planner, never null and never empty in a plan that it made: LightPlan::options is the index, also
+    /// into `pages`. The defaults stand for options that are refused. They last as long as any copy of the plan.
     std::shared_ptr<const std::vector<ResolvedOptions>> options;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
@@ -258,14 +257,6 @@ struct Plan {
     /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
     std::uint32_t map_count = 0;
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
-    /// For views with View::gpu_cascade: how the camera's depth is to be divided among a light's, and the room that is
-    /// left for the filter's kernel around what a cascade's pixels lie in, texels.
-    CascadeOptions cascades;
-    double border_texels = 0.0;
-    /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. 0: nothing
-    /// fades.
-    double fade_begin_m = 0.0;
-    double fade_end_m = 0.0;
 };
 
 /// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).

@@ -10,6 +10,16 @@
 
 namespace gnomon {
 
+/// The options of the light that a view belongs to: as index, and as value.
+[[nodiscard]] inline std::uint32_t optionsIndexOf(const Plan& plan, const View& view)
+{
+    return plan.lights[view.light].options;
+}
+[[nodiscard]] inline const ResolvedOptions& optionsOf(const Plan& plan, const View& view)
+{
+    return (*plan.options)[optionsIndexOf(plan, view)];
+}
+
 /// The position of a sun that says more of this frame's picture; by turns, the one that is read.
 [[nodiscard]] SunPosition strongerPosition(const SunSteps& steps);
 

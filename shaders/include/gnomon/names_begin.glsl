@@ -26,10 +26,17 @@
 #define boundedFootprint gnomon_boundedFootprint
 #define boundedTexels gnomon_boundedTexels
 #define boundedVisibility gnomon_boundedVisibility
+#define casterMetric gnomon_casterMetric
+#define casterPlaced gnomon_casterPlaced
+#define casterStored gnomon_casterStored
+#define casterTexel gnomon_casterTexel
 #define chebyshevBound gnomon_chebyshevBound
 #define compareGather gnomon_compareGather
 #define compareTexel gnomon_compareTexel
 #define depthFromBytes gnomon_depthFromBytes
+#define depthMetricLinear gnomon_depthMetricLinear
+#define depthMetricPlane gnomon_depthMetricPlane
+#define depthMetricStored gnomon_depthMetricStored
 #define depthToBytes gnomon_depthToBytes
 #define discPoint gnomon_discPoint
 #define dotRow gnomon_dotRow

@@ -26,10 +26,17 @@
 #undef boundedFootprint
 #undef boundedTexels
 #undef boundedVisibility
+#undef casterMetric
+#undef casterPlaced
+#undef casterStored
+#undef casterTexel
 #undef chebyshevBound
 #undef compareGather
 #undef compareTexel
 #undef depthFromBytes
+#undef depthMetricLinear
+#undef depthMetricPlane
+#undef depthMetricStored
 #undef depthToBytes
 #undef discPoint
 #undef dotRow

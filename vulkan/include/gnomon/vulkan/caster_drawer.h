@@ -3,6 +3,7 @@
 // own write their callback and shaders instead (shaders/lib/caster.glsl).
 #pragma once
 
+#include <gnomon/pack/caster_rows.h>
 #include <gnomon/vulkan/draw_batcher.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -15,12 +16,7 @@
 
 namespace gnomon::vulkan {
 
-/// An affine transform: its three rows. p_ws[i] = dot(row i, (p, 1)).
-struct Rows3x4 {
-    glm::vec4 x{1.0F, 0.0F, 0.0F, 0.0F};
-    glm::vec4 y{0.0F, 1.0F, 0.0F, 0.0F};
-    glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F};
-};
+using pack::Rows3x4;
 
 /// A batch of DrawParts, by DrawPart::batch.
 struct CasterBatch {
@@ -63,8 +59,6 @@ struct CasterGeometry {
 };
 
 struct CasterDrawerOptions {
-    MapPassFormats orthographic; // ShadowRenderer::mapFormats(true)
-    MapPassFormats perspective;  // ShadowRenderer::mapFormats(false)
     std::uint32_t frames_in_flight = 2;
     /// Leave out triangles that face away from the light (of batches that are not two-sided). Off, because thin and
     /// open geometry casts too; counter-clockwise triangles face front.
@@ -86,14 +80,14 @@ public:
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
                   std::span<const CasterBatch> batches);
 
-    /// Before recordMaps() of a frame. `world_from_object` is indexed by object handle and read until the frame is
-    /// recorded, then no more. Grows the slot's buffers when the plan's lists are longer than any before; else
-    /// allocates nothing. Throws Error when memory runs out.
+    /// Makes the pipelines for maps by these options, so that no beginFrame() has to: for the batches of setScene().
+    /// `perspective`: there may be spots, or warps.
+    void warmUp(const ResolvedOptions& options, bool perspective);
+    /// Before recordMaps() of a frame. Makes what pipelines the plan needs and are not there. `world_from_object` is
+    /// indexed by object handle and read until the frame is recorded, then no more. Grows the slot's buffers when the
+    /// plan's lists are longer than any before; else allocates nothing. Throws Error when memory runs out.
     void beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
                     std::span<const Rows3x4> world_from_object);
-    /// What the renderer was told (ShadowRenderer::setCascadePass), before the next beginFrame(): whether there must be
-    /// room, and pipelines, for passes of several views. Throws Error when memory runs out.
-    void setCascadePass(CascadePass pass);
     /// Draws one pass; to be called from the DrawCasters callback. Those of several views between two beginFrame() must
     /// come from one ShadowRenderer. Returns the number of indirect draws it recorded, for Profiler::addDraws.
     std::uint32_t draw(const MapPass& pass);

@@ -3,11 +3,10 @@
 // Never submits, never waits, never owns the device.
 #pragma once
 
-#include <gnomon/bias.h>
 #include <gnomon/frame.h>
-#include <gnomon/moment_options.h>
+#include <gnomon/options.h>
+#include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan.h>
-#include <gnomon/vulkan/cascade_pass.h>
 #include <gnomon/vulkan/device_view.h>
 #include <gnomon/vulkan/profiler.h>
 
@@ -23,35 +22,6 @@
 
 namespace gnomon::vulkan {
 
-/// What of ShadowOptions a renderer's maps are made and read by: filterOptionsOf().
-struct FilterOptions {
-    Filter filter = Filter::pcf;
-    MapFormat format = MapFormat::d32f;
-    PcfKernel pcf_kernel = PcfKernel::gaussian_3x3;
-    std::uint32_t disc_taps = 16;       // poisson, vogel: 4 .. 64
-    float disc_radius_texels = 2.5F;    // poisson, vogel: 0.5 .. 16
-    float gaussian_sigma_texels = 0.0F; // gaussian kernels: 0 picks width / 4; 0.3 .. 4
-    BiasOptions bias;
-    MomentOptions moments; // vsm, lvsm, esm, evsm, msm
-};
-/// What of the options the maps' making and reading depends on.
-[[nodiscard]] FilterOptions filterOptionsOf(const ShadowOptions& options);
-/// reachTexels() of such options.
-[[nodiscard]] float filterReachTexels(const FilterOptions& filter);
-/// Mip levels of maps of this size, 1 to 8: 1 unless the filter is filterable and its sampling reads coarser ones. A
-/// coarser texel is an average of four whole ones, so there are as many levels as both sides can be halved without a
-/// remainder, and one: an odd side has one level. A tile in a corner of its own has the levels on whose grid its edges
-/// lie.
-[[nodiscard]] std::uint32_t mipLevels(const FilterOptions& filter, std::uint32_t width, std::uint32_t height);
-
-/// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
-/// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential
-/// is the mean of exponentials, of lvsm the mean in its first layer's own metric. `texel`: the channels of the format,
-/// in their order. `part`: of a texel that two maps share. What holds no such number gives one that is not in [0, 1],
-/// or none.
-[[nodiscard]] float mapDepth(const FilterOptions& filter, std::span<const float> texel,
-                             TexelPart part = TexelPart::whole);
-
 /// What MaskInputs has besides the camera's depth.
 struct MaskShape {
     bool normals = false;
@@ -59,7 +29,6 @@ struct MaskShape {
 };
 
 struct ShadowRendererOptions {
-    FilterOptions filter;
     /// Of the inputs to come: then prepare() makes the mask's pipelines, and no recordMask() has to. Nothing: the first
     /// recordMask() makes those that it needs, which takes as long as the driver compiles.
     std::optional<MaskShape> mask_shape;
@@ -79,10 +48,25 @@ struct MaskInputs {
     VkImageView object_id = VK_NULL_HANDLE;
 };
 
+/// What the host's caster pipelines must be made for.
+struct MapPassFormats {
+    /// UNDEFINED: depth only. Else fragment shaders write casterTexel() to it (caster.glsl).
+    VkFormat colour = VK_FORMAT_UNDEFINED;
+    VkFormat depth = VK_FORMAT_D32_SFLOAT;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    /// View not orthographic, into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample,
+    /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
+    /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
+    bool write_frag_depth = false;
+
+    bool operator==(const MapPassFormats&) const = default;
+};
+
 /// One map to draw, given to the host's callback. Rendering has begun, viewport and scissor are set. The callback binds
 /// its pipelines (made for `formats`) and draws the casters; it must not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE;
+    MapPassFormats formats; // mapFormats() of the light's options and View::orthographic
     const Plan* plan = nullptr;
     const View* view = nullptr;
     std::uint32_t view_index = 0;
@@ -117,17 +101,8 @@ struct MapPass {
 inline constexpr VkDeviceSize kPlacementStride = 48;
 using DrawCasters = std::function<void(const MapPass&)>;
 
-/// What the host's caster pipelines must be made for.
-struct MapPassFormats {
-    /// UNDEFINED: depth only. Else fragment shaders write casterTexel() to it (caster.glsl).
-    VkFormat colour = VK_FORMAT_UNDEFINED;
-    VkFormat depth = VK_FORMAT_D32_SFLOAT;
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// View not orthographic, into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample,
-    /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
-    /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
-    bool write_frag_depth = false;
-};
+/// What views of such options are drawn in: of View::orthographic or not.
+[[nodiscard]] MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 struct ImageRef {
     VkImage image = VK_NULL_HANDLE;
@@ -135,7 +110,14 @@ struct ImageRef {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{};
     std::uint32_t layers = 0;
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // after record()
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // after the recording that makes it
+    std::uint32_t levels = 1;                         // mip levels
+};
+
+/// A storage buffer, all of it.
+struct BufferRef {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize bytes = 0;
 };
 
 struct MemoryUse {
@@ -169,44 +151,36 @@ struct MapReuse {
     std::uint32_t moving_casters = 0;  // over what was restored
 };
 
-/// One layer of depth of an lvsm map, in the depths that the map stores: the view's depth metric, or with
-/// DepthMetricKind::z_over_w that of a perspective projection.
-struct DepthLayer {
-    float near = 0.0F; // what it spans, overlaps included: d'' = (d' - near) / (far - near)
-    float far = 1.0F;
-    float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
+/// What warmUp() makes pipelines for. More than will come costs time and nothing else.
+struct WarmUp {
+    MaskShape inputs;
+    bool perspective = true;      // there may be spots, or warps
+    bool several_lights = true;   // and not only one
+    bool several_options = false; // lights of other options beside them
 };
-/// The layers of every view where they do not depend on what is drawn (uniform, by hand); empty for lloyd.
-[[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
 
+/// Draws what a plan says by the options that the plan carries (Plan::options): it has none of its own, so another
+/// technique, or another for each light, is another plan.
 class ShadowRenderer {
 public:
-    /// Throws Error when a function is missing, the format is refused for the filter or memory runs out.
+    /// Throws Error when a function is missing or memory runs out.
     ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;
 
-    /// Makes images and buffers for this plan and screen size where those that are there do not fit. To be called
-    /// before a frame's recordings, not between them. Frames in flight need not be waited for: what is replaced is kept
-    /// until every slot that may use it has begun another frame, and what maps hold is copied into larger images by the
-    /// next recordMaps(). Returns true when maps() or mask() is another image than before: a host that has them in
-    /// descriptors of its own writes those anew, whatever the handles are. Throws Error for sizes beyond the device's
-    /// limits or memory.
-    bool prepare(const Plan& plan, VkExtent2D screen);
+    /// Makes the pipelines of maps and masks by these options, so that no prepare() has to: for a moment in which a
+    /// hitch does not matter. Throws Error as prepare().
+    void warmUp(const ResolvedOptions& options, const WarmUp& what);
 
-    /// How cascades are drawn from the next prepare() on, which has to come before the next recordMaps(); at first
-    /// `each`. Maps that were drawn stay as they are. layered: the
-    /// callback gets passes of several views (MapPass::view_count). Which is faster depends on the device and on the
-    /// scene: one pass has fewer commands and fewer beginnings and ends. A host can measure it by recording one plan's
-    /// maps both ways, which leaves them as they are.
-    /// Throws Error for layered on a device without it (DeviceView::layered) and for filterable maps, which are made
-    /// one by one from a depth image that they share.
-    void setCascadePass(CascadePass pass);
-    /// each or layered.
-    [[nodiscard]] CascadePass cascadePass() const;
-    /// Does setCascadePass() take layered?
-    [[nodiscard]] bool canDrawTogether() const;
+    /// Makes images, buffers and pipelines for this plan and screen size where those that are there do not fit; of size
+    /// 0 no mask: for a host that has none drawn. To be called before a frame's recordings, not between them. Frames in
+    /// flight need not be waited for: what is replaced is kept until every slot that may use it has begun another
+    /// frame, and what maps hold is copied into larger images by the next recordMaps(). Returns true when maps() or
+    /// mask() is another image than before: a host that has them in descriptors of its own writes those anew, whatever
+    /// the handles are. Throws Error for sizes beyond the device's limits or memory, for a map format that the device
+    /// has not what it takes for, and for CascadePass::layered on a device without it (DeviceView::layered).
+    bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (assert there); does nothing
     /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose
@@ -224,17 +198,27 @@ public:
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
-    [[nodiscard]] MapPassFormats mapFormats(bool orthographic) const; // for views with this View::orthographic
-    [[nodiscard]] ImageRef mask() const; // R8 for one light, else RGBA8, one layer per four lights
-    [[nodiscard]] ImageRef maps() const;
+    /// R8 for one light, else RGBA8, one layer per four lights; a 2D array in either case.
+    [[nodiscard]] ImageRef mask() const;
+    /// Of one of the plan's options; no image where they have had no maps yet. After recordMaps() its writes are
+    /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
+    [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
+    /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
+    [[nodiscard]] BufferRef depthLayersBuffer(std::uint32_t options = 0) const;
+    /// Completes views with View::gpu_cascade that pack::fillViews() wrote to a storage buffer of the host's, all of
+    /// the plan's from `offset` on: after recordBounds(), and once with a slot. Afterwards they are visible to
+    /// FRAGMENT_SHADER and COMPUTE_SHADER reads. Nothing for plans without such views.
+    void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,
+                     VkDeviceSize offset = 0);
     [[nodiscard]] std::span<const MemoryUse> memory() const;
     /// Of the last recordMaps() that was given this slot, once the GPU has finished it. What that counted is made
     /// visible to the host by recordMaps().
     [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
     /// Of the last recordMaps() that was given this slot.
     [[nodiscard]] MapReuse reuse(std::uint32_t slot) const;
-    /// lvsm: the layers of a view of the last plan, nearest first, once the GPU has finished recordMaps(); else empty.
-    [[nodiscard]] std::vector<DepthLayer> depthLayers(std::uint32_t view) const;
+    /// lvsm: the layers of a view of the plan that was recorded last, nearest first, once the GPU has finished
+    /// recordMaps(); else empty.
+    [[nodiscard]] std::vector<pack::DepthLayer> depthLayers(const Plan& plan, std::uint32_t view) const;
     /// What the last recordBounds() that was given this slot found, by view of its plan, once the GPU has finished it;
     /// of use for views with View::gpu_cascade alone (viewAsFitted()). For reports: nothing is drawn from it. Empty
     /// when the plan has no such views.

@@ -5,7 +5,7 @@
 
 #include <choice_numbers.h>
 
-namespace gnomon::vulkan {
+namespace gnomon::pack {
 namespace {
 
 template <class Enum>
@@ -24,4 +24,4 @@ static_assert(is(shared::kSamplingNearest, MapSampling::nearest) &&
               is(shared::kSamplingAnisotropic, MapSampling::anisotropic));
 
 } // namespace
-} // namespace gnomon::vulkan
+} // namespace gnomon::pack

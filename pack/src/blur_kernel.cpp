@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two texels by one filtered read: D. Rakos, "Efficient Gaussian blur with linear sampling", 2010.
-#include "blur_kernel.h"
+#include <gnomon/pack/filter_rule.h>
 
 #include <array>
 #include <cmath>
 
-namespace gnomon::vulkan {
+namespace gnomon::pack {
 
 shared::BlurKernel blurKernel(const MomentOptions& options)
 {
@@ -37,4 +37,4 @@ shared::BlurKernel blurKernel(const MomentOptions& options)
     return kernel;
 }
 
-} // namespace gnomon::vulkan
+} // namespace gnomon::pack

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What takes an object's own points to a map, for vertex shaders as shaders/lib/caster.glsl has them.
+#pragma once
+
+#include <gnomon/plan.h>
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace gnomon::pack {
+
+/// An affine transform: its three rows. p_ws[i] = dot(row i, (p, 1)).
+struct Rows3x4 {
+    glm::vec4 x{1.0F, 0.0F, 0.0F, 0.0F};
+    glm::vec4 y{0.0F, 1.0F, 0.0F, 0.0F};
+    glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F};
+};
+
+/// Rows of a view that an instance brings: x, y and the metric; of a perspective view x, y, z, w and the metric.
+[[nodiscard]] constexpr std::uint32_t casterRowCount(bool orthographic)
+{
+    return orthographic ? 3 : 5;
+}
+
+/// Of one view, to be composed with the transforms of many objects.
+class CasterRows {
+public:
+    CasterRows() = default;
+    explicit CasterRows(const View& view);
+    /// Writes casterRowCount() rows, each the view's times the object's transform, composed in double precision:
+    /// objects may be as far from the world's origin as they like. Returns one past the last.
+    glm::vec4* write(const Rows3x4& world_from_object, glm::vec4* out) const;
+
+private:
+    std::array<glm::dvec4, casterRowCount(false)> rows_{};
+    std::uint32_t count_ = 0;
+};
+
+} // namespace gnomon::pack

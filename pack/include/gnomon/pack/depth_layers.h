@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layers of depth of lvsm maps, as their buffer has them.
+// Based on: A. Lauritzen, M. McCool, "Layered Variance Shadow Maps", Graphics Interface 2008.
+#pragma once
+
+#include <gnomon/moment_options.h>
+#include <gnomon/plan.h>
+
+#include <gpu_structs.h>
+
+#include <vector>
+
+namespace gnomon::pack {
+
+/// One layer of depth of an lvsm map, in the depths that the map stores: the view's depth metric, or with
+/// DepthMetricKind::z_over_w that of a perspective projection.
+struct DepthLayer {
+    float near = 0.0F; // what it spans, overlaps included: d'' = (d' - near) / (far - near)
+    float far = 1.0F;
+    float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
+};
+/// The layers of every view where they do not depend on what is drawn (uniform, by hand); empty for lloyd.
+[[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
+[[nodiscard]] std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
+                                                     const MomentOptions& options);
+
+/// What a buffer of layers is filled with. Where they depend on what is drawn, it is where they start.
+[[nodiscard]] shared::GpuDepthLayers firstDepthLayers(const MomentOptions& options);
+/// Where in the buffer the layers of the plan's view `view` are. A map keeps its place as long as it has its name,
+/// whether or not a plan has a view for it.
+[[nodiscard]] std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view);
+/// How many places such a plan needs: 1 at least.
+[[nodiscard]] std::uint32_t depthLayersCount(const Plan& plan);
+
+} // namespace gnomon::pack

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What there is to do for a plan, in order. The Vulkan backend executes this list; another API's would, too.
+#pragma once
+
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::pack {
+
+enum class FramePassKind : std::uint8_t {
+    bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
+    maps,    // draw the maps of `options`; of a filterable filter also make moments, blur and mip levels of them
+    mask,    // listMaskDraws()
+    history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
+};
+
+struct FramePass {
+    FramePassKind kind = FramePassKind::mask;
+    std::uint32_t options = 0; // of Plan::options; for maps
+};
+
+/// Keeps what `out` has allocated.
+void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
+[[nodiscard]] bool has(const std::vector<FramePass>& passes, FramePassKind kind);
+/// Has a light of these options maps in this plan?
+[[nodiscard]] bool drawsMaps(const Plan& plan, std::uint32_t options);
+/// Does the light's plan join this frame's visibility with that of the frame before?
+[[nodiscard]] bool takesTurns(const LightPlan& light);
+
+} // namespace gnomon::pack

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What shaders/include/gnomon/visibility.glsl reads, filled from a frame and its plan: everything relative to the eye,
+// in double precision until the last moment. The mask pass is filled by the same functions.
+//
+// A pass that shades lights of one of the planner's options binds that one's constants and maps, and all lights and
+// views. With lights of several options it draws once for each, or has a set for each.
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <gpu_structs.h>
+
+#include <span>
+
+namespace gnomon::pack {
+
+/// The image that has the maps of one of Plan::options. Those of a filterable filter have mipLevels().
+struct MapImage {
+    glm::uvec2 size_px{1};
+    std::uint32_t levels = 1;
+};
+
+/// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture.
+void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, glm::uvec2 screen_px,
+                   const MapImage& maps, shared::GpuConstants& out);
+/// Light i of the frame goes to lights[i]; what is beyond the frame's lights gets no views. Lights without a map have
+/// none. Precondition: there is room for all of the frame's.
+void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights);
+/// View i of the plan goes to views[i]. `maps`: by options. Views with View::gpu_cascade are as their base map until
+/// they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
+/// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth. Precondition: there is room for all of the plan's.
+void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);
+
+} // namespace gnomon::pack

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/pack/caster_rows.h>
+
+#include <glm/gtc/matrix_access.hpp>
+
+namespace gnomon::pack {
+namespace {
+
+// Row vector of the map times an object's transform: what the vertex shader multiplies the object's own points by.
+glm::vec4 composed(const glm::dvec4& row, const Rows3x4& t)
+{
+    return {row.x * glm::dvec4(t.x) + row.y * glm::dvec4(t.y) + row.z * glm::dvec4(t.z) +
+            glm::dvec4(0.0, 0.0, 0.0, row.w)};
+}
+
+} // namespace
+
+CasterRows::CasterRows(const View& view) : count_(casterRowCount(view.orthographic))
+{
+    const auto row = [&](int i) {
+        return glm::row(view.clip_from_world, i);
+    };
+    const glm::dvec4 metric = view.metric.metric_ws;
+    if (view.orthographic) {
+        rows_ = {row(0), row(1), metric};
+    } else {
+        rows_ = {row(0), row(1), row(2), row(3), metric};
+    }
+}
+
+glm::vec4* CasterRows::write(const Rows3x4& world_from_object, glm::vec4* out) const
+{
+    for (std::uint32_t i = 0; i < count_; ++i) {
+        *out++ = composed(rows_[i], world_from_object);
+    }
+    return out;
+}
+
+} // namespace gnomon::pack

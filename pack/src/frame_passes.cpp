@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/pack/frame_passes.h>
+
+#include <algorithm>
+
+namespace gnomon::pack {
+
+bool has(const std::vector<FramePass>& passes, FramePassKind kind)
+{
+    return std::ranges::find(passes, kind, &FramePass::kind) != passes.end();
+}
+
+bool drawsMaps(const Plan& plan, std::uint32_t options)
+{
+    return std::ranges::any_of(plan.lights, [&](const LightPlan& light) {
+        return light.options == options && light.outcome.hasMap() && light.view_count > 0;
+    });
+}
+
+bool takesTurns(const LightPlan& light)
+{
+    return light.outcome.hasMap() && light.steps.paired && light.steps.alternate;
+}
+
+void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
+{
+    out.clear();
+    if (std::ranges::any_of(plan.views, [](const View& view) { return view.gpu_cascade != kNoIndex; })) {
+        out.push_back({FramePassKind::bounds});
+    }
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        if (drawsMaps(plan, i)) {
+            out.push_back({FramePassKind::maps, i});
+        }
+    }
+    out.push_back({FramePassKind::mask});
+    if (std::ranges::any_of(plan.lights, takesTurns)) {
+        out.push_back({FramePassKind::history});
+    }
+}
+
+} // namespace gnomon::pack

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/pack/mask_draws.h>
+
+#include "light_strip.h"
+
+#include <gnomon/pack/shading_buffers.h>
+#include <gnomon/plan_views.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::pack {
+namespace {
+
+// A strip of the screen, and of each of a layer's lights what it shows.
+struct Strip {
+    std::uint32_t begin = 0; // pixels, x
+    std::uint32_t end = 0;
+    std::array<SunShown, shared::kLightsPerLayer> shown{}; // by mask channel
+};
+struct Strips {
+    static constexpr std::uint32_t kMost = 2 * shared::kLightsPerLayer + 1;
+    std::array<Strip, kMost> strips;
+    std::uint32_t count = 0;
+
+    [[nodiscard]] const Strip* begin() const { return strips.data(); }
+    [[nodiscard]] const Strip* end() const { return strips.data() + count; }
+};
+
+bool hasBand(const LightPlan& light)
+{
+    const SunSteps& steps = light.steps;
+    return light.outcome.hasMap() && steps.paired && !steps.alternate && steps.band > 0.0;
+}
+
+// Pixels of the screen's width; a share of it that is not a number counts as 0.
+std::uint32_t pixels(double share, std::uint32_t width, double (*round)(double))
+{
+    return share > 0.0 ? static_cast<std::uint32_t>(round(std::min(share, 1.0) * width)) : 0;
+}
+
+// Of a band: to the left of `begin` the later position alone counts, from `end` on the earlier one. Rounded outwards,
+// so that a pixel on an edge is in the band.
+struct BandPixels {
+    std::uint32_t begin;
+    std::uint32_t end;
+};
+BandPixels bandPixels(const SunSteps& steps, std::uint32_t width)
+{
+    return {pixels(steps.edge - steps.band, width, std::floor), pixels(steps.edge, width, std::ceil)};
+}
+
+// In a strip that begins at pixel x and has no edge of a band inside.
+SunShown shownAt(const LightPlan& light, std::uint32_t x, std::uint32_t width)
+{
+    const SunSteps& steps = light.steps;
+    if (!light.outcome.hasMap() || !steps.paired) {
+        return SunShown::all;
+    }
+    if (steps.alternate) {
+        return steps.read == SunPosition::later ? SunShown::later : SunShown::earlier;
+    }
+    if (hasBand(light)) {
+        const BandPixels band = bandPixels(steps, width);
+        return x < band.begin ? SunShown::later : x >= band.end ? SunShown::earlier : SunShown::all;
+    }
+    const double weight = laterWeight(steps, 0.0);
+    return weight <= 0.0 ? SunShown::earlier : weight >= 1.0 ? SunShown::later : SunShown::all;
+}
+
+// They cover the screen, from left to right.
+Strips stripsOf(const Plan& plan, std::uint32_t layer, std::uint32_t width)
+{
+    std::array<std::uint32_t, Strips::kMost + 1> edges{};
+    std::uint32_t edge_count = 0;
+    edges[edge_count++] = 0;
+    edges[edge_count++] = width;
+    for (const LightPlan& light : plan.lights) {
+        if (light.mask_layer == layer && hasBand(light) && edge_count + 2 <= edges.size()) {
+            const BandPixels band = bandPixels(light.steps, width);
+            edges[edge_count++] = std::min(band.begin, width);
+            edges[edge_count++] = std::min(band.end, width);
+        }
+    }
+    std::ranges::sort(std::span(edges).first(edge_count));
+    Strips result;
+    for (std::uint32_t i = 0; i + 1 < edge_count; ++i) {
+        if (edges[i] == edges[i + 1]) {
+            continue;
+        }
+        Strip& strip = result.strips[result.count++];
+        strip.begin = edges[i];
+        strip.end = edges[i + 1];
+        for (const LightPlan& light : plan.lights) {
+            if (light.mask_layer == layer) {
+                strip.shown[light.mask_channel] = shownAt(light, strip.begin, width);
+            }
+        }
+    }
+    return result;
+}
+
+bool isOrthographic(const Plan& plan, const ShownViews& shown)
+{
+    const auto all = [&](std::uint32_t first, std::uint32_t count) {
+        return std::all_of(plan.views.begin() + first, plan.views.begin() + first + count,
+                           [](const View& view) { return view.orthographic; });
+    };
+    return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
+}
+
+// Which view it is is known beforehand only where the light has all of the plan's.
+std::uint32_t fewViewsOf(const Plan& plan)
+{
+    const LightPlan& light = plan.lights.front();
+    const std::size_t count = plan.views.size();
+    if (plan.lights.size() != 1 || light.steps.paired || light.view_count != count || count > shared::kFewViews) {
+        return 0;
+    }
+    const std::uint32_t few = fewViews((*plan.options)[light.options]);
+    return few == 0 ? 0 : count == 1 ? 1 : shared::kFewViews;
+}
+
+// The lights of one strip of a layer that have these options.
+MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::uint32_t options)
+{
+    MaskDraw draw;
+    draw.layer = layer;
+    draw.begin = strip.begin;
+    draw.end = strip.end;
+    draw.options = options;
+    draw.shown = strip.shown;
+    for (const LightPlan& light : plan.lights) {
+        if (light.mask_layer != layer || light.options != options) {
+            continue;
+        }
+        const ShownViews views = shownViews(plan, light, strip.shown[light.mask_channel]);
+        if (views.count > 0) {
+            draw.channels |= 1U << light.mask_channel;
+            draw.orthographic = draw.orthographic && isOrthographic(plan, views);
+        }
+    }
+    draw.few_views = fewViewsOf(plan);
+    return draw;
+}
+
+// Whether the motion, which does not change from frame to frame, may part the screen.
+bool mayHaveBands(const Plan& plan)
+{
+    const auto steps_in_bands = [](const ResolvedOptions& options) {
+        return options.technique().motion == Motion::step_band;
+    };
+    return std::ranges::any_of(*plan.options, steps_in_bands) ||
+           std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.steps.band > 0.0; });
+}
+
+} // namespace
+
+glm::vec4 stepRule(const SunSteps& steps)
+{
+    return {steps.share, steps.edge, steps.band > 0.0 ? 1.0 / steps.band : 0.0, steps.smooth ? 1.0 : 0.0};
+}
+
+ShownViews shownViews(const Plan& plan, const LightPlan& light, SunShown shown)
+{
+    if (!light.outcome.hasMap()) {
+        return {};
+    }
+    if (!light.steps.paired) {
+        return {light.first_view, light.view_count, 0, 0};
+    }
+    std::uint32_t earlier = 0;
+    while (earlier < light.view_count && plan.views[light.first_view + earlier].sun != SunPosition::later) {
+        ++earlier;
+    }
+    const std::uint32_t later = light.view_count - earlier;
+    const std::uint32_t later_first = light.first_view + earlier;
+    // A position without views says nothing: the other one stands for both.
+    if (later == 0 || (shown == SunShown::earlier && earlier > 0)) {
+        return {light.first_view, earlier, 0, 0};
+    }
+    if (earlier == 0 || shown == SunShown::later) {
+        return {later_first, later, 0, 0};
+    }
+    return {light.first_view, earlier, later_first, later};
+}
+
+std::uint32_t fewViews(const ResolvedOptions& options)
+{
+    const Technique& technique = options.technique();
+    const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
+    const bool divided = technique.partition == Partition::cascades || technique.partition == Partition::sdsm;
+    return steps ? 0 : divided && options.cascades().count > 1 ? shared::kFewViews : 1;
+}
+
+void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out)
+{
+    out.clear();
+    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
+    std::uint32_t next = layers * shared::kLightsPerLayer;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const Strips strips = stripsOf(plan, layer, width_px);
+        for (const Strip& strip : strips) {
+            std::uint32_t first_light = layer * shared::kLightsPerLayer;
+            if (strips.count > 1) { // of this strip alone; those by the frame's index serve all of the screen
+                first_light = next;
+                next += shared::kLightsPerLayer;
+            }
+            const std::size_t first_draw = out.size();
+            for (std::uint32_t options = 0; options < plan.options->size(); ++options) {
+                MaskDraw draw = drawOf(plan, layer, strip, options);
+                draw.first_light = first_light;
+                if (draw.channels != 0) {
+                    out.push_back(draw);
+                }
+            }
+            for (std::size_t i = first_draw; i < out.size(); ++i) {
+                out[i].shares = out.size() - first_draw > 1;
+            }
+        }
+    }
+}
+
+std::uint32_t maskLightCount(const Plan& plan)
+{
+    return std::max(plan.mask_layers, 1U) * shared::kLightsPerLayer * (mayHaveBands(plan) ? 1 + Strips::kMost : 1U);
+}
+
+void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
+                    std::span<shared::GpuLight> lights)
+{
+    fillLights(frame, plan, lights);
+    for (const MaskDraw& draw : draws) {
+        for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+            const LightPlan& light = plan.lights[i];
+            if (light.mask_layer == draw.layer && (draw.channels >> light.mask_channel & 1U) != 0) {
+                fillLight(frame, plan, i, draw.shown[light.mask_channel],
+                          lights[draw.first_light + light.mask_channel]);
+            }
+        }
+    }
+}
+
+} // namespace gnomon::pack

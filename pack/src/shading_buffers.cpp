@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/pack/shading_buffers.h>
+
+#include "light_strip.h"
+
+#include <gnomon/pack/depth_layers.h>
+#include <gnomon/pack/filter_rule.h>
+#include <gnomon/plan_views.h>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace gnomon::pack {
+namespace {
+
+shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
+{
+    const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
+    const glm::dvec4 w = glm::row(clip_from_eye, 3);
+    const auto texels = [&](int axis, double first, double size) {
+        return glm::row(clip_from_eye, axis) * (0.5 * size) + w * (0.5 * size + first);
+    };
+    const Tile& tile = view.tile;
+    const double x0 = tile.x;
+    const double y0 = tile.y;
+    shared::GpuView gpu{};
+    gpu.x = texels(0, x0, tile.width);
+    gpu.y = texels(1, y0, tile.height);
+    gpu.w = w;
+    gpu.metric = view.metric.metric_ws * world_from_eye; // a row vector
+    gpu.tile = glm::dvec4(x0 + margin, y0 + margin, x0 + tile.width - margin, y0 + tile.height - margin);
+    gpu.scale = glm::dvec4(view.texel_m, view.metric.far_m - view.metric.near_m, tile.layer,
+                           view.part == TexelPart::second ? 1.0 : 0.0);
+    const glm::dvec3 x = glm::dvec4(gpu.x);
+    const glm::dvec3 y = glm::dvec4(gpu.y);
+    const glm::dvec3 metric = glm::dvec4(gpu.metric);
+    const glm::dvec3 across = glm::cross(x, y);
+    gpu.plane_x = glm::dvec4(glm::cross(metric, y), 0.0);
+    gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
+    gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
+    gpu.whole = glm::dvec4(x0, y0, x0 + tile.width, y0 + tile.height);
+    const ViewSlice& slice = view.slice;
+    // A shader need not know infinities.
+    constexpr double kEndless = 1e30;
+    // Depths count from the eye for which the plan was made, which need not be the one that looks now.
+    const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
+    gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
+                           slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
+    gpu.more.z = static_cast<float>(view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m);
+    return gpu;
+}
+
+void placeLight(const Light& light, const glm::dvec3& eye_ws, shared::GpuLight& gpu)
+{
+    const bool parallel = light.type == LightType::directional;
+    gpu.place = parallel ? glm::vec4(glm::vec3(glm::normalize(-light.direction_ws)), 0.0F)
+                         : glm::vec4(glm::vec3(light.position_ws - eye_ws), 1.0F);
+    const double size = parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m;
+    gpu.size = glm::dvec4(size, light.direction_ws);
+}
+
+} // namespace
+
+void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out)
+{
+    const LightPlan& light = plan.lights[index];
+    const ShownViews views = shownViews(plan, light, shown);
+    if (views.count == 0) {
+        return;
+    }
+    placeLight(frame.lights[index], frame.camera.eye_ws, out);
+    out.views = {views.first, views.count, views.later_first, views.later_count};
+    out.steps = stepRule(light.steps);
+    out.options.x = light.options;
+}
+
+void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights)
+{
+    assert(lights.size() >= plan.lights.size() && frame.lights.size() == plan.lights.size());
+    std::fill(lights.begin(), lights.end(), shared::GpuLight{});
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        fillLight(frame, plan, i, SunShown::all, lights[i]);
+    }
+}
+
+void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views)
+{
+    assert(views.size() >= plan.views.size() && maps.size() >= plan.options->size());
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        const View& view = plan.views[i];
+        const ResolvedOptions& options = optionsOf(plan, view);
+        shared::GpuView gpu =
+            gpuView(view, world_from_eye, tileMarginTexels(static_cast<double>(options.reach_texels())));
+        gpu.more.x = options.filter() == Filter::lvsm ? static_cast<float>(depthLayersSlot(plan, i)) : 0.0F;
+        gpu.more.y = static_cast<float>(coarsestLevel(view.tile, maps[optionsIndexOf(plan, view)].levels));
+        if (view.gpu_cascade != kNoIndex) {
+            gpu.slice.w = static_cast<float>(i + 1);
+        }
+        views[i] = gpu;
+    }
+    const std::size_t few = std::min<std::size_t>(views.size(), shared::kFewViews);
+    for (std::size_t i = plan.views.size(); i < few; ++i) { // a shader may look at as many: they serve no depth
+        views[i] = {};
+        views[i].slice = {1.0F, -1.0F, 0.0F, 0.0F};
+    }
+}
+
+void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, glm::uvec2 screen_px,
+                   const MapImage& maps, shared::GpuConstants& out)
+{
+    const Camera& camera = frame.camera;
+    const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
+    const glm::dmat4 clip_from_eye = camera.clip_from_world * world_from_eye;
+    const glm::dmat4 eye_from_ndc = glm::inverse(clip_from_eye);
+    shared::GpuScreen& screen = out.screen;
+    screen.eye_x = glm::row(eye_from_ndc, 0);
+    screen.eye_y = glm::row(eye_from_ndc, 1);
+    screen.eye_z = glm::row(eye_from_ndc, 2);
+    screen.eye_w = glm::row(eye_from_ndc, 3);
+    screen.clip_w = glm::row(clip_from_eye, 3);
+    screen.view_axis = {0.0F, 0.0F, 0.0F, camera.reversed_z ? 0.0F : 1.0F};
+    for (const View& view : plan.views) {
+        if (view.slice.bounded() || view.gpu_cascade != kNoIndex) { // all of them along the one camera's view
+            screen.view_axis = glm::vec4(glm::vec3(view.slice.axis), screen.view_axis.w);
+        }
+    }
+    const ResolvedOptions& options = (*plan.options)[index];
+    const double begin_m = options.fadeBegin_m();
+    const double fade_m = options.fadeEnd_m() - begin_m;
+    screen.fade =
+        options.fadeEnd_m() > 0.0 ? glm::vec4(begin_m, 1.0 / std::max(fade_m, 1e-3), 0.0F, 0.0F) : glm::vec4(0.0F);
+    const glm::vec2 size(screen_px);
+    screen.size = {size, 1.0F / size};
+    fillRule(options, out.rule);
+    out.rule.disc.z = 1.0F / static_cast<float>(maps.size_px.x);
+    out.rule.disc.w = 1.0F / static_cast<float>(maps.size_px.y);
+}
+
+} // namespace gnomon::pack

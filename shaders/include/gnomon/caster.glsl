@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// For a host's own caster shaders: what a map's texel is to hold. A vertex shader writes gl_Position = clip_from_world *
+// p, of a MapPass with a `placement` gnomonCasterPlaced() of that, and passes on gnomonCasterMetric(). What the fragment
+// shader writes follows from MapPass::formats:
+//   colour is not UNDEFINED   gnomonCasterTexel() to attachment 0; `holding` is 2 for R8G8B8A8_UNORM, else 0
+//   write_frag_depth          gnomonCasterDepth() to gl_FragDepth; with several samples the metric's input is `sample`
+//   else                      nothing: the rasteriser's depth is the metric
+// In a pass of several views (MapPass::view_count) the vertex shader also writes the view's number to gl_Layer.
+// Every name that this declares begins with gnomon or GNOMON.
+#ifndef GNOMON_PUBLIC_CASTER_GLSL
+#define GNOMON_PUBLIC_CASTER_GLSL
+#include "names_begin.glsl"
+#include "../../lib/caster.glsl"
+
+// `p_ws` world space; `metric_ws` MapPass::metric_ws. Affine in the point, so interpolation over a triangle is exact.
+float gnomonCasterMetric(vec3 p_ws, vec4 metric_ws)
+{
+    return casterMetric(p_ws, metric_ws);
+}
+
+// `clip` by MapPass::clip_from_world; `place` is the vec4 at MapPass::placement_offset of MapPass::placement.
+vec4 gnomonCasterPlaced(vec4 clip, vec4 place)
+{
+    return casterPlaced(clip, place);
+}
+
+// The depth that is stored, 0 .. 1.
+float gnomonCasterDepth(float metric)
+{
+    return casterStored(metric);
+}
+
+// For all channels of a colour attachment; MapPass::colour_mask says which are written.
+vec4 gnomonCasterTexel(int holding, float metric)
+{
+    return casterTexel(holding, metric);
+}
+
+#include "names_end.glsl"
+#endif

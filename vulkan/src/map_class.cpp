@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_class.h"
+
+#include "map_pass.h"
+#include "moment_maps.h"
+
+#include <gnomon/error.h>
+
+namespace gnomon::vulkan {
+namespace {
+
+const MapStorage& storageFor(const Device& device, const ResolvedOptions& options)
+{
+    const MapStorage& storage = mapStorage(options.format());
+    const VkFormatFeatureFlags attachment =
+        storage.depthOnly() ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+    const VkFormatFeatureFlags needed = attachment | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    if ((device.features(storage.mapFormat()) & needed) != needed) {
+        throw Error("make shadow maps",
+                    "the device cannot draw to and read maps of format " + std::string(nameOf(options.format())),
+                    "choose another map format");
+    }
+    return storage;
+}
+
+std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions& options, LayerPlacer& placer,
+                                          std::uint32_t slots, VkPipelineCache cache)
+{
+    const MapStorage& storage = storageFor(device, options);
+    if (options.filterable()) {
+        return std::make_unique<MomentMaps>(device, options, storage, placer, slots, cache);
+    }
+    return std::make_unique<DepthMaps>(device, storage, cache);
+}
+
+} // namespace
+
+MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache)
+    : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)),
+      filterable_(options.filterable()), filter_(options.filter()), format_(options.format()),
+      moments_(options.moments())
+{
+}
+
+bool MapClass::serves(const ResolvedOptions& options) const
+{
+    return filter_ == options.filter() && format_ == options.format() &&
+           (!options.filterable() || moments_ == options.moments());
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The maps of one of a plan's options: how they are stored, what draws and filters them, and where their layers of
+// depth lie.
+#pragma once
+
+#include "layer_placer.h"
+#include "map_recorder.h"
+#include "map_storage.h"
+
+#include <memory>
+
+namespace gnomon::vulkan {
+
+class MapClass {
+public:
+    /// Throws Error where the device cannot do what the options ask for.
+    MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache);
+
+    /// Can it go on with other options? Only what their maps are made by counts.
+    [[nodiscard]] bool serves(const ResolvedOptions& options) const;
+
+    [[nodiscard]] bool filterable() const { return filterable_; }
+
+    LayerPlacer placer;
+    std::unique_ptr<MapRecorder> recorder;
+
+private:
+    bool filterable_;
+    Filter filter_;
+    MapFormat format_;
+    MomentOptions moments_;
+};
+
+} // namespace gnomon::vulkan

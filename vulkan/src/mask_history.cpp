@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mask_history.h"
+
+#include "barriers.h"
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace gnomon::vulkan {
+namespace {
+
+ImageBarrier barrierOf(const Image& image)
+{
+    ImageBarrier barrier;
+    barrier.image = image.image();
+    barrier.layer_count = image.info().layers;
+    return barrier;
+}
+
+bool isAlike(const ImageInfo& a, const ImageInfo& b)
+{
+    return a.format == b.format && a.layers == b.layers && a.extent.width == b.extent.width &&
+           a.extent.height == b.extent.height;
+}
+
+} // namespace
+
+bool MaskHistory::prepare(const ImageInfo& mask)
+{
+    if (now().visibility && isAlike(now().visibility.info(), mask)) {
+        return false;
+    }
+    for (Images& images : images_) {
+        device_.retire(std::move(images.visibility));
+        device_.retire(std::move(images.distances));
+        ImageInfo info = mask;
+        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        info.purpose = "mask of the frame before";
+        images.visibility = Image(device_, info);
+        info.format = distanceFormat();
+        images.distances = Image(device_, info);
+    }
+    fresh_ = true;
+    return true;
+}
+
+void MaskHistory::begin(VkCommandBuffer commands)
+{
+    if (fresh_) { // nobody reads what is not there, but shaders name it
+        for (const Image* image : {&before().visibility, &before().distances}) {
+            ImageBarrier barrier = barrierOf(*image);
+            barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+            barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+            barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+            recordBarrier(device_, commands, barrier);
+        }
+    }
+    ImageBarrier barrier = barrierOf(now().distances);
+    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; // every pixel is written
+    barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    recordBarrier(device_, commands, barrier);
+}
+
+void MaskHistory::end(VkCommandBuffer commands, const Frame& frame)
+{
+    ImageBarrier barrier = barrierOf(now().distances);
+    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    recordBarrier(device_, commands, barrier);
+    camera_ = frame.camera;
+    turn_ = 1 - turn_;
+    fresh_ = false;
+}
+
+Reprojection MaskHistory::reprojection(const Frame& frame) const
+{
+    const VkExtent2D extent = now().visibility.info().extent;
+    const glm::dmat4 before_from_eye = camera_.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
+    const glm::dvec4 w = glm::row(before_from_eye, 3);
+    return {(glm::row(before_from_eye, 0) + w) * (0.5 * extent.width),
+            (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height), w,
+            glm::dvec4(frame.camera.eye_ws - camera_.eye_ws, 0.0)};
+}
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mask pass's pipelines, by what sets them apart. They stay once they are made: options that come back find theirs.
+#pragma once
+
+#include "device.h"
+
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// The constant_ids of mask.frag, four bytes each, in their order.
+struct MaskConstants {
+    std::int32_t kernel_width = 0;
+    std::int32_t disc_taps = 0;
+    VkBool32 has_normals = VK_FALSE;
+    VkBool32 automatic_bias = VK_FALSE;
+    std::int32_t moment_flags = 0;
+    std::int32_t moment_sampling = 0;
+    std::int32_t moment_layers = 0;
+    std::int32_t depth_holding = 0;
+    std::uint32_t few_views = 0; // pack::MaskDraw::few_views
+    VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
+
+    bool operator==(const MaskConstants&) const = default;
+};
+
+struct MaskPipelineKey {
+    Filter filter = Filter::pcf;
+    MaskConstants constants;
+    VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
+    bool orthographic = false;             // all views of the draw's lights
+    bool ids = false;                      // MaskShape::ids
+    bool shares = false;                   // pack::MaskDraw::shares: channels of other draws stay as they are
+
+    bool operator==(const MaskPipelineKey&) const = default;
+};
+/// Of a draw of such options; format, device and what concerns the draw are left to be filled in.
+[[nodiscard]] MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape);
+
+class MaskPipelines {
+public:
+    MaskPipelines(Device& device, VkPipelineCache cache);
+
+    /// Makes it where it is not there.
+    [[nodiscard]] VkPipeline get(const MaskPipelineKey& key, VkPipelineLayout layout);
+
+private:
+    struct Made {
+        MaskPipelineKey key;
+        Pipeline pipeline;
+    };
+
+    [[nodiscard]] Pipeline make(const MaskPipelineKey& key, VkPipelineLayout layout);
+
+    Device& device_;
+    VkPipelineCache cache_;
+    ShaderModule vertex_;
+    std::vector<Made> made_;
+};
+
+} // namespace gnomon::vulkan
