@@ -34,8 +34,8 @@ struct MaskDraw {
     std::uint32_t few_views = 0;                           // fewViews(), where the plan has one light
 };
 
-/// A light that is never seen from two positions, alone in a plan, may have few views: then the mask's shader is one that
-/// looks among so many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
+/// A light that is never seen from two positions, alone in a plan, may have few views: then the mask's shader is one
+/// that looks among so many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
 [[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
 /// The draws for a screen of this width, in order. Keeps what `out` has allocated.
 void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out);

@@ -29,7 +29,8 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, 
 void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights);
 /// View i of the plan goes to views[i]. `maps`: by options. Views with View::gpu_cascade are as their base map until
 /// they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
-/// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth. Precondition: there is room for all of the plan's.
+/// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth.
+/// Precondition: there is room for all of the plan's.
 void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);
 
 } // namespace gnomon::pack
