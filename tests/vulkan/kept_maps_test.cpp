@@ -149,6 +149,8 @@ public:
         // The masks are left out: they would say no more than the maps, and their pipelines are dear to make.
         kept_names_.name(kept.plan);
         whole_names_.name(whole.plan);
+        kept.prepare();
+        whole.prepare();
         for (Bench* bench : {&kept, &whole}) {
             const auto transforms = bench->scene.transforms();
             gpu().run([&](VkCommandBuffer commands) {

@@ -156,6 +156,7 @@ void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32
     }
     const View& view = plan.views[view_index];
     const std::uint32_t index = slotOf(plan, view_index);
+    assert(index < slots_.size());
     const bool held = optionsOf(plan, view).technique().motion != Motion::free;
     relaxation_->record(commands, {histogramPush(view), placePush(view, index, held)});
     slots_[index].map = view.map;
