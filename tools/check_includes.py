@@ -31,6 +31,7 @@ PROJECT_KINDS = [
 ]
 # What any other header is, by its name.
 FOREIGN_KINDS = [
+    (r"^gnomon/\w+\.glsl$", "shader-lib"),
     (r"^gnomon_\w*spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
     (r"^vulkan/", "vulkan-api"),
     (r"^glm/", "glm"),

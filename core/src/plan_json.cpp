@@ -1,135 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/plan.h>
 
+#include "json_writer.h"
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <concepts>
 #include <span>
-#include <utility>
 
 namespace gnomon {
 namespace {
 
-/// Just enough JSON for a plan: no file, no locale, numbers in their shortest form that reads back the same.
-class Writer {
-public:
-    std::string take() { return std::move(text_) + "\n"; }
-
-    void open(std::string_view key, char bracket)
-    {
-        begin(key);
-        text_ += bracket;
-        ++depth_;
-        first_ = true;
-    }
-    void close(char bracket)
-    {
-        --depth_;
-        if (!first_ && inline_ == 0) {
-            newLine();
-        }
-        text_ += bracket;
-        first_ = false;
-    }
-    /// Everything up to the matching closeLine() is on one line.
-    void openLine(std::string_view key, char bracket)
-    {
-        begin(key);
-        text_ += bracket;
-        ++depth_;
-        ++inline_;
-        first_ = true;
-    }
-    void closeLine(char bracket)
-    {
-        close(bracket);
-        --inline_;
-    }
-    void value(std::string_view key, double number)
-    {
-        begin(key);
-        if (!std::isfinite(number)) {
-            text_ += "null";
-            return;
-        }
-        append(number == 0.0 ? 0.0 : number); // -0 and 0 are one number
-    }
-    void value(std::string_view key, std::unsigned_integral auto number)
-    {
-        begin(key);
-        append(number);
-    }
-    void value(std::string_view key, std::string_view string)
-    {
-        begin(key);
-        quote(string);
-    }
-    void nothing(std::string_view key)
-    {
-        begin(key);
-        text_ += "null";
-    }
-    void flag(std::string_view key, bool set)
-    {
-        begin(key);
-        text_ += set ? "true" : "false";
-    }
-    void vector(std::string_view key, const auto& components, int count)
-    {
-        openLine(key, '[');
-        for (int i = 0; i < count; ++i) {
-            value({}, components[i]);
-        }
-        closeLine(']');
-    }
-
-private:
-    void begin(std::string_view key)
-    {
-        if (!first_) {
-            text_ += inline_ != 0 ? ", " : ",";
-        }
-        if (inline_ == 0 && depth_ > 0) {
-            newLine();
-        }
-        first_ = false;
-        if (!key.empty()) {
-            quote(key);
-            text_ += ": ";
-        }
-    }
-    void newLine()
-    {
-        text_ += '\n';
-        text_.append(2 * depth_, ' ');
-    }
-    void append(auto number)
-    {
-        std::array<char, 32> digits;
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-        text_.append(digits.data(), end);
-    }
-    void quote(std::string_view string)
-    {
-        text_ += '"';
-        for (const char c : string) {
-            if (c == '"' || c == '\\') {
-                text_ += '\\';
-            }
-            text_ += c;
-        }
-        text_ += '"';
-    }
-
-    std::string text_;
-    std::size_t depth_ = 0;
-    int inline_ = 0;
-    bool first_ = true;
-};
-
-void writeTechnique(Writer& json, const Technique& technique)
+void writeTechnique(JsonWriter& json, const Technique& technique)
 {
     json.openLine("technique", '{');
     json.value("partition", nameOf(technique.partition));
@@ -140,7 +21,14 @@ void writeTechnique(Writer& json, const Technique& technique)
     json.closeLine('}');
 }
 
-void writeFade(Writer& json, const ResolvedOptions& options)
+// A plan that no planner made may have none.
+const std::vector<ResolvedOptions>& noOptions()
+{
+    static const std::vector<ResolvedOptions> defaults(1, resolvedOrThrow({}));
+    return defaults;
+}
+
+void writeFade(JsonWriter& json, const ResolvedOptions& options)
 {
     json.openLine("fade", '{');
     json.value("begin_m", options.fadeBegin_m());
@@ -149,13 +37,13 @@ void writeFade(Writer& json, const ResolvedOptions& options)
 }
 
 // "technique" and "fade" are the first options'. A planner with one of them has no list.
-void writeFurtherOptions(Writer& json, const Plan& plan)
+void writeFurtherOptions(JsonWriter& json, std::span<const ResolvedOptions> further)
 {
-    if (plan.options->size() == 1) {
+    if (further.empty()) {
         return;
     }
     json.open("further_options", '[');
-    for (const ResolvedOptions& options : std::span(*plan.options).subspan(1)) {
+    for (const ResolvedOptions& options : further) {
         json.open({}, '{');
         writeTechnique(json, options.technique());
         writeFade(json, options);
@@ -190,7 +78,7 @@ std::string_view nameOf(TexelPart part)
     return "?";
 }
 
-void writeSteps(Writer& json, const SunSteps& steps)
+void writeSteps(JsonWriter& json, const SunSteps& steps)
 {
     if (!steps.stepping) {
         json.nothing("steps");
@@ -209,7 +97,7 @@ void writeSteps(Writer& json, const SunSteps& steps)
     json.closeLine('}');
 }
 
-void writeLight(Writer& json, const LightPlan& light)
+void writeLight(JsonWriter& json, const LightPlan& light)
 {
     json.openLine({}, '{');
     json.value("outcome", nameOf(light.outcome.kind));
@@ -223,7 +111,7 @@ void writeLight(Writer& json, const LightPlan& light)
     json.closeLine('}');
 }
 
-void writePages(Writer& json, const MapPages& pages)
+void writePages(JsonWriter& json, const MapPages& pages)
 {
     json.openLine({}, '{');
     json.value("width", pages.width);
@@ -234,7 +122,7 @@ void writePages(Writer& json, const MapPages& pages)
 }
 
 // Not what it holds: those numbers differ from planner to planner.
-void writeMap(Writer& json, const MapId& map)
+void writeMap(JsonWriter& json, const MapId& map)
 {
     if (!map) {
         json.nothing("map");
@@ -247,7 +135,7 @@ void writeMap(Writer& json, const MapId& map)
 }
 
 /// Where what stands still is kept, and what of the map is restored from there.
-void writeKept(Writer& json, const View& view)
+void writeKept(JsonWriter& json, const View& view)
 {
     if (view.kept_layer == kNoIndex) {
         json.nothing("kept");
@@ -267,7 +155,7 @@ void writeKept(Writer& json, const View& view)
     json.closeLine('}');
 }
 
-void writeView(Writer& json, const Plan& plan, const View& view)
+void writeView(JsonWriter& json, const Plan& plan, const View& view)
 {
     json.open({}, '{');
     json.value("light", view.light);
@@ -326,7 +214,7 @@ void writeView(Writer& json, const Plan& plan, const View& view)
 }
 
 /// One line per object that is seen or casts: who it is, whether the camera sees it, which views it is drawn in.
-void writeObjects(Writer& json, const Plan& plan)
+void writeObjects(JsonWriter& json, const Plan& plan)
 {
     std::vector<std::pair<std::uint32_t, bool>> objects;
     for (const std::uint32_t object : plan.receivers) {
@@ -388,18 +276,19 @@ std::string_view nameOf(OutcomeKind kind)
 
 std::string toJson(const Plan& plan)
 {
-    Writer json;
+    JsonWriter json;
     json.open({}, '{');
     json.value("frame", plan.frame);
-    writeTechnique(json, plan.options->front().technique());
+    const std::span<const ResolvedOptions> options = plan.options ? *plan.options : noOptions();
+    writeTechnique(json, options.front().technique());
     json.open("pages", '[');
     for (const MapPages& pages : plan.pages) {
         writePages(json, pages);
     }
     json.close(']');
     json.value("mask_layers", plan.mask_layers);
-    writeFade(json, plan.options->front());
-    writeFurtherOptions(json, plan);
+    writeFade(json, options.front());
+    writeFurtherOptions(json, options.subspan(1));
     json.open("lights", '[');
     for (const LightPlan& light : plan.lights) {
         writeLight(json, light);

@@ -31,7 +31,7 @@ bool isFitted(const View& view)
 } // namespace
 
 Shadows::Shadows(const SceneData& scene, const RenderOptions& options)
-    : planner(options.shadow), renderer(scene.gpu.view(), rendererOptions(scene.gpu, options)),
+    : planner(resolvedOrThrow(options.shadow).asked()), renderer(scene.gpu.view(), rendererOptions(scene.gpu, options)),
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);

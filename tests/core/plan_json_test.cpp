@@ -12,6 +12,7 @@ namespace {
 Plan tinyPlan()
 {
     Plan plan;
+    plan.options = std::make_shared<const std::vector<ResolvedOptions>>(1, resolvedOrThrow({}));
     plan.frame = 7;
     plan.lights.resize(2);
     plan.lights[0].view_count = 1;

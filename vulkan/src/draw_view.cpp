@@ -80,8 +80,7 @@ VkRect2D redrawnArea(const View& view, bool all)
 
 bool isDrawnTogether(const Plan& plan, std::uint32_t view)
 {
-    const ResolvedOptions& options = optionsOf(plan, plan.views[view]);
-    return options.cascades().pass == CascadePass::layered && !options.filterable();
+    return optionsOf(plan, plan.views[view]).cascades().pass == CascadePass::layered;
 }
 
 std::uint32_t drawnTogether(const Plan& plan, std::span<const ViewWork> work, std::uint32_t first)

@@ -43,6 +43,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (auto reason = endsRefusal(options.cascades)) {
         return reason;
     }
+    if (options.cascades.pass == CascadePass::layered && filterTraits(options.technique.filter)->filterable) {
+        return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
+    }
     return refusal(options.technique.filter, formatOf(options), options.moments);
 }
 
