@@ -92,7 +92,7 @@ const std::vector<Wrong> kWrong{
     {"CascadePassOfAverages",
      {"render", "--filter", "vsm", "--partition", "cascades", "--set", "cascades.pass=layered"},
      2,
-     "only with filter hard or pcf and"},
+     "made one by one"},
     {"FadeWithoutAnEnd", {"render", "--set", "fade=0.2"}, 2, "only with max-distance above 0"},
     {"SoftenNotHere", {"render", "--soften", "blur"}, 2, "not in this version"},
     {"FormatRefused", {"render", "--map-format", "rg16f"}, 2, "rg16f cannot be had with filter pcf"},

@@ -19,7 +19,7 @@ int main()
     const glm::dmat4 clip_from_world = glm::perspectiveRH_ZO(0.9, 16.0 / 9.0, 500.0, 0.1) *
                                        glm::lookAtRH(eye, glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0));
     std::size_t drawn = 0;
-    const auto drawObject = [&](VkCommandBuffer, std::uint32_t, const glm::mat4&) {
+    const auto drawObject = [&](const gnomon::vulkan::MapPass&, std::uint32_t) {
         ++drawn;
     };
 
@@ -42,7 +42,7 @@ int main()
     shadows.prepare(plan, screen);
     shadows.recordMaps(commands, 0, frame, plan, [&](const gnomon::vulkan::MapPass& pass) {
         for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
-            drawObject(pass.commands, object, pass.clip_from_world);
+            drawObject(pass, object); // by pass.clip_from_world, with a pipeline for pass.formats
         }
     });
     shadows.recordMask(commands, 0, frame, plan, {screen, depth_view});

@@ -132,9 +132,9 @@ double expectedDepth(const Scene& scene, const View& view, double x, double y)
     return std::min(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
 }
 
-class MapContents : public testing::TestWithParam<MapFormat> {};
+class MapNotes : public testing::TestWithParam<MapFormat> {};
 
-TEST_P(MapContents, areTheDepthMetric)
+TEST_P(MapNotes, areTheDepthMetric)
 {
     ShadowOptions options;
     options.technique.filter = Filter::hard;
@@ -157,7 +157,7 @@ TEST_P(MapContents, areTheDepthMetric)
     expectSilence(gpu());
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, MapContents, testing::Values(MapFormat::d32f, MapFormat::d16, MapFormat::r32f));
+INSTANTIATE_TEST_SUITE_P(Formats, MapNotes, testing::Values(MapFormat::d32f, MapFormat::d16, MapFormat::r32f));
 
 } // namespace
 } // namespace gnomon::test

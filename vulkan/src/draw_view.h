@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device.h"
-#include "map_contents.h"
+#include "map_notes.h"
 
 namespace gnomon::vulkan {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "device.h"
-#include "map_contents.h"
+#include "map_notes.h"
 
 #include <gnomon/plan_views.h>
 

@@ -46,7 +46,7 @@ struct ShadowRenderer::Impl {
     bool layered;                        // the device can
     std::vector<pack::FramePass> passes; // of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot
-    MapContents contents;
+    MapNotes notes;
 };
 
 ShadowRenderer::ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options)
@@ -84,7 +84,7 @@ void ShadowRenderer::Impl::matchClasses(const Plan& plan)
         const bool goes_on = i < plan.options->size() && classes[i] && classes[i]->serves((*plan.options)[i]);
         if (classes[i] && !goes_on) {
             device.retire(std::move(classes[i]));
-            contents.lose(i);
+            notes.lose(i);
         }
     }
     classes.resize(std::max(classes.size(), plan.options->size()));
@@ -106,7 +106,7 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     assert(plan.options != nullptr && !plan.options->empty() && plan.pages.size() >= plan.options->size());
     pack::listFramePasses(plan, impl_->passes);
     impl_->matchClasses(plan);
-    impl_->contents.reserve(plan);
+    impl_->notes.reserve(plan);
     bool changed = false;
     for (const pack::FramePass& pass : impl_->passes) {
         if (pass.kind == pack::FramePassKind::maps) {
@@ -114,7 +114,7 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
             const MapRecorder::Prepared maps = impl_->classes[pass.options]->recorder->prepare(plan, pass.options);
             changed = changed || maps.changed;
             if (maps.lost) {
-                impl_->contents.lose(pass.options);
+                impl_->notes.lose(pass.options);
             }
         }
     }
@@ -138,7 +138,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
                                 const Plan& plan, const DrawCasters& draw, Profiler* profiler)
 {
     impl_->device.enter(slot, Retirement::Work::maps);
-    const std::span<const ViewWork> work = impl_->contents.workFor(plan);
+    const std::span<const ViewWork> work = impl_->notes.workFor(plan);
     impl_->reuse[slot] = countReuse(plan, work);
     assert(impl_->fitter.isFitted(plan));
     const DrawCasters placed = [&](const MapPass& pass) {
@@ -155,7 +155,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
                 {commands, slot, plan, pass.options, work, placed, profiler});
         }
     }
-    impl_->contents.done(plan);
+    impl_->notes.done(plan);
 }
 
 void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,

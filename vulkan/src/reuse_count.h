@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "map_contents.h"
+#include "map_notes.h"
 
 #include <gnomon/vulkan/shadow_renderer.h>
 

@@ -17,7 +17,7 @@ struct ViewWork {
     bool draw_kept = false; // what stands still, into the kept layer, first
 };
 
-class MapContents {
+class MapNotes {
 public:
     /// What is to be drawn for each view of the plan; good until the next call. A view without a MapId is drawn as it
     /// says by itself: whoever made the plan by hand answers for it.

@@ -3,14 +3,14 @@
 // back to sight mend themselves.
 #include "fixture.h"
 
-#include "map_contents.h"
+#include "map_notes.h"
 
 #include <gtest/gtest.h>
 
 namespace gnomon::test {
 namespace {
 
-using vulkan::MapContents;
+using vulkan::MapNotes;
 using vulkan::ViewWork;
 
 View viewOf(MapId map, Tile tile, ContentNumber presumes, ContentNumber makes)
@@ -33,7 +33,7 @@ Plan planOf(std::vector<View> views)
     return plan;
 }
 
-ViewWork drawn(MapContents& contents, const Plan& plan)
+ViewWork drawn(MapNotes& contents, const Plan& plan)
 {
     const ViewWork work = contents.workFor(plan)[0];
     contents.done(plan);
@@ -42,9 +42,9 @@ ViewWork drawn(MapContents& contents, const Plan& plan)
 
 constexpr Tile kTile{0, 0, 0, 64, 64};
 
-TEST(MapContents, whatHoldsIsLeftAlone)
+TEST(MapNotes, whatHoldsIsLeftAlone)
 {
-    MapContents contents;
+    MapNotes contents;
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 7, 7)})).draw) << "never drawn here";
     EXPECT_FALSE(drawn(contents, planOf({viewOf({1, 0}, kTile, 7, 7)})).draw);
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 7, 8)})).draw);
@@ -53,9 +53,9 @@ TEST(MapContents, whatHoldsIsLeftAlone)
     EXPECT_TRUE(drawn(contents, planOf({viewOf({1, 0}, kTile, 8, 8)})).draw);
 }
 
-TEST(MapContents, aSkippedFrameIsMadeUpFor)
+TEST(MapNotes, aSkippedFrameIsMadeUpFor)
 {
-    MapContents contents;
+    MapNotes contents;
     View view = viewOf({1, 0}, kTile, 0, 1);
     view.kept_layer = 0;
     view.kept_map = {2, 0};
@@ -83,9 +83,9 @@ TEST(MapContents, aSkippedFrameIsMadeUpFor)
     EXPECT_TRUE(work.whole && work.draw_kept);
 }
 
-TEST(MapContents, whatLiesUnderAnotherMapIsGone)
+TEST(MapNotes, whatLiesUnderAnotherMapIsGone)
 {
-    MapContents contents;
+    MapNotes contents;
     (void)drawn(contents, planOf({viewOf({1, 0}, kTile, 0, 1)}));
     (void)drawn(contents, planOf({viewOf({2, 0}, {1, 0, 0, 64, 64}, 0, 2)}));
     (void)drawn(contents, planOf({viewOf({3, 0}, {0, 32, 32, 64, 64}, 0, 3)}));
@@ -103,9 +103,9 @@ TEST(MapContents, whatLiesUnderAnotherMapIsGone)
     EXPECT_FALSE(drawn(contents, planOf({part})).draw) << "they share their texels";
 }
 
-TEST(MapContents, whatNobodyReadsIsLeftAlone)
+TEST(MapNotes, whatNobodyReadsIsLeftAlone)
 {
-    MapContents contents;
+    MapNotes contents;
     EXPECT_FALSE(drawn(contents, planOf({viewOf({1, 0}, kTile, 3, 0)})).draw);
     View by_hand; // without a name: as it says
     by_hand.tile = kTile;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "map_contents.h"
+#include "map_notes.h"
 
 #include <gnomon/plan_views.h>
 
@@ -36,19 +36,19 @@ ViewWork asTheViewSays(const View& view)
 
 } // namespace
 
-MapContents::Held MapContents::mapOf(const Plan& plan, const View& view)
+MapNotes::Held MapNotes::mapOf(const Plan& plan, const View& view)
 {
     return {view.makes, optionsIndexOf(plan, view), view.tile, view.part, false};
 }
 
-MapContents::Held MapContents::keptOf(const Plan& plan, const View& view)
+MapNotes::Held MapNotes::keptOf(const Plan& plan, const View& view)
 {
     Tile tile = view.tile;
     tile.layer = view.kept_layer;
     return {view.kept_makes, optionsIndexOf(plan, view), tile, view.part, true};
 }
 
-bool MapContents::holds(MapId id, const Held& wanted) const
+bool MapNotes::holds(MapId id, const Held& wanted) const
 {
     if (wanted.content == 0 || id.index >= held_.size()) {
         return false;
@@ -58,7 +58,7 @@ bool MapContents::holds(MapId id, const Held& wanted) const
            held.part == wanted.part && held.kept == wanted.kept;
 }
 
-void MapContents::reserve(const Plan& plan)
+void MapNotes::reserve(const Plan& plan)
 {
     std::size_t maps = plan.map_count;
     for (const View& view : plan.views) {
@@ -69,7 +69,7 @@ void MapContents::reserve(const Plan& plan)
     work_.reserve(plan.views.size());
 }
 
-std::span<const ViewWork> MapContents::workFor(const Plan& plan)
+std::span<const ViewWork> MapNotes::workFor(const Plan& plan)
 {
     reserve(plan);
     work_.clear();
@@ -99,7 +99,7 @@ std::span<const ViewWork> MapContents::workFor(const Plan& plan)
 }
 
 /// Whatever lay where this map lies is gone.
-void MapContents::forgetUnder(const Held& held)
+void MapNotes::forgetUnder(const Held& held)
 {
     for (Held& other : held_) {
         if (other.kept == held.kept && other.options == held.options && overlap(other.tile, held.tile) &&
@@ -109,7 +109,7 @@ void MapContents::forgetUnder(const Held& held)
     }
 }
 
-void MapContents::note(MapId id, const Held& held)
+void MapNotes::note(MapId id, const Held& held)
 {
     Held& entry = held_[id.index];
     const bool was_there =
@@ -120,7 +120,7 @@ void MapContents::note(MapId id, const Held& held)
     entry = held;
 }
 
-void MapContents::done(const Plan& plan)
+void MapNotes::done(const Plan& plan)
 {
     assert(work_.size() == plan.views.size());
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
@@ -136,7 +136,7 @@ void MapContents::done(const Plan& plan)
     }
 }
 
-void MapContents::lose(std::uint32_t options)
+void MapNotes::lose(std::uint32_t options)
 {
     for (Held& held : held_) {
         if (held.options == options) {
