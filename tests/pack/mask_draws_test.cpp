@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan_by_hand.h"
+
+#include <gnomon/pack/mask_draws.h>
+
+#include <gtest/gtest.h>
+
+namespace gnomon::test {
+namespace {
+
+std::vector<pack::MaskDraw> drawsOf(const Plan& plan)
+{
+    std::vector<pack::MaskDraw> draws;
+    pack::listMaskDraws(plan, 640, draws);
+    return draws;
+}
+
+TEST(MaskDraws, EveryFilterHasItsOwnWithItsLightsChannels)
+{
+    PlanByHand by_hand({filteredBy(Filter::pcf), filteredBy(Filter::evsm)});
+    by_hand.add(0, 1);
+    by_hand.add(1, 1);
+    by_hand.add(0, 1);
+    by_hand.add(1, 0); // without a map: what is cleared to 1 says so
+    by_hand.add(1, 1); // in the next layer, alone
+    const auto draws = drawsOf(by_hand.plan);
+    ASSERT_EQ(draws.size(), 3U);
+    EXPECT_EQ(draws[0].options, 0U);
+    EXPECT_EQ(draws[0].channels, 0b0101U);
+    EXPECT_EQ(draws[1].options, 1U);
+    EXPECT_EQ(draws[1].channels, 0b0010U);
+    EXPECT_TRUE(draws[0].shares && draws[1].shares) << "neither may write over the other's channels";
+    EXPECT_EQ(draws[2].layer, 1U);
+    EXPECT_EQ(draws[2].channels, 0b0001U);
+    EXPECT_FALSE(draws[2].shares);
+    EXPECT_EQ(draws[2].first_light, 4U);
+}
+
+TEST(MaskDraws, ThereAreNoneWhereNothingHasAMap)
+{
+    PlanByHand by_hand({ShadowOptions{}});
+    by_hand.add(0, 0);
+    EXPECT_TRUE(drawsOf(by_hand.plan).empty());
+    EXPECT_TRUE(drawsOf(PlanByHand({ShadowOptions{}}).plan).empty());
+}
+
+TEST(MaskDraws, OneWarpedViewIsEnoughForAPerspectiveShader)
+{
+    PlanByHand by_hand({ShadowOptions{}});
+    by_hand.add(0, 1);
+    by_hand.add(0, 2);
+    EXPECT_TRUE(drawsOf(by_hand.plan)[0].orthographic);
+    by_hand.plan.views[2].orthographic = false;
+    EXPECT_FALSE(drawsOf(by_hand.plan)[0].orthographic);
+}
+
+TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
+{
+    ShadowOptions cascades;
+    cascades.technique.partition = Partition::cascades;
+    for (std::uint32_t count = 1; count <= kMaxCascades; ++count) {
+        PlanByHand by_hand({cascades});
+        by_hand.add(0, count);
+        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, count == 1 ? 1U : shared::kFewViews) << count;
+        by_hand.add(0, 0);
+        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "another light may come to have a map";
+    }
+    ShadowOptions stepping;
+    stepping.technique.motion = Motion::step_blend;
+    PlanByHand by_hand({stepping});
+    by_hand.add(0, 1);
+    EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "it will be seen from two positions";
+}
+
+TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
+{
+    ShadowOptions stepping;
+    stepping.technique.motion = Motion::step_band;
+    PlanByHand by_hand({stepping, ShadowOptions{}});
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        LightPlan& light = by_hand.add(i % 2, 2);
+        by_hand.plan.views.back().sun = SunPosition::later;
+        by_hand.plan.views[light.first_view].sun = SunPosition::earlier;
+        light.steps.paired = true;
+        light.steps.band = 0.1;
+        light.steps.edge = 0.2 + 0.2 * i;
+    }
+    const auto draws = drawsOf(by_hand.plan);
+    EXPECT_GT(draws.size(), 9U);
+    std::vector<shared::GpuLight> lights(pack::maskLightCount(by_hand.plan));
+    pack::fillMaskLights(by_hand.frame, by_hand.plan, draws, lights);
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    for (const pack::MaskDraw& draw : draws) {
+        ASSERT_LE(draw.first_light + 4, lights.size());
+        EXPECT_TRUE(draw.begin == end || draw.begin == begin) << "strips follow each other";
+        begin = draw.begin;
+        end = draw.end;
+        for (std::uint32_t channel = 0; channel < 4; ++channel) {
+            const bool drawn = (draw.channels >> channel & 1U) != 0;
+            EXPECT_TRUE(!drawn || lights[draw.first_light + channel].views.y > 0);
+        }
+    }
+    EXPECT_EQ(end, 640U) << "strips cover the screen";
+}
+
+} // namespace
+} // namespace gnomon::test
