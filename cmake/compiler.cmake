@@ -1,7 +1,8 @@
 # Warnings, sanitizers and the compiler cache, for every target of the project.
 find_program(CCACHE ccache)
 if(CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+    # It goes by the includes that the compiler names, in place of preprocessing each source that it has not.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true ${CCACHE})
 endif()
 
 add_library(gnomon_options INTERFACE)
@@ -18,6 +19,11 @@ if(GNOMON_WERROR)
 endif()
 # Bit-for-bit the same plan on every compiler: no fused multiply-add unless the code says so.
 target_compile_options(gnomon_options INTERFACE -ffp-contract=off)
+# GCC looks for memory to reuse whenever it has taken some 100 MB more: a tenth of the time that sources compiled together
+# take. They stay below 2 GB without.
+if(GNOMON_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options("SHELL:--param ggc-min-expand=1000" "SHELL:--param ggc-min-heapsize=2000000")
+endif()
 if(GNOMON_SANITIZE)
     add_compile_options(-fsanitize=${GNOMON_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${GNOMON_SANITIZE})

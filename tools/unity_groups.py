@@ -5,10 +5,11 @@
 usage: unity_groups.py SOURCE...     prints one line for each source: its group's name, a space, its path
 
 Two sources may not share a group when one declares a name in an unnamed namespace, as a static, or as a macro, that the
-other declares or uses too. The layout puts every declaration of a namespace at the start of a line, so the names are found
-without parsing C++. A group is of one folder: another may mean something else by a name. A source that opens a namespace
-for all that follows has a group for itself; so has one that defines a macro for a header, which other sources include
-without it, and one with a line "// Compiled alone: WHY", for clashes that this cannot see.
+other declares or uses too. What both bring in from the same namespace, as in "using nlohmann::json;", is one name. The
+layout puts every declaration of a namespace at the start of a line, so the names are found without parsing C++. A group
+is of one folder: another may mean something else by a name. A source that opens a namespace for all that follows has a
+group for itself; so has one that defines a macro for a header, which other sources include without it, and one with a
+line "// Compiled alone: WHY", for clashes that this cannot see.
 """
 
 import re
@@ -24,7 +25,7 @@ MACRO = re.compile(r"^# *define (\w+)", re.MULTILINE)
 TEST = re.compile(r"^(?:TYPED_)?(?:TEST|TEST_F|TEST_P|INSTANTIATE_TEST_SUITE_P)\((\w+), *(\w+)")
 ALONE = re.compile(r"^using (?:namespace|enum) |^// Compiled alone: ", re.MULTILINE)
 FOR_A_HEADER = re.compile(r"^#define (?:.*\n)*#include ", re.MULTILINE)
-BROUGHT = re.compile(r"^using [\w:]*::(\w+);", re.MULTILINE)
+BROUGHT = re.compile(r"^using ([\w:]*::(\w+));", re.MULTILINE)
 # The same alias may stand twice.
 OTHER_NAME = re.compile(r"^namespace (\w+) =", re.MULTILINE)
 # What may name a thing declared elsewhere: a type, a constant or macro, a function that is called; members not.
@@ -50,8 +51,8 @@ def name_in(line: str):
 
 
 def names_of(text: str) -> set[str]:
-    """Names that this source alone means."""
-    names = set(MACRO.findall(text) + BROUGHT.findall(text))
+    """Names that this source alone means, but for those that it brings in from a namespace."""
+    names = set(MACRO.findall(text))
     unnamed = False
     for line in text.split("\n"):
         if line == "namespace {":
@@ -70,19 +71,25 @@ def groups_of(sources: list[str]) -> list[list[str]]:
         folder = Path(source).parent
         text = Path(source).read_text(encoding="utf-8")
         text = LITERALS.sub('""', text)
-        names, used = names_of(text), set(USED.findall(text) + OTHER_NAME.findall(text))
+        names, brought = names_of(text), {name: whole for whole, name in BROUGHT.findall(text)}
+        used = set(USED.findall(text) + OTHER_NAME.findall(text))
         alone = ALONE.search(text) or FOR_A_HEADER.search(text)
         lines = MOST_LINES + 1 if alone else text.count("\n")
         for group in groups:
             clash = names & (group["names"] | group["used"]) or used & group["names"]
+            # A name that both bring in is one thing; one that one of them brings in, the other may not mean otherwise.
+            same = {name for name, _ in group["brought"].items() & brought.items()}
+            clash = clash or (brought.keys() - same) & (group["names"] | group["used"] | group["brought"].keys())
+            clash = clash or (group["brought"].keys() - same) & (names | used)
             if group["folder"] == folder and group["lines"] + lines <= MOST_LINES and not clash:
                 break
         else:
-            group = {"folder": folder, "lines": 0, "names": set(), "used": set(), "sources": []}
+            group = {"folder": folder, "lines": 0, "names": set(), "used": set(), "brought": {}, "sources": []}
             groups.append(group)
         group["lines"] += lines
         group["names"] |= names
         group["used"] |= used
+        group["brought"] |= brought
         group["sources"].append(source)
     return [group["sources"] for group in groups]
 

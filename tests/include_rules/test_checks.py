@@ -150,6 +150,14 @@ class UnityGroups(unittest.TestCase):
     def test_a_name_that_another_uses_parts(self):
         self.assertEqual(len(set(self.groups(self.UNNAMED % "struct Light {", "Light of();"))), 2)
 
+    def test_what_both_bring_in_parts_only_where_it_differs(self):
+        brings = "using a::%s;\n"
+        self.assertEqual(len(set(self.groups(brings % "Thing", brings % "Thing"))), 1)
+        self.assertEqual(len(set(self.groups(brings % "Thing", brings % "b::Thing"))), 2)
+        self.assertEqual(len(set(self.groups(brings % "Thing", "Thing of();"))), 2)
+        self.assertEqual(len(set(self.groups("Thing of();", brings % "Thing"))), 2)
+        self.assertEqual(len(set(self.groups(brings % "Thing", self.UNNAMED % "struct Thing {"))), 2)
+
     def test_an_opened_namespace_is_alone(self):
         self.assertEqual(len(set(self.groups("using namespace a;", "int b();"))), 2)
 
