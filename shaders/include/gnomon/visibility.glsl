@@ -11,7 +11,7 @@
 // Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
-//      levels, of others it may be anything; it clamps to the edge
+//      levels, of others nearest (not every device filters depth); it clamps to the edge
 //   2  storage buffer: GpuLight, by the light's index
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it

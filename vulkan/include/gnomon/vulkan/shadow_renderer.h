@@ -42,7 +42,8 @@ struct MaskInputs {
     VkExtent2D extent{};                // of depth, normal and the mask
     VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    /// Geometric world-space normals, octahedral in RG (snorm or float), or VK_NULL_HANDLE: then taken from depth.
+    /// Geometric world-space normals, octahedral in RG (snorm or float; shaders/shared/octahedral.h), or
+    /// VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
     /// Object id + 1 in R32_UINT, 0 where a receiver wants no shadow at all; VK_NULL_HANDLE: everything receives.
     VkImageView object_id = VK_NULL_HANDLE;
@@ -204,6 +205,7 @@ public:
     /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
     [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
     /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
+    /// Null where maps() has no image.
     [[nodiscard]] BufferRef depthLayersBuffer(std::uint32_t options = 0) const;
     /// Completes views with View::gpu_cascade that pack::fillViews() wrote to a storage buffer of the host's, all of
     /// the plan's from `offset` on: after recordBounds(), and once with a slot. Afterwards they are visible to
