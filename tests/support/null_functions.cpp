@@ -179,18 +179,21 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache,
     return VK_SUCCESS;
 }
 
-// The first part of a set is its pool; the others are what was written to it, binding after binding.
+constexpr std::size_t kMostElements = 4;  // of one binding
+constexpr std::size_t kMostBindings = 16; // of one set
+
+// The first part of a set is its pool; the others are what was written to it, binding after binding. There is room for
+// them, so that writing allocates nothing.
 VKAPI_ATTR VkResult VKAPI_CALL allocateSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
                                             VkDescriptorSet* sets)
 {
     for (std::uint32_t i = 0; i < info->descriptorSetCount; ++i) {
         sets[i] = makeObject<VkDescriptorSet>(driverOf(device));
+        objectOf(sets[i])->parts.reserve(1 + kMostBindings * kMostElements);
         objectOf(sets[i])->parts.push_back(objectOf(info->descriptorPool));
     }
     return VK_SUCCESS;
 }
-
-constexpr std::size_t kMostElements = 64; // of one binding
 
 NullObject* writtenObject(const VkWriteDescriptorSet& write, std::uint32_t i)
 {

@@ -20,6 +20,8 @@ public:
     /// Makes an image with at least so many layers of this size. It takes over what the one before holds at the next
     /// copyOutgrown().
     void grow(VkFormat format, VkSampleCountFlagBits samples, VkExtent2D extent, std::uint32_t layers);
+    /// Retires what copyOutgrown() has copied.
+    void letGo() { outgrown_.letGo(); }
     /// To be called before anything else is recorded with an image that has grown.
     void copyOutgrown(VkCommandBuffer commands);
     /// What stands still into the view's layer.

@@ -84,6 +84,10 @@ bool LayerPlacer::prepare(const Plan& plan)
     if (options_.filter() != Filter::lvsm) {
         return false;
     }
+    if (copied_) {
+        device_.retire(std::move(outgrown_));
+        copied_ = false;
+    }
     const std::uint32_t need = pack::depthLayersCount(plan);
     const bool grows = need > slots_.size();
     if (grows) {
@@ -101,7 +105,7 @@ void LayerPlacer::setDepth(VkImageView depth)
 
 void LayerPlacer::copyOutgrown(VkCommandBuffer commands)
 {
-    if (!outgrown_) {
+    if (!outgrown_ || copied_) {
         return;
     }
     constexpr VkPipelineStageFlags2 kShaders =
@@ -115,7 +119,7 @@ void LayerPlacer::copyOutgrown(VkCommandBuffer commands)
                   MemoryBarrier{kCopy, VK_ACCESS_2_TRANSFER_WRITE_BIT, kShaders | VK_PIPELINE_STAGE_2_HOST_BIT,
                                 VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                                     VK_ACCESS_2_HOST_READ_BIT});
-    device_.retire(std::move(outgrown_));
+    copied_ = true;
 }
 
 std::uint32_t LayerPlacer::slotOf(const Plan& plan, std::uint32_t view) const

@@ -52,6 +52,7 @@ private:
     std::optional<LayerRelaxation> relaxation_; // lvsm with layers placed by Lloyd's rule
     HostBuffer buffer_;
     HostBuffer outgrown_; // what was placed is there until it has been copied
+    bool copied_ = false; // it has been, and is retired by the next prepare(): recording allocates nothing
     std::vector<Slot> slots_;
 };
 

@@ -15,6 +15,8 @@ public:
     /// whose texels it takes over at the next copyOutgrown(), and which is retired. Throws Error as Image does, and
     /// then nothing has changed.
     void grow(Device& device, ImageInfo info);
+    /// Retires what copyOutgrown() has copied.
+    void letGo() { outgrown_.letGo(); }
     /// To be called before anything else is recorded with an image that has grown.
     void copyOutgrown(VkCommandBuffer commands);
 

@@ -75,6 +75,9 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
 {
     const MapPages& pages = plan.pages[options];
     const MapPages need{std::max(pages.width, 1U), std::max(pages.height, 1U), std::max(pages.layers, 1U)};
+    for (LayeredTarget* const target : {&maps_, &kept_depths_, &kept_colours_}) {
+        target->letGo();
+    }
     Prepared prepared;
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);

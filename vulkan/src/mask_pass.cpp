@@ -131,8 +131,8 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
     }
-    draws_.reserve(std::size_t{lights} * options);
-    map_images_.resize(options);
+    draws_.reserve(std::size_t{room_.lights} * room_.options);
+    map_images_.resize(room_.options);
 }
 
 void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)

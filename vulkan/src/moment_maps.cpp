@@ -162,6 +162,8 @@ void MomentMaps::makeSets()
 
 MapRecorder::Prepared MomentMaps::prepare(const Plan& plan, std::uint32_t options)
 {
+    outgrown_.letGo();
+    kept_.letGo();
     const Need need = needOf(plan, options);
     const bool grows_maps =
         !covers(images_.maps, {need.atlas.width, need.atlas.height}, need.atlas.layers * layers_per_map_);

@@ -9,6 +9,7 @@ namespace gnomon::vulkan {
 
 void OutgrownImage::take(Device& device, Image&& image, std::vector<VkImageLayout> layouts)
 {
+    letGo();
     const bool empty = std::all_of(layouts.begin(), layouts.end(),
                                    [](VkImageLayout layout) { return layout == VK_IMAGE_LAYOUT_UNDEFINED; });
     if (image_ || empty) {
@@ -26,6 +27,14 @@ void OutgrownImage::drop()
         device_->retire(std::move(image_));
         image_ = {};
         layouts_.clear();
+        copied_ = false;
+    }
+}
+
+void OutgrownImage::letGo()
+{
+    if (copied_) {
+        drop();
     }
 }
 
@@ -60,7 +69,7 @@ void OutgrownImage::copyTo(VkCommandBuffer commands, const Image& to, VkImageLay
                                      1, &copy);
         }
     }
-    drop();
+    copied_ = true;
 }
 
 } // namespace gnomon::vulkan

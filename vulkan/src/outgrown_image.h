@@ -11,7 +11,8 @@ public:
     /// `layouts`: of each layer, UNDEFINED where nothing was ever drawn. Of two that are given before any copy the
     /// first one has the texels: the second one was to be copied to itself.
     void take(Device& device, Image&& image, std::vector<VkImageLayout> layouts);
-    [[nodiscard]] explicit operator bool() const { return static_cast<bool>(image_); }
+    /// Is there anything to copy?
+    [[nodiscard]] explicit operator bool() const { return image_ && !copied_; }
     /// Did the layer hold anything?
     [[nodiscard]] bool holds(std::uint32_t layer) const
     {
@@ -22,11 +23,15 @@ public:
     void copyTo(VkCommandBuffer commands, const Image& to, VkImageLayout layout);
     /// Its texels are not needed.
     void drop();
+    /// Retires it if it has been copied. Not for copyTo() to do: while commands are recorded nothing is allocated, and
+    /// what is retired has to be noted somewhere.
+    void letGo();
 
 private:
     Device* device_ = nullptr;
     Image image_;
     std::vector<VkImageLayout> layouts_;
+    bool copied_ = false;
 };
 
 } // namespace gnomon::vulkan

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "changing_host.h"
+
+#include "allocation_count.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gnomon::test {
+namespace {
+
+Aabb boundsOf(const Box& box)
+{
+    const auto reach = static_cast<float>(glm::length(box.half)); // turned by whatever angle
+    return {glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach};
+}
+
+} // namespace
+
+std::ostream& operator<<(std::ostream& out, const Made& made)
+{
+    return out << made.pipelines << " pipelines, " << made.memory << " times memory of the device, " << made.heap
+               << " times heap";
+}
+
+ChangingHost::ChangingHost(const vulkan::ShadowRendererOptions& options)
+    : renderer(driver.view(), options), drawer(driver.view(), {})
+{
+    addObjects();
+    makeScene();
+    draw_ = [this](const vulkan::MapPass& pass) {
+        drawer.draw(pass);
+    };
+    for (Views& views : views_) {
+        views = {driver.makeView(), driver.makeView(), driver.makeView()};
+    }
+}
+
+void ChangingHost::addObjects()
+{
+    (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}});
+    for (std::size_t i = 0; i < scene_.boxes.size(); ++i) {
+        (void)objects_.add(boundsOf(scene_.boxes[i]), {.dynamic = i >= 3});
+    }
+}
+
+// Opaque parts and masked ones.
+void ChangingHost::makeScene()
+{
+    const auto texture = reinterpret_cast<VkDescriptorSet>(driver.makeBuffer()); // the null driver does not mind
+    std::vector<vulkan::CasterBatch> batches(4);
+    batches[1].texture = texture;
+    batches[3].texture = texture;
+    const vulkan::MeshRange cube{6, 36, 4};
+    const std::vector<vulkan::DrawPart> parts{{{0, 6, 0}, 0}, {cube, 1}, {cube, 2}, {cube, 3}};
+    std::vector<vulkan::DrawObject> objects{{0, 1}};
+    objects.resize(1 + scene_.boxes.size(), {1, 3});
+    drawer.setScene(parts, objects, batches);
+    geometry_.positions = driver.makeBuffer();
+    geometry_.uvs = driver.makeBuffer();
+    geometry_.indices = driver.makeBuffer();
+    transforms_ = scene_.transforms();
+}
+
+// One of the boxes, and the suns.
+void ChangingHost::move(const FrameSetup& setup)
+{
+    scene_.boxes.back().centre.x += frames_ % 2 == 0 ? 0.3 : -0.3;
+    objects_.update(static_cast<std::uint32_t>(scene_.boxes.size()), boundsOf(scene_.boxes.back()));
+    lights_.clear();
+    for (std::uint32_t i = 0; i < setup.lights; ++i) {
+        const double angle = 0.7 * i + 0.002 * frames_;
+        const bool spot = i == 0 ? first_light == LightType::spot : i % 3 == 2;
+        lights_.push_back(spot ? makeSpot({4.0 - i, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)
+                               : makeSun({std::cos(angle), -1.0, std::sin(angle)}));
+        lights_.back().key = i;
+        lights_.back().options = i % setup.options;
+    }
+}
+
+Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
+{
+    move(setup);
+    Frame frame;
+    frame.index = ++frames_;
+    frame.time_s = 0.7 * frames_;
+    frame.camera = makeCamera({9.0, 6.0, 11.0 - 0.01 * (frames_ % 100)}, {0.0, 0.5, 0.0}, 1.6);
+    frame.size_px = {setup.screen.width, setup.screen.height};
+    frame.lights = lights_;
+    frame.objects = &objects_;
+    const Plan& plan = planner.plan(frame);
+    const std::uint64_t pipelines = driver.counts().pipelines;
+    (void)renderer.prepare(plan, setup.screen);
+    const std::uint32_t slot = frames_ % 2;
+    driver.beginSlot(slot); // as if the host waited for its fence here, as late as it may
+    drawer.beginFrame(slot, plan, geometry_, transforms_);
+    prepared_now = driver.counts().pipelines - pipelines;
+    return record(slot, frame, plan, inputsOf(slot, setup));
+}
+
+// Of the slot's own views, which are destroyed and made again, under the handles that they had: the last frame that
+// used them has finished.
+vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& setup)
+{
+    const Views& views = views_[slot];
+    for (const VkImageView view : {views.depth, views.normal, views.id}) {
+        driver.remakeView(view);
+    }
+    vulkan::MaskInputs inputs;
+    inputs.extent = setup.screen;
+    inputs.depth = views.depth;
+    inputs.normal = setup.inputs.normals ? views.normal : VK_NULL_HANDLE;
+    inputs.object_id = setup.inputs.ids ? views.id : VK_NULL_HANDLE;
+    return inputs;
+}
+
+Made ChangingHost::record(std::uint32_t slot, const Frame& frame, const Plan& plan, const vulkan::MaskInputs& inputs)
+{
+    views_seen += plan.views.size();
+    const NullCounts before = driver.counts();
+    const std::uint64_t heap = heapAllocations();
+    renderer.recordBounds(driver.commands(), slot, frame, plan, inputs);
+    renderer.recordMaps(driver.commands(), slot, frame, plan, draw_);
+    renderer.recordMask(driver.commands(), slot, frame, plan, inputs);
+    return {driver.counts().pipelines - before.pipelines, driver.counts().allocations - before.allocations,
+            heapAllocations() - heap};
+}
+
+void ChangingHost::expectNoMistakes(const std::string& what) const
+{
+    EXPECT_EQ(driver.counts().freed_in_use, 0U) << what;
+    EXPECT_EQ(driver.counts().written_in_use, 0U) << what;
+    EXPECT_EQ(driver.counts().used_after_free, 0U) << what;
+}
+
+} // namespace gnomon::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host on the null driver whose lights, screen, inputs and options change from frame to frame.
+#pragma once
+
+#include "null_driver.h"
+#include "scene.h"
+
+#include <gnomon/planner.h>
+
+#include <array>
+#include <ostream>
+#include <vector>
+
+namespace gnomon::test {
+
+/// What a frame is drawn for.
+struct FrameSetup {
+    std::uint32_t lights = 1; // each third a spot, the others suns; they take the planner's options in turn
+    std::uint32_t options = 1;
+    VkExtent2D screen{64, 40};
+    vulkan::MaskShape inputs;
+};
+
+/// What one recording made that should have been there.
+struct Made {
+    std::uint64_t pipelines = 0;
+    std::uint64_t memory = 0; // allocations of the device's
+    std::uint64_t heap = 0;   // allocations
+
+    friend bool operator==(const Made&, const Made&) = default;
+};
+std::ostream& operator<<(std::ostream& out, const Made& made);
+
+/// It has two frames in flight and waits for nothing but a slot's last frame.
+class ChangingHost {
+public:
+    explicit ChangingHost(const vulkan::ShadowRendererOptions& options);
+    ChangingHost(const ChangingHost&) = delete;
+    ChangingHost& operator=(const ChangingHost&) = delete;
+
+    /// Plans, prepares and records a frame. Something has moved since the last one.
+    [[nodiscard]] Made frame(Planner& planner, const FrameSetup& setup);
+    /// Fails the test if anything was freed or changed that a frame in flight may use.
+    void expectNoMistakes(const std::string& what) const;
+
+    NullDriver driver;
+    vulkan::ShadowRenderer renderer;
+    vulkan::CasterDrawer drawer;
+    std::size_t views_seen = 0;     // in all frames
+    std::uint64_t prepared_now = 0; // pipelines that the last frame made before it was recorded
+    /// Of light 0, for tests that want a spot.
+    LightType first_light = LightType::directional;
+
+private:
+    struct Views {
+        VkImageView depth = VK_NULL_HANDLE;
+        VkImageView normal = VK_NULL_HANDLE;
+        VkImageView id = VK_NULL_HANDLE;
+    };
+
+    void addObjects();
+    void makeScene();
+    void move(const FrameSetup& setup);
+    [[nodiscard]] vulkan::MaskInputs inputsOf(std::uint32_t slot, const FrameSetup& setup);
+    [[nodiscard]] Made record(std::uint32_t slot, const Frame& frame, const Plan& plan,
+                              const vulkan::MaskInputs& inputs);
+
+    Scene scene_ = test::makeScene();
+    ObjectSet objects_;
+    vulkan::CasterGeometry geometry_;
+    std::vector<vulkan::Rows3x4> transforms_;
+    std::array<Views, 2> views_; // by slot
+    std::vector<Light> lights_;
+    vulkan::DrawCasters draw_;
+    std::uint32_t frames_ = 0;
+};
+
+} // namespace gnomon::test
