@@ -62,7 +62,7 @@ AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkP
     }
 }
 
-void AlternatePass::makePipeline(VkFormat mask_format)
+Pipeline AlternatePass::makePipeline(VkFormat mask_format)
 {
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment = makeShader(device_, spirv::alternate_frag);
@@ -74,16 +74,19 @@ void AlternatePass::makePipeline(VkFormat mask_format)
     state.second_format = MaskHistory::distanceFormat();
     state.cache = cache_;
     state.name = "alternate";
-    device_.retire(std::move(pipeline_));
-    pipeline_ = makeGraphicsPipeline(device_, state);
+    return makeGraphicsPipeline(device_, state);
+}
+
+void AlternatePass::warmUp(VkFormat mask_format)
+{
+    if (std::ranges::find(pipelines_, mask_format, &Made::mask_format) == pipelines_.end()) {
+        pipelines_.push_back({mask_format, makePipeline(mask_format)});
+    }
 }
 
 void AlternatePass::prepare(const ImageInfo& mask, std::size_t lights)
 {
-    if (!pipeline_ || format_ != mask.format) {
-        makePipeline(mask.format);
-        format_ = mask.format;
-    }
+    warmUp(mask.format);
     lights_.resize(std::max(lights_.size(), lights));
     if (history_.prepare(mask)) {
         forget();
@@ -172,7 +175,8 @@ void AlternatePass::record(VkCommandBuffer commands, std::uint32_t slot, const F
     writeSet(set, inputs);
     history_.begin(commands);
     device_.beginLabel(commands, "alternate");
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    const auto made = std::ranges::find(pipelines_, mask.info().format, &Made::mask_format);
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, made->pipeline.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
     for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
         recordLayer(commands, frame, plan, layer, mask);

@@ -22,6 +22,8 @@ class AlternatePass {
 public:
     AlternatePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
 
+    /// Makes the pipeline for masks of this format, if it is not there.
+    void warmUp(VkFormat mask_format);
     /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
     void prepare(const ImageInfo& mask, std::size_t lights);
     /// The next frame has no frame before it.
@@ -38,7 +40,7 @@ private:
         glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
     };
     void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);
-    void makePipeline(VkFormat mask_format);
+    [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);
     void recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
                      const Image& mask);
     [[nodiscard]] glm::vec4 weightsOfBefore(const Plan& plan, std::uint32_t layer) const;
@@ -49,10 +51,14 @@ private:
     Sampler sampler_;
     DescriptorSets sets_;
     PipelineLayout layout_;
-    Pipeline pipeline_;
+    // Few: of one light, of several.
+    struct Made {
+        VkFormat mask_format = VK_FORMAT_UNDEFINED;
+        Pipeline pipeline;
+    };
+    std::vector<Made> pipelines_;
     std::vector<std::array<VkDescriptorSet, 2>> slots_; // by slot and turn
     MaskHistory history_;
-    VkFormat format_ = VK_FORMAT_UNDEFINED; // of the mask that the pipeline was made for
     std::vector<LightHistory> lights_;
 };
 

@@ -31,16 +31,21 @@ CascadeFitter::CascadeFitter(Device& device, std::uint32_t slots, VkPipelineCach
 {
 }
 
+void CascadeFitter::warmUp()
+{
+    if (!complete_) {
+        makePipelines();
+        makeSets();
+    }
+}
+
 void CascadeFitter::prepare(const Plan& plan)
 {
     const std::uint32_t lights = pack::cascadeLightCount(plan);
     if (lights == 0) {
         return;
     }
-    if (!complete_) {
-        makePipelines();
-        makeSets();
-    }
+    warmUp();
     const auto views = static_cast<std::uint32_t>(plan.views.size());
     if (views_.size() < views * sizeof(shared::GpuFittedView) ||
         keys_.size() < lights * sizeof(shared::GpuCascadeKeys)) {

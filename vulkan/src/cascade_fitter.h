@@ -17,6 +17,8 @@ public:
 
     /// Makes what such a plan needs; nothing for a plan without such views.
     void prepare(const Plan& plan);
+    /// Makes the pipelines, if they are not there.
+    void warmUp();
     /// Afterwards views() is visible to vertex shaders, as attribute and as storage buffer, and to COMPUTE_SHADER.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs);

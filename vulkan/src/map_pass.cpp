@@ -28,6 +28,19 @@ bool sharesTexels(const Plan& plan, std::uint32_t options)
     });
 }
 
+bool mayStep(const ResolvedOptions& options)
+{
+    const Motion motion = options.technique().motion;
+    return motion != Motion::free && motion != Motion::snap;
+}
+
+/// Of a sun that moves in steps maps are kept unless somebody says otherwise.
+bool mayKeepStill(const ResolvedOptions& options)
+{
+    const KeepStill keep = options.asked().keep_still;
+    return keep == KeepStill::always || (keep == KeepStill::automatic && mayStep(options));
+}
+
 } // namespace
 
 DepthMaps::DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache)
@@ -69,6 +82,20 @@ void DepthMaps::makeKept(std::uint32_t layers)
                                      VK_IMAGE_ASPECT_COLOR_BIT, "kept shadow maps"});
     }
     restorer_->setKept(kept_depths_.image().view(), kept_colours_.image().view());
+}
+
+void DepthMaps::warmUp(const ResolvedOptions& options)
+{
+    const bool shares_texels = options.paired_maps() && mayStep(options);
+    if (!mayKeepStill(options) && !shares_texels) {
+        return;
+    }
+    restorer_.emplace(device_, storage_, cache_);
+    restorer_->ensure(TexelPart::whole);
+    if (shares_texels) {
+        restorer_->ensure(TexelPart::first);
+        restorer_->ensure(TexelPart::second);
+    }
 }
 
 MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options)

@@ -18,6 +18,7 @@ class DepthMaps final : public MapRecorder {
 public:
     DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
+    void warmUp(const ResolvedOptions& options) override;
     Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;

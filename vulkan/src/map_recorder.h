@@ -33,6 +33,8 @@ public:
     MapRecorder(const MapRecorder&) = delete;
     MapRecorder& operator=(const MapRecorder&) = delete;
 
+    /// Makes the pipelines that prepare() makes when a plan first needs them.
+    virtual void warmUp(const ResolvedOptions&) {}
     struct Prepared {
         bool changed = false; // there are new images or buffers
         bool lost = false;    // and what maps held could not be taken over

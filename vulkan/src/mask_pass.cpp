@@ -162,6 +162,13 @@ void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
     }
 }
 
+void MaskPassRecorder::makeAlternate()
+{
+    if (!alternate_) {
+        alternate_.emplace(device_, slot_count_, cache_);
+    }
+}
+
 void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
@@ -189,6 +196,13 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     if (what.several_lights && what.several_options) {
         make();
     }
+    if (options.technique().motion == Motion::step_alternate) {
+        makeAlternate();
+        alternate_->warmUp(maskFormat(false));
+        if (what.several_lights) {
+            alternate_->warmUp(maskFormat(true));
+        }
+    }
 }
 
 bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
@@ -208,9 +222,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
         return options.technique().motion == Motion::step_alternate;
     });
     if (may_take_turns || std::ranges::any_of(plan.lights, pack::takesTurns)) {
-        if (!alternate_) {
-            alternate_.emplace(device_, slot_count_, cache_);
-        }
+        makeAlternate();
         alternate_->prepare(mask_.info(), plan.lights.size());
     }
     return !fits;

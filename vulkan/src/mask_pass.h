@@ -55,6 +55,7 @@ private:
     void makeSets(std::uint32_t options);
     void makeBuffers(const Plan& plan);
     void makeMask(const Plan& plan, VkExtent2D screen);
+    void makeAlternate();
     void makePipelines(const Plan& plan, MaskShape shape);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
     // destroyed may have the same handle.

@@ -33,14 +33,21 @@ struct ShadowRenderer::Impl {
     {
     }
 
+    // Made by warmUp(), without images.
+    struct Spare {
+        ResolvedOptions options; // that it was made for; it may serve others, too
+        std::unique_ptr<MapClass> maps;
+    };
+
+    [[nodiscard]] std::unique_ptr<MapClass> makeClass(const ResolvedOptions& wanted);
     [[nodiscard]] std::unique_ptr<MapClass> takeClass(const ResolvedOptions& wanted);
     void matchClasses(const Plan& plan);
     void check(const ResolvedOptions& wanted) const;
 
     Device device;
     ShadowRendererOptions options;
-    MapClasses classes;                            // by options of the last plan; null where they have had no maps
-    std::vector<std::unique_ptr<MapClass>> spares; // made by warmUp(), without images
+    MapClasses classes; // by options of the last plan; null where they have had no maps
+    std::vector<Spare> spares;
     CascadeFitter fitter;
     MaskPassRecorder mask;
     bool layered;                        // the device can
@@ -65,14 +72,20 @@ void ShadowRenderer::Impl::check(const ResolvedOptions& wanted) const
     }
 }
 
+std::unique_ptr<MapClass> ShadowRenderer::Impl::makeClass(const ResolvedOptions& wanted)
+{
+    check(wanted);
+    return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache);
+}
+
 std::unique_ptr<MapClass> ShadowRenderer::Impl::takeClass(const ResolvedOptions& wanted)
 {
     check(wanted);
-    const auto found = std::ranges::find_if(spares, [&](const auto& spare) { return spare->serves(wanted); });
+    const auto found = std::ranges::find_if(spares, [&](const Spare& spare) { return spare.maps->serves(wanted); });
     if (found == spares.end()) {
-        return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache);
+        return makeClass(wanted);
     }
-    std::unique_ptr<MapClass> taken = std::move(*found);
+    std::unique_ptr<MapClass> taken = std::move(found->maps);
     spares.erase(found);
     return taken;
 }
@@ -97,7 +110,14 @@ void ShadowRenderer::Impl::matchClasses(const Plan& plan)
 
 void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
-    impl_->spares.push_back(impl_->takeClass(options));
+    // Two options may have maps of one kind and be in one plan: each gets its own.
+    if (std::ranges::find(impl_->spares, options, &Impl::Spare::options) == impl_->spares.end()) {
+        impl_->spares.push_back({options, impl_->makeClass(options)});
+        impl_->spares.back().maps->recorder->warmUp(options);
+    }
+    if (options.technique().partition == Partition::sdsm) {
+        impl_->fitter.warmUp();
+    }
     impl_->mask.warmUp(options, what);
 }
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What warmUp() has made, no prepare() and no drawer's beginFrame() has to.
+#include "changing_host.h"
+#include "option_steps.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::test {
+namespace {
+
+struct WarmCase {
+    const char* name;
+    const char* options;
+};
+std::ostream& operator<<(std::ostream& out, const WarmCase& c)
+{
+    return out << c.name;
+}
+
+class WarmUp : public testing::TestWithParam<WarmCase> {
+protected:
+    // Pipelines that some frames make, of suns or beginning with a spot.
+    static std::uint64_t made(ChangingHost& host, std::span<const ShadowOptions> options, std::uint32_t lights,
+                              LightType first)
+    {
+        host.first_light = first;
+        Planner planner(options);
+        FrameSetup setup;
+        setup.lights = lights;
+        setup.options = static_cast<std::uint32_t>(options.size());
+        setup.inputs.normals = true;
+        std::uint64_t pipelines = 0;
+        for (int i = 0; i < 5; ++i) {
+            pipelines += host.frame(planner, setup).pipelines;
+            pipelines += host.prepared_now;
+        }
+        return pipelines;
+    }
+};
+
+TEST_P(WarmUp, leavesNoPipelineToMake)
+{
+    const std::vector<ShadowOptions> options{optionsFrom(GetParam().options)};
+    const ResolvedOptions resolved = resolvedOrThrow(options[0]);
+    for (const std::uint32_t lights : {1U, 3U, 9U}) {
+        for (const LightType first : {LightType::directional, LightType::spot}) {
+            ChangingHost host({.mask_shape = vulkan::MaskShape{.normals = true}});
+            EXPECT_GT(made(host, options, lights, first), 0U) << "else the test is about nothing";
+            ChangingHost warm({.mask_shape = vulkan::MaskShape{.normals = true}});
+            warm.renderer.warmUp(resolved, {.inputs = {.normals = true}});
+            warm.drawer.warmUp(resolved, true);
+            EXPECT_EQ(made(warm, options, lights, first), 0U) << lights << " lights";
+            warm.expectNoMistakes(GetParam().options);
+        }
+    }
+}
+
+// Also where both have maps of one kind.
+TEST_P(WarmUp, ofTwoOptionsLeavesNoPipelineToMakeForBoth)
+{
+    const std::vector<ShadowOptions> options{optionsFrom(GetParam().options), optionsFrom("filter=esm map-size=128")};
+    ChangingHost warm({.mask_shape = vulkan::MaskShape{.normals = true}});
+    for (const ShadowOptions& one : options) {
+        warm.renderer.warmUp(resolvedOrThrow(one), {.inputs = {.normals = true}, .several_options = true});
+        warm.drawer.warmUp(resolvedOrThrow(one), true);
+    }
+    EXPECT_EQ(made(warm, options, 9, LightType::directional), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, WarmUp,
+    testing::Values(WarmCase{"hard", "filter=hard partition=cascades map-size=64"},
+                    WarmCase{"pcf", "filter=pcf partition=cascades map-size=64"},
+                    WarmCase{"evsm", "filter=evsm partition=cascades map-size=64"},
+                    WarmCase{"lvsm", "filter=lvsm partition=cascades map-size=64"},
+                    WarmCase{"vsm_single", "filter=vsm map-size=64"}, WarmCase{"esm", "filter=esm map-size=64"},
+                    WarmCase{"msm", "filter=msm map-size=64"}, WarmCase{"pcf_single", "filter=pcf map-size=64"},
+                    WarmCase{"pcf_warped", "filter=pcf fit=lispsm map-size=64"},
+                    WarmCase{"pcf_kept", "filter=pcf keep-still=always motion=snap map-size=64"},
+                    WarmCase{"pcf_together", "filter=pcf partition=cascades cascades.pass=layered map-size=64"},
+                    WarmCase{"pcf_sdsm", "filter=pcf partition=sdsm map-size=64"},
+                    WarmCase{"pcf_step_band", "filter=pcf motion=step-band map-size=64"},
+                    WarmCase{"hard_step_blend_paired", "filter=hard motion=step-blend map-format=rg16 map-size=64"},
+                    WarmCase{"pcf_step_alternate", "filter=pcf motion=step-alternate map-size=64"},
+                    WarmCase{"evsm_step_alternate", "filter=evsm motion=step-alternate map-size=64"}),
+    [](const auto& test_case) { return std::string(test_case.param.name); });
+
+} // namespace
+} // namespace gnomon::test
