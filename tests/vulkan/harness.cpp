@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -49,13 +51,64 @@ VkExtent3D extentOf(const vulkan::ImageRef& ref, std::uint32_t level)
 
 } // namespace
 
+namespace {
+
+constexpr std::size_t kHead = 64; // bytes before a block, which begin with its size; any object is aligned to less
+
+std::size_t& sizeOf(void* block)
+{
+    return *reinterpret_cast<std::size_t*>(static_cast<std::byte*>(block) - kHead);
+}
+
+} // namespace
+
+ReusedMemory::ReusedMemory()
+{
+    callbacks_.pUserData = this;
+    callbacks_.pfnAllocation = [](void* user, std::size_t bytes, std::size_t, VkSystemAllocationScope) {
+        return static_cast<ReusedMemory*>(user)->take(bytes);
+    };
+    callbacks_.pfnReallocation = [](void*, void*, std::size_t, std::size_t, VkSystemAllocationScope) -> void* {
+        return nullptr; // no object of one piece asks for it
+    };
+    callbacks_.pfnFree = [](void* user, void* block) {
+        if (block != nullptr) {
+            static_cast<ReusedMemory*>(user)->free_.push_back(block);
+        }
+    };
+}
+
+ReusedMemory::~ReusedMemory()
+{
+    for (void* const block : free_) {
+        std::free(static_cast<std::byte*>(block) - kHead);
+    }
+}
+
+void* ReusedMemory::take(std::size_t bytes)
+{
+    const auto found = std::find_if(free_.rbegin(), free_.rend(), [&](void* block) { return sizeOf(block) == bytes; });
+    if (found != free_.rend()) {
+        void* const block = *found;
+        free_.erase(std::next(found).base());
+        return block;
+    }
+    void* const whole = std::aligned_alloc(kHead, kHead + (bytes + kHead - 1) / kHead * kHead);
+    if (whole == nullptr) {
+        return nullptr;
+    }
+    void* const block = static_cast<std::byte*>(whole) + kHead;
+    sizeOf(block) = bytes;
+    return block;
+}
+
 Gpu& gpu()
 {
     static Gpu the;
     return the;
 }
 
-Gpu::Gpu()
+Gpu::Gpu(bool validated) : validated_(validated)
 {
     makeInstance();
     makeDevice();
@@ -63,6 +116,14 @@ Gpu::Gpu()
 
 void Gpu::makeInstance()
 {
+    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    app.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    create.pApplicationInfo = &app;
+    if (!validated_) {
+        require(vkCreateInstance(&create, nullptr, &instance_), "vkCreateInstance");
+        return;
+    }
     std::uint32_t count = 0;
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
@@ -77,10 +138,7 @@ void Gpu::makeInstance()
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &enable;
-    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
-    app.apiVersion = VK_API_VERSION_1_3;
-    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, &features};
-    create.pApplicationInfo = &app;
+    create.pNext = &features;
     create.enabledLayerCount = 1;
     create.ppEnabledLayerNames = &layer;
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
@@ -135,7 +193,7 @@ Gpu::~Gpu()
     vkDestroyDescriptorPool(device_, texture_pool_, nullptr);
     vkDestroySampler(device_, sampler_, nullptr);
     for (const TestImage& image : images_) {
-        vkDestroyImageView(device_, image.view, nullptr);
+        vkDestroyImageView(device_, image.view, view_memory_.callbacks());
         vkDestroyImage(device_, image.image, nullptr);
         vkFreeMemory(device_, image.memory, nullptr);
     }
@@ -146,7 +204,9 @@ Gpu::~Gpu()
     vkDestroyDevice(device_, nullptr);
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
-    destroy(instance_, messenger_, nullptr);
+    if (validated_) {
+        destroy(instance_, messenger_, nullptr);
+    }
     vkDestroyInstance(instance_, nullptr);
 }
 
@@ -157,7 +217,7 @@ vulkan::DeviceView Gpu::view() const
     view.physical_device = physical_device_;
     view.device = device_;
     view.get_instance_proc_addr = vkGetInstanceProcAddr;
-    view.debug_labels = true;
+    view.debug_labels = validated_;
     view.layered = layered_;
     return view;
 }
@@ -233,12 +293,8 @@ TestImage Gpu::makeImage(VkFormat format, VkExtent2D extent, std::span<const std
     vkGetImageMemoryRequirements(device_, result.image, &needs);
     result.memory = allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     require(vkBindImageMemory(device_, result.image, result.memory, 0), "vkBindImageMemory");
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    view.image = result.image;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    require(vkCreateImageView(device_, &view, nullptr, &result.view), "vkCreateImageView");
+    result.format = format;
+    result.view = makeView(result);
     images_.push_back(result);
 
     const TestBuffer staging = makeBuffer(texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
@@ -253,7 +309,33 @@ TestImage Gpu::makeImage(VkFormat format, VkExtent2D extent, std::span<const std
         recordTransition(commands, result.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
+    dropLastBuffer();
     return result;
+}
+
+VkImageView Gpu::makeView(const TestImage& image) const
+{
+    VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    create.image = image.image;
+    create.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    create.format = image.format;
+    create.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    require(vkCreateImageView(device_, &create, view_memory_.callbacks(), &view), "vkCreateImageView");
+    return view;
+}
+
+void Gpu::replaceImage(const TestImage& old, TestImage& image)
+{
+    const auto listed =
+        std::find_if(images_.begin(), images_.end(), [&](const TestImage& one) { return one.image == image.image; });
+    vkDestroyImageView(device_, image.view, view_memory_.callbacks());
+    vkDestroyImageView(device_, old.view, view_memory_.callbacks()); // the last that goes is the first that comes
+    image.view = makeView(image);
+    *listed = image;
+    vkDestroyImage(device_, old.image, nullptr);
+    vkFreeMemory(device_, old.memory, nullptr);
+    std::erase_if(images_, [&](const TestImage& one) { return one.image == old.image; });
 }
 
 VkDescriptorSet Gpu::makeTextureSet(VkDescriptorSetLayout layout, VkImageView view)

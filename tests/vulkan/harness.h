@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real device with the validation layer, synchronization validation included. Any message fails the test that is
-// running.
+// A real device with the validation layer, synchronization validation included, or without. Any message fails the test
+// that is running.
 #pragma once
 
 #include <gnomon/vulkan/shadow_renderer.h>
@@ -19,6 +19,7 @@ struct TestImage {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
 };
 
 struct TestBuffer {
@@ -27,11 +28,29 @@ struct TestBuffer {
     void* mapped = nullptr;
 };
 
+/// Memory of objects, which gives out again what came back last: so a new object gets the handle of one that was
+/// destroyed, where handles are addresses.
+class ReusedMemory {
+public:
+    ReusedMemory();
+    ~ReusedMemory();
+    ReusedMemory(const ReusedMemory&) = delete;
+    ReusedMemory& operator=(const ReusedMemory&) = delete;
+
+    [[nodiscard]] const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
+
+private:
+    [[nodiscard]] void* take(std::size_t bytes);
+
+    VkAllocationCallbacks callbacks_{};
+    std::vector<void*> free_;
+};
+
 class Gpu {
 public:
     /// Throws std::runtime_error where there is no device or no validation layer: these tests fail then, they do not
-    /// skip.
-    Gpu();
+    /// skip. Layers give every object a handle of its own; without them, as hosts run, a driver may give out one again.
+    explicit Gpu(bool validated = true);
     ~Gpu();
     Gpu(const Gpu&) = delete;
     Gpu& operator=(const Gpu&) = delete;
@@ -42,6 +61,9 @@ public:
     [[nodiscard]] TestBuffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
     /// A sampled 2D image with these texels, in SHADER_READ_ONLY_OPTIMAL. Lives as long as the Gpu.
     [[nodiscard]] TestImage makeImage(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels);
+    /// Destroys `old`, which no run() uses any more, and makes the view of `image` anew: it has the handle of the old
+    /// view, unless layers are in between. Both are of makeImage().
+    void replaceImage(const TestImage& old, TestImage& image);
     /// A set with this texture, nearest and repeated, for CasterBatch::texture.
     [[nodiscard]] VkDescriptorSet makeTextureSet(VkDescriptorSetLayout layout, VkImageView view);
     /// Texels of one layer and mip level, tightly packed. The image is in ref.layout before and after.
@@ -58,12 +80,15 @@ private:
     void makeInstance();
     void makeDevice();
     void dropLastBuffer();
+    [[nodiscard]] VkImageView makeView(const TestImage& image) const;
     [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties);
 
+    ReusedMemory view_memory_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
+    bool validated_ = true;
     bool layered_ = false;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;

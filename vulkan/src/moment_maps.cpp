@@ -59,7 +59,6 @@ MomentMaps::Need MomentMaps::needOf(const Plan& plan, std::uint32_t options)
     const MapPages& atlas = plan.pages[options];
     Need need;
     need.atlas = {std::max(atlas.width, 1U), std::max(atlas.height, 1U), std::max(atlas.layers, 1U)};
-    need.tile = {1, 1};
     for (const View& view : plan.views) {
         if (optionsIndexOf(plan, view) == options) {
             need.tile.width = std::max(need.tile.width, view.tile.width);

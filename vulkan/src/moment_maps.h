@@ -33,7 +33,7 @@ public:
 private:
     struct Need {
         MapPages atlas;
-        VkExtent2D tile{}; // that all tiles fit into
+        VkExtent2D tile{1, 1}; // that all tiles fit into
         std::uint32_t kept_layers = 0;
     };
 

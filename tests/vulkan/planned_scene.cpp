@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planned_scene.h"
+
+namespace gnomon::test {
+
+Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh) : renderer(gpu.view(), {}), drawer(gpu.view(), {})
+{
+    drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+}
+
+PlannedScene::PlannedScene(Gpu& gpu, VkExtent2D screen) : gpu_(gpu), mesh_(uploadMesh(gpu, scene_))
+{
+    (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}});
+    for (const Box& box : scene_.boxes) {
+        const auto reach = static_cast<float>(glm::length(box.half)); // turned by whatever angle
+        (void)objects_.add({glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach});
+    }
+    remakeViews(screen, true, false);
+}
+
+void PlannedScene::remakeViews(VkExtent2D screen, bool normals, bool ids)
+{
+    eye_ -= glm::dvec3(0.05, 0.0, 0.02);
+    camera_ = makeCamera(eye_, {0.0, 0.5, 0.0}, double(screen.width) / screen.height);
+    const Picture picture = tracePicture(scene_, camera_, screen);
+    // As if a host made new images and destroyed the old ones: each new view may be where its forerunner was.
+    const auto make = [&](TestImage& image, VkFormat format, std::span<const std::byte> texels) {
+        TestImage fresh = gpu_.makeImage(format, screen, texels);
+        if (image.view != VK_NULL_HANDLE) {
+            gpu_.replaceImage(image, fresh);
+        }
+        image = fresh;
+        return image.view;
+    };
+    inputs_ = {};
+    inputs_.extent = screen;
+    inputs_.depth = make(images_.depth, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(picture.depth)));
+    if (normals) {
+        inputs_.normal = make(images_.normal, VK_FORMAT_R16G16_SNORM, std::as_bytes(std::span(picture.octahedral)));
+    }
+    if (ids) {
+        std::vector<std::uint32_t> receivers = picture.object_plus_one;
+        for (std::uint32_t& id : receivers) {
+            id = id == 2 ? 0 : id; // one that wants no shadow
+        }
+        inputs_.object_id = make(images_.id, VK_FORMAT_R32_UINT, std::as_bytes(std::span(receivers)));
+    }
+}
+
+Frame PlannedScene::frameOf(std::span<const Light> lights) const
+{
+    Frame frame;
+    frame.camera = camera_;
+    frame.size_px = {inputs_.extent.width, inputs_.extent.height};
+    frame.lights = lights;
+    frame.objects = &objects_;
+    return frame;
+}
+
+std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, const Plan& plan, std::uint32_t slot)
+{
+    (void)drawing.renderer.prepare(plan, inputs_.extent);
+    const auto transforms = scene_.transforms();
+    gpu_.run([&](VkCommandBuffer commands) {
+        drawing.drawer.beginFrame(slot, plan, mesh_.geometry, transforms);
+        drawing.renderer.recordBounds(commands, slot, frame, plan, inputs_);
+        drawing.renderer.recordMaps(commands, slot, frame, plan,
+                                    [&](const vulkan::MapPass& pass) { drawing.drawer.draw(pass); });
+        drawing.renderer.recordMask(commands, slot, frame, plan, inputs_);
+    });
+    const vulkan::ImageRef mask = drawing.renderer.mask();
+    std::vector<std::byte> all;
+    for (std::uint32_t layer = 0; layer < plan.mask_layers; ++layer) {
+        const auto texels =
+            gpu_.read(mask, layer, mask.format == VK_FORMAT_R8_UNORM ? 1 : 4, VK_IMAGE_ASPECT_COLOR_BIT);
+        all.insert(all.end(), texels.begin(), texels.end());
+    }
+    return all;
+}
+
+} // namespace gnomon::test

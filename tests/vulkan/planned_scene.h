@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of boxes as a planner sees it, and the mask of a frame of it by whichever renderer, on a real device.
+#pragma once
+
+#include "scene.h"
+
+#include <gnomon/planner.h>
+
+#include <vector>
+
+namespace gnomon::test {
+
+/// A renderer and a drawer on a device.
+struct Drawing {
+    Drawing(Gpu& gpu, const SceneMesh& mesh);
+
+    vulkan::ShadowRenderer renderer;
+    vulkan::CasterDrawer drawer;
+};
+
+class PlannedScene {
+public:
+    PlannedScene(Gpu& gpu, VkExtent2D screen);
+
+    /// The camera moves; destroys the views of what it saw and makes them anew, of this size.
+    void remakeViews(VkExtent2D screen, bool normals, bool ids);
+    [[nodiscard]] Frame frameOf(std::span<const Light> lights) const;
+    /// All layers of the mask, one after the other.
+    [[nodiscard]] std::vector<std::byte> draw(Drawing& drawing, const Frame& frame, const Plan& plan,
+                                              std::uint32_t slot = 0);
+    [[nodiscard]] const SceneMesh& mesh() const { return mesh_; }
+
+private:
+    Gpu& gpu_;
+    Scene scene_ = makeScene();
+    SceneMesh mesh_;
+    ObjectSet objects_;
+    glm::dvec3 eye_{9.0, 6.0, 11.0};
+    Camera camera_;
+    struct Images {
+        TestImage depth;
+        TestImage normal;
+        TestImage id;
+    };
+    Images images_;
+    vulkan::MaskInputs inputs_;
+};
+
+} // namespace gnomon::test
