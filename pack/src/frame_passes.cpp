@@ -10,11 +10,10 @@ bool has(const std::vector<FramePass>& passes, FramePassKind kind)
     return std::ranges::find(passes, kind, &FramePass::kind) != passes.end();
 }
 
-bool drawsMaps(const Plan& plan, std::uint32_t options)
+bool hasLights(const Plan& plan, std::uint32_t options)
 {
-    return std::ranges::any_of(plan.lights, [&](const LightPlan& light) {
-        return light.options == options && light.outcome.hasMap() && light.view_count > 0;
-    });
+    return plan.lights.empty() ? options == 0
+                               : std::ranges::find(plan.lights, options, &LightPlan::options) != plan.lights.end();
 }
 
 bool takesTurns(const LightPlan& light)
@@ -29,7 +28,7 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
         out.push_back({FramePassKind::bounds});
     }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (drawsMaps(plan, i)) {
+        if (hasLights(plan, i)) {
             out.push_back({FramePassKind::maps, i});
         }
     }

@@ -83,7 +83,10 @@ void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight
     assert(lights.size() >= plan.lights.size() && frame.lights.size() == plan.lights.size());
     std::fill(lights.begin(), lights.end(), shared::GpuLight{});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        fillLight(frame, plan, i, SunShown::all, lights[i]);
+        const SunSteps& steps = plan.lights[i].steps;
+        // By turns, the maps of the other position are not those of its views.
+        const SunShown read = steps.read == SunPosition::later ? SunShown::later : SunShown::earlier;
+        fillLight(frame, plan, i, steps.paired && steps.alternate ? read : SunShown::all, lights[i]);
     }
 }
 

@@ -58,7 +58,7 @@ struct GpuLight {
     // positions these are the earlier one's, z: first and w: count of the later one's, else w is 0
     GN_UVEC4 views;
     GN_VEC4 steps;    // where it is seen from two positions: sun_steps.h
-    GN_UVEC4 options; // x: which of the GpuRules is its own
+    GN_UVEC4 options; // x: of Plan::options; its GpuConstants are those of this
 };
 
 // What a light's options come to, for the filter that reads its maps.

@@ -29,7 +29,7 @@ TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
     PlanByHand by_hand({ShadowOptions{}, filteredBy(Filter::msm), filteredBy(Filter::hard)});
     by_hand.add(2, 1);
     by_hand.add(0, 1);
-    by_hand.add(1, 0); // no light of these options has maps
+    by_hand.add(0, 0);
     by_hand.plan.views[0].gpu_cascade = 0;
     by_hand.plan.lights[1].steps.paired = by_hand.plan.lights[1].steps.alternate = true;
     const auto passes = passesOf(by_hand.plan);
@@ -42,14 +42,15 @@ TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
     EXPECT_EQ(passes[2].options, 2U);
 }
 
-TEST(FramePasses, AreAMaskAloneWithoutMaps)
+TEST(FramePasses, GiveAHostSomethingToBindBeforeThereIsAMap)
 {
     PlanByHand by_hand({ShadowOptions{}});
     by_hand.add(0, 0);
-    const auto passes = passesOf(by_hand.plan);
-    ASSERT_EQ(passes.size(), 1U);
-    EXPECT_TRUE(pack::has(passes, Kind::mask));
-    EXPECT_FALSE(pack::has(passes, Kind::maps));
+    for (const auto& passes : {passesOf(by_hand.plan), passesOf(PlanByHand({ShadowOptions{}, ShadowOptions{}}).plan)}) {
+        ASSERT_EQ(passes.size(), 2U);
+        EXPECT_TRUE(pack::has(passes, Kind::mask));
+        EXPECT_EQ(passes[0].options, 0U);
+    }
 }
 
 // An object ten thousand kilometres away moves by whole millimetres; single precision would jump by a metre.

@@ -92,5 +92,22 @@ TEST(ShadingBuffers, LightsWithoutAMapHaveNoViews)
     EXPECT_EQ(lights[0].place, glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)) << "towards a sun";
 }
 
+// The views of the other position have moved on; what their maps hold has not.
+TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
+{
+    PlanByHand by_hand({ShadowOptions{}});
+    LightPlan& light = by_hand.add(0, 2);
+    by_hand.plan.views[0].sun = SunPosition::earlier;
+    by_hand.plan.views[1].sun = SunPosition::later;
+    light.steps.paired = true;
+    std::vector<shared::GpuLight> lights(1);
+    pack::fillLights(by_hand.frame, by_hand.plan, lights);
+    EXPECT_EQ(lights[0].views, glm::uvec4(0, 1, 1, 1));
+    light.steps.alternate = true;
+    light.steps.read = SunPosition::later;
+    pack::fillLights(by_hand.frame, by_hand.plan, lights);
+    EXPECT_EQ(lights[0].views, glm::uvec4(1, 1, 0, 0));
+}
+
 } // namespace
 } // namespace gnomon::test

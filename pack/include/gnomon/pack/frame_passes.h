@@ -11,7 +11,7 @@ namespace gnomon::pack {
 
 enum class FramePassKind : std::uint8_t {
     bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
-    maps,    // draw the maps of `options`; of a filterable filter also make moments, blur and mip levels of them
+    maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
     mask,    // listMaskDraws()
     history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
 };
@@ -24,8 +24,9 @@ struct FramePass {
 /// Keeps what `out` has allocated.
 void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
 [[nodiscard]] bool has(const std::vector<FramePass>& passes, FramePassKind kind);
-/// Has a light of these options maps in this plan?
-[[nodiscard]] bool drawsMaps(const Plan& plan, std::uint32_t options);
+/// Has the plan a light of these options? Where it has no light at all, the first options stand in, so that there is
+/// something to bind.
+[[nodiscard]] bool hasLights(const Plan& plan, std::uint32_t options);
 /// Does the light's plan join this frame's visibility with that of the frame before?
 [[nodiscard]] bool takesTurns(const LightPlan& light);
 

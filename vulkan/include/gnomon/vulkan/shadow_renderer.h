@@ -161,7 +161,7 @@ struct WarmUp {
 };
 
 /// Draws what a plan says by the options that the plan carries (Plan::options): it has none of its own, so another
-/// technique, or another for each light, is another plan.
+/// technique, or another for each light, is another plan. Not thread-safe.
 class ShadowRenderer {
 public:
     /// Throws Error when a function is missing or memory runs out.
@@ -201,11 +201,12 @@ public:
 
     /// R8 for one light, else RGBA8, one layer per four lights; a 2D array in either case.
     [[nodiscard]] ImageRef mask() const;
-    /// Of one of the plan's options; no image where they have had no maps yet. After recordMaps() its writes are
+    /// Of one of the plan's options; an empty one where no light of the plan names
+    /// them. After recordMaps() its writes are
     /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
     [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
     /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
-    /// Null where maps() has no image.
+    /// Empty where maps() is.
     [[nodiscard]] BufferRef depthLayersBuffer(std::uint32_t options = 0) const;
     /// Completes views with View::gpu_cascade that pack::fillViews() wrote to a storage buffer of the host's, all of
     /// the plan's from `offset` on: after recordBounds(), and once with a slot. Afterwards they are visible to
