@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer that shades forward, with its own pipelines and its own way to draw casters (door 2 of
 // docs/integrating.md): Gnomon makes filterable maps of a sun and a spot light, and the host's one pass reads them
-// through gnomon/visibility.glsl. There is no mask and no depth prepass. A fence has holes, depth is the normal way
-// round (0 near), and the picture's size changes after three frames. Usage: forward_host FOLDER. Writes the picture
-// there as PPM; exits with 1 if its shadows are not where the scene's geometry says.
+// through gnomon/visibility.glsl, without a mask or a depth prepass. A fence has holes, depth is 0 near, and the
+// picture changes its size. Usage: forward_host FOLDER. Writes forward.ppm there; exits with 1 if shadows are not where
+// the scene's geometry says.
 #include "small_vulkan.h"
 
 #include <gnomon/pack/shading_buffers.h>
@@ -15,7 +15,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cstdio>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -35,6 +34,7 @@ constexpr std::array<Thing, 4> kThings{{{{0, -0.5F, 0}, {20, 0.5F, 20}, {0.8F, 0
                                         {{0, 1, 0}, {1, 1, 1}, {0.9F, 0.5F, 0.3F, 0}},
                                         {{-3, 0.75F, 2}, {0.5F, 0.75F, 0.5F}, {0.4F, 0.7F, 0.5F, 0}},
                                         {{3, 1, 2}, {2, 1, 0.03F}, {0.6F, 0.45F, 0.3F, 1}}}};
+
 struct Scene {
     gnomon::ObjectSet objects;
     std::array<gnomon::Light, 2> lights{};
@@ -98,8 +98,9 @@ public:
         }
     }
     // Rendering has begun, viewport and scissor are set.
-    void draw(const vk::raii::CommandBuffer& commands, const gnomon::vulkan::MapPass& pass) const
+    void draw(const vk::raii::CommandBuffer& commands, const Cube& cube, const gnomon::vulkan::MapPass& pass) const
     {
+        cube.bind(commands);
         const std::size_t of_view = (pass.view->orthographic ? 0U : 1U) + (pass.view->clamp_near ? 2U : 0U);
         for (const std::uint32_t handle : pass.casters) {
             const Thing& thing = kThings[handle];
@@ -237,8 +238,7 @@ int run(const std::string& folder)
 {
     const Device d;
     Scene scene;
-    const Buffer vertices(d, sizeof kCorners, vk::BufferUsageFlagBits::eVertexBuffer, kCorners.data());
-    const Buffer indices(d, sizeof kIndices, vk::BufferUsageFlagBits::eIndexBuffer, kIndices.data());
+    const Cube cube(d);
 
     gnomon::ShadowOptions wish;
     wish.technique.filter = gnomon::Filter::evsm;
@@ -270,10 +270,9 @@ int run(const std::string& folder)
         const gnomon::Plan& plan = planner.plan(scene.frame);
         shadows.prepare(plan, {}); // without a mask
         sets[slot].fill(d, scene.frame, plan, shadows, *sampler);
-        commands.bindVertexBuffers(0, *vertices.buffer, {0});
-        commands.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
         shadows.recordMaps(*commands, slot, scene.frame, plan,
-                           [&](const gnomon::vulkan::MapPass& pass) { casters.draw(commands, pass); });
+                           [&](const gnomon::vulkan::MapPass& pass) { casters.draw(commands, cube, pass); });
+        cube.bind(commands); // recording maps may have bound others
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *forward);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout, 0, sets[slot].set(), {});
         shade(commands, *picture, scene, *layout);
@@ -282,11 +281,7 @@ int run(const std::string& folder)
     d.device.waitIdle();
     const vk::Extent2D size = picture->size;
     const std::vector<std::uint8_t> pixels = readBack(d, *picture->colour.image, size);
-    std::ofstream out(folder + "/forward.ppm", std::ios::binary);
-    out << "P6\n" << size.width << ' ' << size.height << "\n255\n";
-    for (std::size_t i = 0; i < pixels.size(); i += 4) {
-        out.write(reinterpret_cast<const char*>(&pixels[i]), 3);
-    }
+    writePpm(folder + "/forward.ppm", size, pixels);
     return isAsExpected(scene.frame.camera, size, pixels.data()) ? 0 : 1;
 }
 

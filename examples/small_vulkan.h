@@ -10,7 +10,9 @@
 
 #include <array>
 #include <cstring>
+#include <fstream>
 #include <span>
+#include <string>
 #include <vector>
 
 inline constexpr std::uint32_t kSlots = 2; // frames in flight
@@ -84,6 +86,23 @@ struct Buffer {
         if (contents != nullptr) {
             std::memcpy(mapped, contents, bytes);
         }
+    }
+};
+
+/// kCorners and kIndices where the GPU can read them.
+struct Cube {
+    Buffer vertices;
+    Buffer indices;
+
+    explicit Cube(const Device& d)
+        : vertices(d, sizeof kCorners, vk::BufferUsageFlagBits::eVertexBuffer, kCorners.data()),
+          indices(d, sizeof kIndices, vk::BufferUsageFlagBits::eIndexBuffer, kIndices.data())
+    {
+    }
+    void bind(const vk::raii::CommandBuffer& commands) const
+    {
+        commands.bindVertexBuffers(0, *vertices.buffer, {0});
+        commands.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
     }
 };
 
@@ -199,6 +218,16 @@ inline std::vector<std::uint8_t> readBack(const Device& d, vk::Image image, vk::
     d.device.waitIdle();
     const auto* const first = static_cast<const std::uint8_t*>(pixels.mapped);
     return {first, first + bytes};
+}
+
+/// Of four bytes a pixel the first three.
+inline void writePpm(const std::string& path, vk::Extent2D size, const std::vector<std::uint8_t>& pixels)
+{
+    std::ofstream out(path, std::ios::binary);
+    out << "P6\n" << size.width << ' ' << size.height << "\n255\n";
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        out.write(reinterpret_cast<const char*>(&pixels[i]), 3);
+    }
 }
 
 /// Descriptor sets for fragment shaders, one for each slot: a descriptor of each type, at bindings 0, 1, ...
