@@ -31,7 +31,7 @@ FOLDERS = [
     ("core/src/", ["core/include", "shaders/shared", "core/src"]),
     ("pack/include/", ["pack/include", "core/include", "shaders/shared"]),
     ("pack/src/", ["pack/include", "core/include", "shaders/shared", "pack/src"]),
-    ("vulkan/include/", ["vulkan/include", "pack/include", "core/include"]),
+    ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/shared"]),
     ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/shared", "vulkan/src", "shaders"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),

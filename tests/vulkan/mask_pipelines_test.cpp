@@ -43,26 +43,26 @@ private:
     vulkan::MaskInputs inputs_{kScreen, driver_.makeView()};
 };
 
-using Made = std::pair<std::uint64_t, std::uint64_t>;
+using Pipelines = std::pair<std::uint64_t, std::uint64_t>;
 
 TEST(MaskPipelines, AreNotMadeWhileRecording)
 {
     const Light sun = makeSun({0.5, -1.0, 0.2});
     const Light lamp = makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5);
     Masks masks;
-    EXPECT_EQ(masks.frame({sun}), Made(0, 1)) << "nobody said which inputs there would be";
-    EXPECT_EQ(masks.frame({sun}), Made(0, 0));
-    EXPECT_EQ(masks.frame({sun}, true), Made(1, 0)) << "a fit that falls back";
-    EXPECT_EQ(masks.frame({sun, lamp}), Made(1, 0)) << "a mask of another format";
-    EXPECT_EQ(masks.frame({sun, sun, sun, lamp, lamp}), Made(0, 0)) << "more lights";
-    EXPECT_EQ(masks.frame({sun, sun}, true), Made(0, 0));
+    EXPECT_EQ(masks.frame({sun}), Pipelines(0, 1)) << "nobody said which inputs there would be";
+    EXPECT_EQ(masks.frame({sun}), Pipelines(0, 0));
+    EXPECT_EQ(masks.frame({sun}, true), Pipelines(1, 0)) << "a fit that falls back";
+    EXPECT_EQ(masks.frame({sun, lamp}), Pipelines(1, 0)) << "a mask of another format";
+    EXPECT_EQ(masks.frame({sun, sun, sun, lamp, lamp}), Pipelines(0, 0)) << "more lights";
+    EXPECT_EQ(masks.frame({sun, sun}, true), Pipelines(0, 0));
 }
 
 TEST(MaskPipelines, AreMadeBeforeTheFirstFrameWhereTheInputsAreKnown)
 {
     const Light sun = makeSun({0.5, -1.0, 0.2});
     Masks masks({.mask_shape = vulkan::MaskShape{}});
-    EXPECT_EQ(masks.frame({sun}), Made(1, 0));
+    EXPECT_EQ(masks.frame({sun}), Pipelines(1, 0));
 }
 
 } // namespace
