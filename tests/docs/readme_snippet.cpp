@@ -42,7 +42,8 @@ int main()
     shadows.prepare(plan, screen);
     shadows.recordMaps(commands, 0, frame, plan, [&](const gnomon::vulkan::MapPass& pass) {
         for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
-            drawObject(pass, object);                     // by its clip_from_world, a pipeline for its formats
+            // By pass.clip_from_world, with a pipeline for pass.formats: docs/integrating.md.
+            drawObject(pass, object);
         }
     });
     shadows.recordMask(commands, 0, frame, plan, {screen, depth_view});
