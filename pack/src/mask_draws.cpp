@@ -112,9 +112,12 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
 // Which view it is is known beforehand only where the light has all of the plan's.
 std::uint32_t fewViewsOf(const Plan& plan)
 {
+    if (plan.lights.size() != 1) {
+        return 0;
+    }
     const LightPlan& light = plan.lights.front();
     const std::size_t count = plan.views.size();
-    if (plan.lights.size() != 1 || light.steps.paired || light.view_count != count || count > shared::kFewViews) {
+    if (light.steps.paired || light.view_count != count || count > shared::kFewViews) {
         return 0;
     }
     const std::uint32_t few = fewViews((*plan.options)[light.options]);
