@@ -20,7 +20,7 @@ struct MaskPush {
     std::uint32_t channels;
 };
 
-/// By options; null where they have no maps.
+/// By options; null where no light has named them.
 using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
 class MaskPassRecorder {

@@ -46,7 +46,7 @@ struct ShadowRenderer::Impl {
 
     Device device;
     ShadowRendererOptions options;
-    MapClasses classes; // by options of the last plan; null where they have had no maps
+    MapClasses classes; // by options of the last plan; null where no light has named them
     std::vector<Spare> spares;
     CascadeFitter fitter;
     MaskPassRecorder mask;
