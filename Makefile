@@ -5,7 +5,7 @@
 # CMAKE_FLAGS  handed to the configure step, e.g. CMAKE_FLAGS=-DGNOMON_WERROR=ON
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
 # TIDY_FOLDERS what `make tidy` looks at, e.g. core/src (default: all sources)
-# FUZZ_SECONDS how long `make fuzz` runs (default 60)
+# FUZZ_SECONDS how long `make fuzz` runs, all fuzzers together (default 60)
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 JOBS ?= $(shell nproc)
@@ -28,7 +28,7 @@ help:
 	@echo "make check   layout, headers that stand alone, include rules, forbidden words"
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
 	@echo "make asan    build and run the tests with address and undefined behaviour sanitizers, in build-asan/"
-	@echo "make fuzz    run the glTF reader's fuzzer for FUZZ_SECONDS (60), in build-fuzz/"
+	@echo "make fuzz    run all fuzzers in turn for FUZZ_SECONDS (60) together, in build-fuzz/"
 	@echo "make clean   remove build folders and out/"
 
 .PHONY: packages

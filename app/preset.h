@@ -5,6 +5,7 @@
 #include "app/settings.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace gnomon::app {
@@ -21,5 +22,7 @@ struct Preset {
 /// subcommand are passed over, so that one file serves all; unknown keys are refused. Throws UsageError, or Error when
 /// a file cannot be read.
 void applyPreset(Settings& settings, std::string_view name_or_file, std::uint32_t subcommand);
+/// The same of what is in a file. `name` is what messages call it.
+void applyPresetText(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand);
 
 } // namespace gnomon::app

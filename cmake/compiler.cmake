@@ -28,6 +28,14 @@ if(GNOMON_SANITIZE)
     add_compile_options(-fsanitize=${GNOMON_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${GNOMON_SANITIZE})
 endif()
+# A fuzzer follows what its input does in everything that is compiled here; only its own binary has libFuzzer's main().
+if(GNOMON_FUZZ)
+    if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        message(FATAL_ERROR "GNOMON_FUZZ needs clang++: configure with --preset fuzz")
+    endif()
+    add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=address,undefined)
+endif()
 
 # gnomon_library(NAME SOURCES...): a static library with the project's options.
 function(gnomon_library name)

@@ -102,8 +102,8 @@ public:
     {
         cube.bind(commands);
         const std::size_t of_view = (pass.view->orthographic ? 0U : 1U) + (pass.view->clamp_near ? 2U : 0U);
-        for (const std::uint32_t handle : pass.casters) {
-            const Thing& thing = kThings[handle];
+        for (const std::uint32_t object : pass.casters) {
+            const Thing& thing = kThings[object];
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
                                   *pipelines_[of_view + (thing.colour.w > 0 ? 4U : 0U)]);
             const Draw push{pass.clip_from_world, pass.metric_ws, glm::vec4(thing.centre, 0),

@@ -12,10 +12,13 @@
 #include <cstring>
 #include <fstream>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 inline constexpr std::uint32_t kSlots = 2; // frames in flight
+/// A GPU of which nothing has been heard for so long hangs: two minutes.
+inline constexpr std::uint64_t kPatienceNs = 120'000'000'000;
 
 /// A cube of two units a side: the one mesh of both.
 inline constexpr std::array<glm::vec3, 8> kCorners{
@@ -58,7 +61,9 @@ struct Device {
     /// Waits until the GPU has finished the slot's last frame, and begins to record a new one.
     const vk::raii::CommandBuffer& begin(std::uint32_t slot) const
     {
-        (void)device.waitForFences(*done[slot], VK_TRUE, UINT64_MAX);
+        if (device.waitForFences(*done[slot], VK_TRUE, kPatienceNs) != vk::Result::eSuccess) {
+            throw std::runtime_error("the GPU has not finished a frame for two minutes");
+        }
         device.resetFences(*done[slot]);
         commands[slot].begin(vk::CommandBufferBeginInfo());
         return commands[slot];

@@ -78,6 +78,11 @@ struct FrameTimes {
 };
 
 /// Draws frames of one size, one after the other. Several may share a scene.
+///
+/// What waits for the GPU also throws what GpuOptions::while_waiting throws. A frame whose drawing threw is not drawn;
+/// the next one is drawn as a new renderer would. After Error with ErrorKind::device_lost only the destructors are of
+/// use, of this, of its scene and of its Gpu: they do not throw, and wait a few seconds at most. All can be made again
+/// with a new Gpu.
 class FrameRenderer {
 public:
     /// Makes its pipelines. `scene` outlives it. Throws Error (limits, memory, device).

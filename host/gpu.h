@@ -4,6 +4,7 @@
 
 #include <gnomon/vulkan/device_view.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,13 @@ struct GpuOptions {
     /// Part of a device's name, "software" for a CPU rasteriser, or empty: the first real GPU, else software.
     std::string gpu;
     bool validate = false; // validation layer with synchronization validation; Error when it is not installed
+    /// Called some ten times a second for as long as the GPU is waited for, by whichever thread waits. What it throws
+    /// ends the wait and comes out of it, a few seconds later where the GPU is busy. Not to call the host's functions.
+    std::function<void()> while_waiting;
+    /// Seconds after which a GPU of which nothing is heard is taken for one that hangs (Error,
+    /// ErrorKind::device_lost). Drivers that watch their GPU give up after some ten seconds by themselves. For a
+    /// software rasteriser only the time counts in which this process does nothing. Above 0.
+    double patience_s = 120.0;
 };
 
 class Gpu {
@@ -35,9 +43,19 @@ public:
     /// On-disk pipeline cache, loaded from and stored to the user's cache folder; VK_NULL_HANDLE never.
     [[nodiscard]] VkPipelineCache pipelineCache() const;
 
+    [[nodiscard]] double patience_s() const;
+    void lookUp() const; // calls GpuOptions::while_waiting
+    /// The GPU did not end what it was given. From now on nothing of the device is destroyed, nor the device itself:
+    /// the GPU may still be at work with it.
+    void abandon() const noexcept;
+    [[nodiscard]] bool abandoned() const noexcept;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Has this process abandoned any device? Then it had better end by std::_Exit(): the driver's threads may be at work.
+[[nodiscard]] bool anyDeviceAbandoned() noexcept;
 
 } // namespace gnomon::host

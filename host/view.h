@@ -43,7 +43,7 @@ inline constexpr std::size_t kMaxLights = 64;
 
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
-/// Fills an ObjectSet with a state's objects (handle = index) or updates it.
+/// Fills an ObjectSet with a state's objects (index by index) or updates it.
 void fillObjectSet(const scene::State& state, ObjectSet& objects);
 
 } // namespace gnomon::host

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG and EXR files. Writers write to a temporary name in the same folder, flush, then rename: either the whole file is
-// there or none of it. All throw Error with one line.
+// PNG and EXR files. Either the whole file is written or none of it (files/files.h). All throw Error with one line.
 #pragma once
 
 #include "image/image.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <string_view>
 
 namespace gnomon {
 
@@ -20,12 +19,5 @@ void writeExr(const std::filesystem::path& file, const ImageF& image, bool half 
 /// Any PNG (8- or 16-bit, any colour type) as [0, 1] values without colour conversion, or any EXR with Y or RGB(A).
 /// Untrusted input: sizes are checked against `max_side` before memory is taken.
 [[nodiscard]] ImageF readImage(const std::filesystem::path& file, std::uint32_t max_side = 16384);
-
-/// Throws the Error that writeFile() would throw for a directory, a missing folder or a lack of rights, so that a
-/// program can say so before an hour's work. Creates nothing.
-void requireWritable(const std::filesystem::path& file);
-
-/// Writes any bytes the same safe way (JSON, SVG). Devices and pipes are written to in place.
-void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
 } // namespace gnomon

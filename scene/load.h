@@ -21,6 +21,10 @@ struct Limits {
     std::uint32_t max_node_depth = 256;         // --limit node-depth=N
     std::uint32_t max_count = 1U << 20;         // --limit count=N: nodes, meshes, accessors, instances of a node …
     std::uint64_t max_vertices = 1ULL << 27;    // --limit vertices=N: vertices and indices in all
+    /// --limit growth=N: bytes decoded for each byte read, beyond kFreeBytes. No image and no mesh that is not all of
+    /// one value comes near; a file of one line that asks for a gigabyte does.
+    std::uint64_t max_growth = 2048;
+    static constexpr std::uint64_t kFreeBytes = 256ULL << 20;
 };
 
 /// Reads a .gltf or .glb file. Throws Error with one line that says what is wrong and where (a JSON pointer).

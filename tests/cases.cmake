@@ -2,6 +2,7 @@
 #
 # GNOMON_STAGE chooses cases: "all" (make test, make asan), or one of the two that .ci/run parts them into by stages.txt:
 # "release" and "sanitizers". Every case is in one of these at least, as tools/cases.py proves of their results.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(GNOMON_STAGE all CACHE STRING "Which cases ctest runs: all, release or sanitizers")
 set_property(CACHE GNOMON_STAGE PROPERTY STRINGS all release sanitizers)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/stages.txt)
@@ -20,6 +21,21 @@ function(_gnomon_patterns name out)
     endforeach()
     list(JOIN patterns ":" patterns)
     set(${out} "${patterns}" PARENT_SCOPE)
+endfunction()
+
+# gnomon_test_sources(NAME OUT FOLDER): the sources of test_NAME, but for those without a case in the stage.
+function(gnomon_test_sources name out folder)
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    if(GNOMON_STAGE STREQUAL "release")
+        execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tools/stage_sources.py ${name} ${sources}
+                        OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
+        string(REGEX MATCHALL "[^\n]+" needed "${needed}")
+        # An executable has a source; that of a binary without cases is built on demand only.
+        if(needed)
+            set(sources ${needed})
+        endif()
+    endif()
+    set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
 # gnomon_cases(NAME [SHARDS n] [COST n]): the cases of test_NAME that are of the stage, as ctest tests NAME.1 to NAME.n, of

@@ -7,12 +7,14 @@ usage: cases.py count RESULTS              prints "N passed, N failed, N skipped
 
 RESULTS is a folder such as build/results: ctest.xml is by ctest, NAME.json by the googletest cases of ctest's test NAME.
 A test of ctest that wrote no such file counts as one case, so that one which crashed is not forgotten. `prove` also looks for
-patterns of tests/stages.txt that no case has. Exit status 1 when something failed or is missing.
+patterns of tests/stages.txt that no case has, and for cases of its "both" that some RESULTS lack. Exit status 1 when something
+failed or is missing. What docs/reliability.md names has to have run too.
 """
 
 import argparse
 import fnmatch
 import json
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as xml
@@ -69,9 +71,29 @@ def slowest(folder: Path, number: int) -> list[str]:
     return [f"{seconds:7.1f} s  {case}" for seconds, case in sorted(times, reverse=True)[:number]]
 
 
-def patterns() -> list[str]:
-    lines = (project_root() / "tests/stages.txt").read_text(encoding="utf-8").splitlines()
-    return [" ".join(line.split()[:2]) for line in lines if line and line[0] not in "#="]
+def patterns(of_section: str = "") -> list[str]:
+    """What tests/stages.txt names, "binary pattern", in one of its sections or in all."""
+    found, section = [], ""
+    for line in (project_root() / "tests/stages.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("= "):
+            section = line[2:]
+        elif line and line[0] != "#" and of_section in ("", section):
+            found.append(" ".join(line.split()[:2]))
+    return found
+
+
+def promises() -> list[str]:
+    """The tests that docs/reliability.md names: "binary pattern", or the name of a test of ctest."""
+    found = []
+    for line in (project_root() / "docs/reliability.md").read_text(encoding="utf-8").splitlines():
+        if not line.startswith("| ") or line.startswith("| promise"):
+            continue
+        for part in line.split("|")[-2].split(";"):
+            part = part.split("by hand")[0]
+            binary = re.match(r"\s*(?:(\w+):)?", part)[1]
+            found += [f"{binary} {name}" if binary else name for name in re.findall("`([^`]+)`", part)
+                      if not name.startswith("make ")]
+    return found
 
 
 def count(options) -> int:
@@ -89,10 +111,16 @@ def count(options) -> int:
 def prove(options) -> int:
     binaries = sorted(file for file in options.build.glob("test_*") if file.is_file() and file.stat().st_mode & 0o111)
     every = set().union(*(cases_of(binary) for binary in binaries))
-    ran = set().union(*(outcomes(folder) for folder in options.results))
+    runs = [set(outcomes(folder)) for folder in options.results]
+    ran = set().union(*runs)
     faults = [f"{case} was run by no stage" for case in sorted(every - ran)]
     faults += [f"{pattern}: tests/stages.txt names what is not there" for pattern in patterns()
                if not any(fnmatch.fnmatchcase(case, pattern) for case in every)]
+    faults += [f"{promise}: docs/reliability.md names what did not run" for promise in promises()
+               if not any(fnmatch.fnmatchcase(case, promise) for case in ran)]
+    for pattern in patterns("both"):
+        faults += [f"{case} was not run by every stage" for case in sorted(fnmatch.filter(every, pattern))
+                   if not all(case in run for run in runs)]
     for fault in faults:
         print(fault, file=sys.stderr)
     print(f"cases: {len(every)} in {len(binaries)} binaries, {len(every & ran)} of them run")

@@ -33,6 +33,7 @@ FOLDERS = [
     ("pack/src/", ["pack/include", "core/include", "shaders/shared", "pack/src"]),
     ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/shared"]),
     ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/shared", "vulkan/src", "shaders"]),
+    ("files/", [".", "core/include", "files/src"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),
     ("scene/", [".", "core/include"]),

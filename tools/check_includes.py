@@ -18,16 +18,16 @@ from sources import project_files, project_root
 PROJECT_KINDS = [
     (r"^shaders/shared/", "shared"),
     (r"^shaders/", "shader-lib"),
-    (r"^core/include/gnomon/(geometry|error)\.h$", "core-geometry"),
+    (r"^core/include/gnomon/(error|geometry|world_range)\.h$", "core-geometry"),
     (r"^core/include/", "core-public"),
     (r"^pack/include/", "pack-public"),
     (r"^vulkan/include/", "vulkan-public"),
     (r"^(core|pack|vulkan)/", "private"),
-    (r"^(scene|image|host|truth|lab)/src/", "private"),
+    (r"^(files|scene|image|host|truth|lab)/src/", "private"),
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
     (r"^lab/score/", "private"),
-    (r"^(scene|image|host|truth|lab|app)/", r"\1"),
+    (r"^(files|scene|image|host|truth|lab|app)/", r"\1"),
 ]
 # What any other header is, by its name.
 FOREIGN_KINDS = [
@@ -48,13 +48,14 @@ FOREIGN_KINDS = [
     (r"^gd(font\w+)?\.h$", "gd"),
     (r"^(plot_script|page_style)\.h$", "text"),  # of tools/plot.py and the page's CSS, made by app/CMakeLists.txt
     (r"^(fstream|filesystem|iostream|cstdio|stdio\.h|fcntl\.h|unistd\.h|sys/\w+\.h)$", "std-file"),
-    (r"^(dlfcn|signal|pthread|errno|spawn)\.h$", "system"),
+    (r"^(dlfcn|signal|pthread|errno|spawn|poll)\.h$", "system"),
     (r"^([a-z0-9_]+|(stdint|stddef|math|string|stdlib|assert|float|limits)\.h)$", "std"),
 ]
 
 STD = {"std", "std-file", "system"}
 PUBLIC = {"core-geometry", "core-public", "pack-public", "vulkan-public"}
-ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt", "window"}
+ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt",
+                        "window"}
 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
 # Tests may include everything, private headers too.
@@ -66,11 +67,13 @@ RULES = [
     ("pack/", {"std", "glm", "core-geometry", "core-public", "shared"}, "pack knows no graphics, window or file"),
     ("vulkan/include/", {"std", "glm", "core-geometry", "core-public", "pack-public", "vulkan-api"}, "a public header shows nothing private"),
     ("vulkan/", STD | PUBLIC | {"glm", "vulkan-api", "shared", "shader-lib", "spirv"}, "the backend knows core and shaders"),
-    ("image/", STD | {"core-geometry", "png", "exr"}, "images know files and errors, nothing else"),
-    ("scene/", STD | {"glm", "core-geometry", "png", "jpeg", "json", "xxhash"}, "a scene knows core's geometry.h and error.h only"),
-    ("truth/", STD | {"glm", "core-geometry", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
+    ("files/", STD | {"core-geometry"}, "files know errors, nothing else"),
+    ("image/", STD | {"core-geometry", "files", "png", "exr"}, "images know files and errors, nothing else"),
+    ("scene/", STD | {"glm", "core-geometry", "files", "png", "jpeg", "json", "xxhash"},
+     "a scene knows core's geometry.h, world_range.h and error.h only"),
+    ("truth/", STD | {"glm", "core-geometry", "files", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
     ("host/shaders/", {"shared", "shader-lib"}, "the host's shaders include the library's, as an engine would"),
-    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "scene", "image", "shared", "spirv", "window"},
+    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "spirv", "window"},
      "the host knows the library by its public headers"),
     ("lab/metrics", {"std", "image"}, "metrics know images only"),
     ("lab/score/", {"std", "glm", "core-geometry", "core-public", "scene", "image", "truth", "metrics"},

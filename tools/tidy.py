@@ -101,8 +101,8 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--build", type=Path, required=True)
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("folders", nargs="*", default=["core/src", "vulkan/src", "image/src", "scene/src", "host/src",
-                                                       "app/src"])
+    parser.add_argument("folders", nargs="*", default=["core/src", "vulkan/src", "files/src", "image/src", "scene/src",
+                                                       "host/src", "app/src"])
     options = parser.parse_args()
     root, build = project_root(), options.build.resolve()
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))

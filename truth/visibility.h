@@ -88,8 +88,8 @@ class Tracer {
 public:
     /// `scene` and `state` must outlive the tracer and stay as they are. Builds on the calling thread, which takes
     /// about a second for a million triangles; of `options` only `progress` and `cancel` count. Of a tracer whose
-    /// building was cancelled, see() and trace() give nothing. Throws Error when memory runs out, and what
-    /// options.progress throws.
+    /// building was cancelled, see() and trace() give nothing. Throws Error when memory runs out, when the scene is
+    /// beyond the limits of gnomon/world_range.h, and what options.progress throws.
     Tracer(const scene::Scene& scene, const scene::State& state, const Options& options = {});
     ~Tracer();
     Tracer(const Tracer&) = delete;

@@ -5,9 +5,10 @@
 #include "bench_report.h"
 #include "contestants.h"
 #include "progress.h"
+#include "streams.h"
 #include "subcommands.h"
 
-#include "image/image_io.h"
+#include "files/files.h"
 #include "lab/texel_density.h"
 #include "lab/timing.h"
 
@@ -120,7 +121,7 @@ int runBench(const Settings& settings)
     if (settings.json.empty()) {
         writeStdout(benchTable(result, shot, settings));
     } else {
-        writeResult(settings.json, benchJson(result, shot, settings).dump(2) + "\n");
+        writeResult(settings.json, jsonText(benchJson(result, shot, settings)));
     }
     return 0;
 }

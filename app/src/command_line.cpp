@@ -3,6 +3,7 @@
 
 #include "app/preset.h"
 #include "contestants.h"
+#include "files/files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -118,16 +119,16 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
 bool isStrayFile(std::string_view word, const Subcommand& subcommand)
 {
     if (subcommand.bit == kMetrics) {
-        return !word.starts_with("-") && !word.ends_with(".png") && !word.ends_with(".exr");
+        return !word.starts_with("-") && !hasExtension(word, ".png") && !hasExtension(word, ".exr");
     }
     const auto worlds = scene::worlds();
-    return !word.starts_with("-") && !word.ends_with(".gltf") && !word.ends_with(".glb") &&
+    return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&
            std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });
 }
 
 bool isJsonFile(std::string_view word)
 {
-    return word == "-" || (word.ends_with(".json") && !word.starts_with("--"));
+    return word == "-" || (hasExtension(word, ".json") && !word.starts_with("--"));
 }
 
 /// --json's FILE may be left out, which no parser can tell from a scene that follows: a value is "-" or ends in .json.
@@ -160,6 +161,18 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
     return rest;
 }
 
+/// What comes after "--" is no option, whatever it looks like.
+void takeWords(std::span<const std::string> words, const Subcommand& subcommand, Parsed& parsed)
+{
+    if ((subcommand.bit & kFrames) != 0) {
+        parsed.scenes.insert(parsed.scenes.end(), words.begin(), words.end());
+    } else if (subcommand.bit == kMetrics) {
+        parsed.images.insert(parsed.images.end(), words.begin(), words.end());
+    } else if (!words.empty()) {
+        throw UsageError(fmt::format("{} takes no argument \"{}\"", subcommand.name, words.front()));
+    }
+}
+
 void parseWithCli(const Subcommand& subcommand, std::vector<std::string> arguments, Parsed& parsed)
 {
     CLI::App cli;
@@ -179,10 +192,22 @@ void parseWithCli(const Subcommand& subcommand, std::vector<std::string> argumen
         }
         throw UsageError(fmt::format("{} takes no argument \"{}\"", subcommand.name, extra));
     }
+}
+
+Parsed parse(std::span<const std::string> arguments, const Subcommand& subcommand, std::optional<std::string>& json)
+{
+    const auto end = std::find(arguments.begin(), arguments.end(), "--");
+    const auto count = static_cast<std::size_t>(end - arguments.begin());
+    Parsed parsed;
+    parseWithCli(subcommand, takeJson(arguments.first(count), subcommand, json), parsed);
+    if (end != arguments.end()) {
+        takeWords(arguments.subspan(count + 1), subcommand, parsed);
+    }
     if (parsed.scenes.size() > 1) {
         throw UsageError(
             fmt::format("\"{}\" is one argument too many: the scene is \"{}\"", parsed.scenes[1], parsed.scenes[0]));
     }
+    return parsed;
 }
 
 void applyImages(Settings& settings, const Parsed& parsed)
@@ -270,8 +295,7 @@ Command parseCommandLine(std::span<const std::string> arguments)
     }
     command.subcommand = &findSubcommand(arguments[0]);
     std::optional<std::string> json;
-    Parsed parsed;
-    parseWithCli(*command.subcommand, takeJson(arguments.subspan(1), *command.subcommand, json), parsed);
+    const Parsed parsed = parse(arguments.subspan(1), *command.subcommand, json);
     if (parsed.help) {
         command.kind = Command::Kind::help;
         return command;

@@ -9,9 +9,10 @@
 #include "contestants.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "streams.h"
 #include "subcommands.h"
 
-#include "image/image_io.h"
+#include "files/files.h"
 #include "scene/hash.h"
 
 #include <gnomon/choices.h>

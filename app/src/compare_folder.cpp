@@ -6,6 +6,7 @@
 #include "compare_page.h"
 #include "report_plots.h"
 
+#include "files/files.h"
 #include "image/image_io.h"
 #include "lab/report.h"
 
@@ -15,10 +16,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 #include <cstdint>
-#include <fstream>
 #include <system_error>
-#include <unistd.h>
 
 namespace gnomon::app {
 namespace {
@@ -33,13 +33,13 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 /// The files of the report whose result this is; none when it is none.
 std::vector<std::string> filesOfReport(const fs::path& result)
 {
-    constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 28U; // far more than a result has
-    std::error_code error;
-    if (!fs::is_regular_file(result, error) || fs::file_size(result, error) > kMaxBytes || error) {
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28U; // far more than a result has
+    Json json;
+    try {
+        json = Json::parse(readWholeFile(result, kMaxBytes), nullptr, false);
+    } catch (const Error&) {
         return {};
     }
-    std::ifstream in(result, std::ios::binary);
-    const Json json = Json::parse(in, nullptr, false);
     if (!json.is_object() || !json.contains("report_files") || !json["report_files"].is_array()) {
         return {};
     }
@@ -125,60 +125,56 @@ ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
     : path_(folderPath(folder)), files_(std::move(files))
 {
     const std::string what = "writing a report to " + folder.string();
-    if (fs::exists(path_)) {
-        if (!fs::is_directory(path_)) {
-            throw Error(what, "it is not a folder", "name another, or remove it");
-        }
-        earlier_ = filesOfReport(path_ / kReportResult);
-        requireNoForeignFile(what);
-    } else if (!fs::is_directory(path_.parent_path())) {
+    std::error_code error;
+    const fs::file_type type = fs::status(path_, error).type();
+    if (type == fs::file_type::none) {
+        throw Error(what, error.message());
+    }
+    const bool is_there = type != fs::file_type::not_found;
+    if (is_there && type != fs::file_type::directory) {
+        throw Error(what, "it is not a folder", "name another, or remove it");
+    }
+    if (is_there) {
+        const FolderLock lock(path_);
+        takeStock();
+    } else if (!fs::is_directory(path_.parent_path(), error)) {
         throw Error(what, "there is no folder " + path_.parent_path().string());
     }
-    requireWritable((fs::exists(path_) ? path_ : path_.parent_path()) / fmt::format(".{}.tmp", ::getpid()));
+    requireWritable((is_there ? path_ : path_.parent_path()) / ".gnomon-report");
 }
 
-void ReportFolder::requireNoForeignFile(const std::string& what) const
+/// What the folder has of an earlier report. Throws Error when it has anything else by a name that we write.
+void ReportFolder::takeStock()
 {
+    earlier_ = filesOfReport(path_ / kReportResult);
     for (const std::string& name : files_) {
-        const fs::file_status status = fs::symlink_status(path_ / name);
+        std::error_code error;
+        const fs::file_status status = fs::symlink_status(path_ / name, error);
         if (fs::exists(status) && !(contains(earlier_, name) && fs::is_regular_file(status))) {
-            throw Error(what, fmt::format("{} is there already and of no earlier report", name),
+            throw Error("writing a report to " + path_.string(),
+                        fmt::format("{} is there already and of no earlier report", name),
                         "name another folder, or move it away");
         }
     }
 }
 
-ReportFolder::~ReportFolder()
-{
-    if (!work_.empty()) {
-        std::error_code ignored;
-        fs::remove_all(work_, ignored);
-    }
-}
+ReportFolder::~ReportFolder() = default;
 
 /// Beside the files that are to be replaced, or beside the folder that is to be: always on the same file system.
 void ReportFolder::makeWorkFolder()
 {
-    const fs::path parent = fs::exists(path_) ? path_ : path_.parent_path();
-    constexpr int kAttempts = 100;
     std::error_code error;
-    for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
-        const fs::path work = parent / fmt::format(".gnomon-report.{}-{}.tmp", ::getpid(), attempt);
-        if (fs::create_directory(work, error)) {
-            work_ = work;
-            return;
-        }
-    }
-    throw Error("making a folder in " + parent.string(), error ? error.message() : "every name is taken");
+    const fs::path parent = fs::exists(path_, error) ? path_ : path_.parent_path();
+    work_.emplace(parent / "gnomon-report", Temporary::Kind::folder);
 }
 
 fs::path ReportFolder::fileFor(const std::string& name)
 {
     assert(contains(files_, name));
-    if (work_.empty()) {
+    if (!work_) {
         makeWorkFolder();
     }
-    return work_ / name;
+    return work_->path() / name;
 }
 
 void ReportFolder::write(const std::string& name, const Image8& picture)
@@ -198,10 +194,10 @@ void ReportFolder::write(const std::string& name, std::string_view bytes)
 
 std::optional<std::string> ReportFolder::writePlots()
 {
-    std::optional<std::string> why = drawPlots(fileFor(kReportResult), work_);
+    std::optional<std::string> why = drawPlots(fileFor(kReportResult), work_->path());
     for (const std::string& name : files_) {
         if (why && name.ends_with(".svg")) {
-            fs::remove(work_ / name); // the first of them may be there
+            fs::remove(work_->path() / name); // the first of them may be there
         }
     }
     return why;
@@ -211,36 +207,44 @@ std::vector<std::string> ReportFolder::listed() const
 {
     std::vector<std::string> names = files_;
     std::erase_if(names, [&](const std::string& name) {
-        return name != kReportPage && name != kReportResult && !fs::exists(work_ / name);
+        return name != kReportPage && name != kReportResult && !fs::exists(work_->path() / name);
     });
     return names;
 }
 
 void ReportFolder::keep()
 {
-    const auto move = [](const fs::path& from, const fs::path& to) {
-        std::error_code error;
-        fs::rename(from, to, error);
-        if (error) {
-            throw Error("writing " + to.string(), error.message());
-        }
-    };
-    if (work_.parent_path() != path_) {
-        move(work_, path_);
-        work_.clear();
+    if (work_->path().parent_path() == path_) {
+        moveFiles();
         return;
     }
+    const int error = work_->moveTo(path_);
+    if (error == ENOTEMPTY || error == EEXIST) { // another process has made the folder meanwhile
+        moveFiles();
+    } else if (error != 0) {
+        throw Error("writing " + path_.string(), std::generic_category().message(error));
+    }
+}
+
+/// One process after the other, so that result, page and pictures are of one report.
+void ReportFolder::moveFiles()
+{
+    const FolderLock lock(path_);
+    takeStock();
     std::vector<std::string> written;
+    std::error_code error;
     for (const std::string& name : files_) {
-        if (fs::exists(work_ / name)) {
-            move(work_ / name, path_ / name);
+        if (fs::exists(work_->path() / name, error)) {
+            fs::rename(work_->path() / name, path_ / name, error);
+            if (error) {
+                throw Error("writing " + (path_ / name).string(), error.message());
+            }
             written.push_back(name);
         }
     }
-    std::error_code ignored;
     for (const std::string& name : earlier_) {
-        if (!contains(written, name) && fs::is_regular_file(fs::symlink_status(path_ / name, ignored))) {
-            fs::remove(path_ / name, ignored);
+        if (!contains(written, name) && fs::is_regular_file(fs::symlink_status(path_ / name, error))) {
+            fs::remove(path_ / name, error);
         }
     }
 }
@@ -262,8 +266,9 @@ std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult
         json["notes"].push_back(*no_plots);
     }
     json["report_files"] = folder.listed();
-    folder.write(kReportResult, jsonText(json));
-    folder.write(kReportPage, comparePage(json));
+    const std::string text = jsonText(json);
+    folder.write(kReportResult, text);
+    folder.write(kReportPage, comparePage(Json::parse(text))); // of the text, all of which is UTF-8
     folder.keep();
     return no_plots;
 }

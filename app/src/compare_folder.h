@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare_result.h"
+#include "files/temporary.h"
 #include "image/image.h"
 #include "report_names.h"
 #include "result_json.h"
@@ -39,14 +40,15 @@ public:
     void keep();
 
 private:
-    void requireNoForeignFile(const std::string& what) const;
+    void takeStock();
     void makeWorkFolder();
+    void moveFiles();
     [[nodiscard]] std::filesystem::path fileFor(const std::string& name);
 
     std::filesystem::path path_;
     std::vector<std::string> files_;
     std::vector<std::string> earlier_; // files of the report that is there
-    std::filesystem::path work_;       // where files are written; empty until the first one is
+    std::optional<Temporary> work_;    // where files are written, once the first one is
 };
 
 /// Pictures of every technique, plots, the page, result.json. `json` (of `result`) gains "pictures" and "report_files",

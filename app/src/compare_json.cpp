@@ -204,9 +204,4 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
     return json;
 }
 
-std::string jsonText(const Json& json)
-{
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 } // namespace gnomon::app

@@ -19,7 +19,4 @@ namespace gnomon::app {
 /// {"counted", "left_out", "left_out_by_reason"}.
 [[nodiscard]] Json pixelsJson(const lab::PixelCounts& pixels);
 
-/// As text; bytes that are no UTF-8 (of a file's name, say) are replaced.
-[[nodiscard]] std::string jsonText(const Json& json);
-
 } // namespace gnomon::app

@@ -22,8 +22,12 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
 /// First, middle and last, each once.
 std::vector<std::uint32_t> shownFrames(const FrameRange& range)
 {
-    std::vector<std::uint32_t> frames{range.first, range.first + (range.last - range.first) / 2, range.last};
-    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+    std::vector<std::uint32_t> frames;
+    for (const std::uint32_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
+        if (frames.empty() || frames.back() != frame) {
+            frames.push_back(frame);
+        }
+    }
     return frames;
 }
 

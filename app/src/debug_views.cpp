@@ -2,9 +2,10 @@
 #include "debug_views.h"
 
 #include "debug_drawn.h"
+#include "files/files.h"
 #include "lab/tint.h"
 #include "layer_depths.h"
-#include "progress.h"
+#include "streams.h"
 
 #include <gnomon/error.h>
 #include <gnomon/pack/filter_rule.h>
@@ -183,7 +184,7 @@ void requireDebugView(const Settings& settings)
         throw UsageError(fmt::format("--debug {} shows a technique's picture, so it cannot be had with {}", view->name,
                                      settings.mask ? "--mask" : "--truth"));
     }
-    if (std::filesystem::path(settings.output).extension() == ".exr") {
+    if (hasExtension(settings.output, ".exr")) {
         throw UsageError(fmt::format("--debug {} makes a picture of 8 bits; write it as .png", view->name));
     }
     if (!view->used(settings)) {

@@ -3,10 +3,14 @@
 // the slope at a key between two others is a weighted harmonic mean of the slopes beside it, and 0 where these differ
 // in sign. Departure: the first and the last key have the slope of the straight line to their neighbour, so that two
 // keys make a constant speed.
+// Compiled alone: others have variables by the name of its json.
 #include "app/keyframes.h"
 
 #include "app/settings.h"
+#include "scene/json.h"
 #include "setting_rows.h"
+
+#include "files/files.h"
 
 #include <gnomon/error.h>
 
@@ -15,11 +19,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <set>
 #include <string>
 
 namespace gnomon::app {
@@ -35,13 +35,42 @@ constexpr double kLeastFov_deg = 0.1;   // as --fov
 constexpr double kLargestFov_deg = 179.0;
 constexpr double kShortest = 1e-12; // a direction's length must be told from rounding noise
 
+/// Of a text from the file: on one line, and short.
+std::string shown(std::string text)
+{
+    constexpr std::size_t kLongest = 200;
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20U || c >= 0x7FU; }, '?');
+    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+class PathOwner final : public scene::JsonOwner {
+public:
+    explicit PathOwner(std::string_view name) : name_(name) {}
+    [[noreturn]] void fail(const std::string& pointer, const std::string& what, const std::string& found,
+                           const std::string& todo) const override
+    {
+        constexpr std::size_t kLongest =
+            80; // the place of what is nested deep is long, and what is wrong comes after it
+        const std::string place = pointer.size() <= kLongest ? pointer : pointer.substr(0, kLongest) + "...";
+        throw Error(
+            fmt::format("reading path {}", name_),
+            shown(fmt::format("{}{}{}{}{}", place, place.empty() ? "" : ": ", what, found.empty() ? "" : ": ", found)),
+            todo);
+    }
+
+private:
+    std::string_view name_;
+};
+
 class Reader {
 public:
     explicit Reader(std::string_view name) : name_(name) {}
 
     [[nodiscard]] Keyframes read(std::string_view text) const
     {
-        const json file = parse(text);
+        PathOwner owner(name_);
+        const json file = scene::readJson<json>(text, owner);
         if (!file.is_object()) {
             fail("", "it is no JSON object");
         }
@@ -62,45 +91,6 @@ private:
     {
         throw Error(fmt::format("reading path {}", name_),
                     pointer.empty() ? found : fmt::format("{}: {}", pointer, found));
-    }
-
-    /// Two entries of one name would be told apart by nobody: the parser keeps the last.
-    [[nodiscard]] json parse(std::string_view text) const
-    {
-        std::vector<std::set<std::string>> open;
-        const json::parser_callback_t watch = [&](int depth, json::parse_event_t event, json& value) {
-            constexpr int kDeepest = 8;
-            if (depth > kDeepest) {
-                fail("", fmt::format("it is nested deeper than {} levels", kDeepest));
-            }
-            if (event == json::parse_event_t::object_start) {
-                open.emplace_back();
-            } else if (event == json::parse_event_t::object_end) {
-                open.pop_back();
-            } else if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second) {
-                fail("", fmt::format("an object has \"{}\" twice", shown(value.get<std::string>())));
-            }
-            return true;
-        };
-        try {
-            return json::parse(text, watch);
-        } catch (const json::exception& error) {
-            // The library's text starts with "[json.exception...] "; what follows is for people.
-            std::string why = error.what();
-            if (const std::size_t start = why.find("] "); start != std::string::npos) {
-                why = why.substr(start + 2);
-            }
-            fail("", "invalid JSON: " + shown(why));
-        }
-    }
-
-    /// Of a text from the file: on one line, and short.
-    [[nodiscard]] static std::string shown(std::string text)
-    {
-        constexpr std::size_t kLongest = 200;
-        std::replace_if(
-            text.begin(), text.end(), [](unsigned char c) { return c < 0x20U || c >= 0x7FU; }, '?');
-        return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
     }
 
     void requireKnown(const json& object, std::string_view pointer, const std::vector<std::string_view>& known) const
@@ -240,21 +230,7 @@ Keyframes parseKeyframes(std::string_view text, std::string_view name)
 
 Keyframes readKeyframes(const std::filesystem::path& file)
 {
-    const std::string what = "reading path " + file.string();
-    if (std::filesystem::is_directory(file)) {
-        throw Error(what, "it is a directory");
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw Error(what, std::strerror(errno));
-    }
-    std::string text(kMaxBytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kMaxBytes) {
-        throw Error(what, fmt::format("it has more than {} bytes", kMaxBytes));
-    }
-    return parseKeyframes(text, file.string());
+    return parseKeyframes(readWholeFile(file, kMaxBytes, "path"), file.string());
 }
 
 } // namespace gnomon::app

@@ -2,6 +2,7 @@
 // `gnomon list`: every value of every choice, every rule that refuses, every setting, preset and world.
 #include "app/preset.h"
 #include "result_json.h"
+#include "streams.h"
 #include "subcommands.h"
 
 #include <gnomon/choice_rules.h>
@@ -185,7 +186,7 @@ int runList(const Settings& settings)
     if (settings.json.empty()) {
         writeStdout(textList());
     } else {
-        writeResult(settings.json, jsonList().dump(2) + "\n");
+        writeResult(settings.json, jsonText(jsonList()));
     }
     return 0;
 }

@@ -2,8 +2,10 @@
 // `gnomon metrics`: how far one image is from another, without a scene.
 #include "image_metrics.h"
 #include "result_json.h"
+#include "streams.h"
 #include "subcommands.h"
 
+#include "files/files.h"
 #include "image/image_io.h"
 
 #include <gnomon/error.h>
@@ -105,7 +107,7 @@ int runMetrics(const Settings& settings)
     if (settings.json.empty()) {
         writeStdout(metricsText(metrics, settings, test));
     } else {
-        writeResult(settings.json, metricsJson(metrics, settings, test).dump(2) + "\n");
+        writeResult(settings.json, jsonText(metricsJson(metrics, settings, test)));
     }
     return 0;
 }

@@ -6,6 +6,7 @@
 #include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
+#include "streams.h"
 #include "subcommands.h"
 
 #include "lab/plan_picture.h"
@@ -167,7 +168,7 @@ int runPlan(const Settings& settings)
         describeLight(shot.lights[i], json["lights"][i]);
     }
     json["objects"] = objectsJson(shot, planned.objects());
-    writeResult(settings.json, json.dump(2) + "\n");
+    writeResult(settings.json, jsonText(json));
     return 0;
 }
 

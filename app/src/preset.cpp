@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/preset.h"
 
-#include <gnomon/error.h>
+#include "scene/json.h"
+
+#include "files/files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace gnomon::app {
 namespace {
@@ -68,20 +67,59 @@ std::string typed(const nlohmann::json& value, char between = ',')
     return value.dump();
 }
 
+/// Whether a value may be given so, as a string or as JSON has it; what it says is for applySetting() to check.
+bool isTyped(SettingType type, const nlohmann::json& value)
+{
+    if (value.is_string()) {
+        return true;
+    }
+    switch (type) {
+    case SettingType::flag:
+        return value.is_boolean() || value.is_number();
+    case SettingType::integer:
+    case SettingType::real:
+    case SettingType::choice: // some are numbers
+        return value.is_number();
+    case SettingType::numbers:
+        return value.is_number() ||
+               (value.is_array() && !value.empty() &&
+                std::all_of(value.begin(), value.end(), [](const auto& x) { return x.is_number(); }));
+    case SettingType::size:
+    case SettingType::range:
+    case SettingType::text:
+        break;
+    }
+    return false;
+}
+
+void requireType(const Setting& setting, const nlohmann::json& value)
+{
+    constexpr std::string_view kTakes[] = {"true or false",     "a number",         "a number", "a string or a number",
+                                           "numbers in a list", "a string \"WxH\"", "a string", "a string"};
+    const bool list = setting.repeatable && value.is_array();
+    const bool typed =
+        list ? std::all_of(value.begin(), value.end(), [&](const auto& x) { return isTyped(setting.type, x); })
+             : isTyped(setting.type, value);
+    if (!typed) {
+        throw UsageError(fmt::format("{} takes {}{}, not {}", setting.key,
+                                     kTakes[static_cast<std::size_t>(setting.type)],
+                                     setting.repeatable ? " or a list of them" : "", value.type_name()));
+    }
+}
+
 void applyEntry(Settings& settings, const std::string& key, const nlohmann::json& value, std::uint32_t subcommand)
 {
-    if (key == "scene") {
-        settings.scene = typed(value);
+    if (key == "scene" || key == "scene_hash") {
+        if (!value.is_string()) {
+            throw UsageError(fmt::format("{} takes a string, not {}", key, value.type_name()));
+        }
+        (key == "scene" ? settings.scene : settings.scene_hash) = value.get<std::string>();
         return;
-    }
-    if (key == "scene_hash") {
-        settings.scene_hash = typed(value);
-        return;
-    }
-    if (value.is_object() || value.is_null()) {
-        throw UsageError(fmt::format("{} is neither a string, a number, true, false nor a list", key));
     }
     const Setting* setting = findSetting(key);
+    if (setting != nullptr) {
+        requireType(*setting, value);
+    }
     if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
         return;
     }
@@ -98,10 +136,26 @@ void applyEntry(Settings& settings, const std::string& key, const nlohmann::json
     applySetting(settings, key, typed(value, setting == nullptr ? ',' : setting->between));
 }
 
+class PresetOwner final : public scene::JsonOwner {
+public:
+    explicit PresetOwner(const std::string& name) : name_(name) {}
+    [[noreturn]] void fail(const std::string& pointer, const std::string& what, const std::string& found,
+                           const std::string& todo) const override
+    {
+        throw UsageError(fmt::format("--preset: {} is not a JSON object of settings: {}{}{}{}{}{}{}", name_, what,
+                                     pointer.empty() ? "" : " at ", pointer, found.empty() ? "" : ": ", found,
+                                     todo.empty() ? "" : "; ", todo));
+    }
+
+private:
+    const std::string& name_;
+};
+
 void applyJson(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
 {
     // Ordered, because bias ends what bias.constant said before it.
-    const auto file = nlohmann::ordered_json::parse(text, nullptr, false);
+    PresetOwner owner(name);
+    const auto file = scene::readJson<nlohmann::ordered_json>(text, owner);
     const bool is_result = file.is_object() && file.contains("settings");
     const auto& json = is_result ? file["settings"] : file;
     if (!json.is_object()) {
@@ -131,24 +185,16 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
 
 std::string readPreset(const std::filesystem::path& file)
 {
-    constexpr std::uintmax_t kMaxBytes = 1U << 24U; // a result holds every number of every technique
-    if (std::filesystem::is_directory(file)) {
-        throw Error("reading preset " + file.string(), "it is a directory");
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw Error("reading preset " + file.string(), std::strerror(errno));
-    }
-    std::string text(kMaxBytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kMaxBytes) {
-        throw Error("reading preset " + file.string(), fmt::format("it has more than {} bytes", kMaxBytes));
-    }
-    return text;
+    constexpr std::uint64_t kMaxBytes = 1U << 24U; // a result holds every number of every technique
+    return readWholeFile(file, kMaxBytes, "preset");
 }
 
 } // namespace
+
+void applyPresetText(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
+{
+    applyJson(settings, name, text, subcommand);
+}
 
 std::span<const Preset> presets()
 {

@@ -2,19 +2,15 @@
 #include "app/command_line.h"
 
 #include "interrupt.h"
+#include "streams.h"
 #include "subcommands.h"
-
-#include <gnomon/error.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <new>
+#include <string_view>
 
 namespace gnomon::app {
 namespace {
@@ -33,10 +29,9 @@ constexpr std::array kSubcommands{
     Subcommand{"list", kList, "[options]", "Prints every choice and setting, and what is refused and why.", runList},
 };
 
-int complain(std::string line, int status)
+int complain(std::string_view line, int status)
 {
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "gnomon: {}\n", line);
+    notice(line);
     return status;
 }
 
@@ -63,15 +58,9 @@ std::span<const Subcommand> subcommands()
     return kSubcommands;
 }
 
-void writeStdout(std::string_view text)
-{
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw Error("writing to standard output", std::strerror(errno));
-    }
-}
-
 int runProgram(std::span<const std::string> arguments)
 {
+    holdStandardStreams();
     // A closed pipe and a file size limit are to come back as errors of the call, not to end the process half way.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);

@@ -2,11 +2,11 @@
 #include "progress.h"
 
 #include "interrupt.h"
+#include "streams.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <unistd.h>
 
 namespace gnomon::app {
@@ -21,7 +21,7 @@ Progress::Progress(std::string label) : label_(std::move(label)), total_(0), ter
 Progress::~Progress()
 {
     if (terminal_) {
-        std::fputs("\r\033[K", stderr);
+        writeStderr("\r\033[K");
     }
 }
 
@@ -61,13 +61,7 @@ void Progress::draw(double share, const std::string& count)
     const auto filled = static_cast<std::size_t>(kWidth * std::clamp(share, 0.0, 1.0));
     const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {}", label_, "", filled, "",
                                         static_cast<std::size_t>(kWidth) - filled, count);
-    std::fputs(bar.c_str(), stderr);
-    std::fflush(stderr);
-}
-
-void notice(const std::string& text)
-{
-    fmt::print(stderr, "gnomon: {}\n", text);
+    writeStderr(bar);
 }
 
 } // namespace gnomon::app

@@ -35,7 +35,4 @@ private:
     std::chrono::steady_clock::time_point drawn_{};
 };
 
-/// A line on stderr that starts with the program's name.
-void notice(const std::string& text);
-
 } // namespace gnomon::app

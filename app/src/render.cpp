@@ -6,9 +6,11 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render_target.h"
+#include "streams.h"
 #include "subcommands.h"
 #include "truth_masks.h"
 
+#include "files/files.h"
 #include "host/gpu.h"
 #include "image/image_io.h"
 
@@ -27,7 +29,7 @@ namespace fs = std::filesystem;
 
 bool isExr(const fs::path& file)
 {
-    return file.extension() == ".exr";
+    return hasExtension(file, ".exr");
 }
 
 void writeMask(const fs::path& file, const ImageF& mask)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_target.h"
 
-#include "image/image_io.h"
+#include "files/files.h"
 
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
+
+#include <system_error>
 
 namespace gnomon::app {
 
@@ -13,9 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Throws Error where that cannot be told: a name that is too long, a folder that may not be looked into.
+fs::file_type typeOf(const fs::path& path)
+{
+    std::error_code error;
+    const fs::file_type type = fs::status(path, error).type();
+    if (type == fs::file_type::none) {
+        throw Error("writing " + path.string(), error.message());
+    }
+    return type;
+}
+
 bool isPicture(const fs::path& path)
 {
-    return path.extension() == ".png" || path.extension() == ".exr";
+    return hasExtension(path, ".png") || hasExtension(path, ".exr");
 }
 
 } // namespace
@@ -24,10 +37,10 @@ RenderTarget::RenderTarget(const Settings& settings)
 {
     const bool frames = settings.frames.has_value();
     path_ = !settings.output.empty() ? settings.output : frames ? "gnomon_frames" : "gnomon.png";
-    folder_wanted_ = frames && (!isPicture(path_) || fs::is_directory(path_));
+    folder_wanted_ = frames && (!isPicture(path_) || typeOf(path_) == fs::file_type::directory);
     last_ = frames ? settings.frames->last : 0;
     if (!folder_wanted_) {
-        if (fs::is_directory(path_)) {
+        if (typeOf(path_) == fs::file_type::directory) {
             throw Error("writing " + path_.string(), "it is a directory", "name a file in it");
         }
         if (!isPicture(path_)) {
@@ -36,14 +49,14 @@ RenderTarget::RenderTarget(const Settings& settings)
         requireWritable(path_);
         return;
     }
-    if (fs::exists(path_) && !fs::is_directory(path_)) {
-        throw Error("writing frames to " + path_.string(), "it is not a folder");
-    }
-    if (!fs::exists(path_)) {
+    const fs::file_type type = typeOf(path_);
+    if (type == fs::file_type::not_found) {
         const fs::path parent = fs::absolute(path_).parent_path();
-        if (!fs::is_directory(parent)) {
+        if (typeOf(parent) != fs::file_type::directory) {
             throw Error("writing frames to " + path_.string(), "there is no folder " + parent.string());
         }
+    } else if (type != fs::file_type::directory) {
+        throw Error("writing frames to " + path_.string(), "it is not a folder");
     }
 }
 
@@ -60,12 +73,10 @@ std::optional<fs::path> RenderTarget::frame(std::uint32_t index)
     if (!folder_wanted_) {
         return index == last_ ? std::optional(path_) : std::nullopt;
     }
-    if (!fs::exists(path_)) {
-        std::error_code error;
-        if (!fs::create_directory(path_, error)) {
-            throw Error("making folder " + path_.string(), error.message());
-        }
-        created_ = true;
+    std::error_code error;
+    created_ = fs::create_directory(path_, error) || created_; // another process may have made it
+    if (error) {
+        throw Error("making folder " + path_.string(), error.message());
     }
     return path_ / fmt::format("frame_{:04}.png", index);
 }

@@ -2,9 +2,10 @@
 #include "result_json.h"
 
 #include "setting_values.h"
+#include "streams.h"
 #include "subcommands.h"
 
-#include "image/image_io.h"
+#include "files/files.h"
 
 namespace gnomon::app {
 namespace {
@@ -106,6 +107,11 @@ Json settingJson(const Setting& setting)
     }
     json["subcommands"] = commands;
     return json;
+}
+
+std::string jsonText(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void writeResult(const std::string& file, std::string_view text)

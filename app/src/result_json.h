@@ -24,5 +24,7 @@ using Json = nlohmann::ordered_json;
 
 /// One setting as `list` shows it.
 [[nodiscard]] Json settingJson(const Setting& setting);
+/// As it is written; what is no UTF-8, such as some names of files, has U+FFFD in its place.
+[[nodiscard]] std::string jsonText(const Json& json);
 
 } // namespace gnomon::app

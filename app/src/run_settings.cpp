@@ -4,6 +4,8 @@
 #include "setting_rows.h"
 #include "setting_values.h"
 
+#include "files/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,6 +72,10 @@ void applyLimit(Settings& s, const Value& v)
         Limit{"vertices", k63,
               [](scene::Limits& l, std::uint64_t n) {
                   l.max_vertices = n;
+              }},
+        Limit{"growth", k63,
+              [](scene::Limits& l, std::uint64_t n) {
+                  l.max_growth = n;
               }},
     };
     const std::size_t equals = v.text.find('=');
@@ -172,7 +178,7 @@ double sweepEnd(std::string_view text, const Setting& setting, std::string_view 
 
 void applyDraw(Settings& s, const Value& v)
 {
-    if (!v.text.ends_with(".svg")) {
+    if (!hasExtension(v.text, ".svg")) {
         throw UsageError(fmt::format("--draw: \"{}\" does not end in .svg, which is what it is written as", v.text));
     }
     s.draw = v.text;

@@ -5,6 +5,8 @@
 
 #include "app/settings.h"
 
+#include <gnomon/world_range.h>
+
 #include <vector>
 
 namespace gnomon::app {
@@ -20,7 +22,7 @@ std::vector<std::string_view> enumNames(std::uint8_t count)
     return names;
 }
 
-inline constexpr double kFarthest = 1e9; // metres; beyond, single precision has no use for a coordinate
+inline constexpr double kFarthest = kFarthestPlace_m;
 
 void addSceneRows(std::vector<Setting>& table);     // picture, camera, light
 void addTechniqueRows(std::vector<Setting>& table); // the library's options

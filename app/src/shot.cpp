@@ -3,8 +3,10 @@
 
 #include "light_extent.h"
 #include "shot_camera.h"
+#include "shot_range.h"
 
 #include "scene/hash.h"
+#include "scene/range.h"
 
 #include <gnomon/error.h>
 
@@ -318,6 +320,7 @@ Shot makeShot(const Settings& settings)
     if (shot.state.objects.empty() || shot.state.bounds_ws.empty()) {
         throw Error("drawing " + settings.scene, "the scene has nothing to draw");
     }
+    scene::requireInRange(shot.state, "drawing " + settings.scene); // before anything is measured by it
     placeEye(shot, settings); // before the ground, which is not what one wants to look at
     if (settings.ground) {
         addGround(shot.scene, shot.state.bounds_ws);
@@ -328,6 +331,7 @@ Shot makeShot(const Settings& settings)
         startPath(shot, settings);
         followPath(shot, settings, first);
     }
+    requireInRange(shot, settings);
     noteLights(shot, settings);
     noteExtents(shot, settings);
     noteScene(shot, settings);
@@ -345,6 +349,7 @@ void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame)
     if (shot.path) {
         followPath(shot, settings, frame);
     }
+    requireInRange(shot, settings);
 }
 
 host::RenderOptions renderOptions(const Settings& settings)

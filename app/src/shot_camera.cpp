@@ -114,7 +114,7 @@ host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect)
     const double tan_y = std::tan(fov_y_rad / 2.0);
     const double tan_x = tan_y * aspect;
     // The distance at which the last corner is on the picture's edge.
-    double distance = 1e-3;
+    double distance = 0.0;
     for (int i = 0; i < 8 && !bounds_ws.empty(); ++i) {
         const glm::dvec3 corner = glm::dvec3(bounds_ws.corner(i)) - centre;
         const double along = glm::dot(corner, backward);

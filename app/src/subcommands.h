@@ -15,8 +15,6 @@ int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);
 
-/// Throws Error when standard output is closed or full.
-void writeStdout(std::string_view text);
 /// To the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth_masks.h"
 
-#include "progress.h"
+#include "streams.h"
 
 #include <gnomon/error.h>
 

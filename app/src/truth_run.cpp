@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "lab/compare.h"
 #include "progress.h"
+#include "streams.h"
 
 #include <cassert>
 #include <optional>

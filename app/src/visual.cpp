@@ -2,7 +2,8 @@
 #include "app/visual.h"
 
 #include "contestants.h"
-#include "progress.h"
+#include "interrupt.h"
+#include "streams.h"
 
 #include <gnomon/error.h>
 #include <gnomon/pack/filter_rule.h>
@@ -36,7 +37,8 @@ void noteLevels(const Settings& technique)
 
 std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
 {
-    auto gpu = std::make_unique<host::Gpu>(host::GpuOptions{settings.gpu, settings.validate});
+    auto gpu = std::make_unique<host::Gpu>(
+        host::GpuOptions{.gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted});
     const VkPhysicalDeviceLimits& limits = gpu->properties().limits;
     const std::uint32_t max_side =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});

@@ -3,6 +3,8 @@
 
 #include "motion/steps.h"
 
+#include <gnomon/world_range.h>
+
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -59,6 +61,9 @@ Outcome checkCamera(const Camera& camera)
     if (!std::isfinite(camera.eye_ws.x) || !std::isfinite(camera.eye_ws.y) || !std::isfinite(camera.eye_ws.z)) {
         return {OutcomeKind::degenerate, "the camera's eye is not finite"};
     }
+    if (isTooFar(camera.eye_ws)) {
+        return {OutcomeKind::degenerate, "the camera is farther than 1e9 m from the origin"};
+    }
     const double determinant = glm::determinant(camera.clip_from_world);
     if (!std::isfinite(determinant) || determinant == 0.0) {
         return {OutcomeKind::degenerate, "the camera's matrix is singular"};
@@ -94,6 +99,8 @@ void findAxis(const Camera& camera, CameraView& view)
 }
 
 constexpr int kMostCutBoxes = 64;
+/// Share of the largest coordinate by which boxes are padded: what single precision may round, some eight times.
+constexpr double kPad = 1e-6;
 
 } // namespace
 
@@ -144,12 +151,12 @@ void CameraView::boundDepths(const Camera& camera, double max_distance_m)
     };
     const Plane& first = frustum.planes[camera.reversed_z ? 5 : 4];
     const Plane& last = frustum.planes[camera.reversed_z ? 4 : 5];
-    double farthest_m = 0.0;
+    double farthest_m = pad_m;
     for (int i = 0; i < 8; ++i) {
         farthest_m = std::max(farthest_m, glm::distance(glm::dvec3(scene_ws.corner(i)), eye_ws));
     }
     near_m = depthOfPlane(first);
-    far_m = std::min(depthOfPlane(last), steppedRatio(1.0, std::max(farthest_m, 1.0)).high);
+    far_m = std::min(depthOfPlane(last), steppedRatio(farthest_m, farthest_m).high);
     if (max_distance_m > 0.0) {
         far_m = std::min(far_m, max_distance_m);
     }
@@ -166,8 +173,11 @@ void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std
         return;
     }
     findAxis(frame.camera, *this);
-    const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(scene_ws.min)), glm::abs(glm::dvec3(scene_ws.max)));
-    pad_m = 1e-6 * std::max({largest.x, largest.y, largest.z}) + 1e-5;
+    glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(scene_ws.min)), glm::abs(glm::dvec3(scene_ws.max)));
+    if (scene_ws.min == scene_ws.max) { // a point, which may be at the origin: there is no other measure
+        largest = glm::max(largest, glm::max(glm::abs(eye_ws), glm::dvec3(kSmallestScene_m)));
+    }
+    pad_m = kPad * std::max({largest.x, largest.y, largest.z});
 
     for (const Plane& plane : frustumFromClip(frame.camera.clip_from_world).planes) {
         if (plane.normal != glm::dvec3(0.0)) {

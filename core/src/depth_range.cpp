@@ -48,15 +48,15 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
     return range;
 }
 
-double farthestCaster(const Region& region, const LightSpace& space, bool steady)
+double farthestCaster(const Region& region, const LightSpace& space, bool steady, double pad_m)
 {
     if (!steady) {
         return region.receiverFar_m();
     }
-    return space.perspective
-               ? space.reach_m
-               : steppedRange(region.receiverNear_m(), std::max(region.receiverFar_m(), region.receiverNear_m() + 1e-3))
-                     .high;
+    return space.perspective ? space.reach_m
+                             : steppedRange(region.receiverNear_m(),
+                                            std::max(region.receiverFar_m(), region.receiverNear_m() + 32.0 * pad_m))
+                                   .high;
 }
 
 double lightPlaceOf(const Region& region, const LightSpace& space, double near_m)

@@ -23,7 +23,7 @@ struct DepthRangeInput {
 [[nodiscard]] DepthRange depthRangeOf(const DepthRangeInput& input);
 
 /// Depth behind which nothing can cast on what is seen. Of a steady map it changes in steps.
-[[nodiscard]] double farthestCaster(const Region& region, const LightSpace& space, bool steady);
+[[nodiscard]] double farthestCaster(const Region& region, const LightSpace& space, bool steady, double pad_m);
 
 /// Eq. 6 of Marinescu 2011: the centre of the box, backed out against the light until everything that can cast is in
 /// front; as a depth along the light's axis. A light that has a place stays there.

@@ -21,8 +21,8 @@ std::string oneLine(const std::string& tried, const std::string& found, const st
 
 } // namespace
 
-Error::Error(const std::string& tried, const std::string& found, const std::string& todo)
-    : std::runtime_error(oneLine(tried, found, todo)), tried_(tried), found_(found), todo_(todo)
+Error::Error(const std::string& tried, const std::string& found, const std::string& todo, ErrorKind kind)
+    : std::runtime_error(oneLine(tried, found, todo)), tried_(tried), found_(found), todo_(todo), kind_(kind)
 {
 }
 

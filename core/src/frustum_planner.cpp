@@ -5,8 +5,34 @@
 #include "fit/projection.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon {
+namespace {
+
+/// No map shows less: tangents, or so many times what coordinates are padded by.
+constexpr double kLeastTangent = 1e-4;
+constexpr double kLeastPads = 32.0;
+
+constexpr Outcome kTooFarApart{OutcomeKind::degenerate,
+                               "the numbers of camera, light and scene are too far apart to plan a map by"};
+
+bool isFinite(const View& view)
+{
+    double sum = view.texel_m + view.metric.near_m + view.metric.far_m;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            sum += std::abs(view.clip_from_world[column][row]);
+        }
+        sum += std::abs(view.metric.metric_ws[column]);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        sum += std::abs(view.light_place_ws[axis]);
+    }
+    return std::isfinite(sum) && view.texel_m > 0.0 && view.metric.far_m > view.metric.near_m;
+}
+
+} // namespace
 
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)
 {
@@ -28,14 +54,14 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const Warp warp = warpOf(input, space, border_texels);
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
-    const double least_size = space.perspective ? 1e-4 : 1e-3 + camera.pad_m;
+    const double least_size = space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
     const MapFrame shown = recipe.motion->move(
         rect, {space, input.frame.camera, camera, input.slice, least_size, input.map_size, border_texels});
     const FitReport fit = reportOf(warp, shown, region_.outline());
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),
                             borderReach(warp, fit, border_texels, input.map_size),
-                            farthestCaster(region_, space, steady), steady};
+                            farthestCaster(region_, space, steady, camera.pad_m), steady};
     const auto first_caster = static_cast<std::uint32_t>(casters.size());
     if (const Outcome found = region_.gatherCasters(around, reach, casters); found.kind != OutcomeKind::ok) {
         return found;
@@ -54,6 +80,10 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const DepthRange range = depthRangeOf({region_, space, view.clamp_near, steady, view.texel_m, camera.pad_m});
     view.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
     measureDepth(space, range, view);
+    if (!isFinite(view)) {
+        casters.resize(first_caster);
+        return kTooFarApart;
+    }
     return warp.outcome;
 }
 

@@ -2,6 +2,8 @@
 // Based on: J. R. Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012.
 #include "light_space.h"
 
+#include <gnomon/world_range.h>
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -28,8 +30,17 @@ Outcome checkPlacedLight(const Light& light)
     if (!std::isfinite(light.near_m) || light.near_m < 0.0) {
         return {OutcomeKind::degenerate, "the light's near distance is negative or not finite"};
     }
+    if (!std::isfinite(light.radius_m) || light.radius_m < 0.0) {
+        return {OutcomeKind::degenerate, "the light's radius is negative or not finite"};
+    }
     if (light.range_m > 0.0 && light.near_m >= light.range_m) {
         return {OutcomeKind::degenerate, "the light's near distance is not before its range"};
+    }
+    if (isTooFar(light.position_ws)) {
+        return {OutcomeKind::degenerate, "the light is farther than 1e9 m from the origin"};
+    }
+    if (std::max(light.range_m, light.radius_m) > kFarthestPlace_m) {
+        return {OutcomeKind::degenerate, "the light's range or radius is larger than 1e9 m"};
     }
     return {};
 }
@@ -38,7 +49,11 @@ Outcome checkPlacedLight(const Light& light)
 
 Outcome checkLight(const Light& light)
 {
-    if (light.type != LightType::directional) {
+    if (light.type == LightType::directional) {
+        if (!std::isfinite(light.angular_diameter_rad) || light.angular_diameter_rad < 0.0) {
+            return {OutcomeKind::degenerate, "the light's angular diameter is negative or not finite"};
+        }
+    } else {
         if (const Outcome outcome = checkPlacedLight(light); outcome.kind != OutcomeKind::ok) {
             return outcome;
         }

@@ -107,8 +107,11 @@ std::uint32_t blurRadius(const MomentOptions& options)
     if (options.blur == BlurKind::box) {
         return 2;
     }
-    const auto three_sigma = static_cast<std::uint32_t>(std::ceil(3.0F * options.blur_sigma_texels));
-    return std::clamp(three_sigma, 1U, kMaxBlurRadius);
+    const float three_sigma = std::ceil(3.0F * options.blur_sigma_texels);
+    if (!(three_sigma > 1.0F)) { // no number either
+        return 1;
+    }
+    return static_cast<std::uint32_t>(std::min(three_sigma, static_cast<float>(kMaxBlurRadius)));
 }
 
 std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options)

@@ -4,21 +4,21 @@
 #include <gnomon/object_set.h>
 
 #include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cassert>
-#include <cmath>
+#include <functional>
 
 namespace gnomon {
 namespace {
 
-[[maybe_unused]] bool finite(const Aabb& box)
+constexpr Aabb kAnywhere{glm::vec3(-kFarthestBounds_m), glm::vec3(kFarthestBounds_m)};
+
+/// Not so where a coordinate is no number: that fails every comparison.
+bool isSomewhere(const Aabb& box, const Aabb& within = kAnywhere)
 {
-    return std::isfinite(box.min.x) && std::isfinite(box.min.y) && std::isfinite(box.min.z) &&
-           std::isfinite(box.max.x) && std::isfinite(box.max.y) && std::isfinite(box.max.z);
+    return within.contains(box) && !box.empty();
 }
 
 /// The positions of the bits that are set, ascending.
@@ -37,70 +37,118 @@ std::uint64_t nextIdentity()
     return ++last;
 }
 
+/// One count for all sets, so that no set takes another's name for one of its own.
+std::uint32_t nextGeneration()
+{
+    static std::atomic<std::uint32_t> last{0};
+    const std::uint32_t next = last.fetch_add(1, std::memory_order_relaxed) + 1;
+    return next != 0 ? next : last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 } // namespace
 
 struct ObjectSet::Impl {
-    // By handle. Apart from each other, because a plan reads all bounds, then all changes.
-    TreeObjects objects;
+    // By index. Apart from each other, because a plan reads all bounds, then all changes.
+    TreeObjects objects; // bounds empty: nowhere, in no tree and without bits
     std::vector<std::uint64_t> changed;
+    std::vector<std::uint32_t> generations; // 0: there is no object
     std::vector<ObjectFlags> flags;
-    // A bit for each handle: alive, and alive with that flag.
+    // A bit for each index: somewhere, and somewhere with that flag.
     std::array<std::vector<std::uint64_t>, 3> bits;
-    std::vector<std::uint32_t> free_handles; // a heap, the smallest on top: handles stay dense
+    std::vector<std::uint32_t> free_indices; // a heap, the smallest on top: indices stay dense
     std::array<Octree, 2> trees;             // what stands still, what moves: the first one stays as it is
     std::uint64_t version = 0;
     std::uint64_t identity = nextIdentity();
     Aabb bounds;
     bool bounds_loose = false; // an object at the rim left it
+    std::uint32_t nowhere = 0;
 
-    void record(std::uint32_t object) { changed[object] = ++version; }
-    Octree& treeOf(std::uint32_t object) { return trees[flags[object].dynamic ? 1 : 0]; }
-
-    std::uint32_t newHandle()
+    void record(std::uint32_t index) { changed[index] = ++version; }
+    Octree& treeOf(std::uint32_t index) { return trees[flags[index].dynamic ? 1 : 0]; }
+    [[nodiscard]] bool alive(std::size_t index) const { return index < generations.size() && generations[index] != 0; }
+    [[nodiscard]] bool names(ObjectId object) const
     {
-        if (!free_handles.empty()) {
-            std::pop_heap(free_handles.begin(), free_handles.end(), std::greater<>());
-            const std::uint32_t handle = free_handles.back();
-            free_handles.pop_back();
-            return handle;
+        return object.index < generations.size() && generations[object.index] == object.generation &&
+               object.generation != 0;
+    }
+
+    /// For one more index, and for giving every index back: all or nothing, since whatever is taken here may throw.
+    void makeRoom()
+    {
+        const std::size_t room = changed.size() < changed.capacity() ? changed.capacity() : 2 * changed.size() + 16;
+        objects.bounds_ws.reserve(room);
+        objects.places.reserve(room);
+        generations.reserve(room);
+        flags.reserve(room);
+        for (auto& words : bits) {
+            words.reserve(room / 64 + 1);
         }
-        const auto handle = static_cast<std::uint32_t>(changed.size());
-        assert(handle <= Octree::kHandleBits);
+        free_indices.reserve(room);
+        changed.reserve(room);
+    }
+    std::uint32_t newIndex()
+    {
+        if (!free_indices.empty()) {
+            std::pop_heap(free_indices.begin(), free_indices.end(), std::greater<>());
+            const std::uint32_t index = free_indices.back();
+            free_indices.pop_back();
+            return index;
+        }
+        const auto index = static_cast<std::uint32_t>(changed.size());
+        makeRoom();
         objects.bounds_ws.emplace_back();
         objects.places.emplace_back();
         changed.push_back(0);
+        generations.push_back(0);
         flags.emplace_back();
         for (auto& words : bits) {
-            words.resize(handle / 64 + 1);
+            words.resize(index / 64 + 1);
         }
-        return handle;
+        return index;
     }
     [[nodiscard]] std::vector<std::uint64_t>& bitsOf(Want want) { return bits[static_cast<std::size_t>(want)]; }
-    [[nodiscard]] bool alive(std::size_t handle) const
+    void setBits(std::uint32_t index, bool somewhere)
     {
-        return (bits[static_cast<std::size_t>(Want::all)][handle / 64] >> (handle % 64) & 1) != 0;
-    }
-    void setBits(std::uint32_t handle, bool now_alive)
-    {
-        const std::uint64_t bit = std::uint64_t{1} << (handle % 64);
+        const std::uint64_t bit = std::uint64_t{1} << (index % 64);
         const auto set = [&](Want want, bool value) {
-            std::uint64_t& word = bitsOf(want)[handle / 64];
+            std::uint64_t& word = bitsOf(want)[index / 64];
             word = value ? word | bit : word & ~bit;
         };
-        set(Want::all, now_alive);
-        set(Want::casters, now_alive && flags[handle].casts);
-        set(Want::receivers, now_alive && flags[handle].receives);
+        set(Want::all, somewhere);
+        set(Want::casters, somewhere && flags[index].casts);
+        set(Want::receivers, somewhere && flags[index].receives);
     }
     /// Called before an object's box goes or changes.
     void leave(const Aabb& box)
     {
-        bounds_loose |=
-            glm::any(glm::lessThanEqual(box.min, bounds.min)) || glm::any(glm::greaterThanEqual(box.max, bounds.max));
+        bounds_loose = bounds_loose || box.min.x <= bounds.min.x || box.min.y <= bounds.min.y ||
+                       box.min.z <= bounds.min.z || box.max.x >= bounds.max.x || box.max.y >= bounds.max.y ||
+                       box.max.z >= bounds.max.z;
     }
     void enter(const Aabb& box)
     {
         bounds.min = glm::min(bounds.min, box.min);
         bounds.max = glm::max(bounds.max, box.max);
+    }
+    /// An object that is nowhere gets a place.
+    void appear(std::uint32_t index, const Aabb& box)
+    {
+        const ObjectFlags& is = flags[index];
+        objects.bounds_ws[index] = box;
+        setBits(index, true);
+        treeOf(index).insert(objects,
+                             index | (is.casts ? Octree::kCasts : 0U) | (is.receives ? Octree::kReceives : 0U));
+        enter(box);
+        --nowhere;
+    }
+    /// An object that has a place loses it.
+    void vanish(std::uint32_t index)
+    {
+        leave(objects.bounds_ws[index]);
+        treeOf(index).remove(objects, index);
+        objects.bounds_ws[index] = {};
+        setBits(index, false);
+        ++nowhere;
     }
 };
 
@@ -109,88 +157,162 @@ ObjectSet::~ObjectSet() = default;
 ObjectSet::ObjectSet(ObjectSet&&) noexcept = default;
 ObjectSet& ObjectSet::operator=(ObjectSet&&) noexcept = default;
 
-std::uint32_t ObjectSet::add(const Aabb& bounds_ws, ObjectFlags flags)
+ObjectSet::Impl& ObjectSet::own()
 {
-    assert(!bounds_ws.empty() && finite(bounds_ws));
-    Impl& s = *impl_;
-    const std::uint32_t handle = s.newHandle();
-    s.objects.bounds_ws[handle] = bounds_ws;
-    s.flags[handle] = flags;
-    s.setBits(handle, true);
-    s.treeOf(handle).insert(s.objects,
-                            handle | (flags.casts ? Octree::kCasts : 0U) | (flags.receives ? Octree::kReceives : 0U));
-    s.enter(bounds_ws);
-    s.record(handle);
-    return handle;
-}
-
-void ObjectSet::update(std::uint32_t object, const Aabb& bounds_ws)
-{
-    assert(alive(object) && !bounds_ws.empty() && finite(bounds_ws));
-    Impl& s = *impl_;
-    Aabb& box = s.objects.bounds_ws[object];
-    if (box.min == bounds_ws.min && box.max == bounds_ws.max) {
-        return;
+    if (impl_ == nullptr) {
+        impl_ = std::make_unique<Impl>();
     }
-    s.leave(box);
-    box = bounds_ws;
-    s.enter(bounds_ws);
-    s.treeOf(object).moved(s.objects, object);
-    s.record(object);
+    return *impl_;
 }
 
-void ObjectSet::touch(std::uint32_t object)
+const ObjectSet::Impl& ObjectSet::read() const
 {
-    assert(alive(object));
-    impl_->record(object);
+    static const Impl empty{};
+    return impl_ != nullptr ? *impl_ : empty;
 }
 
-void ObjectSet::remove(std::uint32_t object)
+ObjectId ObjectSet::add(const Aabb& bounds_ws, ObjectFlags flags)
 {
-    assert(alive(object));
+    Impl& s = own();
+    if (s.free_indices.empty() && s.changed.size() > Octree::kHandleBits) {
+        return {};
+    }
+    s.trees[flags.dynamic ? 1 : 0].makeRoom();
+    const std::uint32_t index = s.newIndex();
+    s.generations[index] = nextGeneration();
+    s.flags[index] = flags;
+    ++s.nowhere;
+    if (isSomewhere(bounds_ws)) {
+        s.appear(index, bounds_ws);
+    }
+    s.record(index);
+    return {index, s.generations[index]};
+}
+
+bool ObjectSet::update(ObjectId object, const Aabb& bounds_ws)
+{
+    if (!alive(object)) {
+        return false;
+    }
     Impl& s = *impl_;
-    s.leave(s.objects.bounds_ws[object]);
-    s.treeOf(object).remove(s.objects, object);
-    s.objects.bounds_ws[object] = {}; // empty: bounds() may go over all of them alike
-    s.setBits(object, false);
-    s.record(object);
-    s.free_handles.push_back(object);
-    std::push_heap(s.free_handles.begin(), s.free_handles.end(), std::greater<>());
+    Aabb& box = s.objects.bounds_ws[object.index];
+    if (box.min == bounds_ws.min && box.max == bounds_ws.max) {
+        return true;
+    }
+    s.treeOf(object.index).makeRoom();
+    const bool was_somewhere = s.objects.places[object.index].node != TreePlace{}.node;
+    const bool stays_inside = isSomewhere(bounds_ws, s.bounds); // nearly always
+    const bool is_somewhere = stays_inside || isSomewhere(bounds_ws);
+    if (was_somewhere && is_somewhere) {
+        s.leave(box);
+        box = bounds_ws;
+        if (!stays_inside) {
+            s.enter(bounds_ws);
+        }
+        s.treeOf(object.index).moved(s.objects, object.index);
+    } else if (is_somewhere) {
+        s.appear(object.index, bounds_ws);
+    } else if (was_somewhere) {
+        s.vanish(object.index);
+    } else {
+        return true; // from nowhere to nowhere
+    }
+    s.record(object.index);
+    return true;
+}
+
+bool ObjectSet::touch(ObjectId object)
+{
+    if (!alive(object)) {
+        return false;
+    }
+    Impl& s = *impl_;
+    s.record(object.index);
+    return true;
+}
+
+bool ObjectSet::remove(ObjectId object)
+{
+    if (!alive(object)) {
+        return false;
+    }
+    Impl& s = *impl_;
+    if (!s.objects.bounds_ws[object.index].empty()) {
+        s.vanish(object.index);
+    }
+    --s.nowhere;
+    s.generations[object.index] = 0;
+    s.record(object.index);
+    s.free_indices.push_back(object.index);
+    std::push_heap(s.free_indices.begin(), s.free_indices.end(), std::greater<>());
+    return true;
 }
 
 std::uint32_t ObjectSet::size() const
 {
-    std::size_t end = impl_->changed.size();
-    while (end > 0 && !impl_->alive(end - 1)) {
+    const Impl& s = read();
+    std::size_t end = s.generations.size();
+    while (end > 0 && s.generations[end - 1] == 0) {
         --end;
     }
     return static_cast<std::uint32_t>(end);
 }
 
-bool ObjectSet::alive(std::uint32_t object) const
+bool ObjectSet::alive(ObjectId object) const
 {
-    return object < impl_->changed.size() && impl_->alive(object);
+    return impl_ != nullptr && impl_->names(object);
 }
 
-const Aabb& ObjectSet::bounds(std::uint32_t object) const
+bool ObjectSet::alive(std::uint32_t index) const
 {
-    assert(alive(object));
-    return impl_->objects.bounds_ws[object];
+    return read().alive(index);
+}
+
+ObjectId ObjectSet::idAt(std::uint32_t index) const
+{
+    const Impl& s = read();
+    return s.alive(index) ? ObjectId{index, s.generations[index]} : ObjectId{};
+}
+
+Aabb ObjectSet::bounds(ObjectId object) const
+{
+    const Impl& s = read();
+    return s.names(object) ? s.objects.bounds_ws[object.index] : Aabb{};
+}
+
+Aabb ObjectSet::bounds(std::uint32_t index) const
+{
+    const Impl& s = read();
+    return index < s.objects.bounds_ws.size() ? s.objects.bounds_ws[index] : Aabb{};
+}
+
+ObjectFlags ObjectSet::flags(ObjectId object) const
+{
+    const Impl& s = read();
+    return s.names(object) ? s.flags[object.index] : ObjectFlags{false, false, false};
+}
+
+ObjectFlags ObjectSet::flags(std::uint32_t index) const
+{
+    const Impl& s = read();
+    return s.alive(index) ? s.flags[index] : ObjectFlags{false, false, false};
+}
+
+std::uint32_t ObjectSet::nowhere() const
+{
+    return read().nowhere;
 }
 
 std::span<const Aabb> ObjectSet::allBounds() const
 {
-    return impl_->objects.bounds_ws;
-}
-
-ObjectFlags ObjectSet::flags(std::uint32_t object) const
-{
-    assert(alive(object));
-    return impl_->flags[object];
+    return read().objects.bounds_ws;
 }
 
 Aabb ObjectSet::bounds() const
 {
+    if (impl_ == nullptr) {
+        return {};
+    }
     Impl& s = *impl_;
     if (s.bounds_loose) {
         s.bounds = {};
@@ -204,28 +326,28 @@ Aabb ObjectSet::bounds() const
 
 std::uint64_t ObjectSet::version() const
 {
-    return impl_->version;
+    return read().version;
 }
 
-std::uint64_t ObjectSet::changed(std::uint32_t object) const
+std::uint64_t ObjectSet::changed(std::uint32_t index) const
 {
-    assert(object < impl_->changed.size());
-    return impl_->changed[object];
+    const std::vector<std::uint64_t>& all = read().changed;
+    return index < all.size() ? all[index] : 0;
 }
 
 std::span<const std::uint64_t> ObjectSet::allChanges() const
 {
-    return impl_->changed;
+    return read().changed;
 }
 
 std::uint64_t ObjectSet::identity() const
 {
-    return impl_->identity;
+    return read().identity;
 }
 
 void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const
 {
-    const Impl& s = *impl_;
+    const Impl& s = read();
     const RegionTest region(planes);
     const glm::dvec3 low(s.bounds.min);
     const glm::dvec3 high(s.bounds.max);

@@ -8,11 +8,13 @@
 #include "store/map_store.h"
 
 #include <gnomon/planner.h>
+#include <gnomon/world_range.h>
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -39,18 +41,38 @@ struct Stand {
 /// Of what becomes of a light's slices, the highest is what is said of the light.
 int rank(OutcomeKind kind)
 {
-    constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::ok,
-                                        OutcomeKind::fallback};
+    constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::degenerate,
+                                        OutcomeKind::ok, OutcomeKind::fallback};
     return static_cast<int>(std::find(std::begin(kUpwards), std::end(kUpwards), kind) - std::begin(kUpwards));
+}
+
+Outcome noOptions(std::span<const ShadowOptions> options)
+{
+    return options.empty() ? Outcome{OutcomeKind::refused, "the planner was made of no options"} : Outcome{};
+}
+
+/// Can single precision tell what is in the frame apart?
+Outcome checkRange(const ObjectSet& objects)
+{
+    const std::string_view fault = rangeFault(objects.bounds());
+    return fault.empty() ? Outcome{} : Outcome{OutcomeKind::degenerate, fault};
 }
 
 } // namespace
 
 struct Planner::Impl {
-    std::vector<Setup> setups;
+    /// Without any options it has the default ones, and `unusable` says why nobody plans by them.
+    explicit Impl(std::span<const ShadowOptions> options, Outcome why_unusable = {});
+
+    std::vector<Setup> setups; // at least one
+    Outcome unusable;          // not ok: no light has a map, in any frame
+    Outcome fault;             // not ok: no light has a map in this frame
+    bool some_nowhere = false; // objects of this frame
     MapStore store;
     SunCourses suns;
+    SunCourses suns_before;   // as they were before this frame
     std::uint64_t frames = 0; // planned so far: whose turn it is
+    bool spoilt = false;      // a plan ended half way, because something threw
 
     Plan plan;
 
@@ -62,6 +84,8 @@ struct Planner::Impl {
     std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
     std::vector<std::uint32_t> merged;
 
+    void addPages(MapStore& to) const;
+    void makePlan(const Frame& frame);
     void begin(const Frame& frame);
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
@@ -77,16 +101,17 @@ struct Planner::Impl {
 
 Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
 
-Planner::Planner(std::span<const ShadowOptions> options) : impl_(std::make_unique<Impl>())
+Planner::Planner(std::span<const ShadowOptions> options) : impl_(std::make_unique<Impl>(options, noOptions(options))) {}
+
+Planner::Impl::Impl(std::span<const ShadowOptions> options, Outcome why_unusable) : unusable(why_unusable)
 {
-    assert(!options.empty());
+    static const ShadowOptions defaults;
     auto resolved = std::make_shared<std::vector<ResolvedOptions>>();
-    for (const ShadowOptions& one : options) {
-        const Recipe& recipe = impl_->setups.emplace_back(one).recipe;
-        resolved->push_back(recipe.resolved);
-        impl_->store.addPages(recipe.options.map_size, recipe.options.max_layers);
+    for (const ShadowOptions& one : options.empty() ? std::span(&defaults, 1) : options) {
+        resolved->push_back(setups.emplace_back(one).recipe.resolved);
     }
-    impl_->plan.options = std::move(resolved);
+    addPages(store);
+    plan.options = std::move(resolved);
 }
 
 Planner::~Planner() = default;
@@ -95,35 +120,76 @@ Planner& Planner::operator=(Planner&&) noexcept = default;
 
 void Planner::reset()
 {
-    impl_->store.forget();
+    if (impl_ != nullptr) {
+        impl_->store.forget();
+    }
 }
 
 void Planner::lost(const MapId& map)
 {
-    impl_->store.lost(map);
+    if (impl_ != nullptr) {
+        impl_->store.lost(map);
+    }
 }
 
 const ShadowOptions& Planner::options(std::uint32_t index) const
 {
-    return impl_->setups[index].recipe.asked;
+    static const ShadowOptions defaults;
+    return impl_ != nullptr && index < impl_->setups.size() ? impl_->setups[index].recipe.asked : defaults;
 }
 
-const Plan& Planner::plan(const Frame& frame)
+const Plan& Planner::plan(const Frame& given)
 {
-    assert(frame.objects != nullptr);
-    Impl& s = *impl_;
-    s.begin(frame);
-    s.admit(frame);
-    s.listReceivers(frame);
-    s.store.beginFrame(*frame.objects, s.keys, s.wishes);
-    s.suns.begin();
-    for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
-        s.planLight(frame, light);
+    static const ObjectSet no_objects;
+    if (impl_ == nullptr) {
+        impl_ = std::make_unique<Impl>(std::span<const ShadowOptions>(),
+                                       Outcome{OutcomeKind::refused, "the planner was moved from"});
     }
-    s.suns.end();
-    s.store.report(s.plan);
-    ++s.frames;
+    Impl& s = *impl_;
+    if (s.spoilt) { // nobody knows what the maps hold, nor whose they are
+        MapStore fresh;
+        s.addPages(fresh);
+        s.store = std::move(fresh);
+        std::swap(s.suns, s.suns_before);
+        s.spoilt = false;
+    }
+    Frame frame = given;
+    s.fault = s.unusable;
+    if (frame.objects == nullptr) {
+        s.fault = {OutcomeKind::degenerate, "the frame has no objects: Frame::objects is null"};
+        frame.objects = &no_objects;
+    }
+    if (s.fault.kind == OutcomeKind::ok) {
+        s.fault = checkRange(*frame.objects);
+    }
+    s.suns_before = s.suns;
+    s.spoilt = true;
+    s.makePlan(frame);
+    s.spoilt = false;
     return s.plan;
+}
+
+void Planner::Impl::addPages(MapStore& to) const
+{
+    for (const Setup& setup : setups) {
+        to.addPages(setup.recipe.options.map_size, setup.recipe.options.max_layers);
+    }
+}
+
+void Planner::Impl::makePlan(const Frame& frame)
+{
+    some_nowhere = frame.objects->nowhere() > 0;
+    begin(frame);
+    admit(frame);
+    listReceivers(frame);
+    store.beginFrame(*frame.objects, keys, wishes);
+    suns.begin();
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
+        planLight(frame, light);
+    }
+    suns.end();
+    store.report(plan);
+    ++frames;
 }
 
 void Planner::Impl::begin(const Frame& frame)
@@ -152,6 +218,10 @@ void Planner::Impl::admit(const Frame& frame)
         planned.mask_channel = index % 4;
         keys.push_back(light.key);
         wishes.emplace_back();
+        if (fault.kind != OutcomeKind::ok) {
+            planned.outcome = fault;
+            continue;
+        }
         if (light.options >= setups.size()) {
             planned.outcome = {OutcomeKind::refused, "Light::options names none of the planner's options"};
             continue;
@@ -183,6 +253,11 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
         camera.boundDepths(frame.camera, options.max_distance_m);
     } else if (setup.recipe.partition != nullptr && setup.recipe.partition->measures) {
         camera.measureDepths(*frame.objects, setup.receivers);
+    } else {
+        return;
+    }
+    if (!std::isfinite(camera.far_m - camera.near_m)) {
+        camera.outcome = {OutcomeKind::degenerate, "the camera's numbers leave no depths to divide"};
     }
 }
 
@@ -205,10 +280,8 @@ void Planner::Impl::listReceivers(const Frame& frame)
         std::ranges::set_union(plan.receivers, setup.receivers, std::back_inserter(merged));
         std::swap(plan.receivers, merged);
     }
-    for (std::uint32_t i = 0; levels && i < frame.objects->size(); ++i) {
-        if (frame.objects->alive(i) && frame.objects->flags(i).receives) {
-            all_receivers.push_back(i);
-        }
+    if (levels) {
+        frame.objects->query({}, ObjectSet::Want::receivers, all_receivers);
     }
 }
 
@@ -240,7 +313,11 @@ Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
         return setup.camera.outcome;
     }
     if (setup.receivers.empty()) {
-        return {OutcomeKind::no_receiver, "the camera sees nothing that receives shadow"};
+        return {
+            OutcomeKind::no_receiver,
+            some_nowhere
+                ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
+                : "the camera sees nothing that receives shadow"};
     }
     return {};
 }

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gnomon {
@@ -120,6 +121,10 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     body_.clip(cone_planes_);
     if (!measureBody(space)) {
         return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    }
+    if (const glm::dvec2 size = rect_.high - rect_.low;
+        !std::isfinite(size.x + size.y + receiver_far_m_ - receiver_near_m_)) {
+        return {OutcomeKind::degenerate, "the numbers of camera, light and scene are too far apart to plan a map by"};
     }
     outlineOf(outline_points_, outline_);
     narrowToBoxes(space);

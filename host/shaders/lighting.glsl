@@ -69,7 +69,7 @@ vec3 arriving(LightData light, vec3 p, sampler2DArray cookies, out vec3 l)
         return light.colour.rgb;
     }
     vec3 to = light.place.xyz - p;
-    float d2 = max(dot(to, to), 1e-6);
+    float d2 = max(dot(to, to), 1e-9 * dot(p, p)); // as if it were never nearer than a share of the way to the eye
     l = to * inversesqrt(d2);
     float q = d2 * light.colour.w * light.colour.w;
     float window = clamp(1.0 - q * q, 0.0, 1.0);

@@ -59,7 +59,9 @@ Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
 {
     Surface s;
     s.base = base;
-    vec3 n = cross(dFdx(p), dFdy(p));
+    // Derivatives as shares of the distance, which no size of the scene changes.
+    float k = inversesqrt(dot(p, p));
+    vec3 n = cross(dFdx(p) * k, dFdy(p) * k);
     float l = dot(n, n);
     // A triangle seen edge on has no derivative worth the name.
     vec3 geometric = l > 1e-30 ? n * inversesqrt(l) : normalize(normal);

@@ -47,17 +47,6 @@ Bloom::Bloom(const Gpu& gpu, Memory& memory, const BloomOptions& options, const 
     makeSteps(options, light, average_four, linear);
 }
 
-Bloom::~Bloom()
-{
-    VkDevice device = gpu_.view().device;
-    for (VkPipeline pipeline : pipelines_) {
-        vkDestroyPipeline(device, pipeline, nullptr);
-    }
-    vkDestroyPipelineLayout(device, layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
-    vkDestroyDescriptorPool(device, pool_, nullptr);
-}
-
 void Bloom::makeImages(Memory& memory, VkExtent2D shown, std::uint32_t count)
 {
     VkExtent2D extent = shown;
@@ -79,25 +68,31 @@ void Bloom::makeLayouts()
     const auto sets = static_cast<std::uint32_t>(levels_.size() * 2 - 1);
     const std::array<VkDescriptorPoolSize, 2> sizes{
         {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sets}, {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets}}};
-    VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool.maxSets = sets;
-    pool.poolSizeCount = sizes.size();
-    pool.pPoolSizes = sizes.data();
-    check(vkCreateDescriptorPool(device, &pool, nullptr, &pool_), "making a descriptor pool");
+    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = sets;
+    pool_info.poolSizeCount = sizes.size();
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device, &pool_info, nullptr, &pool), "making a descriptor pool");
+    pool_ = {gpu_, pool};
     const std::array<VkDescriptorSetLayoutBinding, 2> bindings{
         {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
          {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = bindings.size();
     set.pBindings = bindings.data();
-    check(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_), "making a descriptor set layout");
-    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &set_layout_;
-    check(vkCreatePipelineLayout(device, &layout, nullptr, &layout_), "making a pipeline layout");
-    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "bloom");
-    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout_, "bloom");
-    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_, "bloom");
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout), "making a descriptor set layout");
+    set_layout_ = {gpu_, set_layout};
+    VkPipelineLayoutCreateInfo layout_info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout_info.setLayoutCount = 1;
+    layout_info.pSetLayouts = &set_layout;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device, &layout_info, nullptr, &layout), "making a pipeline layout");
+    layout_ = {gpu_, layout};
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "bloom");
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout, "bloom");
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "bloom");
 }
 
 void Bloom::makeSteps(const BloomOptions& options, const Image& light, bool average_four, VkSampler linear)
@@ -134,17 +129,16 @@ VkPipeline Bloom::makePipeline(const char* name, std::string_view shader, std::s
     const VkSpecializationInfo special{static_cast<std::uint32_t>(constants.size()), entries.data(),
                                        constants.size_bytes(), constants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.layout = layout_;
+    info.layout = layout_.get();
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &special;
     check(vkCreateShaderModule(device, &module, nullptr, &info.stage.module), "making a shader");
+    const OwnedShader owned(gpu_, info.stage.module);
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult made = vkCreateComputePipelines(device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline);
-    vkDestroyShaderModule(device, info.stage.module, nullptr);
-    check(made, "compiling shaders");
-    pipelines_.push_back(pipeline);
+    check(vkCreateComputePipelines(device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline), "compiling shaders");
+    pipelines_.push_back(OwnedPipeline(gpu_, pipeline));
     names_.name(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
     return pipeline;
 }
@@ -152,9 +146,10 @@ VkPipeline Bloom::makePipeline(const char* name, std::string_view shader, std::s
 VkDescriptorSet Bloom::makeSet(VkImageView source, VkImageLayout layout, VkSampler sampler, VkImageView target)
 {
     VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = pool_;
+    info.descriptorPool = pool_.get();
     info.descriptorSetCount = 1;
-    info.pSetLayouts = &set_layout_;
+    const VkDescriptorSetLayout set_layout = set_layout_.get();
+    info.pSetLayouts = &set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     check(vkAllocateDescriptorSets(gpu_.view().device, &info, &set), "making a descriptor set");
     names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, "bloom");
@@ -185,7 +180,7 @@ void Bloom::record(VkCommandBuffer commands) const
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline);
             bound = step.pipeline;
         }
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &step.set, 0, nullptr);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &step.set, 0, nullptr);
         if (step.adds) {
             barrier(commands, levels_[step.target], kLevelRead, kLevelWrite); // it has been read to be halved
         }

@@ -23,7 +23,7 @@ public:
     /// `light`: radiance, of the size of the picture or twice that on each side, see `average_four`.
     Bloom(const Gpu& gpu, Memory& memory, const BloomOptions& options, const Image& light, VkExtent2D shown,
           bool average_four, VkSampler linear);
-    ~Bloom();
+    ~Bloom() = default;
     Bloom(const Bloom&) = delete;
     Bloom& operator=(const Bloom&) = delete;
 
@@ -49,10 +49,10 @@ private:
     const DebugNames& names_;
     std::vector<Image> levels_; // each half of the one before
     std::vector<Step> steps_;   // down the chain and up again
-    std::vector<VkPipeline> pipelines_;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<OwnedPipeline> pipelines_;
+    OwnedSetLayout set_layout_;
+    OwnedPipelineLayout layout_;
+    OwnedDescriptorPool pool_;
 };
 
 } // namespace gnomon::host

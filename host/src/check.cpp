@@ -12,6 +12,9 @@ const char* resultText(VkResult result)
         return "out of host memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         return "out of device memory";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+        return "out of memory for descriptors";
     case VK_ERROR_INITIALIZATION_FAILED:
         return "initialisation failed";
     case VK_ERROR_DEVICE_LOST:
@@ -40,8 +43,19 @@ void check(VkResult result, const char* tried)
     if (result == VK_SUCCESS) {
         return;
     }
-    const bool memory = result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY;
-    throw Error(tried, resultText(result), memory ? "choose a smaller picture, a smaller map or a smaller scene" : "");
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+        throw Error(tried, resultText(result), "choose a smaller picture, a smaller map or a smaller scene",
+                    ErrorKind::out_of_memory);
+    case VK_ERROR_DEVICE_LOST:
+        throw Error(tried, resultText(result), "begin again; where it happens again, draw less at once",
+                    ErrorKind::device_lost);
+    default:
+        throw Error(tried, resultText(result));
+    }
 }
 
 DebugNames::DebugNames(VkInstance instance, VkDevice device) : device_(device)
@@ -61,7 +75,7 @@ void DebugNames::name(VkObjectType type, std::uint64_t handle, const char* name)
         info.objectType = type;
         info.objectHandle = handle;
         info.pObjectName = name;
-        check(set_name_(device_, &info), "naming a Vulkan object");
+        (void)set_name_(device_, &info); // nothing depends on it
     }
 }
 

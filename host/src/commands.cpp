@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 
+#include "wait.h"
+
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace gnomon::host {
 
@@ -10,35 +13,35 @@ namespace {
 constexpr VkDeviceSize kStagingBytes = 8ULL << 20;
 }
 
-Commands::Commands(const Gpu& gpu, const DebugNames& names, const char* name)
-    : device_(gpu.view().device), queue_(gpu.queue())
+Commands::Commands(const Gpu& gpu, const DebugNames& names, const char* name) : gpu_(gpu)
 {
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    pool.queueFamilyIndex = gpu.queueFamily();
-    check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "making a command pool");
+    VkDevice device = gpu.view().device;
+    VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool_info.queueFamilyIndex = gpu.queueFamily();
+    VkCommandPool pool = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "making a command pool");
+    pool_ = {gpu, pool};
     VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    info.commandPool = pool_;
+    info.commandPool = pool;
     info.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device_, &info, &commands_), "making a command buffer");
-    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(vkCreateFence(device_, &fence, nullptr, &fence_), "making a fence");
-    names.name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, name);
+    check(vkAllocateCommandBuffers(device, &info, &commands_), "making a command buffer");
+    const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(device, &fence_info, nullptr, &fence), "making a fence");
+    fence_ = {gpu, fence};
+    names.name(VK_OBJECT_TYPE_COMMAND_POOL, pool, name);
     names.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, name);
-    names.name(VK_OBJECT_TYPE_FENCE, fence_, name);
+    names.name(VK_OBJECT_TYPE_FENCE, fence, name);
 }
 
 Commands::~Commands()
 {
-    if (pending_) {
-        vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
-    }
-    vkDestroyFence(device_, fence_, nullptr);
-    vkDestroyCommandPool(device_, pool_, nullptr);
+    settle();
 }
 
 VkCommandBuffer Commands::begin()
 {
-    check(vkResetCommandPool(device_, pool_, 0), "resetting a command pool");
+    check(vkResetCommandPool(gpu_.view().device, pool_.get(), 0), "resetting a command pool");
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands_, &info), "beginning a command buffer");
@@ -53,16 +56,23 @@ void Commands::submit()
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
-    check(vkResetFences(device_, 1, &fence_), "resetting a fence");
-    check(vkQueueSubmit2(queue_, 1, &info, fence_), "handing work to the GPU");
+    VkFence fence = fence_.get();
+    check(vkResetFences(gpu_.view().device, 1, &fence), "resetting a fence");
+    check(vkQueueSubmit2(gpu_.queue(), 1, &info, fence), "handing work to the GPU");
     pending_ = true;
 }
 
 void Commands::wait()
 {
-    if (pending_) {
-        check(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the GPU");
-        pending_ = false;
+    if (std::exchange(pending_, false)) { // after it, whether it throws or not, nothing is left to wait for
+        waitFor(gpu_, fence_.get());
+    }
+}
+
+void Commands::settle() noexcept
+{
+    if (std::exchange(pending_, false)) {
+        host::settle(gpu_, fence_.get());
     }
 }
 
@@ -114,7 +124,7 @@ Uploader::Uploader(const Gpu& gpu, Memory& memory)
 
 Uploader::~Uploader()
 {
-    commands_.wait();
+    commands_.settle();
     memory_.release(staging_);
 }
 

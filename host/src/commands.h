@@ -9,6 +9,7 @@ namespace gnomon::host {
 /// One command buffer and its fence; reused for ever. Waits when it is destroyed.
 class Commands {
 public:
+    /// Throws Error.
     Commands(const Gpu& gpu, const DebugNames& names, const char* name);
     ~Commands();
     Commands(const Commands&) = delete;
@@ -18,17 +19,18 @@ public:
     VkCommandBuffer begin();
     /// Throws Error (lost device).
     void submit();
-    /// Until the GPU has finished what was submitted; at once when nothing was. Throws Error (lost device).
+    /// Until the GPU has finished what was submitted; at once when nothing was. Throws as waitFor().
     void wait();
+    /// The same for destructors: see settle() in wait.h.
+    void settle() noexcept;
     /// Both.
     void finish();
 
 private:
-    VkDevice device_;
-    VkQueue queue_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
+    const Gpu& gpu_;
+    OwnedCommandPool pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkFence fence_ = VK_NULL_HANDLE;
+    OwnedFence fence_;
     bool pending_ = false;
 };
 
@@ -75,6 +77,7 @@ void memoryBarrier(VkCommandBuffer commands, const Access& from, const Access& t
 /// Fills device memory from the host through one staging buffer, so the host's copy is never doubled.
 class Uploader {
 public:
+    /// Throws Error, as all that uploads does.
     Uploader(const Gpu& gpu, Memory& memory);
     ~Uploader();
     Uploader(const Uploader&) = delete;
@@ -87,10 +90,11 @@ public:
     void finishImage(const Image& image);
     /// Hands over what is left. All that is submitted afterwards sees it; nothing else may be uploaded.
     void submit();
-    /// Waits until everything is there.
-    void flush();
+    /// Waits until all that was submitted is there. Throws as waitFor().
+    void wait() { commands_.wait(); }
 
 private:
+    void flush();
     char* stage(VkDeviceSize size); // at used_ - size after the call; flushes when full
     Memory& memory_;
     Buffer staging_;

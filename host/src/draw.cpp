@@ -65,15 +65,9 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
                     "use at most " + std::to_string(kMaxLights));
     }
     start = Clock::now();
-    beginSlot();
-    update(state);
-    look(state, eye, lights);
-    times.advance_ms = millisecondsSince(start);
-
-    const Clock::time_point plan_start = Clock::now();
-    makePlan(maps, masks_instead != nullptr);
-    times.plan_ms = millisecondsSince(plan_start);
-
+    forgetBroken();
+    whole = false;
+    prepareFrame(state, eye, lights, masks_instead, maps);
     const Clock::time_point record_start = Clock::now();
     draws.build(slot, state, sight.eye_ws, visible);
     if (masks_instead != nullptr) {
@@ -83,7 +77,34 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     writeFrameData(state, lights);
     record(present);
     now().commands->submit();
+    if (deform_now) {
+        scene.deformed_at_s = state.time_s;
+    }
+    whole = true;
     times.record_ms = millisecondsSince(record_start);
+}
+
+/// Of a frame that ended half way, what the library took for recorded is drawn nowhere.
+void FrameRenderer::Impl::forgetBroken()
+{
+    if (!whole && shadows) {
+        shadows->renderer.reset();
+    }
+    plan = nullptr;
+    finished = {};
+}
+
+void FrameRenderer::Impl::prepareFrame(const scene::State& state, const Eye& eye,
+                                       const std::vector<ShadedLight>& lights, const std::vector<ImageF>* masks_instead,
+                                       Maps maps)
+{
+    beginSlot();
+    update(state);
+    look(state, eye, lights);
+    times.advance_ms = millisecondsSince(start);
+    const Clock::time_point plan_start = Clock::now();
+    makePlan(maps, masks_instead != nullptr);
+    times.plan_ms = millisecondsSince(plan_start);
 }
 
 /// The oldest frame is waited for, and lets go of what it alone used.
@@ -116,7 +137,6 @@ void FrameRenderer::Impl::update(const scene::State& state)
     deform_now = deforms && scene.deformed_at_s != state.time_s;
     if (deform_now) {
         scene.geometry.writeDeformed(scene.scene, state, now().deformed);
-        scene.deformed_at_s = state.time_s;
     }
     draws.update(state, objects, deformed);
 }

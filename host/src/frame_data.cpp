@@ -28,7 +28,7 @@ double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
     if (light.caster.range_m > 0.0) {
         distance = std::min(distance, light.caster.range_m * 0.5);
     }
-    return strength / std::max(distance * distance, 1e-12);
+    return strength / std::max(distance * distance, 1e-30);
 }
 
 void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, double scale, int cookie_layer)

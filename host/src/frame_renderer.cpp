@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "abandoned.h"
 #include "frame_renderer_impl.h"
 #include "texels.h"
 
@@ -56,11 +57,12 @@ std::shared_ptr<Screen> FrameRenderer::Impl::makeScreen(const RenderOptions& wis
     return std::make_shared<Screen>(scene, wish, frame_data);
 }
 
-FrameRenderer::Impl::~Impl()
+void FrameRenderer::Impl::settle() noexcept
 {
     for (Slot& one : slots) {
-        one.commands.reset(); // waits
+        one.commands->settle();
     }
+    read_commands.settle();
 }
 
 FrameRenderer::FrameRenderer(const SceneOnGpu& scene, const RenderOptions& options)
@@ -68,7 +70,13 @@ FrameRenderer::FrameRenderer(const SceneOnGpu& scene, const RenderOptions& optio
 {
 }
 
-FrameRenderer::~FrameRenderer() = default;
+FrameRenderer::~FrameRenderer()
+{
+    impl_->settle();
+    if (impl_->gpu.abandoned()) {
+        keepForGood(std::move(impl_)); // the library's objects would destroy what the GPU may still be at work with
+    }
+}
 
 void FrameRenderer::resize(std::uint32_t width, std::uint32_t height)
 {
@@ -96,7 +104,7 @@ const RenderOptions& FrameRenderer::options() const
 Picture FrameRenderer::read(const WantedImages& wanted)
 {
     Impl& self = *impl_;
-    if (self.next_index == 0) {
+    if (self.next_index == 0 || !self.whole) {
         throw Error("reading a picture back", "nothing has been drawn yet");
     }
     ReadBack back(self.gpu, wanted);

@@ -19,7 +19,8 @@ enum class Maps : std::uint8_t {
 
 struct FrameRenderer::Impl {
     Impl(SceneData& scene, const RenderOptions& options);
-    ~Impl();
+    /// For the destructor: until the GPU has finished all frames.
+    void settle() noexcept;
 
     /// What a frame needs until the GPU has finished it.
     struct Slot {
@@ -56,6 +57,7 @@ struct FrameRenderer::Impl {
     FrameTimes times;
     Clock::time_point start;
     bool deform_now = false;
+    bool whole = true; // it was submitted; false: something threw before
 
     ObjectSet objects;
     std::vector<Light> frame_lights;
@@ -70,6 +72,9 @@ struct FrameRenderer::Impl {
     [[nodiscard]] Slot& now() { return slots[slot]; }
     void drawFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights, Present* present,
                    const std::vector<ImageF>* masks_instead, Maps maps);
+    void prepareFrame(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                      const std::vector<ImageF>* masks_instead, Maps maps);
+    void forgetBroken();
     void beginSlot();
     void finish();
     void update(const scene::State& state);

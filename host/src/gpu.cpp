@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu.h"
 
+#include "abandoned.h"
 #include "check.h"
 #include "pipeline_cache.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cstring>
 #include <mutex>
@@ -15,6 +17,8 @@
 
 namespace gnomon::host {
 namespace {
+
+std::atomic<bool> any_abandoned{false};
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kTried = "looking for a Vulkan device";
@@ -30,9 +34,9 @@ std::string lower(std::string text)
 bool hasExtension(const char* layer, const char* name)
 {
     std::uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    check(vkEnumerateInstanceExtensionProperties(layer, &count, nullptr), kTried);
     std::vector<VkExtensionProperties> all(count);
-    vkEnumerateInstanceExtensionProperties(layer, &count, all.data());
+    check(vkEnumerateInstanceExtensionProperties(layer, &count, all.data()), kTried);
     return std::any_of(all.begin(), all.end(),
                        [name](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
@@ -40,9 +44,9 @@ bool hasExtension(const char* layer, const char* name)
 bool hasLayer(const char* name)
 {
     std::uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    check(vkEnumerateInstanceLayerProperties(&count, nullptr), kTried);
     std::vector<VkLayerProperties> all(count);
-    vkEnumerateInstanceLayerProperties(&count, all.data());
+    check(vkEnumerateInstanceLayerProperties(&count, all.data()), kTried);
     return std::any_of(all.begin(), all.end(),
                        [name](const VkLayerProperties& l) { return std::strcmp(l.layerName, name) == 0; });
 }
@@ -147,8 +151,12 @@ struct Gpu::Impl {
     std::filesystem::path cache_file;
     mutable std::mutex mutex; // validation may speak from any thread
     std::vector<std::string> messages;
+    std::function<void()> while_waiting;
+    double patience_s = 0.0;
+    mutable std::atomic<bool> abandoned{false};
 
     ~Impl();
+    void storeCache() const noexcept;
     void makeInstance(bool validate);
     void makeMessenger();
     void makeDevice();
@@ -242,12 +250,20 @@ void Gpu::Impl::makeDevice()
     driver = std::string(driver_properties.driverName) + " " + driver_properties.driverInfo;
 }
 
+void Gpu::Impl::storeCache() const noexcept
+{
+    try {
+        storePipelineCache(view.device, cache, cache_file);
+    } catch (...) { // out of memory: then there is no file, on which nothing depends
+    }
+}
+
+// Whoever submits waits for it, so the device is idle.
 Gpu::Impl::~Impl()
 {
     if (view.device != VK_NULL_HANDLE) {
-        vkDeviceWaitIdle(view.device);
         if (cache != VK_NULL_HANDLE) {
-            storePipelineCache(view.device, cache, cache_file);
+            storeCache();
             vkDestroyPipelineCache(view.device, cache, nullptr);
         }
         vkDestroyDevice(view.device, nullptr);
@@ -264,6 +280,8 @@ Gpu::Impl::~Impl()
 
 Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
 {
+    impl_->while_waiting = options.while_waiting;
+    impl_->patience_s = options.patience_s;
     impl_->makeInstance(options.validate);
     if (options.validate) {
         impl_->makeMessenger();
@@ -274,7 +292,12 @@ Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
     impl_->cache = loadPipelineCache(impl_->view.device, impl_->cache_file);
 }
 
-Gpu::~Gpu() = default;
+Gpu::~Gpu()
+{
+    if (abandoned()) {
+        keepForGood(std::move(impl_));
+    }
+}
 
 const vulkan::DeviceView& Gpu::view() const
 {
@@ -303,6 +326,34 @@ bool Gpu::software() const
 VkPipelineCache Gpu::pipelineCache() const
 {
     return impl_->cache;
+}
+
+double Gpu::patience_s() const
+{
+    return impl_->patience_s;
+}
+
+void Gpu::lookUp() const
+{
+    if (impl_->while_waiting) {
+        impl_->while_waiting();
+    }
+}
+
+void Gpu::abandon() const noexcept
+{
+    impl_->abandoned = true;
+    any_abandoned = true;
+}
+
+bool Gpu::abandoned() const noexcept
+{
+    return impl_->abandoned;
+}
+
+bool anyDeviceAbandoned() noexcept
+{
+    return any_abandoned;
 }
 
 std::vector<std::string> Gpu::messages() const

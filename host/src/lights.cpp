@@ -58,7 +58,7 @@ void fillObjectSet(const scene::State& state, ObjectSet& objects)
         if (i >= known) {
             objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic});
         } else if (object.dynamic) {
-            objects.update(i, object.bounds_ws);
+            (void)objects.update(objects.idAt(i), object.bounds_ws);
         }
     }
 }

@@ -60,7 +60,7 @@ MaterialFacts factsOf(const scene::Material& m)
 } // namespace
 
 Materials::Materials(const Gpu& gpu, Memory& memory, Uploader& uploader, Textures& textures, const scene::Scene& scene)
-    : device_(gpu.view().device)
+    : gpu_(gpu), device_(gpu.view().device)
 {
     makeLayouts(memory.names());
     const auto count = static_cast<std::uint32_t>(scene.materials.size()) + 1;
@@ -70,12 +70,14 @@ Materials::Materials(const Gpu& gpu, Memory& memory, Uploader& uploader, Texture
                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Place::device);
     const std::array<VkDescriptorPoolSize, 2> sizes{
         {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * 6}}};
-    VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool.maxSets = count * 2;
-    pool.poolSizeCount = sizes.size();
-    pool.pPoolSizes = sizes.data();
-    check(vkCreateDescriptorPool(device_, &pool, nullptr, &pool_), "making a descriptor pool");
-    memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "materials");
+    VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = count * 2;
+    pool_info.poolSizeCount = sizes.size();
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device_, &pool_info, nullptr, &pool), "making a descriptor pool");
+    pool_ = {gpu, pool};
+    memory.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "materials");
 
     std::vector<char> bytes(stride * count);
     const scene::Material fallback;
@@ -90,11 +92,14 @@ Materials::Materials(const Gpu& gpu, Memory& memory, Uploader& uploader, Texture
     uploader.toBuffer(data_, 0, bytes.data(), bytes.size());
 }
 
-Materials::~Materials()
+OwnedSetLayout Materials::makeLayout(std::span<const VkDescriptorSetLayoutBinding> bindings) const
 {
-    vkDestroyDescriptorPool(device_, pool_, nullptr);
-    vkDestroyDescriptorSetLayout(device_, layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device_, caster_layout_, nullptr);
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout), "making a descriptor set layout");
+    return {gpu_, layout};
 }
 
 void Materials::makeLayouts(const DebugNames& names)
@@ -104,26 +109,21 @@ void Materials::makeLayouts(const DebugNames& names)
     for (std::uint32_t i = 1; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
-    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    info.bindingCount = bindings.size();
-    info.pBindings = bindings.data();
-    check(vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout_), "making a descriptor set layout");
-    names.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout_, "material");
+    layout_ = makeLayout(bindings);
+    names.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout_.get(), "material");
     const VkDescriptorSetLayoutBinding one{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
                                            VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
-    info.bindingCount = 1;
-    info.pBindings = &one;
-    check(vkCreateDescriptorSetLayout(device_, &info, nullptr, &caster_layout_), "making a descriptor set layout");
-    names.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, caster_layout_, "masked caster");
+    caster_layout_ = makeLayout({&one, 1});
+    names.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, caster_layout_.get(), "masked caster");
 }
 
 void Materials::writeSet(const scene::Material& material, Textures& textures, VkDeviceSize offset, MaterialFacts& facts)
 {
     const bool masked = material.alpha_mode == scene::AlphaMode::mask;
-    const std::array<VkDescriptorSetLayout, 2> layouts{layout_, caster_layout_};
+    const std::array<VkDescriptorSetLayout, 2> layouts{layout_.get(), caster_layout_.get()};
     std::array<VkDescriptorSet, 2> sets{};
     VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = pool_;
+    info.descriptorPool = pool_.get();
     info.descriptorSetCount = masked ? 2 : 1;
     info.pSetLayouts = layouts.data();
     check(vkAllocateDescriptorSets(device_, &info, sets.data()), "making a descriptor set");

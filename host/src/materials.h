@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace gnomon::host {
@@ -38,7 +39,7 @@ struct MaterialFacts {
 class Materials {
 public:
     Materials(const Gpu& gpu, Memory& memory, Uploader& uploader, Textures& textures, const scene::Scene& scene);
-    ~Materials();
+    ~Materials() = default;
     Materials(const Materials&) = delete;
     Materials& operator=(const Materials&) = delete;
 
@@ -48,17 +49,19 @@ public:
     {
         return material == scene::kNone ? static_cast<std::uint32_t>(facts_.size()) - 1 : material;
     }
-    [[nodiscard]] VkDescriptorSetLayout layout() const { return layout_; }
+    [[nodiscard]] VkDescriptorSetLayout layout() const { return layout_.get(); }
 
 private:
     void makeLayouts(const DebugNames& names);
+    [[nodiscard]] OwnedSetLayout makeLayout(std::span<const VkDescriptorSetLayoutBinding> bindings) const;
     void writeSet(const scene::Material& material, Textures& textures, VkDeviceSize offset, MaterialFacts& facts);
 
+    const Gpu& gpu_;
     VkDevice device_;
     Buffer data_;
-    VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout caster_layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    OwnedSetLayout layout_;
+    OwnedSetLayout caster_layout_;
+    OwnedDescriptorPool pool_;
     std::vector<MaterialFacts> facts_;
 };
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::host {
 namespace {
@@ -24,28 +25,10 @@ bool isDepth(VkFormat format)
 } // namespace
 
 Memory::Memory(const Gpu& gpu)
-    : device_(gpu.view().device), limits_(gpu.properties().limits), names_(gpu.view().instance, gpu.view().device)
+    : gpu_(gpu), device_(gpu.view().device), limits_(gpu.properties().limits),
+      names_(gpu.view().instance, gpu.view().device)
 {
     vkGetPhysicalDeviceMemoryProperties(gpu.view().physical_device, &properties_);
-}
-
-Memory::~Memory()
-{
-    for (VkImageView view : views_) {
-        vkDestroyImageView(device_, view, nullptr);
-    }
-    for (VkImage image : images_) {
-        vkDestroyImage(device_, image, nullptr);
-    }
-    for (VkBuffer buffer : buffers_) {
-        vkDestroyBuffer(device_, buffer, nullptr);
-    }
-    for (const Block& block : blocks_) {
-        vkFreeMemory(device_, block.memory, nullptr);
-    }
-    for (VkDeviceMemory memory : own_) {
-        vkFreeMemory(device_, memory, nullptr);
-    }
 }
 
 std::uint32_t Memory::typeFor(std::uint32_t bits, VkMemoryPropertyFlags properties) const
@@ -58,14 +41,48 @@ std::uint32_t Memory::typeFor(std::uint32_t bits, VkMemoryPropertyFlags properti
     throw Error("allocating device memory", "no memory type fits");
 }
 
-VkDeviceMemory Memory::allocateBlock(VkDeviceSize size, std::uint32_t type, const char* tried) const
+OwnedMemory Memory::allocateBlock(VkDeviceSize size, std::uint32_t type) const
 {
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = size;
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device_, &info, nullptr, &memory), tried);
-    return memory;
+    check(vkAllocateMemory(device_, &info, nullptr, &memory), "allocating device memory");
+    return {gpu_, memory};
+}
+
+void* Memory::map(VkDeviceMemory memory) const
+{
+    void* address = nullptr;
+    check(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &address), "mapping device memory");
+    return address;
+}
+
+namespace {
+
+VkDeviceSize aligned(VkDeviceSize offset, VkDeviceSize alignment)
+{
+    return (offset + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+// Buffers and images keep to blocks of their own, so bufferImageGranularity never matters.
+Memory::Block& Memory::blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped)
+{
+    const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
+        return b.type == type && b.images == images && (b.mapped != nullptr) == mapped &&
+               aligned(b.used, needs.alignment) + needs.size <= kBlockBytes;
+    });
+    if (block != blocks_.end()) {
+        return *block;
+    }
+    Block fresh;
+    fresh.memory = allocateBlock(kBlockBytes, type);
+    fresh.type = type;
+    fresh.images = images;
+    fresh.mapped = mapped ? static_cast<char*>(map(fresh.memory.get())) : nullptr;
+    return blocks_.emplace_back(std::move(fresh));
 }
 
 Memory::Piece Memory::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, bool images)
@@ -74,56 +91,46 @@ Memory::Piece Memory::allocate(const VkMemoryRequirements& needs, VkMemoryProper
     const bool mapped = (properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     Piece piece;
     if (needs.size >= kOwnFromBytes) {
-        piece.memory = allocateBlock(needs.size, type, "allocating device memory");
-        own_.push_back(piece.memory);
-        piece.own = true;
-        if (mapped) {
-            check(vkMapMemory(device_, piece.memory, 0, VK_WHOLE_SIZE, 0, &piece.mapped), "mapping device memory");
-        }
+        piece.own = allocateBlock(needs.size, type);
+        piece.memory = piece.own.get();
+        piece.mapped = mapped ? map(piece.memory) : nullptr;
         return piece;
     }
-    const auto aligned = [&needs](const Block& b) {
-        return (b.used + needs.alignment - 1) / needs.alignment * needs.alignment;
-    };
-    // Buffers and images keep to blocks of their own, so bufferImageGranularity never matters.
-    auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
-        return b.type == type && b.images == images && (b.mapped != nullptr) == mapped &&
-               aligned(b) + needs.size <= kBlockBytes;
-    });
-    if (block == blocks_.end()) {
-        Block fresh;
-        fresh.memory = allocateBlock(kBlockBytes, type, "allocating device memory");
-        fresh.type = type;
-        fresh.images = images;
-        block = blocks_.insert(blocks_.end(), fresh);
-        if (mapped) {
-            void* address = nullptr;
-            check(vkMapMemory(device_, fresh.memory, 0, VK_WHOLE_SIZE, 0, &address), "mapping device memory");
-            block->mapped = static_cast<char*>(address);
-        }
-    }
-    piece.memory = block->memory;
-    piece.offset = aligned(*block);
-    piece.mapped = mapped ? block->mapped + piece.offset : nullptr;
-    block->used = piece.offset + needs.size;
+    Block& block = blockFor(needs, type, images, mapped);
+    piece.memory = block.memory.get();
+    piece.offset = aligned(block.used, needs.alignment);
+    piece.mapped = mapped ? block.mapped + piece.offset : nullptr;
+    block.used = piece.offset + needs.size;
     return piece;
 }
 
-void Memory::account(const char* purpose, VkDeviceSize bytes)
+vulkan::MemoryUse& Memory::useFor(const char* purpose)
 {
     const auto same = [purpose](const vulkan::MemoryUse& use) {
         return std::string_view(use.purpose) == purpose;
     };
-    auto found = std::find_if(uses_.begin(), uses_.end(), same);
-    if (found == uses_.end()) {
-        uses_.push_back({purpose, 0});
-        found = uses_.end() - 1;
-    }
-    found->bytes += bytes;
+    const auto found = std::find_if(uses_.begin(), uses_.end(), same);
+    return found != uses_.end() ? *found : uses_.emplace_back(vulkan::MemoryUse{purpose, 0});
 }
+
+namespace {
+
+/// Room for one more, so that it can be put there without fail.
+template <class Some>
+void makeRoom(std::vector<Some>& all)
+{
+    if (all.size() == all.capacity()) {
+        all.reserve(2 * all.size() + 8);
+    }
+}
+
+} // namespace
 
 Buffer Memory::buffer(const char* purpose, VkDeviceSize size, VkBufferUsageFlags usage, Place place)
 {
+    vulkan::MemoryUse& use = useFor(purpose);
+    makeRoom(buffers_);
+    makeRoom(own_);
     Buffer result;
     result.size = std::max<VkDeviceSize>(size, 16);
     result.purpose = purpose;
@@ -131,32 +138,36 @@ Buffer Memory::buffer(const char* purpose, VkDeviceSize size, VkBufferUsageFlags
     info.size = result.size;
     info.usage = usage;
     check(vkCreateBuffer(device_, &info, nullptr, &result.handle), "making a buffer");
-    buffers_.push_back(result.handle);
+    OwnedBuffer owned(gpu_, result.handle);
     names_.name(VK_OBJECT_TYPE_BUFFER, result.handle, purpose);
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device_, result.handle, &needs);
     const VkMemoryPropertyFlags properties =
         place == Place::host ? kHostFlags : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
-    const Piece piece = allocate(needs, properties, false);
+    Piece piece = allocate(needs, properties, false);
     check(vkBindBufferMemory(device_, result.handle, piece.memory, piece.offset), "binding a buffer's memory");
     result.mapped = place == Place::host ? piece.mapped : nullptr;
-    result.own_memory = piece.own ? piece.memory : VK_NULL_HANDLE;
-    account(purpose, result.size);
+    result.own_memory = piece.own.get();
+    buffers_.push_back(std::move(owned));
+    if (piece.own) {
+        own_.push_back(std::move(piece.own));
+    }
+    use.bytes += result.size;
     return result;
 }
 
-void Memory::release(Buffer& buffer)
+void Memory::release(Buffer& buffer) noexcept
 {
     if (buffer.handle == VK_NULL_HANDLE) {
         return;
     }
-    vkDestroyBuffer(device_, buffer.handle, nullptr);
-    std::erase(buffers_, buffer.handle);
+    std::erase_if(buffers_, [&](const OwnedBuffer& one) { return one.get() == buffer.handle; });
     if (buffer.own_memory != VK_NULL_HANDLE) {
-        vkFreeMemory(device_, buffer.own_memory, nullptr);
-        std::erase(own_, buffer.own_memory);
+        std::erase_if(own_, [&](const OwnedMemory& one) { return one.get() == buffer.own_memory; });
     }
-    account(buffer.purpose, VkDeviceSize{0} - buffer.size);
+    for (vulkan::MemoryUse& use : uses_) {
+        use.bytes -= std::string_view(use.purpose) == buffer.purpose ? buffer.size : 0;
+    }
     buffer = {};
 }
 
@@ -180,6 +191,10 @@ Image Memory::image(const ImageWish& wish)
                         std::to_string(limits_.maxImageDimension2D),
                     "choose a smaller size");
     }
+    vulkan::MemoryUse& use = useFor(wish.purpose);
+    makeRoom(images_);
+    makeRoom(views_);
+    makeRoom(own_);
     Image result{VK_NULL_HANDLE, VK_NULL_HANDLE, wish.format, wish.extent, wish.mips, wish.layers};
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
@@ -191,23 +206,35 @@ Image Memory::image(const ImageWish& wish)
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = wish.usage;
     check(vkCreateImage(device_, &info, nullptr, &result.handle), "making an image");
-    images_.push_back(result.handle);
+    OwnedImage image(gpu_, result.handle);
     names_.name(VK_OBJECT_TYPE_IMAGE, result.handle, wish.name);
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device_, result.handle, &needs);
-    const Piece piece = allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true);
+    Piece piece = allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true);
     check(vkBindImageMemory(device_, result.handle, piece.memory, piece.offset), "binding an image's memory");
-    account(wish.purpose, needs.size);
-    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    view.image = result.handle;
-    view.viewType = wish.array_view ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    view.format = wish.format;
-    const VkImageAspectFlags aspect = isDepth(wish.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-    view.subresourceRange = {aspect, 0, wish.mips, 0, wish.layers};
-    check(vkCreateImageView(device_, &view, nullptr, &result.view), "making an image view");
-    views_.push_back(result.view);
-    names_.name(VK_OBJECT_TYPE_IMAGE_VIEW, result.view, wish.name);
+    OwnedImageView view = makeView(result, wish);
+    result.view = view.get();
+    if (piece.own) {
+        own_.push_back(std::move(piece.own));
+    }
+    images_.push_back(std::move(image));
+    views_.push_back(std::move(view));
+    use.bytes += needs.size;
     return result;
+}
+
+OwnedImageView Memory::makeView(const Image& image, const ImageWish& wish) const
+{
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.image = image.handle;
+    info.viewType = wish.array_view ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    info.format = wish.format;
+    const VkImageAspectFlags aspect = isDepth(wish.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    info.subresourceRange = {aspect, 0, wish.mips, 0, wish.layers};
+    VkImageView view = VK_NULL_HANDLE;
+    check(vkCreateImageView(device_, &info, nullptr, &view), "making an image view");
+    names_.name(VK_OBJECT_TYPE_IMAGE_VIEW, view, wish.name);
+    return {gpu_, view};
 }
 
 } // namespace gnomon::host

@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "host/gpu.h"
+#include "owned.h"
 
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -45,14 +46,14 @@ enum class Place : std::uint8_t { device, host };
 class Memory {
 public:
     explicit Memory(const Gpu& gpu);
-    ~Memory();
+    ~Memory() = default;
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
     /// `size` of 0 is taken as 16 bytes, so that an empty scene needs no special case. Throws Error.
     [[nodiscard]] Buffer buffer(const char* purpose, VkDeviceSize size, VkBufferUsageFlags usage, Place place);
     [[nodiscard]] Image image(const ImageWish& wish);
-    void release(Buffer& buffer);
+    void release(Buffer& buffer) noexcept;
     /// Grows a host-visible buffer to at least `size` (in powers of two); its content is lost. True when it did.
     bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& uses() const { return uses_; }
@@ -60,7 +61,7 @@ public:
 
 private:
     struct Block {
-        VkDeviceMemory memory = VK_NULL_HANDLE;
+        OwnedMemory memory;
         std::uint32_t type = 0;
         bool images = false;
         VkDeviceSize used = 0;
@@ -70,23 +71,29 @@ private:
         VkDeviceMemory memory = VK_NULL_HANDLE;
         VkDeviceSize offset = 0;
         void* mapped = nullptr;
-        bool own = false;
+        OwnedMemory own; // where it is no part of a block
     };
     Piece allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, bool images);
-    [[nodiscard]] VkDeviceMemory allocateBlock(VkDeviceSize size, std::uint32_t type, const char* tried) const;
+    [[nodiscard]] Block& blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped);
+    [[nodiscard]] OwnedMemory allocateBlock(VkDeviceSize size, std::uint32_t type) const;
+    [[nodiscard]] void* map(VkDeviceMemory memory) const;
+    [[nodiscard]] OwnedImageView makeView(const Image& image, const ImageWish& wish) const;
     [[nodiscard]] std::uint32_t typeFor(std::uint32_t bits, VkMemoryPropertyFlags properties) const;
-    void account(const char* purpose, VkDeviceSize bytes);
+    /// To be found or made before anything that would have to be given back.
+    [[nodiscard]] vulkan::MemoryUse& useFor(const char* purpose);
 
+    const Gpu& gpu_;
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_{};
     VkPhysicalDeviceLimits limits_;
     DebugNames names_;
-    std::vector<Block> blocks_;
-    std::vector<VkDeviceMemory> own_;
-    std::vector<VkBuffer> buffers_;
-    std::vector<VkImage> images_;
-    std::vector<VkImageView> views_;
     std::vector<vulkan::MemoryUse> uses_;
+    // Memory first: it goes after what is bound to it.
+    std::vector<Block> blocks_;
+    std::vector<OwnedMemory> own_;
+    std::vector<OwnedBuffer> buffers_;
+    std::vector<OwnedImage> images_;
+    std::vector<OwnedImageView> views_;
 };
 
 } // namespace gnomon::host

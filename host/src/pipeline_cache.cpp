@@ -2,18 +2,16 @@
 #include "pipeline_cache.h"
 
 #include "check.h"
+#include "files/files.h"
 
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <exception>
 #include <string>
-#include <vector>
-
-#include <unistd.h>
+#include <string_view>
 
 namespace gnomon::host {
 namespace {
@@ -26,7 +24,7 @@ struct FileHeader {
 };
 
 // FNV-1a (Fowler, Noll, Vo 1991).
-std::uint64_t checksumOf(const std::vector<char>& bytes)
+std::uint64_t checksumOf(std::string_view bytes)
 {
     std::uint64_t hash = 0xcbf29ce484222325ULL;
     for (const char c : bytes) {
@@ -35,18 +33,23 @@ std::uint64_t checksumOf(const std::vector<char>& bytes)
     return hash;
 }
 
-std::vector<char> readPayload(const std::filesystem::path& file)
+std::string readPayload(const std::filesystem::path& file)
 {
     constexpr std::uint64_t kMaxBytes = 256ULL << 20;
-    std::ifstream in(file, std::ios::binary);
     FileHeader header;
     const FileHeader expected;
-    if (!in.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != expected.magic ||
-        header.size > kMaxBytes) {
+    std::string bytes;
+    try {
+        bytes = readWholeFile(file, kMaxBytes);
+    } catch (const std::exception&) { // none yet, or none that can be had: it is made anew
         return {};
     }
-    std::vector<char> bytes(std::istreambuf_iterator<char>(in), {});
-    if (bytes.size() != header.size || checksumOf(bytes) != header.checksum) {
+    if (bytes.size() < sizeof header) {
+        return {};
+    }
+    std::memcpy(&header, bytes.data(), sizeof header);
+    bytes.erase(0, sizeof header);
+    if (header.magic != expected.magic || bytes.size() != header.size || checksumOf(bytes) != header.checksum) {
         return {};
     }
     return bytes;
@@ -76,7 +79,7 @@ std::filesystem::path pipelineCacheFile(const VkPhysicalDeviceProperties& proper
 
 VkPipelineCache loadPipelineCache(VkDevice device, const std::filesystem::path& file)
 {
-    const std::vector<char> bytes = file.empty() ? std::vector<char>{} : readPayload(file);
+    const std::string bytes = file.empty() ? std::string() : readPayload(file);
     VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     info.initialDataSize = bytes.size();
     info.pInitialData = bytes.empty() ? nullptr : bytes.data();
@@ -91,34 +94,23 @@ void storePipelineCache(VkDevice device, VkPipelineCache cache, const std::files
     if (file.empty() || vkGetPipelineCacheData(device, cache, &size, nullptr) != VK_SUCCESS || size == 0) {
         return;
     }
-    std::vector<char> bytes(size);
-    if (vkGetPipelineCacheData(device, cache, &size, bytes.data()) != VK_SUCCESS) {
-        return;
-    }
-    bytes.resize(size);
-    std::error_code error;
-    if (std::filesystem::file_size(file, error) == size + sizeof(FileHeader) && !error) {
-        return; // the same pipelines as before, as far as the size tells
-    }
-    std::filesystem::create_directories(file.parent_path(), error);
-    std::filesystem::path temporary = file;
-    temporary += "." + std::to_string(::getpid());
-    FileHeader header;
-    header.size = size;
-    header.checksum = checksumOf(bytes);
-    bool whole = false;
-    {
-        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-        out.write(reinterpret_cast<const char*>(&header), sizeof header);
-        out.write(bytes.data(), static_cast<std::streamsize>(size));
-        out.close();
-        whole = out.good();
-    }
-    if (whole) {
-        std::filesystem::rename(temporary, file, error);
-    }
-    if (!whole || error) {
-        std::filesystem::remove(temporary, error);
+    try {
+        std::string bytes(sizeof(FileHeader) + size, '\0');
+        if (vkGetPipelineCacheData(device, cache, &size, bytes.data() + sizeof(FileHeader)) != VK_SUCCESS) {
+            return;
+        }
+        bytes.resize(sizeof(FileHeader) + size);
+        std::error_code error;
+        if (std::filesystem::file_size(file, error) == bytes.size() && !error) {
+            return; // the same pipelines as before, as far as the size tells
+        }
+        std::filesystem::create_directories(file.parent_path(), error);
+        FileHeader header;
+        header.size = size;
+        header.checksum = checksumOf(std::string_view(bytes).substr(sizeof header));
+        std::memcpy(bytes.data(), &header, sizeof header);
+        writeFile(file, bytes);
+    } catch (const std::exception&) { // no memory or no disk for them: they are compiled again next time
     }
 }
 

@@ -106,25 +106,6 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
     makeSky();
 }
 
-void Pipelines::destroyModules()
-{
-    for (VkShaderModule one : modules_) {
-        vkDestroyShaderModule(gpu_.view().device, one, nullptr);
-    }
-    modules_.clear();
-}
-
-Pipelines::~Pipelines()
-{
-    VkDevice device = gpu_.view().device;
-    for (VkPipeline pipeline : all_) {
-        vkDestroyPipeline(device, pipeline, nullptr);
-    }
-    vkDestroyPipelineLayout(device, scene_layout, nullptr);
-    vkDestroyPipelineLayout(device, screen_layout, nullptr);
-    vkDestroyDescriptorSetLayout(device, frame_layout, nullptr);
-}
-
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
 {
     VkDevice device = gpu_.view().device;
@@ -137,20 +118,28 @@ void Pipelines::makeLayouts(VkDescriptorSetLayout material)
     VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = bindings.size();
     info.pBindings = bindings.data();
-    check(vkCreateDescriptorSetLayout(device, &info, nullptr, &frame_layout), "making a descriptor set layout");
-    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, frame_layout, "frame");
-    const std::array<VkDescriptorSetLayout, 2> sets{frame_layout, material};
-    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layout.setLayoutCount = 2;
-    layout.pSetLayouts = sets.data();
-    check(vkCreatePipelineLayout(device, &layout, nullptr, &scene_layout), "making a pipeline layout");
-    layout.setLayoutCount = 1;
-    check(vkCreatePipelineLayout(device, &layout, nullptr, &screen_layout), "making a pipeline layout");
-    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout, "scene");
-    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout, "screen");
+    VkDescriptorSetLayout frame = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device, &info, nullptr, &frame), "making a descriptor set layout");
+    frame_layout = {gpu_, frame};
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, frame, "frame");
+    const std::array<VkDescriptorSetLayout, 2> sets{frame, material};
+    scene_layout = makeLayout(sets);
+    screen_layout = makeLayout(std::span(sets).first(1));
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout.get(), "scene");
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout.get(), "screen");
 }
 
-VkShaderModule Pipelines::module(std::string_view name)
+OwnedPipelineLayout Pipelines::makeLayout(std::span<const VkDescriptorSetLayout> sets) const
+{
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
+    info.pSetLayouts = sets.data();
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(gpu_.view().device, &info, nullptr, &layout), "making a pipeline layout");
+    return {gpu_, layout};
+}
+
+OwnedShader Pipelines::module(std::string_view name) const
 {
     const std::span<const std::uint32_t> words = shaderWords(name);
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -158,8 +147,7 @@ VkShaderModule Pipelines::module(std::string_view name)
     info.pCode = words.data();
     VkShaderModule result = VK_NULL_HANDLE;
     check(vkCreateShaderModule(gpu_.view().device, &info, nullptr, &result), "making a shader");
-    modules_.push_back(result);
-    return result;
+    return {gpu_, result};
 }
 
 VkPipeline Pipelines::make(const Wish& wish)
@@ -170,10 +158,11 @@ VkPipeline Pipelines::make(const Wish& wish)
     }
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof wish.constants, wish.constants.data()};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    const std::array<OwnedShader, 2> modules{module(wish.vertex), module(wish.fragment)};
     for (std::size_t i = 0; i < 2; ++i) {
         stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
-        stages[i].module = module(i == 0 ? wish.vertex : wish.fragment);
+        stages[i].module = modules[i].get();
         stages[i].pName = "main";
         stages[i].pSpecializationInfo = &constants;
     }
@@ -199,13 +188,12 @@ VkPipeline Pipelines::make(const Wish& wish)
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &fixed.blend;
     info.pDynamicState = &fixed.dynamic;
-    info.layout = wish.scene ? scene_layout : screen_layout;
+    info.layout = (wish.scene ? scene_layout : screen_layout).get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateGraphicsPipelines(gpu_.view().device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline),
           "compiling shaders");
-    all_.push_back(pipeline);
+    all_.push_back(OwnedPipeline(gpu_, pipeline));
     names_.name(VK_OBJECT_TYPE_PIPELINE, pipeline, wish.name);
-    destroyModules();
     return pipeline;
 }
 

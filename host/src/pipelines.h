@@ -42,7 +42,7 @@ struct ToneFacts {
 class Pipelines {
 public:
     Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials);
-    ~Pipelines();
+    ~Pipelines() = default;
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
@@ -57,18 +57,18 @@ public:
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
-    VkPipelineLayout scene_layout = VK_NULL_HANDLE;  // set 0 frame, set 1 material
-    VkPipelineLayout screen_layout = VK_NULL_HANDLE; // set 0 frame
-    VkDescriptorSetLayout frame_layout = VK_NULL_HANDLE;
+    OwnedSetLayout frame_layout;
+    OwnedPipelineLayout scene_layout;  // set 0 frame, set 1 material
+    OwnedPipelineLayout screen_layout; // set 0 frame
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);
-    VkShaderModule module(std::string_view name);
+    [[nodiscard]] OwnedPipelineLayout makeLayout(std::span<const VkDescriptorSetLayout> sets) const;
+    [[nodiscard]] OwnedShader module(std::string_view name) const;
     struct Wish;
     VkPipeline make(const Wish& wish);
     void makeScene(const Materials& materials);
     void makeSky();
-    void destroyModules();
 
     const Gpu& gpu_;
     const DebugNames& names_;
@@ -77,8 +77,7 @@ private:
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;
-    std::vector<VkPipeline> all_;
-    std::vector<VkShaderModule> modules_;
+    std::vector<OwnedPipeline> all_;
 };
 
 } // namespace gnomon::host

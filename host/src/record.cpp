@@ -140,11 +140,12 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     for (VkPipeline pipeline : {shade, pipelines.sky}) {
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout, 0, 1, &frame_set, 0,
-                                nullptr);
+        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout.get(), 0, 1, &frame_set,
+                                0, nullptr);
         vkCmdDraw(cmd, 3, 1, 0, 0);
     }
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set, 0, nullptr);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,
+                            nullptr);
     draws.bindStreams(cmd);
     profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
     vkCmdEndRendering(cmd);
@@ -171,8 +172,8 @@ void FrameRenderer::Impl::screenPass(VkCommandBuffer cmd, const char* name, VkPi
     beginRendering(cmd, target.extent, {&colour, 1}, nullptr);
     setViewport(cmd, target.extent);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.screen_layout, 0, 1, &frame_set, 0,
-                            nullptr);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.screen_layout.get(), 0, 1, &frame_set,
+                            0, nullptr);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     vkCmdEndRendering(cmd);
     profiler.addDraws(1);

@@ -25,8 +25,14 @@ struct SceneData {
     /// Which state the deformed vertices are of once all that was submitted is done.
     std::optional<double> deformed_at_s;
 
-    /// Waits for the upload, and gives its staging buffer back.
-    void finishUpload() { uploader.reset(); }
+    /// Waits for the upload, and gives its staging buffer back. Throws as waitFor().
+    void finishUpload()
+    {
+        if (uploader) {
+            uploader->wait();
+            uploader.reset();
+        }
+    }
     [[nodiscard]] vulkan::CasterGeometry casterGeometry() const
     {
         return {geometry.positions.handle, 0, geometry.uvs.handle, 0, geometry.indices.handle, 0};

@@ -41,10 +41,11 @@ void SceneDraws::update(const scene::State& state, ObjectSet& objects, bool defo
         }
         const vulkan::Rows3x4 now = rowsOf(object.world_from_object);
         const std::uint64_t before = objects.version();
-        objects.update(i, object.bounds_ws);
+        const ObjectId id = objects.idAt(i);
+        (void)objects.update(id, object.bounds_ws);
         const bool moved = !same(now, transforms_[i]);
         if ((moved || (deformed && object.deformed != scene::kNone)) && objects.version() == before) {
-            objects.touch(i);
+            (void)objects.touch(id);
         }
         transforms_[i] = now;
     }
@@ -118,7 +119,7 @@ std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines&
 {
     const Batch& batch = table_.batches[some.batch];
     setSides(commands, batch);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 1, 1,
                             &materials_.all()[batch.material].set, 0, nullptr);
     vkCmdDrawIndexedIndirect(commands, now_->commands.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
                              some.command_count, sizeof(VkDrawIndexedIndirectCommand));
@@ -142,8 +143,8 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bound);
         }
         if (first) { // not before the pipeline: llvmpipe 22.3 crashes on a set that no pipeline was ever bound for
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 0, 1, &frame_set,
-                                    0, nullptr);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1,
+                                    &frame_set, 0, nullptr);
             bindStreams(commands);
         }
         draws += recordBatch(commands, pipelines, some);
@@ -177,7 +178,7 @@ std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipeline
         const vulkan::DrawPart& part = table_.parts[table_.objects[one.object].first_part];
         const Batch& batch = table_.batches[part.batch];
         setSides(commands, batch);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout, 1, 1,
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 1, 1,
                                 &materials_.all()[batch.material].set, 0, nullptr);
         vkCmdDrawIndexed(commands, part.mesh.index_count, 1, part.mesh.first_index, part.mesh.vertex_offset,
                          one.instance);

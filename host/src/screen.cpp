@@ -84,11 +84,6 @@ Screen::Screen(SceneData& scene, const RenderOptions& options, std::span<const B
     makeSets(frame_data);
 }
 
-Screen::~Screen()
-{
-    vkDestroyDescriptorPool(scene_.gpu.view().device, pool_, nullptr);
-}
-
 void Screen::makeSets(std::span<const Buffer> frame_data)
 {
     VkDevice device = scene_.gpu.view().device;
@@ -99,11 +94,13 @@ void Screen::makeSets(std::span<const Buffer> frame_data)
     pool_info.maxSets = count;
     pool_info.poolSizeCount = sizes.size();
     pool_info.pPoolSizes = sizes.data();
-    check(vkCreateDescriptorPool(device, &pool_info, nullptr, &pool_), "making a descriptor pool");
-    memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "frame");
-    const std::vector<VkDescriptorSetLayout> layouts(count, scene_.pipelines.frame_layout);
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device, &pool_info, nullptr, &pool), "making a descriptor pool");
+    pool_ = {scene_.gpu, pool};
+    memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame");
+    const std::vector<VkDescriptorSetLayout> layouts(count, scene_.pipelines.frame_layout.get());
     VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = pool_;
+    info.descriptorPool = pool;
     info.descriptorSetCount = count;
     info.pSetLayouts = layouts.data();
     sets_.resize(count);

@@ -19,7 +19,7 @@ public:
     /// `frame_data`: the uniform buffer of each slot. Throws Error for sizes and options beyond their range or the
     /// device's limits, or when memory runs out.
     Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data);
-    ~Screen();
+    ~Screen() = default;
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
@@ -44,7 +44,7 @@ private:
     void makeSets(std::span<const Buffer> frame_data);
 
     Image instead_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    OwnedDescriptorPool pool_;
     std::vector<VkDescriptorSet> sets_; // by slot
 };
 

@@ -61,19 +61,12 @@ Textures::Textures(const Gpu& gpu, Memory& memory, Uploader& uploader, const sce
     uploadCookies();
 }
 
-Textures::~Textures()
-{
-    for (const auto& [key, sampler] : samplers_) {
-        vkDestroySampler(gpu_.view().device, sampler, nullptr);
-    }
-}
-
 VkSampler Textures::makeSampler(VkSamplerAddressMode u, VkSamplerAddressMode v, bool magnify, bool minify, bool mips)
 {
     const std::uint32_t key = static_cast<std::uint32_t>(u) << 8 | static_cast<std::uint32_t>(v) << 4 |
                               (magnify ? 4U : 0U) | (minify ? 2U : 0U) | (mips ? 1U : 0U);
-    VkSampler& sampler = samplers_[key];
-    if (sampler == VK_NULL_HANDLE) {
+    OwnedSampler& made = samplers_[key];
+    if (!made) {
         VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
         info.magFilter = magnify ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
         info.minFilter = minify ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
@@ -82,10 +75,12 @@ VkSampler Textures::makeSampler(VkSamplerAddressMode u, VkSamplerAddressMode v, 
         info.addressModeV = v;
         info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
         info.maxLod = mips ? VK_LOD_CLAMP_NONE : 0.0F;
+        VkSampler sampler = VK_NULL_HANDLE;
         check(vkCreateSampler(gpu_.view().device, &info, nullptr, &sampler), "making a sampler");
+        made = {gpu_, sampler};
         memory_.names().name(VK_OBJECT_TYPE_SAMPLER, sampler, "scene sampler");
     }
-    return sampler;
+    return made.get();
 }
 
 VkSampler Textures::sampler(const scene::Texture& texture)

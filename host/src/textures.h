@@ -14,7 +14,7 @@ namespace gnomon::host {
 class Textures {
 public:
     Textures(const Gpu& gpu, Memory& memory, Uploader& uploader, const scene::Scene& scene);
-    ~Textures();
+    ~Textures() = default;
     Textures(const Textures&) = delete;
     Textures& operator=(const Textures&) = delete;
 
@@ -40,7 +40,7 @@ private:
     Uploader& uploader_;
     const scene::Scene& scene_;
     std::map<std::pair<std::uint32_t, bool>, Image> images_; // by scene image and whether it is colour
-    std::map<std::uint32_t, VkSampler> samplers_;
+    std::map<std::uint32_t, OwnedSampler> samplers_;
     std::vector<std::uint32_t> cookie_images_; // layer - 1
     Image white_;
     Image flat_;

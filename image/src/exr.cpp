@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "exr_header.h"
+#include "files/files.h"
 #include "image/image_io.h"
 #include "read_formats.h"
-#include "safe_file.h"
 
 #include <gnomon/error.h>
 
@@ -128,6 +129,7 @@ void requireSize(std::int64_t width, std::int64_t height, std::uint32_t max_side
 
 ImageF decode(std::string_view bytes, std::uint32_t max_side)
 {
+    checkExrHeaders(bytes, max_side);
     MemoryIn in(bytes);
     Imf::InputFile file(in, 0);
     const Imath::Box2i window = file.header().dataWindow();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "files/files.h"
 #include "image/image_io.h"
 
 #include <gnomon/error.h>

@@ -23,7 +23,7 @@ struct Lab {
     double a = 0.0;
     double b = 0.0;
 };
-struct Light {
+struct LinearColour {
     double red = 0.0;
     double green = 0.0;
     double blue = 0.0;
@@ -46,12 +46,12 @@ double inverseLabCurve(double f)
     return f * f * f > kLabEpsilon ? f * f * f : (116.0 * f - 16.0) / kLabKappa;
 }
 
-Light decode(Colour colour)
+LinearColour decode(Colour colour)
 {
     return {decodeSrgb(colour.red / 255.0), decodeSrgb(colour.green / 255.0), decodeSrgb(colour.blue / 255.0)};
 }
 
-Colour encode(const Light& light)
+Colour encode(const LinearColour& light)
 {
     return {encodeSrgb(light.red), encodeSrgb(light.green), encodeSrgb(light.blue)};
 }
@@ -59,7 +59,7 @@ Colour encode(const Light& light)
 // The matrices are IEC 61966-2-1's primaries against XYZ.
 Lab labOf(Colour colour)
 {
-    const Light c = decode(colour);
+    const LinearColour c = decode(colour);
     const double x = labCurve((0.4124564 * c.red + 0.3575761 * c.green + 0.1804375 * c.blue) / kWhiteX);
     const double y = labCurve(0.2126729 * c.red + 0.7151522 * c.green + 0.0721750 * c.blue);
     const double z = labCurve((0.0193339 * c.red + 0.1191920 * c.green + 0.9503041 * c.blue) / kWhiteZ);
@@ -184,8 +184,8 @@ Colour classColour(ErrorClass error_class)
 
 Colour mixLight(Colour a, Colour b, double share_of_b)
 {
-    const Light p = decode(a);
-    const Light q = decode(b);
+    const LinearColour p = decode(a);
+    const LinearColour q = decode(b);
     return encode({p.red + share_of_b * (q.red - p.red), p.green + share_of_b * (q.green - p.green),
                    p.blue + share_of_b * (q.blue - p.blue)});
 }

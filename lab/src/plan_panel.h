@@ -31,7 +31,7 @@ struct PlanMap {
 /// All that is drawn, in the plane across the light.
 struct PlanScene {
     LightPlane plane;
-    std::vector<PlanObject> objects; // by handle
+    std::vector<PlanObject> objects; // by index
     std::vector<PlanMap> maps;
     std::optional<glm::dvec2> eye; // nothing: behind the light
     Polygon sight;                 // points of the camera's line of sight, from the eye on; open

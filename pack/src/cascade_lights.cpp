@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/cascade_lights.h>
 
+#include <gnomon/error.h>
 #include <gnomon/plan_views.h>
 
 #include <glm/gtc/matrix_access.hpp>
@@ -8,7 +9,6 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <cassert>
 
 namespace gnomon::pack {
 namespace {
@@ -72,7 +72,10 @@ std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         if (isFirst(plan.views[i])) {
-            assert(count < out.size());
+            if (count >= out.size()) {
+                throw Error("describe cascades to shaders", "there is no room for the plan's lights",
+                            "give room for cascadeLightCount()");
+            }
             out[count++] = describe(frame, plan, i, screen_px);
         }
     }

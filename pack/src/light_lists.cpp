@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 
 namespace gnomon::pack {
@@ -84,8 +83,8 @@ Bounds projectedBounds(const Hull& hull, const glm::dmat4& clip_from_world)
         clip[i] = clip_from_world * glm::dvec4(hull.points[i], 1.0);
         greatest = std::max(greatest, std::abs(clip[i].w));
     }
-    // Nearer than any near plane.
-    const double least = std::min(1e-6, 1e-3 * greatest);
+    // Nearer than any near plane that single precision has a use for.
+    const double least = 1e-9 * greatest;
     Bounds bounds;
     for (std::size_t i = 0; i < hull.count; ++i) {
         if (clip[i].w >= least) {
@@ -147,8 +146,13 @@ void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, const LightLists&
 
 void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out)
 {
-    assert(side_px >= 1 && frame.size_px.x >= 1 && frame.size_px.y >= 1);
     out.side_px = side_px;
+    if (side_px == 0 || frame.size_px.x == 0 || frame.size_px.y == 0) {
+        out.tiles = {0, 0};
+        out.first.assign(1, 0);
+        out.lights.clear();
+        return;
+    }
     out.tiles = (frame.size_px + (side_px - 1U)) / side_px;
     const std::size_t tiles = std::size_t{out.tiles.x} * out.tiles.y;
     // Counted first; then `first` walks on while lights are put in, and is moved back by one tile at the end.

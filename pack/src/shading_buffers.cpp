@@ -3,6 +3,7 @@
 
 #include "light_strip.h"
 
+#include <gnomon/error.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan_views.h>
@@ -11,7 +12,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace gnomon::pack {
@@ -80,7 +80,10 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
 
 void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights)
 {
-    assert(lights.size() >= plan.lights.size() && frame.lights.size() == plan.lights.size());
+    if (lights.size() < plan.lights.size() || frame.lights.size() != plan.lights.size()) {
+        throw Error("describe lights to shaders", "there is no room for the plan's lights, or the frame has others",
+                    "give room for plan.lights.size(), and the frame that was planned");
+    }
     std::fill(lights.begin(), lights.end(), shared::GpuLight{});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const SunSteps& steps = plan.lights[i].steps;
@@ -92,7 +95,10 @@ void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight
 
 void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views)
 {
-    assert(views.size() >= plan.views.size() && maps.size() >= plan.options->size());
+    if (views.size() < plan.views.size() || maps.size() < plan.options->size()) {
+        throw Error("describe views to shaders", "there is no room for the plan's views, or too few maps are given",
+                    "give room for plan.views.size(), and one map for each of plan.options");
+    }
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
@@ -135,8 +141,9 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     const ResolvedOptions& options = (*plan.options)[index];
     const double begin_m = options.fadeBegin_m();
     const double fade_m = options.fadeEnd_m() - begin_m;
-    screen.fade =
-        options.fadeEnd_m() > 0.0 ? glm::vec4(begin_m, 1.0 / std::max(fade_m, 1e-3), 0.0F, 0.0F) : glm::vec4(0.0F);
+    constexpr double kLeastFade = 1e-5; // of the distance
+    screen.fade = options.fadeEnd_m() > 0.0 ? glm::vec4(begin_m, 1.0 / std::max(fade_m, kLeastFade * options.fadeEnd_m()), 0.0F, 0.0F)
+                                   : glm::vec4(0.0F);
     const glm::vec2 size(screen_px);
     screen.size = {size, 1.0F / size};
     fillRule(options, out.rule);

@@ -50,7 +50,13 @@ glm::mat3 cofactors(const glm::mat4& m)
 glm::vec3 normaliseOr(const glm::vec3& v, const glm::vec3& otherwise)
 {
     const float length2 = glm::dot(v, v);
-    return length2 > 1e-20F ? v * (1.0F / std::sqrt(length2)) : otherwise;
+    if (length2 > 1e-20F) {
+        return v * (1.0F / std::sqrt(length2));
+    }
+    // Cofactors of a small object are squares of its scale, whose own squares single precision has no room for.
+    const glm::vec3 larger = v * 0x1p60F;
+    const float larger2 = glm::dot(larger, larger);
+    return larger2 > 1e-20F ? larger * (1.0F / std::sqrt(larger2)) : otherwise;
 }
 
 void skin(const Primitive& primitive, std::span<const glm::mat4> joint_matrices, DeformedPrimitive& deformed)

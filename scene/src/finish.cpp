@@ -94,7 +94,7 @@ void addTangents(Primitive& primitive, const std::vector<glm::vec2>& uv)
         const glm::vec3& n = primitive.normals[i];
         glm::vec3 t = along_u[i] - n * glm::dot(n, along_u[i]);
         const float length = glm::length(t);
-        t = length > 1e-12F && std::isfinite(length) ? t / length : anyPerpendicular(n);
+        t = length > 1e-6F * glm::length(along_u[i]) && std::isfinite(length) ? t / length : anyPerpendicular(n);
         // glTF's v grows down the image and its green channel points up it, so the bitangent runs against v.
         const float hand = glm::dot(glm::cross(n, t), along_v[i]) > 0.0F ? -1.0F : 1.0F;
         primitive.tangents[i] = glm::vec4(t, hand);

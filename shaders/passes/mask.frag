@@ -83,7 +83,9 @@ vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
 
 vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
 {
-    vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p), tangentFromDepth(pixel, ivec2(0, 1), depth, p));
+    // Tangents as shares of the distance, which no size of the scene changes.
+    float k = inversesqrt(dot(p, p));
+    vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p) * k, tangentFromDepth(pixel, ivec2(0, 1), depth, p) * k);
     float l = length(n);
     n = l > 0.0 ? n / l : normalize(-p);
     return dot(n, p) > 0.0 ? -n : n; // towards the eye

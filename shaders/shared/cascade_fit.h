@@ -19,6 +19,9 @@ GN_FN real practicalSplit(real near_m, real far_m, real lambda, int i, int count
 // A logarithm has to start somewhere: no split is nearer than this share of the far end.
 GN_CONST real kNearestSplit = real(1e-4);
 
+// What is divided is at least so long, as a share of its near end.
+GN_CONST real kLeastRange = real(1e-6);
+
 // What is divided: depths along the camera's view, metres.
 struct SplitRange {
     real near_m;
@@ -30,7 +33,7 @@ struct SplitRange {
 GN_FN SplitRange splitRange(real near_m, real far_m, real lambda, bool perspective)
 {
     SplitRange range;
-    range.far_m = max(far_m, near_m + real(1e-6));
+    range.far_m = max(far_m, near_m + max(kLeastRange * abs(near_m), real(1e-30)));
     range.near_m = near_m;
     range.lambda = real(0.0);
     if (perspective) {

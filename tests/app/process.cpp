@@ -58,15 +58,36 @@ std::vector<char*> pointersTo(std::vector<std::string>& lines)
     return pointers;
 }
 
+/// In the child, after fork; a broken pipe is one whose reader has gone.
+void send(int descriptor, Stream stream, int caught)
+{
+    std::array<int, 2> pipe{};
+    switch (stream) {
+    case Stream::caught:
+        ::dup2(caught, descriptor);
+        break;
+    case Stream::closed:
+        ::close(descriptor);
+        break;
+    case Stream::full:
+        ::dup2(::open("/dev/full", O_WRONLY | O_CLOEXEC), descriptor);
+        break;
+    case Stream::broken:
+        if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+            ::_exit(126);
+        }
+        ::close(pipe[0]);
+        ::dup2(pipe[1], descriptor);
+        break;
+    }
+}
+
 /// In the child, after fork. Other threads may have held any lock, that of the heap too, so nothing is called but what
 /// POSIX calls async-signal-safe.
 [[noreturn]] void become(const How& how, char* const* argv, char* const* environment, int out, int err)
 {
-    if (how.stdout_to != nullptr) {
-        out = ::open(how.stdout_to, O_WRONLY);
-    }
-    ::dup2(out, STDOUT_FILENO);
-    ::dup2(err, STDERR_FILENO);
+    send(STDOUT_FILENO, how.out, out);
+    send(STDERR_FILENO, how.err, err);
     if (::chdir(how.folder.c_str()) != 0) {
         ::_exit(126);
     }
@@ -283,8 +304,8 @@ std::vector<std::string> Ran::errorLines() const
 
 Ran gnomon(const std::vector<std::string>& arguments, const How& how)
 {
-    const bool needs_its_own =
-        how.max_file_bytes != RLIM_INFINITY || how.stdout_to != nullptr || how.signal != 0 || !how.in_process;
+    const bool needs_its_own = how.max_file_bytes != RLIM_INFINITY || how.out != Stream::caught ||
+                               how.err != Stream::caught || how.signal != 0 || !how.in_process;
     return needs_its_own ? spawn(arguments, how) : call(arguments, how);
 }
 

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -20,12 +21,21 @@ struct Ran {
     [[nodiscard]] std::vector<std::string> errorLines() const;
 };
 
+/// Where a stream of the program's goes.
+enum class Stream : std::uint8_t {
+    caught, // to Ran
+    closed,
+    full,  // a device that is
+    broken // a pipe that nobody reads
+};
+
 struct How {
     std::filesystem::path folder;                                 // working folder
     std::vector<std::pair<std::string, std::string>> environment; // added to ours
     bool in_process = true; // false: the built program; so too whenever one of the following asks for it
     rlim_t max_file_bytes = RLIM_INFINITY;
-    const char* stdout_to = nullptr;   // a file to send standard output to instead of Ran::out
+    Stream out = Stream::caught;
+    Stream err = Stream::caught;
     int signal = 0;                    // 0: none is sent; else once both of these are so
     std::string signal_at;             // standard error has this
     std::filesystem::path signal_when; // there is such a file; empty: need not be

@@ -383,7 +383,7 @@ TEST(OutsideWorld, FullDisk)
 TEST(OutsideWorld, FullStandardOutput)
 {
     const test::Folder folder;
-    const test::Ran ran = test::gnomon({"list"}, {.folder = folder.path(), .stdout_to = "/dev/full"});
+    const test::Ran ran = test::gnomon({"list"}, {.folder = folder.path(), .out = test::Stream::full});
     expectOneLine(ran, 1, "standard output");
 }
 

@@ -28,6 +28,7 @@ double noise(std::uint64_t n)
 /// A terrain and small things on it, of which some walk in circles.
 struct World {
     ObjectSet set;
+    std::vector<ObjectId> ids;
     std::vector<glm::dvec3> homes;
     std::uint32_t moving_every = 10;
     double half_m = 0.0;
@@ -38,11 +39,11 @@ struct World {
     {
         half_m = 0.5 * std::sqrt(kArea_m2 * static_cast<double>(count));
         const float half = static_cast<float>(half_m);
-        set.add({{-half, -4, -half}, {half, 9, half}});
+        ids.push_back(set.add({{-half, -4, -half}, {half, 9, half}}));
         for (std::uint64_t i = 1; i < static_cast<std::uint64_t>(count); ++i) {
             homes.emplace_back((2.0 * noise(3 * i) - 1.0) * half_m, 6.0 * noise(3 * i + 1),
                                (2.0 * noise(3 * i + 2) - 1.0) * half_m);
-            set.add(box(homes.back()), {true, true, i % moving_every == 0});
+            ids.push_back(set.add(box(homes.back()), {true, true, i % moving_every == 0}));
         }
         lights[0].direction_ws = glm::normalize(glm::dvec3(0.4, -1.0, 0.25));
         lookFrom({0.0, 1.4 * half_m, 1.9 * half_m});
@@ -60,7 +61,7 @@ struct World {
     {
         const double turn = 6.283185307179586 * step / kFrames;
         for (std::uint32_t i = moving_every; i <= homes.size(); i += moving_every)
-            set.update(i, box(homes[i - 1] + glm::dvec3(5.0 * std::cos(turn), 0.0, 5.0 * std::sin(turn))));
+            set.update(ids[i], box(homes[i - 1] + glm::dvec3(5.0 * std::cos(turn), 0.0, 5.0 * std::sin(turn))));
     }
 };
 
@@ -107,7 +108,7 @@ void planRtsSize(benchmark::State& state)
         const double turn = 6.283185307179586 * (++step % kFrames) / kFrames;
         const glm::dvec3 away(5.0 * std::cos(turn), 0.0, 5.0 * std::sin(turn));
         for (std::uint32_t i = 1; i <= 4400; ++i)
-            world.set.update(i, World::box(world.homes[i - 1] + away));
+            world.set.update(world.ids[i], World::box(world.homes[i - 1] + away));
         benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
     }
 }

@@ -43,7 +43,7 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
             const double turn = 6.283185307179586 * step / 60.0;
             for (std::uint32_t i = 0; i < homes.size(); i += 2) {
                 const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
-                set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
+                set.update(set.idAt(i + 1), test::boxAt(homes[i] + away, glm::dvec3(1.0)));
             }
             frame.camera = test::perspectiveCamera({150 * std::cos(turn), 60, 150 * std::sin(turn)}, {0, 0, 0}, 1.0);
             return planner.plan(frame).casters.size();
@@ -85,7 +85,7 @@ TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
             const double turn = 6.283185307179586 * step / 60.0;
             for (std::uint32_t i = 0; i < homes.size(); i += 4) {
                 const glm::dvec3 away(8.0 * std::cos(turn + i), 0.0, 8.0 * std::sin(turn + i));
-                set.update(i + 1, test::boxAt(homes[i] + away, glm::dvec3(1.0)));
+                set.update(set.idAt(i + 1), test::boxAt(homes[i] + away, glm::dvec3(1.0)));
             }
             lights[0].direction_ws = glm::normalize(glm::dvec3(0.4 + 0.02 * std::sin(turn), -1.0, 0.3));
             for (const View& view : planner.plan(frame).views)

@@ -139,7 +139,7 @@ TEST(LightMaps, NumbersOfTwoPlannersNeverMeet)
     EXPECT_NE(world.plan(one).planner, world.plan(two).planner);
     std::set<ContentNumber> numbers;
     for (std::uint32_t i = 0; i < 100; ++i) {
-        world.set.touch(1 + i % 60);
+        world.set.touch(world.set.idAt(1 + i % 60));
         world.lights[0].position_ws.x += 0.01;
         EXPECT_TRUE(numbers.insert(world.plan(one).views.at(0).makes).second);
         EXPECT_TRUE(numbers.insert(world.plan(two).views.at(0).makes).second);

@@ -53,7 +53,7 @@ struct Turmoil {
     }
     void happen()
     {
-        for (const std::uint32_t object : objects)
+        for (const ObjectId object : objects)
             if (set.flags(object).dynamic && random.below(2) == 0) {
                 const Aabb& box = set.bounds(object);
                 const glm::vec3 by(random.inBox(glm::dvec3(-0.6), glm::dvec3(0.6)));
@@ -116,7 +116,7 @@ struct Turmoil {
 
     Random random;
     ObjectSet set;
-    std::vector<std::uint32_t> objects;
+    std::vector<ObjectId> objects;
     std::vector<Light> lights;
     glm::dvec3 eye{20, 15, 25};
     double hour = 0.3;

@@ -53,12 +53,12 @@ TEST(ObjectSet, QueryEqualsBruteForceOverRandomMoves)
             if (action < 3 || set.size() == 0) {
                 set.add(randomBox(random), {random.below(4) != 0, random.below(4) != 0, random.below(2) != 0});
             } else if (action < 5 && set.alive(object)) {
-                set.remove(object);
+                set.remove(set.idAt(object));
             } else if (action < 8 && set.alive(object)) { // a short step, which mostly stays in its cell
                 const glm::vec3 step(random.inBox(glm::dvec3(-2), glm::dvec3(2)));
-                set.update(object, {set.bounds(object).min + step, set.bounds(object).max + step});
+                set.update(set.idAt(object), {set.bounds(object).min + step, set.bounds(object).max + step});
             } else if (set.alive(object)) {
-                set.update(object, randomBox(random));
+                set.update(set.idAt(object), randomBox(random));
             }
         }
         for (const auto want : {ObjectSet::Want::casters, ObjectSet::Want::receivers, ObjectSet::Want::all}) {
@@ -94,7 +94,7 @@ TEST(ObjectSet, ManyInOnePlaceDoNotDivideForEver)
     set.query({}, ObjectSet::Want::all, out);
     EXPECT_EQ(out.size(), 501U);
     for (std::uint32_t i = 0; i <= 500; ++i)
-        set.remove(i);
+        set.remove(set.idAt(i));
     EXPECT_EQ(set.size(), 0U);
     out.clear();
     set.query({}, ObjectSet::Want::all, out);
@@ -111,9 +111,9 @@ TEST(ObjectSet, BoundsAreExactAfterEveryChange)
         if (random.below(3) == 0 || set.size() == 0)
             set.add(randomBox(random));
         else if (set.alive(object) && random.below(2) == 0)
-            set.remove(object);
+            set.remove(set.idAt(object));
         else if (set.alive(object))
-            set.update(object, randomBox(random));
+            set.update(set.idAt(object), randomBox(random));
         Aabb expected;
         for (std::uint32_t i = 0; i < set.size(); ++i)
             if (set.alive(i))
@@ -123,20 +123,20 @@ TEST(ObjectSet, BoundsAreExactAfterEveryChange)
     }
 }
 
-TEST(ObjectSet, HandlesAreDenseAndTheSmallestIsReused)
+TEST(ObjectSet, IndicesAreDenseAndTheSmallestIsReused)
 {
     ObjectSet set;
     const Aabb box{{0, 0, 0}, {1, 1, 1}};
     for (std::uint32_t i = 0; i < 5; ++i)
-        EXPECT_EQ(set.add(box), i);
-    set.remove(3);
-    set.remove(1);
+        EXPECT_EQ(set.add(box).index, i);
+    set.remove(set.idAt(3));
+    set.remove(set.idAt(1));
     EXPECT_FALSE(set.alive(1));
     EXPECT_EQ(set.size(), 5U);
-    EXPECT_EQ(set.add(box), 1U);
-    EXPECT_EQ(set.add(box), 3U);
-    EXPECT_EQ(set.add(box), 5U);
-    set.remove(5);
+    EXPECT_EQ(set.add(box).index, 1U);
+    EXPECT_EQ(set.add(box).index, 3U);
+    EXPECT_EQ(set.add(box).index, 5U);
+    set.remove(set.idAt(5));
     EXPECT_EQ(set.size(), 5U);
     EXPECT_FALSE(set.alive(5));
     EXPECT_FALSE(set.alive(77));
@@ -146,16 +146,16 @@ TEST(ObjectSet, CountsChanges)
 {
     ObjectSet set;
     const Aabb box{{0, 0, 0}, {1, 1, 1}};
-    const std::uint32_t a = set.add(box);
-    const std::uint32_t b = set.add(box);
+    const ObjectId a = set.add(box);
+    const ObjectId b = set.add(box);
     EXPECT_EQ(set.version(), 2U);
-    EXPECT_EQ(set.changed(a), 1U);
+    EXPECT_EQ(set.changed(a.index), 1U);
     set.update(a, box); // the same bounds
     EXPECT_EQ(set.version(), 2U);
     set.touch(a);
-    EXPECT_EQ(set.changed(a), 3U);
+    EXPECT_EQ(set.changed(a.index), 3U);
     set.update(b, {{0, 0, 0}, {2, 1, 1}});
-    EXPECT_EQ(set.changed(b), 4U);
+    EXPECT_EQ(set.changed(b.index), 4U);
     set.remove(a);
     EXPECT_EQ(set.version(), 5U);
     EXPECT_NE(set.identity(), ObjectSet().identity());

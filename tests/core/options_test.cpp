@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -15,7 +16,7 @@ OptionValue numberOf(double number)
 {
     OptionValue value;
     value.real = number;
-    value.integer = static_cast<std::int64_t>(number);
+    value.integer = std::abs(number) < 1e18 ? static_cast<std::int64_t>(number) : 0;
     value.numbers = {number};
     return value;
 }

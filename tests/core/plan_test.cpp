@@ -94,7 +94,7 @@ TEST(UniformFit, DepthsAreMetresAlongTheLight)
 TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
 {
     World world;
-    world.set.remove(1); // the floor is all that receives, and has no depth range of its own
+    world.set.remove(world.set.idAt(1)); // the floor is all that receives, and has no depth range of its own
     Planner planner(ShadowOptions{});
     const View& view = world.plan(planner).views.at(0);
     const double floor = glm::dot(view.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
@@ -130,25 +130,25 @@ TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
     World world;
     world.lights[0] = test::sun({1, -1, 0});
     // 45 degrees: at 60 m height a caster 60 m to the left shades the middle.
-    const std::uint32_t shading = world.set.add({{-61, 60, -1}, {-59, 61, 1}}, {true, false, true});
-    const std::uint32_t beside = world.set.add({{-61, 60, 30}, {-59, 61, 32}}, {true, false, true});
-    const std::uint32_t below = world.set.add({{20, -22, -1}, {22, -20, 1}}, {true, false, true});
+    const ObjectId shading = world.set.add({{-61, 60, -1}, {-59, 61, 1}}, {true, false, true});
+    const ObjectId beside = world.set.add({{-61, 60, 30}, {-59, 61, 32}}, {true, false, true});
+    const ObjectId below = world.set.add({{20, -22, -1}, {22, -20, 1}}, {true, false, true});
     Planner planner(ShadowOptions{});
     const Plan& plan = world.plan(planner);
-    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading));
-    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside));
-    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), below));
+    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading.index));
+    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside.index));
+    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), below.index));
 }
 
 TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)
 {
     World world;
-    const std::uint32_t in_border = world.set.add({{10.2F, 1, 0}, {10.5F, 2, 1}}, {true, false, false});
-    const std::uint32_t beyond = world.set.add({{13, 1, 0}, {14, 2, 1}}, {true, false, false});
+    const ObjectId in_border = world.set.add({{10.2F, 1, 0}, {10.5F, 2, 1}}, {true, false, false});
+    const ObjectId beyond = world.set.add({{13, 1, 0}, {14, 2, 1}}, {true, false, false});
     Planner planner({.map_size = 108, .border_texels = 4.0}); // texels of 0.2 m, four of them around the floor
     const Plan& plan = world.plan(planner);
-    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), in_border));
-    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beyond));
+    EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), in_border.index));
+    EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beyond.index));
 }
 
 TEST(UniformFit, AxesDoNotTurnWithTheCameraNorJumpAtNoon)
@@ -193,7 +193,7 @@ TEST(UniformFit, SpotOverAFloor)
 TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
 {
     World world;
-    world.set.remove(1);
+    world.set.remove(world.set.idAt(1));
     world.set.add({{2, 0, -10}, {2.5F, 30, 10}}); // beside the light, from under it to far above
     world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(30.0));
     Planner planner(ShadowOptions{});
@@ -248,10 +248,10 @@ TEST(Outcome, EachCanBeProvoked)
     out_of_reach.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, 0.5, 5.0);
     EXPECT_EQ(out_of_reach.outcome(), OutcomeKind::no_receiver);
     World alone;
-    alone.set.remove(1);
-    alone.set.remove(2);
+    alone.set.remove(alone.set.idAt(1));
+    alone.set.remove(alone.set.idAt(2));
     EXPECT_EQ(alone.outcome(), OutcomeKind::no_caster);
-    alone.set.remove(0);
+    alone.set.remove(alone.set.idAt(0));
     EXPECT_EQ(alone.outcome(), OutcomeKind::no_receiver);
     World refused;
     EXPECT_EQ(refused.outcome({.technique = {.filter = Filter::pcss}}), OutcomeKind::refused);
@@ -341,15 +341,15 @@ TEST(Redraw, OnlyWhenSomethingInTheMapChanged)
     };
     EXPECT_TRUE(redraw());
     EXPECT_FALSE(redraw());
-    world.set.touch(0); // receives only
+    world.set.touch(world.set.idAt(0)); // receives only
     EXPECT_FALSE(redraw());
-    world.set.touch(1);
+    world.set.touch(world.set.idAt(1));
     EXPECT_TRUE(redraw());
     EXPECT_FALSE(redraw());
-    world.set.update(2, {{4, 99, 4}, {5, 100, 5}});
+    world.set.update(world.set.idAt(2), {{4, 99, 4}, {5, 100, 5}});
     EXPECT_TRUE(redraw());
     EXPECT_FALSE(redraw());
-    const std::uint32_t beside = world.set.add({{70, 1, 0}, {71, 2, 1}}, {true, false, false});
+    const ObjectId beside = world.set.add({{70, 1, 0}, {71, 2, 1}}, {true, false, false});
     EXPECT_FALSE(redraw());
     world.set.update(beside, {{7, 1, 0}, {8, 2, 1}});
     EXPECT_TRUE(redraw());

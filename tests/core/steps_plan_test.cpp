@@ -24,7 +24,7 @@ constexpr std::uint32_t kStill = 200;
 /// Ground and boxes, of which the last one moves, inside of where the others reach.
 struct Village {
     ObjectSet set;
-    std::uint32_t mover = 0;
+    ObjectId mover;
     std::vector<Light> lights{test::sun({0.3, -1, 0.2})};
     Frame frame;
 
@@ -89,7 +89,7 @@ TEST(StepsPlan, DrawStillCastersOnceForEachPosition)
                 ASSERT_NE(view.kept_layer, kNoIndex);
                 EXPECT_GT(view.still_count, kStill * 9 / 10);
                 EXPECT_EQ(view.caster_count, view.still_count + 1);
-                EXPECT_EQ(plan.casters[view.first_caster + view.still_count], village.mover);
+                EXPECT_EQ(plan.casters[view.first_caster + view.still_count], village.mover.index);
                 kept_drawn += view.redraw_kept ? 1 : 0;
                 at_once += view.kept_layer == kNoIndex ? 1 : 0;
                 if (!view.redraw_kept)
@@ -307,7 +307,7 @@ TEST(KeptLayers, FollowWhatComesAndGoesAndStands)
     };
     EXPECT_TRUE(view().redraw_kept);
     EXPECT_FALSE(view().redraw);
-    village.set.touch(5); // stands still, but changed
+    village.set.touch(village.set.idAt(5)); // stands still, but changed
     View now = view();
     EXPECT_TRUE(now.redraw && now.redraw_kept);
     EXPECT_EQ(now.dirty.width, 256U);

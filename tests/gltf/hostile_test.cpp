@@ -163,10 +163,10 @@ TEST(GltfHostile, FilesThatAreNone)
 {
     const TemporaryFolder folder;
     folder.write("empty.glb", "");
-    EXPECT_TRUE(contains(errorOfFile(folder.path()), "found a directory"));
+    EXPECT_TRUE(contains(errorOfFile(folder.path()), "it is a directory"));
     EXPECT_TRUE(contains(errorOfFile(folder.path() / "none.gltf"), "cannot be opened"));
     EXPECT_TRUE(contains(errorOfFile(folder.path() / "empty.glb"), "the file is empty"));
-    EXPECT_TRUE(contains(errorOfFile("/dev/zero"), "a regular file is needed"));
+    EXPECT_TRUE(contains(errorOfFile("/dev/zero"), "a plain file is needed"));
 }
 
 TEST(GltfHostile, EveryLimitIsNamedWithItsFlag)

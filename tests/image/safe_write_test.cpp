@@ -2,6 +2,7 @@
 // Writing is all or nothing: after a failure the folder looks as it did before.
 #include "folder.h"
 
+#include "files/files.h"
 #include "image/image_io.h"
 
 #include <gnomon/error.h>

@@ -36,7 +36,11 @@ protected:
     dvec3 direction()
     {
         std::normal_distribution<double> normal;
-        return glm::normalize(dvec3(normal(rng), normal(rng), normal(rng)));
+        dvec3 drawn; // one by one: the order of arguments is each compiler's own
+        for (int axis = 2; axis >= 0; --axis) {
+            drawn[axis] = normal(rng);
+        }
+        return glm::normalize(drawn);
     }
 
     // A map that looks along a random direction at a random plane through a random point.
@@ -49,14 +53,15 @@ protected:
         const dvec3 right = glm::normalize(glm::cross(axis, direction()));
         const dvec3 up = glm::cross(right, axis);
         s.axis = axis;
-        s.point = direction() * uniform(0.0, 20.0);
+        s.point = direction();
+        s.point *= uniform(0.0, 20.0);
         const double texel_m = std::exp(uniform(std::log(0.002), std::log(0.5)));
         const double distance = uniform(5.0, 30.0);
         s.map.range_m = uniform(60.0, 300.0);
         if (perspective) {
             const double per_texel = std::min(texel_m / distance, 0.01); // at least 100 texels across 45 degrees
-            const dvec3 origin =
-                s.point - axis * distance + (right * uniform(-0.4, 0.4) + up * uniform(-0.4, 0.4)) * distance;
+            const dvec2 aside{uniform(-0.4, 0.4), uniform(-0.4, 0.4)};
+            const dvec3 origin = s.point - axis * distance + (right * aside.x + up * aside.y) * distance;
             s.map.w = dvec4(axis, -glm::dot(axis, origin));
             s.map.x = dvec4(right, -glm::dot(right, origin)) / per_texel + s.map.w * 1000.0;
             s.map.y = dvec4(-up, glm::dot(up, origin)) / per_texel + s.map.w * 700.0;
@@ -136,7 +141,7 @@ TEST_F(Bias, automaticNeverLetsAPlaneShadowItself)
             s.rule.reach_texels = reach(kind.filter, kind.width);
             // A stored depth is off by up to the quantum and belongs to a point up to 1/256 texel away.
             test::map_texels = [&](int x, int y) {
-                const dvec2 snap(uniform(-1.0, 1.0) / 256.0, uniform(-1.0, 1.0) / 256.0);
+                const dvec2 snap{uniform(-1.0, 1.0) / 256.0, uniform(-1.0, 1.0) / 256.0};
                 return planeDepth(s, dvec2(x, y) + 0.5 + snap, 0.0) + uniform(-1.0, 1.0) * s.rule.quantum;
             };
             const MapPoint point = projectReceiver(s.map, s.rule, s.point, s.normal);

@@ -4,6 +4,7 @@
 #include "allocation_count.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <malloc.h>
 #include <new>
@@ -14,8 +15,31 @@ thread_local std::uint64_t t_count = 0;
 thread_local std::ptrdiff_t t_held = 0; // bytes
 thread_local std::ptrdiff_t t_peak = 0;
 
+// How many allocations it is to the one that fails; 0: none does.
+thread_local std::uint64_t t_until_failure = 0;
+std::atomic<std::uint64_t> until_failure_of_all{0};
+std::atomic<bool> has_failed{false};
+
+bool fails() noexcept
+{
+    bool now = t_until_failure != 0 && --t_until_failure == 0;
+    // Hardly ever anything else, so that counting costs no more than a look.
+    if (std::uint64_t left = until_failure_of_all.load(std::memory_order_relaxed); left != 0) {
+        while (left != 0 && !until_failure_of_all.compare_exchange_weak(left, left - 1)) {
+        }
+        now = now || left == 1;
+    }
+    if (now) {
+        has_failed = true;
+    }
+    return now;
+}
+
 void* allocate(std::size_t size) noexcept
 {
+    if (fails()) {
+        return nullptr;
+    }
     ++t_count;
     void* memory = std::malloc(size == 0 ? 1 : size);
     t_held += static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
@@ -50,6 +74,24 @@ std::size_t gnomon::test::heapPeakDuring(const std::function<void()>& work)
     t_peak = t_held;
     work();
     return static_cast<std::size_t>(t_peak - before);
+}
+
+gnomon::test::FailingAllocation::FailingAllocation(std::uint64_t nth, Of whose)
+{
+    has_failed = false;
+    t_until_failure = whose == Of::this_thread ? nth : 0;
+    until_failure_of_all = whose == Of::all_threads ? nth : 0;
+}
+
+gnomon::test::FailingAllocation::~FailingAllocation()
+{
+    t_until_failure = 0;
+    until_failure_of_all = 0;
+}
+
+bool gnomon::test::FailingAllocation::failed()
+{
+    return has_failed;
 }
 
 void* operator new(std::size_t size)

@@ -14,4 +14,17 @@ namespace gnomon::test {
 /// The most bytes that `work` held at one time in this thread, beyond what was held before.
 [[nodiscard]] std::size_t heapPeakDuring(const std::function<void()>& work);
 
+/// Heap of this thread, or of all threads, that runs out at one moment: the n-th allocation from its making on, counted
+/// from 1, fails (std::bad_alloc, or null where that is asked for), and none after it. One at a time.
+class FailingAllocation {
+public:
+    enum class Of : std::uint8_t { this_thread, all_threads };
+    explicit FailingAllocation(std::uint64_t nth, Of whose = Of::this_thread);
+    ~FailingAllocation();
+    FailingAllocation(const FailingAllocation&) = delete;
+    FailingAllocation& operator=(const FailingAllocation&) = delete;
+    /// Did it come to that?
+    [[nodiscard]] static bool failed();
+};
+
 } // namespace gnomon::test

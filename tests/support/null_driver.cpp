@@ -35,6 +35,13 @@ void NullDriver::Impl::log(const NullEvent& event)
     }
 }
 
+VkResult NullDriver::Impl::outcome()
+{
+    ++fallible_calls;
+    const bool lost = failure == VK_ERROR_DEVICE_LOST && failing_call != 0 && fallible_calls > failing_call;
+    return fallible_calls == failing_call || lost ? failure : VK_SUCCESS;
+}
+
 NullDriver::NullDriver(const NullLimits& limits) : impl_(std::make_unique<Impl>())
 {
     impl_->limits = limits;
@@ -76,8 +83,8 @@ void NullDriver::remakeView(VkImageView view)
     NullObject& object = *objectOf(view);
     // What was written to a set is the view as it was; what it is a view of is gone.
     impl_->destroy(object.parts.front());
-    for (const auto& other : impl_->objects) {
-        std::replace(other->parts.begin(), other->parts.end(), &object, object.parts.front());
+    for (auto& other : impl_->objects) {
+        std::replace(other.front().parts.begin(), other.front().parts.end(), &object, object.parts.front());
     }
     object.parts = {objectOf(makeObject<VkImage>(*impl_))};
     object.slots = 0;
@@ -85,16 +92,16 @@ void NullDriver::remakeView(VkImageView view)
 
 void NullDriver::beginSlot(std::uint32_t slot)
 {
-    for (const auto& object : impl_->objects) {
-        object->slots &= ~(1U << slot);
+    for (auto& object : impl_->objects) {
+        object.front().slots &= ~(1U << slot);
     }
     impl_->slot = slot;
 }
 
 void NullDriver::finishAll()
 {
-    for (const auto& object : impl_->objects) {
-        object->slots = 0;
+    for (auto& object : impl_->objects) {
+        object.front().slots = 0;
     }
 }
 
@@ -121,6 +128,17 @@ void NullDriver::setMemory(std::uint64_t bytes)
 void NullDriver::hideFormatFeatures(VkFormatFeatureFlags features)
 {
     impl_->hidden_features = features;
+}
+
+std::uint64_t NullDriver::fallibleCalls() const
+{
+    return impl_->fallible_calls;
+}
+
+void NullDriver::failCall(std::uint64_t nth, VkResult result)
+{
+    impl_->failing_call = nth == 0 ? 0 : impl_->fallible_calls + nth;
+    impl_->failure = result;
 }
 
 void NullDriver::setApiVersion(std::uint32_t version)

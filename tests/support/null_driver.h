@@ -96,6 +96,12 @@ public:
     /// From now on this function is missing (nullptr: none is). The name must outlive the driver.
     void hideFunction(const char* name);
 
+    /// Calls that may fail, since it was made. Those of the debug functions, of which it has none, are not among them.
+    [[nodiscard]] std::uint64_t fallibleCalls() const;
+    /// The n-th such call from now on, counted from 1, fails with this result and does nothing; with
+    /// VK_ERROR_DEVICE_LOST so do all that follow. 0: none.
+    void failCall(std::uint64_t nth, VkResult result);
+
     /// What the physical device says of itself; VK_API_VERSION_1_3 at first.
     void setApiVersion(std::uint32_t version);
 

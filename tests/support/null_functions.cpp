@@ -62,6 +62,9 @@ VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeature
 VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
                                               const VkAllocationCallbacks*, VkDeviceMemory* memory)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     NullDriver::Impl& driver = driverOf(device);
     if (driver.counts.bytes + info->allocationSize > driver.limits.memory_bytes) {
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -82,9 +85,12 @@ VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, co
     std::free(std::exchange(object->mapped, nullptr));
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize,
+VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize,
                                          VkMemoryMapFlags, void** data)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     NullObject* const object = objectOf(memory);
     if (object->mapped == nullptr) {
         object->mapped = std::calloc(1, object->size);
@@ -96,6 +102,9 @@ VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice, VkDeviceMemory memory, VkDevi
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
                                             const VkAllocationCallbacks*, VkBuffer* buffer)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     ++driverOf(device).counts.created;
     *buffer = makeObject<VkBuffer>(driverOf(device));
     objectOf(*buffer)->size = info->size;
@@ -106,6 +115,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreat
 VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks*,
                                            VkImage* image)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     ++driverOf(device).counts.created;
     *image = makeObject<VkImage>(driverOf(device));
     objectOf(*image)->size = VkDeviceSize{info->extent.width} * info->extent.height * info->arrayLayers * 4;
@@ -115,6 +127,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice device, const VkImageCreateI
 VKAPI_ATTR VkResult VKAPI_CALL createView(VkDevice device, const VkImageViewCreateInfo* info,
                                           const VkAllocationCallbacks*, VkImageView* view)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     ++driverOf(device).counts.created;
     *view = makeObject<VkImageView>(driverOf(device));
     objectOf(*view)->parts.push_back(objectOf(info->image));
@@ -143,8 +158,11 @@ VKAPI_ATTR void VKAPI_CALL getImageNeeds(VkDevice, const VkImageMemoryRequiremen
 }
 
 template <class Handle>
-VKAPI_ATTR VkResult VKAPI_CALL bind(VkDevice, Handle resource, VkDeviceMemory memory, VkDeviceSize offset)
+VKAPI_ATTR VkResult VKAPI_CALL bind(VkDevice device, Handle resource, VkDeviceMemory memory, VkDeviceSize offset)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     objectOf(resource)->memory = objectOf(memory);
     objectOf(resource)->offset = offset;
     return VK_SUCCESS;
@@ -155,6 +173,9 @@ VKAPI_ATTR VkResult VKAPI_CALL bind(VkDevice, Handle resource, VkDeviceMemory me
 template <class Info, class Handle>
 VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const Info*, const VkAllocationCallbacks*, Handle* handle)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     ++driverOf(device).counts.created;
     *handle = makeObject<Handle>(driverOf(device));
     return VK_SUCCESS;
@@ -171,6 +192,10 @@ template <class Info>
 VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count, const Info*,
                                                const VkAllocationCallbacks*, VkPipeline* pipelines)
 {
+    std::fill_n(pipelines, count, VkPipeline{VK_NULL_HANDLE}); // as the specification wants it where one fails
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     driverOf(device).counts.created += count;
     driverOf(device).counts.pipelines += count;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -187,6 +212,9 @@ constexpr std::size_t kMostBindings = 16; // of one set
 VKAPI_ATTR VkResult VKAPI_CALL allocateSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
                                             VkDescriptorSet* sets)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     for (std::uint32_t i = 0; i < info->descriptorSetCount; ++i) {
         sets[i] = makeObject<VkDescriptorSet>(driverOf(device));
         objectOf(sets[i])->parts.reserve(1 + kMostBindings * kMostElements);
@@ -225,9 +253,12 @@ VKAPI_ATTR void VKAPI_CALL updateSets(VkDevice device, std::uint32_t count, cons
     }
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL getQueries(VkDevice, VkQueryPool, std::uint32_t, std::uint32_t, std::size_t bytes,
+VKAPI_ATTR VkResult VKAPI_CALL getQueries(VkDevice device, VkQueryPool, std::uint32_t, std::uint32_t, std::size_t bytes,
                                           void* data, VkDeviceSize, VkQueryResultFlags)
 {
+    if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
+        return outcome;
+    }
     std::memset(data, 0, bytes);
     return VK_SUCCESS;
 }

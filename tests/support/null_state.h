@@ -10,6 +10,29 @@
 
 namespace gnomon::test {
 
+/// Past operator new: what a driver takes is none of the library's, and must not fail in its stead (FailingAllocation).
+template <class T>
+struct DriversMemory {
+    using value_type = T;
+    DriversMemory() = default;
+    template <class U>
+    explicit DriversMemory(const DriversMemory<U>&)
+    {
+    }
+    [[nodiscard]] T* allocate(std::size_t count)
+    {
+        void* const memory = std::malloc(count * sizeof(T));
+        if (memory == nullptr) {
+            std::abort();
+        }
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+    friend bool operator==(const DriversMemory&, const DriversMemory&) { return true; }
+};
+template <class T>
+using DriversVector = std::vector<T, DriversMemory<T>>;
+
 /// Whatever a handle that is not dispatchable points to. It stays when it is destroyed, so that a later use shows.
 struct NullObject {
     NullObject() = default;
@@ -22,7 +45,7 @@ struct NullObject {
     NullObject* memory = nullptr; // of a buffer or an image
     VkDeviceSize offset = 0;      // there
     /// What is used when this is: of a view its image, of a descriptor set its pool and what was written to it.
-    std::vector<NullObject*> parts;
+    DriversVector<NullObject*> parts;
     std::uint32_t slots = 0; // a bit for each whose pending commands use it
     bool destroyed = false;
 };
@@ -31,16 +54,21 @@ struct NullDriver::Impl {
     NullLimits limits;
     NullCounts counts;
     std::vector<NullEvent> events;
-    std::vector<std::unique_ptr<NullObject>> objects;
+    DriversVector<DriversVector<NullObject>> objects; // one in each, which stays where it is
     std::uint32_t slot = 0;
     const char* hidden = nullptr;
     std::uint32_t api_version = VK_API_VERSION_1_3;
     VkFormatFeatureFlags hidden_features = 0;
+    std::uint64_t fallible_calls = 0;
+    std::uint64_t failing_call = 0; // 0: none
+    VkResult failure = VK_SUCCESS;
 
     /// A command of the current slot uses it. Allocates nothing.
     void use(NullObject* object);
     void destroy(NullObject* object);
     void log(const NullEvent& event);
+    /// To be asked by each function that may fail, before it does anything: VK_SUCCESS, or what it is to return.
+    [[nodiscard]] VkResult outcome();
 };
 
 template <class Handle>
@@ -52,8 +80,8 @@ template <class Handle>
 template <class Handle>
 [[nodiscard]] Handle makeObject(NullDriver::Impl& driver)
 {
-    driver.objects.push_back(std::make_unique<NullObject>());
-    return reinterpret_cast<Handle>(driver.objects.back().get());
+    driver.objects.emplace_back(1);
+    return reinterpret_cast<Handle>(driver.objects.back().data());
 }
 
 /// Every dispatchable handle is the address of a NullDriver::Impl, so that no function needs a global.

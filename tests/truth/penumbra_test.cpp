@@ -92,7 +92,8 @@ class DiscSun : public ::testing::TestWithParam<Case> {};
 
 TEST_P(DiscSun, penumbra_of_a_half_plane_is_the_circle_segment)
 {
-    const auto [h, degrees] = GetParam();
+    const float h = GetParam().h;
+    const double degrees = GetParam().degrees;
     const double angle = degrees * std::numbers::pi / 180.0;
     const double tangent = std::tan(angle / 2.0);
     scene::Scene scene = halfPlane(h);

@@ -25,7 +25,18 @@ std::ostream& operator<<(std::ostream& out, const Made& made)
 }
 
 ChangingHost::ChangingHost(const vulkan::ShadowRendererOptions& options)
-    : renderer(driver.view(), options), drawer(driver.view(), {})
+    : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), options), drawer(driver.view(), {})
+{
+    begin();
+}
+
+ChangingHost::ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options)
+    : driver(shared), renderer(driver.view(), options), drawer(driver.view(), {})
+{
+    begin();
+}
+
+void ChangingHost::begin()
 {
     addObjects();
     makeScene();
@@ -67,7 +78,7 @@ void ChangingHost::makeScene()
 void ChangingHost::move(const FrameSetup& setup)
 {
     scene_.boxes.back().centre.x += frames_ % 2 == 0 ? 0.3 : -0.3;
-    objects_.update(static_cast<std::uint32_t>(scene_.boxes.size()), boundsOf(scene_.boxes.back()));
+    objects_.update(objects_.idAt(static_cast<std::uint32_t>(scene_.boxes.size())), boundsOf(scene_.boxes.back()));
     lights_.clear();
     for (std::uint32_t i = 0; i < setup.lights; ++i) {
         const double angle = 0.7 * i + 0.002 * frames_;
@@ -79,7 +90,18 @@ void ChangingHost::move(const FrameSetup& setup)
     }
 }
 
-Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
+void ChangingHost::skipFrame(const FrameSetup& setup, Planner& planner, At until)
+{
+    const Frame frame = nextFrame(setup);
+    if (until > At::nothing) {
+        const Plan& plan = planner.plan(frame);
+        if (until > At::plan) {
+            (void)renderer.prepare(plan, setup.screen);
+        }
+    }
+}
+
+Frame ChangingHost::nextFrame(const FrameSetup& setup)
 {
     move(setup);
     Frame frame;
@@ -89,14 +111,26 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     frame.size_px = {setup.screen.width, setup.screen.height};
     frame.lights = lights_;
     frame.objects = &objects_;
+    return frame;
+}
+
+Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
+{
+    const Frame frame = nextFrame(setup);
+    at = At::plan;
     const Plan& plan = planner.plan(frame);
     const std::uint64_t pipelines = driver.counts().pipelines;
+    at = At::prepare;
     (void)renderer.prepare(plan, setup.screen);
     const std::uint32_t slot = frames_ % 2;
     driver.beginSlot(slot); // as if the host waited for its fence here, as late as it may
+    at = At::drawer;
     drawer.beginFrame(slot, plan, geometry_, transforms_);
     prepared_now = driver.counts().pipelines - pipelines;
-    return record(slot, frame, plan, inputsOf(slot, setup));
+    at = At::record;
+    const Made made = record(slot, frame, plan, inputsOf(slot, setup));
+    at = At::nothing;
+    return made;
 }
 
 // Of the slot's own views, which are destroyed and made again, under the handles that they had: the last frame that

@@ -8,6 +8,7 @@
 #include <gnomon/planner.h>
 
 #include <array>
+#include <memory>
 #include <ostream>
 #include <vector>
 
@@ -35,15 +36,28 @@ std::ostream& operator<<(std::ostream& out, const Made& made);
 class ChangingHost {
 public:
     explicit ChangingHost(const vulkan::ShadowRendererOptions& options);
+    /// With a driver that outlives it.
+    ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options);
     ChangingHost(const ChangingHost&) = delete;
     ChangingHost& operator=(const ChangingHost&) = delete;
 
     /// Plans, prepares and records a frame. Something has moved since the last one.
     [[nodiscard]] Made frame(Planner& planner, const FrameSetup& setup);
+    /// What frame() was at when it threw.
+    enum class At : std::uint8_t { nothing, plan, prepare, drawer, record };
+    At at = At::nothing;
+    /// A frame goes by and is not drawn, but planned, and as far as `until` prepared.
+    void skipFrame(const FrameSetup& setup, Planner& planner, At until);
+    /// Of the frame that frame() is at, or would be at next.
+    [[nodiscard]] std::uint32_t frameIndex() const { return frames_; }
     /// Fails the test if anything was freed or changed that a frame in flight may use.
     void expectNoMistakes(const std::string& what) const;
 
-    NullDriver driver;
+private:
+    std::unique_ptr<NullDriver> own_;
+
+public:
+    NullDriver& driver;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;
     std::size_t views_seen = 0;     // in all frames
@@ -58,9 +72,11 @@ private:
         VkImageView id = VK_NULL_HANDLE;
     };
 
+    void begin();
     void addObjects();
     void makeScene();
     void move(const FrameSetup& setup);
+    [[nodiscard]] Frame nextFrame(const FrameSetup& setup);
     [[nodiscard]] vulkan::MaskInputs inputsOf(std::uint32_t slot, const FrameSetup& setup);
     [[nodiscard]] Made record(std::uint32_t slot, const Frame& frame, const Plan& plan,
                               const vulkan::MaskInputs& inputs);

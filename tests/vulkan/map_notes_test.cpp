@@ -144,6 +144,7 @@ protected:
     {
         bench_.plan.views.clear();
         for (LightPlan& light : bench_.plan.lights) {
+            light.first_view = 0;
             light.view_count = 0;
             light.outcome.kind = OutcomeKind::no_receiver;
         }

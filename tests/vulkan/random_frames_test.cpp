@@ -86,8 +86,9 @@ protected:
             Box& box = kept_.scene.boxes[i];
             box.centre += glm::dvec3(around(1.0), 0.0, around(1.0));
             box.angle += around(0.5);
-            objects_.update(static_cast<std::uint32_t>(i + 1), boundsOf(box));
-            objects_.touch(static_cast<std::uint32_t>(i + 1));
+            const ObjectId object = objects_.idAt(static_cast<std::uint32_t>(i + 1));
+            objects_.update(object, boundsOf(box));
+            objects_.touch(object);
         }
         lights_ = {makeSun(sun_)};
         for (std::uint32_t i = 0; i < 4; ++i) {

@@ -2,7 +2,7 @@
 #include "truth/cache.h"
 
 #include "cache_entry.h"
-#include "image/image_io.h"
+#include "files/files.h"
 
 #include <gnomon/error.h>
 
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".truth";
 constexpr std::size_t kKeyDigits = 32;
-/// No store takes so long: whoever wrote the file was killed.
+/// No store takes so long: whoever wrote the file was killed, and nobody has stored that entry again.
 constexpr std::chrono::hours kTemporaryLifetime{1};
 
 bool isEntryName(std::string_view name)
@@ -37,7 +37,7 @@ bool isEntryName(std::string_view name)
            name.find_first_not_of("0123456789abcdef") == kKeyDigits;
 }
 
-/// What writeFile() calls an entry while it writes: ".ENTRY.PROCESS-COUNT.tmp".
+/// What writeFile() calls an entry while it writes: ".ENTRY.N.tmp".
 bool isTemporaryName(std::string_view name)
 {
     constexpr std::size_t kEntryLength = kKeyDigits + kSuffix.size();

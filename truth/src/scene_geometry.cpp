@@ -5,6 +5,7 @@
 #include "filters.h"
 
 #include <gnomon/error.h>
+#include <gnomon/world_range.h>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace gnomon::truth {
 namespace {
@@ -37,6 +39,28 @@ bool isSkewed(const glm::dmat3& m)
     return !(std::abs(glm::determinant(m)) > 1e-2 * lengths);
 }
 
+/// Around all objects that have a place.
+Aabb boundsOf(const scene::State& state)
+{
+    Aabb bounds_ws;
+    for (const scene::Object& object : state.objects) {
+        const glm::dvec3 size(object.bounds_ws.max - object.bounds_ws.min);
+        if (std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z)) {
+            bounds_ws = merge(bounds_ws, object.bounds_ws);
+        }
+    }
+    return bounds_ws;
+}
+
+/// Embree computes with an instance's own coordinates, whatever its transform makes of them.
+bool hasSoundSize(const Aabb& box)
+{
+    constexpr float kSmallest = 1e-12F;
+    const glm::vec3 edges = box.extent();
+    return !isTooFar(glm::dvec3(box.min)) && !isTooFar(glm::dvec3(box.max)) &&
+           std::max({edges.x, edges.y, edges.z}) >= kSmallest;
+}
+
 std::uint64_t triangleCount(const scene::Primitive& primitive)
 {
     return primitive.indices.size() / 3;
@@ -58,6 +82,9 @@ SceneGeometry::SceneGeometry(const scene::Scene& scene, const scene::State& stat
                              const Options& options)
     : device_(newDevice())
 {
+    if (const std::string_view fault = rangeFault(boundsOf(state)); !fault.empty()) {
+        throw Error(kTried, std::string(fault), "scale it, or move it to the origin");
+    }
     const glm::dvec3 centre(state.bounds_ws.centre());
     if (!state.bounds_ws.empty() && std::isfinite(centre.x) && std::isfinite(centre.y) && std::isfinite(centre.z)) {
         origin_ws_ = centre;
@@ -114,7 +141,7 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const scene::Object& object = state.objects[i];
         parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone && !parts_[i].skewed &&
-                              uses[{object.mesh, object.primitive}] > 1;
+                              uses[{object.mesh, object.primitive}] > 1 && hasSoundSize(parts_[i].primitive->bounds);
     }
 }
 

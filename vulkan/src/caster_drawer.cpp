@@ -2,19 +2,23 @@
 #include "caster_instances.h"
 #include "caster_pipelines.h"
 #include "draw_view.h"
+#include "usage.h"
 
 #include <gnomon/plan_views.h>
 #include <gnomon/vulkan/caster_drawer.h>
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace gnomon::vulkan {
 namespace {
 
+constexpr const char* kBeginning = "begin a frame of casters";
+constexpr const char* kDrawing = "draw a pass of casters";
+constexpr const char* kAsGiven = "hand in passes as recordMaps() gives them, of the plan that beginFrame() was given";
 constexpr VkDeviceSize kCommandBytes = sizeof(VkDrawIndexedIndirectCommand);
 
 CasterMaterial material(const CasterBatch& batch)
@@ -39,11 +43,14 @@ struct CasterDrawer::Impl {
     };
 
     Impl(const DeviceView& view, const CasterDrawerOptions& options_in)
-        : device(view), options(options_in), pipelines(device, options_in), slots(options_in.frames_in_flight)
+        : device(view), options(options_in), pipelines(device, options_in),
+          slots(checkedFrames(options_in.frames_in_flight))
     {
     }
 
-    void reserve(const Plan& plan);
+    void reserve(const Plan& plan, Slot& begun);
+    void checkPass(const MapPass& pass) const;
+    void checkRoom(const MapPass& pass, std::uint32_t instances) const;
     void ensurePipelines(const Plan& plan);
     void ensureBatches(CasterPipelineKey key);
     void makePlaces(const Plan& plan);
@@ -57,6 +64,7 @@ struct CasterDrawer::Impl {
     CasterDrawerOptions options;
     CasterPipelines pipelines;
     DrawBatcher batcher;
+    std::size_t object_count = 0;
     std::vector<CasterBatch> batches;
     std::vector<CasterMaterial> materials;
     std::vector<Slot> slots;
@@ -75,9 +83,8 @@ struct CasterDrawer::Impl {
 };
 
 CasterDrawer::CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options)
+    : impl_(std::make_unique<Impl>(device, options))
 {
-    assert(options.frames_in_flight > 0);
-    impl_ = std::make_unique<Impl>(device, options);
 }
 
 CasterDrawer::~CasterDrawer() = default;
@@ -85,17 +92,25 @@ CasterDrawer::~CasterDrawer() = default;
 void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
                             std::span<const CasterBatch> batches)
 {
-    assert(std::all_of(parts.begin(), parts.end(), [&](const DrawPart& p) { return p.batch < batches.size(); }));
-    impl_->batcher.setScene(parts, objects);
-    impl_->batches.assign(batches.begin(), batches.end());
-    impl_->materials.clear();
-    for (const CasterBatch& batch : batches) {
-        impl_->materials.push_back(material(batch));
+    if (std::ranges::any_of(parts, [&](const DrawPart& part) { return part.batch >= batches.size(); })) {
+        refuseUse("list what objects draw", "a part names a batch that there is not", "hand in all batches");
     }
+    // All of the scene or, when memory runs out, none of it.
+    DrawBatcher batcher;
+    batcher.setScene(parts, objects);
+    std::vector<CasterBatch> copied(batches.begin(), batches.end());
+    std::vector<CasterMaterial> materials;
+    for (const CasterBatch& batch : batches) {
+        materials.push_back(material(batch));
+    }
+    impl_->object_count = objects.size();
+    impl_->batcher = std::move(batcher);
+    impl_->batches = std::move(copied);
+    impl_->materials = std::move(materials);
 }
 
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
-void CasterDrawer::Impl::reserve(const Plan& plan)
+void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
 {
     VkDeviceSize all_instances = 0;
     VkDeviceSize all_commands = 0;
@@ -121,12 +136,12 @@ void CasterDrawer::Impl::reserve(const Plan& plan)
     }
     const auto grow = [&](HostBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage, const char* purpose) {
         if (buffer.size() < bytes) {
-            buffer = {};
+            buffer = {}; // gives its memory back first
             buffer = HostBuffer(device, bytes + bytes / 2, usage, purpose);
         }
     };
-    grow(slot->commands, all_commands * kCommandBytes, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "draw commands");
-    grow(slot->instances, all_instances * instanceBytes(true, together), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+    grow(begun.commands, all_commands * kCommandBytes, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "draw commands");
+    grow(begun.instances, all_instances * instanceBytes(true, together), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
          "instances");
     if (handles.size() < most) {
         handles.resize(most + most / 2);
@@ -213,26 +228,39 @@ void CasterDrawer::Impl::makePlaces(const Plan& plan)
         return;
     }
     pipelines.places().reset(static_cast<std::uint32_t>(slots.size()));
-    for (Slot& one : slots) {
-        one.places = pipelines.places().take("caster places");
+    std::vector<VkDescriptorSet> taken; // all or none
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        taken.push_back(pipelines.places().take("caster places"));
+    }
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        slots[i].places = taken[i];
     }
 }
 
 void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
                               std::span<const Rows3x4> world_from_object)
 {
-    assert(slot < impl_->slots.size());
+    checkSlot(kBeginning, slot, static_cast<std::uint32_t>(impl_->slots.size()));
+    checkPlan(kBeginning, plan);
+    if (world_from_object.size() < impl_->object_count) {
+        refuseUse(kBeginning, "there are fewer transforms than objects", "give one for each object of setScene()");
+    }
+    if (impl_->object_count > 0 && (geometry.positions == VK_NULL_HANDLE || geometry.indices == VK_NULL_HANDLE)) {
+        refuseUse(kBeginning, "the buffer of positions or of indices is null", "fill in CasterGeometry");
+    }
+    impl_->slot = nullptr;                               // until all of it is there
     impl_->device.enter(slot, Retirement::Work::bounds); // a new frame each time
-    impl_->slot = &impl_->slots[slot];
+    Impl::Slot* const begun = &impl_->slots[slot];
     impl_->geometry = geometry;
     impl_->transforms = world_from_object;
     impl_->commands_used = 0;
     impl_->instances_used = 0;
     impl_->triangles = 0;
-    impl_->slot->places_written = false;
+    begun->places_written = false;
     impl_->makePlaces(plan);
-    impl_->reserve(plan);
+    impl_->reserve(plan, *begun);
     impl_->ensurePipelines(plan);
+    impl_->slot = begun;
 }
 
 /// The casters of all its views.
@@ -251,8 +279,6 @@ std::span<const std::uint32_t> CasterDrawer::Impl::listOf(const MapPass& pass)
 
 void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uint32_t> instances)
 {
-    assert(instances_used + instances.size() * instanceBytes(!pass.view->orthographic, pass.view_count > 1) <=
-           slot->instances.size());
     auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
     if (pass.view_count > 1) {
         writeLayeredInstances(pass, instances, transforms, out);
@@ -294,7 +320,9 @@ void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws,
     const CasterBatch& batch = batches[draws.batch];
     key.masked = batch.texture != VK_NULL_HANDLE;
     key.cull = options.cull_back_faces && !batch.two_sided;
-    if (const VkPipeline pipeline = pipelines.get(key); pipeline != bound) {
+    if (const VkPipeline pipeline = pipelines.get(key); pipeline == VK_NULL_HANDLE) {
+        refuseUse(kDrawing, "it has formats that the plan of beginFrame() has not", kAsGiven);
+    } else if (pipeline != bound) {
         device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
             bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
@@ -312,15 +340,43 @@ void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws,
                                      static_cast<std::uint32_t>(kCommandBytes));
 }
 
+void CasterDrawer::Impl::checkPass(const MapPass& pass) const
+{
+    if (slot == nullptr) {
+        refuseUse(kDrawing, "no frame has begun", "call beginFrame() first");
+    }
+    checkCommands(kDrawing, pass.commands);
+    if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
+        refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
+    }
+    if (pass.view_count > 1 && (!together || pass.plan == nullptr || pass.view_index >= pass.plan->views.size() ||
+                                pass.view_count > pass.plan->views.size() - pass.view_index)) {
+        refuseUse(kDrawing, "the pass has views that the plan of beginFrame() has not", kAsGiven);
+    }
+}
+
+/// What beginFrame() made room for is enough for every pass of its plan once.
+void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
+{
+    const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->orthographic, pass.view_count > 1)};
+    const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
+    if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
+        commands_used + commands > slot->commands.size()) {
+        refuseUse(kDrawing, "it has more casters than the plan of beginFrame()", kAsGiven);
+    }
+}
+
 std::uint32_t CasterDrawer::draw(const MapPass& pass)
 {
     Impl& self = *impl_;
-    assert(self.slot != nullptr && (pass.view_count == 1 || self.together));
+    self.checkPass(pass);
     const View& view = *pass.view;
     const std::span<const std::uint32_t> list = self.listOf(pass);
-    if (self.batcher.instanceCount(list) == 0) {
+    const std::uint32_t instances = self.batcher.instanceCount(list);
+    if (instances == 0) {
         return 0;
     }
+    self.checkRoom(pass, instances);
     Impl::Slot& slot = *self.slot;
     const bool layered = pass.view_count > 1;
     auto* commands_out = reinterpret_cast<VkDrawIndexedIndirectCommand*>(static_cast<std::byte*>(slot.commands.data()) +

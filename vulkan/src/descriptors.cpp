@@ -36,8 +36,9 @@ void DescriptorSets::reset(std::uint32_t count)
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     check(device_->vk.CreateDescriptorPool(device_->handle(), &info, nullptr, &pool), "create a descriptor pool");
+    DescriptorPool fresh(*device_, pool);
     device_->retire(std::move(pool_));
-    pool_ = {*device_, pool};
+    pool_ = std::move(fresh);
 }
 
 VkDescriptorSet DescriptorSets::take(const char* name)

@@ -15,6 +15,9 @@ std::string resultName(VkResult result)
         return "out of host memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         return "out of device memory";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+        return "out of memory for descriptors";
     case VK_ERROR_DEVICE_LOST:
         return "the device was lost";
     case VK_ERROR_FORMAT_NOT_SUPPORTED:
@@ -26,9 +29,32 @@ std::string resultName(VkResult result)
     }
 }
 
-bool isMemoryFailure(VkResult result)
+ErrorKind kindOf(VkResult result)
 {
-    return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+        return ErrorKind::out_of_memory;
+    case VK_ERROR_DEVICE_LOST:
+        return ErrorKind::device_lost;
+    default:
+        return ErrorKind::other;
+    }
+}
+
+const char* adviceFor(ErrorKind kind)
+{
+    switch (kind) {
+    case ErrorKind::out_of_memory:
+        return "use smaller or fewer shadow maps, or a smaller picture";
+    case ErrorKind::device_lost:
+        return "make a new device, and with it what was made with this one";
+    case ErrorKind::other:
+        break;
+    }
+    return "";
 }
 
 } // namespace
@@ -36,9 +62,19 @@ bool isMemoryFailure(VkResult result)
 void check(VkResult result, const char* tried)
 {
     if (result != VK_SUCCESS) {
-        throw Error(tried, resultName(result),
-                    isMemoryFailure(result) ? "use smaller or fewer shadow maps, or a smaller picture" : "");
+        const ErrorKind kind = kindOf(result);
+        throw Error(tried, resultName(result), adviceFor(kind), kind);
     }
+}
+
+void MemoryAccount::open(const char* purpose)
+{
+    for (const MemoryUse& use : uses_) {
+        if (std::strcmp(use.purpose, purpose) == 0) {
+            return;
+        }
+    }
+    uses_.push_back({purpose, 0});
 }
 
 void MemoryAccount::add(const char* purpose, VkDeviceSize bytes)
@@ -46,10 +82,8 @@ void MemoryAccount::add(const char* purpose, VkDeviceSize bytes)
     for (MemoryUse& use : uses_) {
         if (std::strcmp(use.purpose, purpose) == 0) {
             use.bytes += bytes;
-            return;
         }
     }
-    uses_.push_back({purpose, bytes});
 }
 
 void MemoryAccount::remove(const char* purpose, VkDeviceSize bytes)
@@ -82,6 +116,7 @@ MemoryBlock Device::allocate(const MemoryRequest& request)
     MemoryBlock block;
     const VkMemoryRequirements& needs = request.needs;
     const std::string tried = std::string("allocate memory for ") + request.purpose;
+    account_.open(request.purpose); // what may throw comes before there is anything to lose
     if (view_.memory.allocate != nullptr) {
         check(view_.memory.allocate(view_.memory.user, request, &block), tried.c_str());
         account_.add(request.purpose, needs.size);

@@ -20,6 +20,8 @@ void check(VkResult result, const char* tried);
 /// Which purposes hold how many bytes. The device hands its owner's account to every resource.
 class MemoryAccount {
 public:
+    /// Before the first add() of a purpose, which then cannot fail.
+    void open(const char* purpose);
     void add(const char* purpose, VkDeviceSize bytes);
     void remove(const char* purpose, VkDeviceSize bytes);
     [[nodiscard]] std::span<const MemoryUse> uses() const { return uses_; }

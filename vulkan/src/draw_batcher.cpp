@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // A counting sort of (part, object) pairs: linear in the list and in the number of parts.
+#include <gnomon/error.h>
 #include <gnomon/vulkan/draw_batcher.h>
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 
 namespace gnomon::vulkan {
+namespace {
+
+constexpr const char* kBuilding = "list draws of objects";
+
+} // namespace
 
 void DrawBatcher::setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects)
 {
+    for (const DrawObject& object : objects) {
+        if (object.first_part > parts.size() || object.part_count > parts.size() - object.first_part) {
+            throw Error("list what objects draw", "an object names parts that there are not",
+                        "keep first_part + part_count within the parts");
+        }
+    }
     parts_.assign(parts.begin(), parts.end());
     objects_.assign(objects.begin(), objects.end());
-    for ([[maybe_unused]] const DrawObject& object : objects_) {
-        assert(object.first_part <= parts.size() && object.part_count <= parts.size() - object.first_part);
-    }
     order_.resize(parts.size());
     std::iota(order_.begin(), order_.end(), 0U);
     std::stable_sort(order_.begin(), order_.end(),
@@ -59,14 +67,18 @@ DrawLists DrawBatcher::build(std::span<const std::uint32_t> list, std::uint32_t 
             batches_.push_back({parts_[part].batch, result.command_count, 0});
         }
         ++batches_.back().command_count;
-        assert(result.command_count < commands.size());
+        if (result.command_count >= commands.size()) {
+            throw Error(kBuilding, "there is no room for the draw commands", "give as many as maxCommands() says");
+        }
         const MeshRange mesh = parts_[part].mesh;
         commands[result.command_count++] = {mesh.index_count, count, mesh.first_index, mesh.vertex_offset,
                                             first_instance + result.instance_count};
         result.instance_count += count;
         result.index_count += std::uint64_t{mesh.index_count} * count;
     }
-    assert(result.instance_count <= instances.size());
+    if (result.instance_count > instances.size()) {
+        throw Error(kBuilding, "there is no room for the instances", "give as many as instanceCount() says");
+    }
 
     for (std::uint32_t place = 0; place < list.size(); ++place) {
         const std::uint32_t handle = list[place];

@@ -113,6 +113,11 @@ VkBool32& bitIn(Chain& chain, const Feature& feature)
 /// What is not there stays false.
 void query(const DeviceView& view, Chain& chain)
 {
+    if (view.get_instance_proc_addr == nullptr || view.instance == VK_NULL_HANDLE ||
+        view.physical_device == VK_NULL_HANDLE) {
+        throw Error("ask for the features of a device",
+                    "the DeviceView has no instance, physical device or get_instance_proc_addr", "fill in all three");
+    }
     const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
         view.get_instance_proc_addr(view.instance, "vkGetPhysicalDeviceFeatures2"));
     if (get != nullptr) {

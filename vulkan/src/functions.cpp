@@ -3,8 +3,6 @@
 
 #include <gnomon/error.h>
 
-#include <cassert>
-
 namespace gnomon::vulkan {
 namespace {
 
@@ -30,7 +28,14 @@ constexpr const char* kLookingUp = "look up the Vulkan functions";
 
 Functions loadFunctions(const DeviceView& view)
 {
-    assert(view.get_instance_proc_addr != nullptr);
+    if (view.get_instance_proc_addr == nullptr || view.instance == VK_NULL_HANDLE ||
+        view.physical_device == VK_NULL_HANDLE || view.device == VK_NULL_HANDLE) {
+        throw Error(kLookingUp, "the DeviceView has no instance, physical device, device or get_instance_proc_addr",
+                    "fill in all four");
+    }
+    if ((view.memory.allocate == nullptr) != (view.memory.release == nullptr)) {
+        throw Error("allocate by the host's memory hooks", "one of the two is null", "give both, or none");
+    }
     Functions f;
 #define GNOMON_LOAD(name)                                                                                              \
     f.name = reinterpret_cast<PFN_vk##name>(view.get_instance_proc_addr(view.instance, "vk" #name));                   \

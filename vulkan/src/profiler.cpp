@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device.h"
+#include "usage.h"
 
+#include <gnomon/error.h>
 #include <gnomon/vulkan/profiler.h>
 
 #include <algorithm>
-#include <cassert>
+#include <string>
 
 namespace gnomon::vulkan {
 namespace {
@@ -16,6 +18,16 @@ constexpr VkQueryPipelineStatisticFlags kStatistics = VK_QUERY_PIPELINE_STATISTI
                                                       VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
 constexpr std::size_t kStatisticCount = 4;
 
+/// False: not yet. Throws Error when they never will be.
+bool areThere(VkResult result)
+{
+    if (result == VK_NOT_READY) {
+        return false;
+    }
+    check(result, "read queries back");
+    return true;
+}
+
 QueryPool makePool(Device& device, VkQueryType type, std::uint32_t count, VkQueryPipelineStatisticFlags statistics)
 {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -25,6 +37,16 @@ QueryPool makePool(Device& device, VkQueryType type, std::uint32_t count, VkQuer
     VkQueryPool pool = VK_NULL_HANDLE;
     check(device.vk.CreateQueryPool(device.handle(), &info, nullptr, &pool), "create a query pool");
     return {device, pool};
+}
+
+std::uint32_t checkedPasses(std::uint32_t max_passes)
+{
+    constexpr std::uint32_t kMostPasses = 1U << 16;
+    if (max_passes == 0 || max_passes > kMostPasses) {
+        throw Error("measure " + std::to_string(max_passes) + " passes of a frame",
+                    "there can be 1 to " + std::to_string(kMostPasses));
+    }
+    return max_passes;
 }
 
 } // namespace
@@ -66,11 +88,11 @@ void Profiler::Impl::fetch(Slot& slot)
     const auto n = static_cast<std::uint32_t>(slot.passes.size());
     constexpr VkQueryResultFlags kFlags = VK_QUERY_RESULT_64_BIT;
     const bool timed =
-        device.vk.GetQueryPoolResults(device.handle(), slot.times.get(), 0, 2 * n, ticks.size() * sizeof ticks[0],
-                                      ticks.data(), sizeof ticks[0], kFlags) == VK_SUCCESS;
-    const bool counted =
-        device.vk.GetQueryPoolResults(device.handle(), slot.statistics.get(), 0, n, counts.size() * sizeof counts[0],
-                                      counts.data(), kStatisticCount * sizeof counts[0], kFlags) == VK_SUCCESS;
+        areThere(device.vk.GetQueryPoolResults(device.handle(), slot.times.get(), 0, 2 * n,
+                                               ticks.size() * sizeof ticks[0], ticks.data(), sizeof ticks[0], kFlags));
+    const bool counted = areThere(device.vk.GetQueryPoolResults(device.handle(), slot.statistics.get(), 0, n,
+                                                                counts.size() * sizeof counts[0], counts.data(),
+                                                                kStatisticCount * sizeof counts[0], kFlags));
     for (std::uint32_t i = 0; i < n; ++i) {
         PassRecord& pass = slot.passes[i];
         if (timed) {
@@ -89,7 +111,7 @@ void Profiler::Impl::fetch(Slot& slot)
 }
 
 Profiler::Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes)
-    : impl_(std::make_unique<Impl>(device, frames_in_flight, max_passes))
+    : impl_(std::make_unique<Impl>(device, checkedFrames(frames_in_flight), checkedPasses(max_passes)))
 {
 }
 
@@ -97,7 +119,10 @@ Profiler::~Profiler() = default;
 
 void Profiler::beginFrame([[maybe_unused]] VkCommandBuffer commands, std::uint32_t slot)
 {
-    assert(slot < impl_->slots.size() && !impl_->in_pass);
+    checkSlot("begin a frame's times", slot, static_cast<std::uint32_t>(impl_->slots.size()));
+    if (impl_->in_pass) {
+        refuseUse("begin a frame's times", "a pass has not ended", "call endPass() first");
+    }
     impl_->current = &impl_->slots[slot];
     impl_->current->passes.clear();
     impl_->current->read = false;
@@ -108,7 +133,11 @@ void Profiler::beginFrame([[maybe_unused]] VkCommandBuffer commands, std::uint32
 
 void Profiler::beginPass(VkCommandBuffer commands, const char* name)
 {
-    assert(impl_->current != nullptr && !impl_->in_pass);
+    if (impl_->current == nullptr || impl_->in_pass) {
+        refuseUse("begin a pass's times", "no frame has begun, or the pass before has not ended",
+                  "call beginFrame() first, and endPass() for each pass: they do not nest");
+    }
+    checkCommands("begin a pass's times", commands);
     Impl::Slot& slot = *impl_->current;
     impl_->in_pass = true;
     impl_->device.beginLabel(commands, name);
@@ -131,7 +160,9 @@ void Profiler::addDraws(std::uint32_t count)
 
 void Profiler::endPass(VkCommandBuffer commands)
 {
-    assert(impl_->in_pass);
+    if (!impl_->in_pass) {
+        return;
+    }
     if (impl_->measured) {
         Impl::Slot& slot = *impl_->current;
         const auto i = static_cast<std::uint32_t>(slot.passes.size() - 1);
@@ -145,7 +176,9 @@ void Profiler::endPass(VkCommandBuffer commands)
 
 std::span<const PassRecord> Profiler::results(std::uint32_t slot_index)
 {
-    assert(slot_index < impl_->slots.size());
+    if (slot_index >= impl_->slots.size()) {
+        return {};
+    }
     Impl::Slot& slot = impl_->slots[slot_index];
     if (!slot.read && !slot.passes.empty()) {
         impl_->fetch(slot);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,20 +33,24 @@ public:
         }
     }
     /// Frees the resource once every slot that has recorded anything so far has begun a new frame; at once when none
-    /// has. What it is moved from is left empty.
+    /// has. What it is moved from is left empty. When memory for the note of it runs out (std::bad_alloc), it stays
+    /// where it is: a frame in flight may use it.
     template <class Resource>
-    void keep(Resource resource)
+    void keep(Resource&& resource)
     {
-        auto held = std::make_unique<Holds<Resource>>(std::move(resource));
+        static_assert(!std::is_reference_v<Resource> && std::is_nothrow_move_constructible_v<Resource>);
+        if (std::ranges::none_of(slots_, &Slot::pending)) {
+            [[maybe_unused]] const Resource freed = std::forward<Resource>(resource);
+            return;
+        }
         std::vector<bool> waits_for;
-        bool any = false;
         for (const Slot& slot : slots_) {
             waits_for.push_back(slot.pending);
-            any = any || slot.pending;
         }
-        if (any) {
-            waiting_.push_back({std::move(waits_for), std::move(held)});
+        if (waiting_.size() == waiting_.capacity()) {
+            waiting_.reserve(2 * waiting_.size() + kUsualSlots);
         }
+        waiting_.push_back({std::move(waits_for), std::make_unique<Holds<Resource>>(std::forward<Resource>(resource))});
     }
 
 private:

@@ -58,7 +58,7 @@ struct Frame {
     Camera camera;
     glm::uvec2 size_px{1280, 720}; // of the picture; >= 1
     std::span<const Light> lights;
-    const ObjectSet* objects = nullptr; // not null
+    const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate
 };
 
 } // namespace gnomon

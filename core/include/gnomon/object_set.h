@@ -22,7 +22,30 @@ struct ObjectFlags {
     bool dynamic = false; // a hint: expected to move; kept apart from what stands still
 };
 
-/// Handles are dense: 0 .. size() - 1 in order of insertion, reused after `remove`. They are what Plan lists name.
+/// Names an object for as long as it lives. Its index is its place in plans and in the host's own arrays; when the
+/// object is removed, another one may get the index, but not the name. No two objects of a process have one name
+/// before 2^32 were added.
+struct ObjectId {
+    std::uint32_t index = 0xFFFFFFFFU;
+    std::uint32_t generation = 0; // 0: names nothing
+
+    [[nodiscard]] explicit operator bool() const { return generation != 0; }
+    friend bool operator==(const ObjectId&, const ObjectId&) = default;
+};
+
+/// No coordinate of an object's bounds may be larger; metres. Between neighbours at that distance single precision
+/// tells some 100 km apart.
+inline constexpr float kFarthestBounds_m = 1e12F;
+
+/// Indices are dense: 0 .. size() - 1 in order of insertion, the smallest one is reused first. They are what Plan lists
+/// name. What changes an object takes its ObjectId and is checked in every build: a name of an object that is gone, or
+/// of another set, does nothing and says so. What reads takes either, and finds nothing of an object that is not there.
+///
+/// An object whose bounds are empty, not finite or beyond kFarthestBounds_m lives, but is nowhere: no query finds it,
+/// no box holds it, and its own bounds read as empty. It is back with the first update() that says where it is.
+///
+/// A set that was moved from is empty and may be used again. add() and update() throw std::bad_alloc when memory runs
+/// out, and then have changed nothing; the others that change something take no memory.
 class ObjectSet {
 public:
     ObjectSet();
@@ -30,39 +53,55 @@ public:
     ObjectSet(ObjectSet&&) noexcept;
     ObjectSet& operator=(ObjectSet&&) noexcept;
 
-    /// `bounds_ws` finite and not empty. Amortised O(1).
-    std::uint32_t add(const Aabb& bounds_ws, ObjectFlags flags = {});
-    /// Moves an object; O(1), allocates nothing once warm. Same bounds: no change is recorded.
-    void update(std::uint32_t object, const Aabb& bounds_ws);
+    /// Amortised O(1). Of the 2^30 objects that a set can hold none is left: an id that names nothing.
+    ObjectId add(const Aabb& bounds_ws, ObjectFlags flags = {});
+    /// Moves an object; O(1), allocates nothing once warm. Same bounds: no change is recorded. False: no such object.
+    bool update(ObjectId object, const Aabb& bounds_ws);
     /// Says that an object's shape changed inside unchanged bounds (deformation), so maps that show it are redrawn.
-    void touch(std::uint32_t object);
-    void remove(std::uint32_t object);
+    /// False: no such object.
+    bool touch(ObjectId object);
+    /// False: no such object.
+    bool remove(ObjectId object);
 
-    [[nodiscard]] std::uint32_t size() const; // one past the largest live handle
-    [[nodiscard]] bool alive(std::uint32_t object) const;
-    [[nodiscard]] const Aabb& bounds(std::uint32_t object) const;
-    /// The bounds of all handles, those of dead ones meaningless; for loops over many. Holds until the next add().
+    [[nodiscard]] std::uint32_t size() const; // one past the largest index of a live object
+    [[nodiscard]] bool alive(ObjectId object) const;
+    [[nodiscard]] bool alive(std::uint32_t index) const;
+    /// The object that has an index now; names nothing where none does.
+    [[nodiscard]] ObjectId idAt(std::uint32_t index) const;
+    /// Empty of an object that is nowhere, or not there.
+    [[nodiscard]] Aabb bounds(ObjectId object) const;
+    [[nodiscard]] Aabb bounds(std::uint32_t index) const;
+    /// The bounds by index, for loops over many; empty where there is no object, or it is nowhere. Holds until the next
+    /// add().
     [[nodiscard]] std::span<const Aabb> allBounds() const;
-    [[nodiscard]] ObjectFlags flags(std::uint32_t object) const;
+    /// Of an object that is not there: nothing is set.
+    [[nodiscard]] ObjectFlags flags(ObjectId object) const;
+    [[nodiscard]] ObjectFlags flags(std::uint32_t index) const;
+    /// How many live objects are nowhere. In a sound scene: 0.
+    [[nodiscard]] std::uint32_t nowhere() const;
     /// Box around all live objects; empty when there are none. Exact; the first call after an object left the rim
     /// looks at all of them, so it is not for several threads at once (query() is).
     [[nodiscard]] Aabb bounds() const;
-    /// Counts up at every add, update, touch and remove; `changed(object)` is the count at the object's last change.
+    /// Counts up at every add, update, touch and remove that did something.
     [[nodiscard]] std::uint64_t version() const;
-    [[nodiscard]] std::uint64_t changed(std::uint32_t object) const;
-    /// `changed` of all handles.
+    /// That count at the last change of the object that has this index, or had it last; 0 where none ever had.
+    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const;
+    /// `changed` by index.
     [[nodiscard]] std::span<const std::uint64_t> allChanges() const;
     /// Differs between any two sets of a process, so that a planner notices when it is handed another one.
     [[nodiscard]] std::uint64_t identity() const;
 
     enum class Want : std::uint8_t { casters, receivers, all };
-    /// Appends, in ascending order, every live object whose bounds the convex region `planes` (inward) may touch. No
-    /// object inside is ever left out. `out` is not cleared.
+    /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
+    /// touch. No object inside is ever left out. `out` is not cleared.
     void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const;
 
 private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    [[nodiscard]] Impl& own();
+    [[nodiscard]] const Impl& read() const;
+
+    std::unique_ptr<Impl> impl_; // null: moved from
 };
 
 } // namespace gnomon

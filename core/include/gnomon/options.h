@@ -38,7 +38,10 @@ struct CascadeOptions {
     double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
     CascadePass pass = CascadePass::automatic;
 
-    [[nodiscard]] bool explicitEnds() const { return ends_m[0] > 0.0; }
+    [[nodiscard]] bool explicitEnds() const
+    {
+        return std::ranges::any_of(ends_m, [](double end_m) { return end_m != 0.0; });
+    }
     bool operator==(const CascadeOptions&) const = default;
 };
 

@@ -251,8 +251,8 @@ struct Plan {
     std::shared_ptr<const std::vector<ResolvedOptions>> options;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
-    std::vector<std::uint32_t> casters;                     // object handles, view after view
-    std::vector<std::uint32_t> receivers;                   // object handles that the camera sees, ascending
+    std::vector<std::uint32_t> casters;                     // object indices, view after view
+    std::vector<std::uint32_t> receivers;                   // object indices that the camera sees, ascending
     std::vector<MapPages> pages = std::vector<MapPages>(1); // one for each of the planner's options
     /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
     std::uint32_t map_count = 0;

@@ -235,7 +235,7 @@ void ConvexBody::planes(std::vector<Plane>& out) const
         const glm::dvec3 outward = newellNormal(face);
         const double length = glm::length(outward);
         // The direction of a sliver is rounding; leaving it out only makes the region larger.
-        if (!(length > 1e-18 * size * size) || length < 1e-30) {
+        if (!(length > 1e-18 * size * size)) {
             continue;
         }
         const glm::dvec3 normal = -outward / length;
@@ -245,7 +245,7 @@ void ConvexBody::planes(std::vector<Plane>& out) const
             d = std::max(d, -glm::dot(normal, p));
         }
         const bool known = std::any_of(out.begin(), out.end(), [&](const Plane& plane) {
-            return glm::dot(plane.normal, normal) > 1.0 - 1e-14 && std::abs(plane.d - d) <= 1e-12 * (1.0 + size);
+            return glm::dot(plane.normal, normal) > 1.0 - 1e-14 && std::abs(plane.d - d) <= 1e-12 * size;
         });
         if (!known) {
             out.push_back({normal, d});

@@ -192,6 +192,18 @@ void Octree::divide(TreeObjects& objects, std::uint32_t index, int depth)
     }
 }
 
+void Octree::makeRoom()
+{
+    const auto grow = [](auto& made, std::vector<std::uint32_t>& free) {
+        if (made.capacity() - made.size() + free.size() < kMostNew) {
+            made.reserve(std::max(2 * made.capacity(), made.size() + kMostNew));
+        }
+        free.reserve(made.capacity());
+    };
+    grow(nodes_, free_nodes_);
+    grow(blocks_, free_blocks_);
+}
+
 void Octree::insert(TreeObjects& objects, std::uint32_t item)
 {
     growRoot(objects.bounds_ws[item & kHandleBits]);

@@ -37,10 +37,12 @@ public:
     static constexpr std::uint32_t kReceives = 1U << 31;
     static constexpr std::uint32_t kHandleBits = kCasts - 1;
 
-    /// `item` is the handle with its flags.
+    /// Takes all memory that the next insert() or moved() may need, so that neither throws: a tree is never left torn.
+    void makeRoom();
+    /// `item` is the handle with its flags. After makeRoom().
     void insert(TreeObjects& objects, std::uint32_t item);
     void remove(TreeObjects& objects, std::uint32_t handle);
-    /// After the bounds of an object in the tree changed.
+    /// After the bounds of an object in the tree changed, and makeRoom().
     void moved(TreeObjects& objects, std::uint32_t handle);
 
     /// Sets the bit of every object that the region may touch and that has all flags of `want`. `around_ws` holds all
@@ -53,6 +55,9 @@ private:
     static constexpr std::uint32_t kSplitAbove = 24; // objects in an undivided cell
     static constexpr int kMaxDepth = 24;
     static constexpr std::uint32_t kBlockItems = 15;
+    // Nodes, and blocks, that one insertion may make: the root grows from the smallest float to the largest, and then
+    // each of kMaxDepth cells on the way is divided in eight.
+    static constexpr std::size_t kMostNew = 277 + 8 * kMaxDepth;
 
     /// One cache line of a node's list.
     struct alignas(64) Block {

@@ -86,7 +86,7 @@ OptionValue getRadius(const ShadowOptions& o)
 }
 void setRadius(ShadowOptions& o, const OptionValue& value)
 {
-    o.moments.blur_radius_texels = value.none ? 0 : static_cast<std::uint32_t>(value.integer);
+    o.moments.blur_radius_texels = value.none ? 0 : fitted<std::uint32_t>(value.integer);
 }
 
 /// Depths given before hold for layers placed by hand only.

@@ -5,8 +5,11 @@
 #include <gnomon/option_table.h>
 
 #include <concepts>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -43,6 +46,13 @@ OptionValue valueOf(const T& member)
     return value;
 }
 
+/// A number that a member cannot hold becomes its largest, which no range has: cut off it might be a legal one.
+template <std::integral T>
+T fitted(std::int64_t number)
+{
+    return std::in_range<T>(number) ? static_cast<T>(number) : std::numeric_limits<T>::max();
+}
+
 template <class T>
 void assign(T& member, const OptionValue& value)
 {
@@ -56,7 +66,7 @@ void assign(T& member, const OptionValue& value)
             }
         }
     } else if constexpr (std::integral<T>) {
-        member = static_cast<T>(value.integer);
+        member = fitted<T>(value.integer);
     } else {
         member = static_cast<T>(value.real);
     }

@@ -8,8 +8,6 @@
 
 namespace gnomon {
 
-inline constexpr double kFarthest_m = 1e9; // beyond, single precision has no use for a coordinate
-
 void addTechniqueRows(std::vector<OptionRow>& table); // the choices and what belongs to them
 void addPlanRows(std::vector<OptionRow>& table);      // how far shadows reach, how the view is divided
 void addStepRows(std::vector<OptionRow>& table);      // a sun that moves in steps, what is kept of a map

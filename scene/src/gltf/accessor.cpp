@@ -108,6 +108,11 @@ std::size_t sizeOf(Component component)
     }
 }
 
+std::uint64_t Accessor::lastBytes() const
+{
+    return std::uint64_t{components / rows - 1} * column_bytes + rows * sizeOf(component);
+}
+
 std::vector<float> readFloats(Context& context, const Accessor& accessor)
 {
     context.chargeVertices(accessor.count, accessor.pointer);

@@ -58,6 +58,9 @@ struct Accessor {
     std::span<const std::byte> bytes; // from the first element on; empty: all zero
     Sparse sparse;
 
+    /// From an element's first byte to behind its last component: the columns of a matrix are padded up to the next
+    /// one, and behind the last column of the last element there is nothing to pad.
+    [[nodiscard]] std::uint64_t lastBytes() const;
     /// False: there is nothing but zeros, because no data are attached (yet).
     [[nodiscard]] bool hasContent() const { return !bytes.empty() || !sparse.values.empty(); }
 };

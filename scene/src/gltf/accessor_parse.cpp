@@ -81,7 +81,7 @@ void attachData(const Document& document, const JsonView& view, Accessor& access
         accessor.stride = data.stride;
     }
     // count < 2^32 and stride <= 252, so the product cannot wrap; the offset is at most 2^53.
-    const std::uint64_t span = (accessor.count - 1ULL) * accessor.stride + element_bytes;
+    const std::uint64_t span = (accessor.count - 1ULL) * accessor.stride + accessor.lastBytes();
     if (offset > data.length || span > data.length - offset) {
         where.failFound("the accessor does not fit its buffer view of " + std::to_string(data.length) + " bytes",
                         "offset " + std::to_string(offset) + ", length " + std::to_string(span));
@@ -137,7 +137,9 @@ void attachSparse(const Document& document, const JsonView& view, Accessor& acce
     const std::uint64_t index_bytes = sizeOf(sparse.index_component);
     const std::uint64_t element_bytes = std::uint64_t{accessor.components / accessor.rows} * accessor.column_bytes;
     sparse.indices = packedData(document, indices, sparse.count * index_bytes, index_bytes);
-    sparse.values = packedData(document, view.at("values"), sparse.count * element_bytes, sizeOf(accessor.component));
+    sparse.values =
+        packedData(document, view.at("values"), (sparse.count - 1ULL) * element_bytes + accessor.lastBytes(),
+                   sizeOf(accessor.component));
     if (sparse.indices.empty()) {
         sparse.values = {};
         return;

@@ -209,14 +209,18 @@ Animation readAnimation(Document& document, const JsonView& view)
     for (std::size_t i = 0; i < sampler_count; ++i) {
         samplers.push_back(readSampler(document, sampler_views.element(i)));
     }
-    std::set<std::pair<std::uint32_t, AnimationPath>> targets;
+    std::set<std::pair<std::uint32_t, std::string>> targets;
     for (std::size_t i = 0; i < channel_count; ++i) {
         AnimationChannel channel;
-        if (!readChannel(document, channels.element(i), samplers, channel)) {
-            continue;
+        const bool acts = readChannel(document, channels.element(i), samplers, channel);
+        // By the file's own numbers, so that it does not depend on the scene shown or on missing data.
+        const JsonView target = channels.element(i).at("target");
+        const std::uint32_t node = target.index("node", document.nodes.size());
+        if (node != kNone && !targets.insert({node, target.at("path").string()}).second) {
+            target.failFound("two channels animate the same property", "the second");
         }
-        if (!targets.insert({channel.node, channel.path}).second) {
-            channels.element(i).at("target").failFound("two channels animate the same property", "the second");
+        if (!acts) {
+            continue;
         }
         animation.duration_s = std::max(animation.duration_s, channel.times_s.back());
         animation.channels.push_back(std::move(channel));

@@ -166,11 +166,7 @@ void readJoints(Document& document, const JsonView& attributes, Primitive& out)
     const std::size_t count = out.positions.size();
     const Accessor* joints = findAttribute(document, attributes, "JOINTS_0", {kJoints, 2}, count);
     const Accessor* weights = findAttribute(document, attributes, "WEIGHTS_0", {kWeights, 3}, count);
-    if ((joints == nullptr) != (weights == nullptr)) {
-        attributes.failFound("JOINTS_0 and WEIGHTS_0 must come together",
-                             joints != nullptr ? "only JOINTS_0" : "only WEIGHTS_0");
-    }
-    if (joints == nullptr) {
+    if (joints == nullptr || weights == nullptr) { // checkPairs() has seen to it that both are
         return;
     }
     if (attributes.has("JOINTS_1")) {
@@ -184,6 +180,22 @@ void readJoints(Document& document, const JsonView& attributes, Primitive& out)
         out.joints[i / 4][static_cast<glm::length_t>(i % 4)] = static_cast<std::uint16_t>(flat[i]);
     }
     readWeights(document, attributes, *weights, out);
+}
+
+/// Joints without weights, or weights without joints, say nothing; whoever wrote them meant something.
+void checkPairs(const JsonView& attributes)
+{
+    for (const auto& [name, value] : attributes.value().items()) {
+        const bool joints = name.starts_with("JOINTS_");
+        if (!joints && !name.starts_with("WEIGHTS_")) {
+            continue;
+        }
+        const std::string other = (joints ? "WEIGHTS_" : "JOINTS_") + name.substr(name.find('_') + 1);
+        if (!attributes.has(other)) {
+            attributes.failFound(escapeKey(name) + " and " + escapeKey(other) + " must come together",
+                                 "only " + escapeKey(name));
+        }
+    }
 }
 
 /// Attributes that have no effect are still checked to be there and of the right length.
@@ -241,6 +253,7 @@ bool readAttributes(Document& document, const JsonView& attributes, Primitive& o
     checkSemantic(attributes.at(first.key()), first.key());
     const std::optional<JsonView> position = attributes.find("POSITION");
     checkOther(document, attributes, document.accessor(position.value_or(attributes.at(first.key()))).count);
+    checkPairs(attributes);
     if (!position) {
         return false;
     }

@@ -41,11 +41,22 @@ void Context::failLimit(std::string_view where, const std::string& what, std::st
          "if you trust the file, raise the limit with --limit " + std::string(name) + "=N");
 }
 
+void Context::noteFile(std::uint64_t bytes)
+{
+    file_bytes_ = saturatingAdd(file_bytes_, bytes);
+}
+
 void Context::chargeBytes(std::uint64_t bytes, std::string_view where)
 {
     bytes_ = saturatingAdd(bytes_, bytes);
     if (bytes_ > limits_.max_total_bytes) {
         failLimit(where, "the total of bytes read and decoded", "total-bytes", limits_.max_total_bytes, bytes_);
+    }
+    // Divided, not multiplied, so that nothing wraps.
+    if (bytes_ > Limits::kFreeBytes &&
+        (bytes_ - Limits::kFreeBytes) / std::max<std::uint64_t>(file_bytes_, 1) > limits_.max_growth) {
+        failLimit(where, "the memory that a file of " + std::to_string(file_bytes_) + " bytes asks for", "growth",
+                  limits_.max_growth, bytes_ / std::max<std::uint64_t>(file_bytes_, 1));
     }
 }
 

@@ -30,7 +30,10 @@ public:
     [[noreturn]] void failLimit(std::string_view where, const std::string& what, std::string_view name,
                                 std::uint64_t limit, std::uint64_t found) const;
 
-    /// Counts bytes about to be read or allocated; throws when they pass total-bytes. Call it before allocating.
+    /// Counts bytes that files have; what may be decoded grows with them. Call it before their bytes are charged.
+    void noteFile(std::uint64_t bytes);
+    /// Counts bytes about to be read or allocated; throws when they pass total-bytes, or are out of proportion to the
+    /// files. Call it before allocating.
     void chargeBytes(std::uint64_t bytes, std::string_view where);
     /// Counts vertices or indices about to be produced.
     void chargeVertices(std::uint64_t count, std::string_view where);
@@ -52,6 +55,7 @@ private:
     std::filesystem::path folder_;
     Limits limits_;
     std::uint64_t bytes_ = 0;
+    std::uint64_t file_bytes_ = 0;
     std::uint64_t vertices_ = 0;
     std::uint64_t checks_ = 0;
     std::vector<std::string> notices_;

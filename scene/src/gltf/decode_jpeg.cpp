@@ -97,6 +97,13 @@ std::string decodeJpeg(std::span<const std::byte> bytes, const SizeCheck& check,
         return reader.message;
     }
     check(reader.jpeg.image_width, reader.jpeg.image_height);
+    // A block of 8x8 takes a bit at least, coded by Huffman's method. The arithmetic one takes less of a flat image,
+    // which nobody ships; eight times less is allowed.
+    constexpr std::uint64_t kMaxTexelsOfByte = 4096;
+    if (std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > bytes.size() * kMaxTexelsOfByte) {
+        return "too few bytes for " + std::to_string(reader.jpeg.image_width) + "x" +
+               std::to_string(reader.jpeg.image_height);
+    }
     image.rgba.assign(std::size_t{reader.jpeg.image_width} * reader.jpeg.image_height * 4, 0);
     image.width = reader.jpeg.image_width;
     image.height = reader.jpeg.image_height;

@@ -102,6 +102,11 @@ std::string decodePng(std::span<const std::byte> bytes, const SizeCheck& check, 
         return reader.message;
     }
     check(reader.width, reader.height);
+    // Deflate makes at most 1032 of a byte, of which the sparsest rows hold eight texels each.
+    constexpr std::uint64_t kMaxTexelsOfByte = 1032 * 8;
+    if (std::uint64_t{reader.width} * reader.height > bytes.size() * kMaxTexelsOfByte) {
+        return "too few bytes for " + std::to_string(reader.width) + "x" + std::to_string(reader.height);
+    }
     image.rgba.assign(std::size_t{reader.width} * reader.height * 4, 0);
     image.width = reader.width;
     image.height = reader.height;

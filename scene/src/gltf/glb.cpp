@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/glb.h"
 
+#include "files/files.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +39,12 @@ std::string hex(std::uint32_t value)
     return text;
 }
 
+bool isJsonStart(std::byte byte)
+{
+    const char c = static_cast<char>(byte);
+    return c == '{' || c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
 void checkHeader(const Context& context, std::span<const std::byte> file)
 {
     if (file.size() < kHeaderBytes) {
@@ -61,6 +69,11 @@ void checkHeader(const Context& context, std::span<const std::byte> file)
 Container openContainer(Context& context, std::span<const std::byte> file)
 {
     if (file.size() < 4 || word(file, 0) != kMagic) {
+        // JSON by a wrong name is read all the same.
+        if (hasExtension(context.label(), ".glb") && (file.empty() || !isJsonStart(file.front()))) {
+            context.fail(byteAt(0), "a GLB container begins with \"glTF\"",
+                         file.size() < 4 ? std::to_string(file.size()) + " bytes" : hex(word(file, 0)));
+        }
         return {file, {}, false, false};
     }
     checkHeader(context, file);

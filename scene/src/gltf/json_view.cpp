@@ -5,21 +5,6 @@
 
 namespace gnomon::scene::gltf {
 
-std::string escapeKey(std::string_view key)
-{
-    std::string out;
-    for (const char c : key) {
-        if (c == '~') {
-            out += "~0";
-        } else if (c == '/') {
-            out += "~1";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
-
 std::string JsonView::shown() const
 {
     switch (value_->type()) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gltf/context.h"
+#include "scene/json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,8 +17,7 @@
 
 namespace gnomon::scene::gltf {
 
-/// Parses UTF-8 JSON. Refuses byte order marks, invalid UTF-8, duplicate keys, numbers beyond double and nesting
-/// deeper than 128 (deeper than any glTF needs); never recurses.
+/// readJson() of scene/json.h, with what is wrong said by the context.
 [[nodiscard]] nlohmann::json parseJson(Context& context, std::span<const std::byte> text);
 
 class JsonView {
@@ -75,8 +75,5 @@ private:
     const nlohmann::json* value_;
     std::string pointer_;
 };
-
-/// `key` as one step of a JSON pointer (RFC 6901).
-[[nodiscard]] std::string escapeKey(std::string_view key);
 
 } // namespace gnomon::scene::gltf

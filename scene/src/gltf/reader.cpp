@@ -50,6 +50,7 @@ Scene readGltf(std::span<const std::byte> bytes, const std::filesystem::path& fo
 {
     gltf::Context context("a scene from memory", folder, limits);
     context.checkFileBytes(bytes.size(), gltf::kWholeFile);
+    context.noteFile(bytes.size());
     context.chargeBytes(bytes.size(), gltf::kWholeFile);
     return readBytes(context, bytes, "memory");
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/uri.h"
 
+#include "files/files.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -153,30 +153,21 @@ fs::path resolve(const JsonView& uri, const std::string& text)
 
 std::vector<std::byte> readFile(Context& context, const fs::path& file, std::string_view where)
 {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) {
-        context.fail(where, "the file cannot be opened", error ? error.message() : "no such file");
+    std::string why;
+    std::optional<PlainFile> plain = PlainFile::open(file, why);
+    if (!plain) {
+        context.fail(where, "the file cannot be opened: " + why);
     }
-    if (fs::is_directory(status)) {
-        context.fail(where, "a file is needed", "a directory");
+    context.checkFileBytes(plain->bytes(), where);
+    context.noteFile(plain->bytes());
+    context.chargeBytes(plain->bytes(), where);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(plain->bytes()));
+    const std::optional<std::size_t> filled = plain->read(bytes.data(), bytes.size());
+    if (!filled) {
+        context.fail(where, "the file cannot be read", std::strerror(errno));
     }
-    if (!fs::is_regular_file(status)) {
-        context.fail(where, "a regular file is needed", "a device, pipe or socket");
-    }
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error) {
-        context.fail(where, "the file's size cannot be read", error.message());
-    }
-    context.checkFileBytes(size, where);
-    context.chargeBytes(size, where);
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
-    if (!stream) {
-        context.fail(where, "the file cannot be opened", std::strerror(errno));
-    }
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-    if (std::fread(bytes.data(), 1, bytes.size(), stream.get()) != bytes.size()) {
-        context.fail(where, "the file cannot be read to its end", "a read error or a file that shrank");
+    if (*filled != bytes.size()) {
+        context.fail(where, "the file cannot be read to its end", "a file that shrank");
     }
     return bytes;
 }

@@ -25,7 +25,7 @@ namespace gnomon::pack {
 /// Lights of the plan that are fitted on the GPU.
 [[nodiscard]] std::uint32_t cascadeLightCount(const Plan& plan);
 /// One for each of them, in the plan's order. `screen_px`: size of the depth buffer. Returns how many it wrote.
-/// Precondition: there is room for them.
+/// Throws Error where there is no room for them.
 std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
                                 std::span<shared::GpuCascadeLight> out);
 /// Groups of the passes that look at pixels.

@@ -25,13 +25,13 @@ struct MapImage {
 void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, glm::uvec2 screen_px,
                    const MapImage& maps, shared::GpuConstants& out);
 /// Light i of the frame goes to lights[i]; what is beyond the frame's lights gets no views. Lights without a map have
-/// none. One with SunSteps::alternate has the views of SunSteps::read alone, whose maps this frame draws. Precondition:
-/// there is room for all of the frame's.
+/// none. One with SunSteps::alternate has the views of SunSteps::read alone, whose maps this frame draws. Throws
+/// Error where there is no room for all, or the frame has other lights than the plan.
 void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights);
 /// View i of the plan goes to views[i]. `maps`: by options. Views with View::gpu_cascade are as their base map until
 /// they are completed on the GPU: slice.w, which is 0 for others, is then one past the view's number
 /// (shaders/passes/cascade_constants.comp). Up to kFewViews, what is beyond the plan's views serves no depth.
-/// Precondition: there is room for all of the plan's.
+/// Throws Error where there is no room for all, or there are fewer maps than options.
 void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);
 
 } // namespace gnomon::pack

@@ -59,7 +59,7 @@ struct CasterGeometry {
 };
 
 struct CasterDrawerOptions {
-    std::uint32_t frames_in_flight = 2;
+    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
     /// Leave out triangles that face away from the light (of batches that are not two-sided). Off, because thin and
     /// open geometry casts too; counter-clockwise triangles face front.
     bool cull_back_faces = false;
@@ -67,7 +67,20 @@ struct CasterDrawerOptions {
     CasterVertices vertices;
 };
 
+/// What becomes of a wrong call, in every build:
+///   a part that names no batch, an object that names no part                        Error
+///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
+///   a plan whose numbers point beyond its own lists or pages                        Error
+///   fewer transforms than the scene has objects, null positions or indices          Error
+///   draw() before beginFrame(), of a null pass, or of more than that plan's lists   Error
+///   an object of the plan that setScene() was not given                             draws nothing
+/// Not found out, because only the driver knows: buffers that are smaller than the scene's ranges say.
+///
 /// Not thread-safe. Needs the features drawIndirectFirstInstance and multiDrawIndirect.
+///
+/// After a call that threw (Error, std::bad_alloc) the scene is what the last setScene() that did not throw says, and
+/// the next beginFrame() makes what is not there. After ErrorKind::device_lost only the destructor is of use: it
+/// neither waits nor throws.
 class CasterDrawer {
 public:
     /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
@@ -76,7 +89,7 @@ public:
     CasterDrawer(const CasterDrawer&) = delete;
     CasterDrawer& operator=(const CasterDrawer&) = delete;
 
-    /// What the object handles of the plans draw. May allocate. `batches` is indexed by DrawPart::batch (assert).
+    /// What the object indices of the plans draw. May allocate. `batches` is indexed by DrawPart::batch.
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
                   std::span<const CasterBatch> batches);
 
@@ -84,7 +97,7 @@ public:
     /// `perspective`: there may be spots, or warps.
     void warmUp(const ResolvedOptions& options, bool perspective);
     /// Before recordMaps() of a frame. Makes what pipelines the plan needs and are not there. `world_from_object` is
-    /// indexed by object handle and read until the frame is recorded, then no more. Grows the slot's buffers when the
+    /// indexed by object index and read until the frame is recorded, then no more. Grows the slot's buffers when the
     /// plan's lists are longer than any before; else allocates nothing. Throws Error when memory runs out.
     void beginFrame(std::uint32_t slot, const Plan& plan, const CasterGeometry& geometry,
                     std::span<const Rows3x4> world_from_object);

@@ -40,7 +40,8 @@ struct MemoryHooks {
     void (*release)(void* user, const MemoryBlock& block) = nullptr;
 };
 
-/// Precondition: the device was made with the features that requiredFeatures() names.
+/// Precondition: the device was made with the features that requiredFeatures() names. Whatever takes one throws Error
+/// when a handle or the function is null, or one memory hook is given without the other.
 struct DeviceView {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
@@ -87,7 +88,7 @@ private:
 /// Has the physical device shaderOutputLayer?
 [[nodiscard]] bool supportsLayered(const DeviceView& view);
 /// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
-/// at most `capacity` bytes and a zero to `text`.
+/// at most `capacity` bytes to `text`, the last one a zero.
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses = {});
 
 } // namespace gnomon::vulkan

@@ -25,8 +25,8 @@ struct DrawPart {
     std::uint32_t batch = 0;
 };
 
-/// What an object handle draws: a range of parts. Objects that name the same parts become instances of one draw. A
-/// count of 0 draws nothing.
+/// What an object draws, by its index: a range of parts. Objects that name the same parts become instances of one draw.
+/// A count of 0 draws nothing.
 struct DrawObject {
     std::uint32_t first_part = 0;
     std::uint32_t part_count = 0;
@@ -49,7 +49,7 @@ struct DrawLists {
 /// Deterministic; allocates in setScene() alone. Not thread-safe.
 class DrawBatcher {
 public:
-    /// Copies what it needs. Ranges of `objects` must lie inside `parts` (assert).
+    /// Copies what it needs. Ranges of `objects` must lie inside `parts`, else Error.
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects);
 
     /// Instances that build() will write for this list. O(list).
@@ -57,12 +57,12 @@ public:
     /// Commands that build() writes at most, for any list.
     [[nodiscard]] std::uint32_t maxCommands() const { return static_cast<std::uint32_t>(parts_.size()); }
 
-    /// Writes one command per part in use and, for each of its instances, the object's handle; instances of a part are
+    /// Writes one command per part in use and, for each of its instances, the object's index; instances of a part are
     /// consecutive and in the list's order. Command i of the result starts at instance `first_instance` + its place, so
-    /// several lists can share one buffer. Handles beyond setScene()'s objects draw nothing. `commands` and `instances`
-    /// must be large enough (assert); the caller binds instance data from them as it likes: as an instance-rate
+    /// several lists can share one buffer. Indices beyond setScene()'s objects draw nothing. `commands` and `instances`
+    /// must be large enough, else Error; the caller binds instance data from them as it likes: as an instance-rate
     /// attribute, or as a storage buffer read at gl_InstanceIndex. An object may be listed more than once. `places`:
-    /// for each instance where in the list it stands is written instead of its handle.
+    /// for each instance where in the list it stands is written instead of its index.
     DrawLists build(std::span<const std::uint32_t> list, std::uint32_t first_instance,
                     std::span<VkDrawIndexedIndirectCommand> commands, std::span<std::uint32_t> instances,
                     bool places = false);

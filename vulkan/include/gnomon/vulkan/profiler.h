@@ -21,9 +21,12 @@ struct PassRecord {
     std::uint32_t draws = 0; // as counted by addDraws
 };
 
-/// Passes must not nest. Not thread-safe.
+/// Not thread-safe. Error for no or too many frames (kMostFrames in shadow_renderer.h), no passes, a slot beyond them,
+/// and passes that nest or come before beginFrame(). An endPass() without its beginPass() does nothing. Passes beyond
+/// `max_passes` are not measured.
 class Profiler {
 public:
+    /// Throws Error when a function is missing or memory runs out.
     Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes);
     ~Profiler();
     Profiler(const Profiler&) = delete;
@@ -34,7 +37,8 @@ public:
     void beginPass(VkCommandBuffer commands, const char* name); // outside rendering; static string
     void addDraws(std::uint32_t count);
     void endPass(VkCommandBuffer commands);
-    /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame.
+    /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame. Empty of a
+    /// slot that there is not. Throws Error (lost device, memory).
     [[nodiscard]] std::span<const PassRecord> results(std::uint32_t slot);
 
 private:

@@ -28,11 +28,13 @@ struct MaskShape {
     bool ids = false; // of objects
 };
 
+inline constexpr std::uint32_t kMostFrames = 64; // in flight
+
 struct ShadowRendererOptions {
     /// Of the inputs to come: then prepare() makes the mask's pipelines, and no recordMask() has to. Nothing: the first
     /// recordMask() makes those that it needs, which takes as long as the driver compiles.
     std::optional<MaskShape> mask_shape;
-    std::uint32_t frames_in_flight = 2;
+    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
 };
 
@@ -75,7 +77,7 @@ struct MapPass {
     /// one target (ResolvedOptions::paired_maps): then the two halves of a texel get the same value and a part of them
     /// is kept.
     VkColorComponentFlags colour_mask = 0;
-    /// Object handles: all that must be drawn; of a map that is kept in two parts those that stand still, or those that
+    /// Object indices: all that must be drawn; of a map that is kept in two parts those that stand still, or those that
     /// move. Of a filterable map these are receivers, too, whether or not they cast
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
@@ -160,11 +162,27 @@ struct WarmUp {
     bool several_options = false; // lights of other options beside them
 };
 
+/// What becomes of a wrong call, in every build; nothing is recorded before it is found out:
+///   a plan without options, or whose numbers point beyond its own lists or pages    Error
+///   a plan recorded that needs other images than the last prepare() made            Error
+///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
+///   a null command buffer, depth, buffer of views or callback                       Error
+///   recordMask() without a mask, of another extent, of a frame with other lights    Error
+///   recordMaps(), recordMask() of views with gpu_cascade before recordBounds()      Error
+///   questions with a slot, options or a view that there is not                      zeros, or empty
+/// Not found out, because only the driver knows: handles of another device, images in another layout, of another format
+/// or smaller than said, and a slot whose last frame has not finished.
+///
 /// Draws what a plan says by the options that the plan carries (Plan::options): it has none of its own, so another
 /// technique, or another for each light, is another plan. Not thread-safe.
+///
+/// A call that throws (Error, std::bad_alloc, or what a DrawCasters threw) leaves nothing behind but what frames in
+/// flight may use. What was recorded of its frame is not to be submitted. The next prepare() or warmUp() then begins as
+/// a new renderer does: all maps are drawn again, all pipelines made again. After Error with ErrorKind::device_lost
+/// only the destructor is of use: it destroys what there is, and neither waits nor throws.
 class ShadowRenderer {
 public:
-    /// Throws Error when a function is missing or memory runs out.
+    /// Throws Error when a handle of the device or a function is missing or memory runs out.
     ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
@@ -183,7 +201,10 @@ public:
     /// has not what it takes for, and for CascadePass::layered on a device without it (DeviceView::layered).
     bool prepare(const Plan& plan, VkExtent2D screen);
 
-    /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (assert there); does nothing
+    /// What was recorded last is never submitted: the next prepare() begins as a new renderer does.
+    void reset();
+
+    /// To be called before recordMaps() for a plan that has views with View::gpu_cascade (Error there); does nothing
     /// for others. Fits these views to the camera's depth buffer: of `inputs` depth and, if given, object ids, whose
     /// writes the host has made visible to COMPUTE_SHADER reads too. Nothing waits for the CPU.
     void recordBounds(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "streams.h"
+
+#include <gnomon/error.h>
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <poll.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace gnomon::app {
+namespace {
+
+/// Writes everything; 0, or the errno of the call that failed.
+int writeTo(int descriptor, std::string_view bytes) noexcept
+{
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno == EAGAIN) { // a terminal that somebody else has set not to block
+            pollfd ready{descriptor, POLLOUT, 0};
+            ::poll(&ready, 1, -1);
+        } else if (count < 0 && errno != EINTR) {
+            return errno;
+        } else if (count == 0) {
+            return EIO;
+        } else if (count > 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+void holdStandardStreams() noexcept
+{
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) {
+            // open() gives the lowest number that is free, which is this one. The wrong way round on purpose: who reads
+            // or writes is to hear of it.
+            (void)::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
+void writeStdout(std::string_view text)
+{
+    if (const int error = writeTo(STDOUT_FILENO, text); error != 0) {
+        throw Error("writing to standard output", std::generic_category().message(error));
+    }
+}
+
+void writeStderr(std::string_view text) noexcept
+{
+    (void)writeTo(STDERR_FILENO, text);
+}
+
+void notice(std::string_view text) noexcept
+{
+    std::array<char, 4096> line{}; // a line in one piece, so that those of several processes do not mix
+    std::size_t length = 0;
+    const auto add = [&](std::string_view more) {
+        for (const char c : more) {
+            line[length++] = c;
+            if (length == line.size()) {
+                writeStderr({line.data(), length});
+                length = 0;
+            }
+        }
+    };
+    add("gnomon: ");
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        add(code < 0x20 || code == 0x7F ? std::string_view(" ") : std::string_view(&c, 1));
+    }
+    add("\n");
+    writeStderr({line.data(), length});
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files/temporary.h"
+
+#include "write_error.h"
+
+#include <cerrno>
+#include <chrono>
+#include <fcntl.h>
+#include <string>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNames = 100; // as many processes may make one file at a time
+constexpr int kGap = 8;     // so many free names in a row: no more are taken
+
+fs::path nameOf(const fs::path& target, int n)
+{
+    // Cut so that the name does not grow past what a file system takes (255 bytes).
+    return target.parent_path() / ("." + target.filename().string().substr(0, 200) + "." + std::to_string(n) + ".tmp");
+}
+
+int openExisting(const fs::path& path, Temporary::Kind kind)
+{
+    const int folder = kind == Temporary::Kind::folder ? O_DIRECTORY : 0;
+    return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC | folder);
+}
+
+/// -1 with errno EEXIST where the name is taken.
+int create(const fs::path& path, Temporary::Kind kind)
+{
+    if (kind == Temporary::Kind::file) {
+        return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    return ::mkdir(path.c_str(), 0777) != 0 ? -1 : openExisting(path, kind);
+}
+
+/// Whether `path` still is what the descriptor is open on, of that kind and no other's in its place.
+bool isThere(const fs::path& path, Temporary::Kind kind, int descriptor)
+{
+    struct stat open {};
+    struct stat there {};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &there) == 0 && open.st_ino == there.st_ino &&
+           open.st_dev == there.st_dev &&
+           (kind == Temporary::Kind::folder ? S_ISDIR(open.st_mode) : S_ISREG(open.st_mode));
+}
+
+/// Whether the name was left by a killed process and is now free. Who holds the lock alone may remove or rename.
+bool removedStale(const fs::path& path, Temporary::Kind kind)
+{
+    const int descriptor = openExisting(path, kind);
+    if (descriptor < 0) {
+        return false;
+    }
+    bool removed = false;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isThere(path, kind, descriptor)) {
+        std::error_code error;
+        fs::remove_all(path, error);
+        removed = !error;
+    }
+    ::close(descriptor);
+    return removed;
+}
+
+/// Another that looks for what was left behind may find a new name before its maker has locked it, and removes it. A
+/// file system without locks says something else than that another has it.
+bool lockedOurs(const fs::path& path, Temporary::Kind kind, int descriptor)
+{
+    return (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && isThere(path, kind, descriptor);
+}
+
+} // namespace
+
+Temporary::Temporary(const fs::path& target, Kind kind) : kind_(kind)
+{
+    int free = 0;
+    for (int n = 0; n < kNames && (descriptor_ < 0 || free < kGap); ++n) {
+        const fs::path path = nameOf(target, n);
+        if (descriptor_ >= 0) {
+            struct stat there {};
+            const bool is_free = ::lstat(path.c_str(), &there) != 0 || removedStale(path, kind);
+            free = is_free ? free + 1 : 0;
+            continue;
+        }
+        int made = create(path, kind);
+        const int error = made < 0 ? errno : 0;
+        if (error == EEXIST && removedStale(path, kind)) {
+            made = create(path, kind);
+        } else if (error != 0 && error != EEXIST) {
+            failWriting(target, error);
+        }
+        if (made >= 0 && lockedOurs(path, kind, made)) {
+            descriptor_ = made;
+            path_ = path;
+        } else if (made >= 0) {
+            ::close(made);
+        }
+    }
+    if (descriptor_ < 0) {
+        failWriting(target, EEXIST);
+    }
+}
+
+Temporary::~Temporary()
+{
+    if (!path_.empty()) {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ::close(descriptor_);
+}
+
+int Temporary::moveTo(const fs::path& place)
+{
+    if (::rename(path_.c_str(), place.c_str()) != 0) {
+        return errno;
+    }
+    path_.clear();
+    return 0;
+}
+
+FolderLock::FolderLock(const fs::path& folder) : descriptor_(openExisting(folder, Temporary::Kind::folder))
+{
+    constexpr int kTries = 1000;
+    for (int i = 0; i < kTries && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+FolderLock::~FolderLock()
+{
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+} // namespace gnomon

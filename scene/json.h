@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// How every JSON from outside is read: glTF files, presets (results among them) and paths. The library's own tree
+// builder accepts duplicate keys, keeps no pointer for its errors and knows no depth; this one is driven by the same
+// parser's events. What comes after (copying, printing, destroying) may recurse as deep as the tree, so the depth is
+// limited here, once.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// Arrays and objects within each other; deeper than any glTF, preset or path needs.
+inline constexpr std::size_t kMaxJsonDepth = 128;
+
+/// `key` as one step of a JSON pointer (RFC 6901).
+[[nodiscard]] std::string escapeKey(std::string_view key);
+
+/// Whose file it is: says what is wrong with it, and counts what reading takes.
+class JsonOwner {
+public:
+    virtual ~JsonOwner() = default;
+    /// Throws. `pointer` is empty for the whole text; `found` and `todo` may be empty.
+    [[noreturn]] virtual void fail(const std::string& pointer, const std::string& what, const std::string& found,
+                                   const std::string& todo) const = 0;
+    /// Memory that is about to be taken; may throw.
+    virtual void charge(std::uint64_t /*bytes*/) {}
+};
+
+namespace detail {
+
+/// What one value costs in memory at least, with its place in a map; keeps a 1 GB file of "[0,0,0,..." within bounds.
+inline constexpr std::uint64_t kBytesPerJsonValue = 32;
+
+/// The parser's sentence without its "[json.exception...] ", on one line and short: it quotes what was read last.
+[[nodiscard]] std::string shortReason(std::string_view text);
+
+template <typename Json>
+class TreeBuilder final : public nlohmann::json_sax<Json> {
+    using Base = nlohmann::json_sax<Json>;
+    static constexpr bool kOrdered = std::is_same_v<Json, nlohmann::ordered_json>;
+
+public:
+    explicit TreeBuilder(JsonOwner& owner) : owner_(owner) {}
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(typename Base::number_integer_t value) override { return add(value); }
+    bool number_unsigned(typename Base::number_unsigned_t value) override { return add(value); }
+    bool number_float(typename Base::number_float_t value, const std::string& /*text*/) override { return add(value); }
+    bool string(std::string& value) override
+    {
+        owner_.charge(value.size());
+        return add(std::move(value));
+    }
+    bool binary(typename Base::binary_t& /*value*/) override { return false; } // JSON text has none
+
+    bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
+    bool start_array(std::size_t /*size*/) override { return open(Json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(std::string& key) override
+    {
+        owner_.charge(key.size());
+        bool twice = false;
+        if constexpr (kOrdered) { // whose own search is linear
+            owner_.charge(key.size());
+            twice = !names_.back().insert(key).second;
+        } else {
+            twice = stack_.back()->contains(key);
+        }
+        if (twice) {
+            owner_.fail(pointer(), "an object has the same key twice", "'" + escapeKey(key) + "'", {});
+        }
+        key_ = std::move(key);
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string& /*token*/, const nlohmann::detail::exception& e) override
+    {
+        constexpr int kNumberOverflow = 406;
+        if (e.id == kNumberOverflow) {
+            owner_.fail(nextPointer(), "a number is out of range", "one beyond double precision", {});
+        }
+        owner_.fail(pointer(), "invalid JSON (byte " + std::to_string(position) + ")", shortReason(e.what()), {});
+        return false; // never: GCC does not see that fail() never returns
+    }
+
+    [[nodiscard]] Json take() { return std::move(root_); }
+
+private:
+    /// Where the value that comes next will be.
+    [[nodiscard]] std::string nextPointer() const { return stack_.empty() ? "" : pointer() + "/" + nextStep(); }
+
+    [[nodiscard]] std::string nextStep() const
+    {
+        const Json& top = *stack_.back();
+        return top.is_array() ? std::to_string(top.size()) : escapeKey(key_);
+    }
+
+    /// Where the container being filled is.
+    [[nodiscard]] std::string pointer() const
+    {
+        std::string text;
+        for (const std::string& step : steps_) {
+            text += "/" + step;
+        }
+        return text;
+    }
+
+    Json& place(Json value)
+    {
+        owner_.charge(kBytesPerJsonValue);
+        if (stack_.empty()) {
+            root_ = std::move(value);
+            return root_;
+        }
+        Json& top = *stack_.back();
+        if (top.is_array()) {
+            top.push_back(std::move(value));
+            return top.back();
+        }
+        auto& object = top.template get_ref<typename Json::object_t&>();
+        if constexpr (kOrdered) { // key() has seen that there is none of the name
+            return object.emplace_back(std::move(key_), std::move(value)).second;
+        } else {
+            return object.emplace(std::move(key_), std::move(value)).first->second;
+        }
+    }
+
+    bool add(Json value)
+    {
+        place(std::move(value));
+        return true;
+    }
+
+    bool open(Json container)
+    {
+        if (stack_.size() >= kMaxJsonDepth) {
+            owner_.fail(pointer(), "the JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", {},
+                        {});
+        }
+        if (!stack_.empty()) {
+            steps_.push_back(nextStep());
+        }
+        stack_.push_back(&place(std::move(container)));
+        names_.resize(stack_.size());
+        return true;
+    }
+
+    bool close()
+    {
+        stack_.pop_back();
+        names_.pop_back();
+        if (!steps_.empty()) {
+            steps_.pop_back();
+        }
+        return true;
+    }
+
+    JsonOwner& owner_;
+    Json root_;
+    std::vector<Json*> stack_;
+    std::vector<std::set<std::string>> names_; // of each object on the stack, where the tree is slow to say
+    std::vector<std::string> steps_;           // one per container below the root
+    std::string key_;
+};
+
+} // namespace detail
+
+/// Reads UTF-8 JSON as nlohmann::json or ordered_json. Refuses, through the owner, byte order marks, invalid UTF-8,
+/// duplicate keys, numbers beyond double and nesting deeper than kMaxJsonDepth. Never recurses; takes time and memory
+/// in proportion to the text.
+template <typename Json>
+[[nodiscard]] Json readJson(std::string_view text, JsonOwner& owner)
+{
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        owner.fail("", "invalid JSON (byte 0)", "a byte order mark", "save the file as UTF-8 without one");
+    }
+    detail::TreeBuilder<Json> builder(owner);
+    Json::sax_parse(text.begin(), text.end(), &builder);
+    return builder.take();
+}
+
+} // namespace gnomon::scene

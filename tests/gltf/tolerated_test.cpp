@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors of the specification that change nothing of what a file means: docs/scenes.md has each with its reason. What
+// does change it is refused, here and in the other tests.
+#include "support.h"
+
+#include <functional>
+
+namespace gnomon::scene::test {
+namespace {
+
+struct Fault {
+    const char* name;
+    std::function<void(FileBuilder&)> plant;
+    const char* refusal = nullptr; // part of the message; null: tolerated
+};
+
+/// A triangle with two joints, a material with a texture, and an animation, in which nothing is wrong.
+FileBuilder faultless()
+{
+    FileBuilder file;
+    const int position = file.addTriangle();
+    file.root["accessors"][0].update({{"min", {0, 0, 0}}, {"max", {1, 1, 0}}});
+    const int joints = file.add<std::uint8_t>("VEC4", 5121, 3, {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+    const int weights = file.add<float>("VEC4", 5126, 3, {0.5F, 0.5F, 0, 0, 0.5F, 0.5F, 0, 0, 0.5F, 0.5F, 0, 0});
+    const int uv = file.add<float>("VEC2", 5126, 3, {0, 0, 1, 0, 0, 1});
+    const int times = file.add<float>("SCALAR", 5126, 2, {0, 1});
+    file.root["accessors"][times].update({{"min", {0}}, {"max", {1}}});
+    const int moves = file.add<float>("VEC3", 5126, 2, {0, 0, 0, 1, 0, 0});
+    file.addMesh(
+        {{"attributes", {{"POSITION", position}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}, {"TEXCOORD_0", uv}}}});
+    file.root["nodes"][0]["skin"] = 0;
+    file.root["nodes"].push_back({{"children", {2}}});
+    file.root["nodes"].push_back(json::object());
+    file.root["skins"] = json::array({{{"joints", {1, 2}}}});
+    file.root["scenes"] = json::array({{{"nodes", {0, 1}}}});
+    file.root["animations"] = json::array(
+        {{{"samplers", json::array({{{"input", times}, {"output", moves}}})},
+          {"channels", json::array({{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}})}}});
+    return file;
+}
+
+json& attributesOf(FileBuilder& file)
+{
+    return file.root["meshes"][0]["primitives"][0]["attributes"];
+}
+
+const Fault kFaults[] = {
+    {"PositionWithoutBounds",
+     [](FileBuilder& f) {
+         f.root["accessors"][0].erase("min");
+         f.root["accessors"][0].erase("max");
+     }},
+    {"KeyTimesWithoutBounds",
+     [](FileBuilder& f) {
+         f.root["accessors"][4].erase("min");
+         f.root["accessors"][4].erase("max");
+     }},
+    {"NoByteStrideWhereTwoShareAView",
+     [](FileBuilder& f) {
+         f.root["accessors"].push_back(f.root["accessors"][3]);
+         attributesOf(f)["TEXCOORD_1"] = f.root["accessors"].size() - 1;
+     }},
+    {"AttributeThatIsNotAlignedTo4",
+     [](FileBuilder& f) {
+         attributesOf(f)["_MARK"] = f.add<std::uint8_t>("SCALAR", 5121, 3, {1, 2, 3}); // elements of one byte
+     }},
+    {"TexcoordsThatSkipASet",
+     [](FileBuilder& f) {
+         attributesOf(f)["TEXCOORD_3"] = attributesOf(f)["TEXCOORD_0"];
+     }},
+    {"TextureOfASetThatIsNotThere",
+     [](FileBuilder& f) {
+         f.root["textures"] = json::array({json::object()});
+         f.root["materials"] =
+             json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}}});
+         f.root["meshes"][0]["primitives"][0]["material"] = 0;
+     }},
+    {"WeightsThatDoNotSumToOne",
+     [](FileBuilder& f) {
+         attributesOf(f)["WEIGHTS_0"] = f.add<float>("VEC4", 5126, 3, {1, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0});
+     }},
+    {"AJointTwiceInAVertex",
+     [](FileBuilder& f) {
+         attributesOf(f)["JOINTS_0"] = f.add<std::uint8_t>("VEC4", 5121, 3, {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0});
+     }},
+    {"SkinWithoutACommonRoot",
+     [](FileBuilder& f) {
+         f.root["nodes"][1].erase("children");
+         f.root["scenes"][0]["nodes"] = {0, 1, 2};
+     }},
+    {"SkeletonThatIsNoCommonRoot",
+     [](FileBuilder& f) {
+         f.root["skins"][0]["skeleton"] = 2;
+     }},
+    {"MatrixThatShears",
+     [](FileBuilder& f) {
+         f.root["nodes"].push_back({{"matrix", {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+     }},
+    {"ExtensionThatIsNotDeclared",
+     [](FileBuilder& f) {
+         f.root["extensions"] = {{"KHR_lights_punctual", {{"lights", json::array({{{"type", "directional"}}})}}}};
+         f.root["nodes"][1]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+     }},
+    {"ImageInAViewWithoutMediaType",
+     [](FileBuilder& f) {
+         f.root["images"] = json::array(
+             {{{"bufferView", f.addView<std::uint8_t>(
+                                  {137, 80,  78,  71,  13, 10, 26, 10,  0,   0,  0,   13, 73,  72,  68,  82, 0,
+                                   0,   0,   1,   0,   0,  0,  1,  8,   0,   0,  0,   0,  58,  126, 155, 85, 0,
+                                   0,   0,   10,  73,  68, 65, 84, 120, 156, 99, 104, 0,  0,   0,   130, 0,  129,
+                                   119, 205, 114, 182, 0,  0,  0,  0,   73,  69, 78,  68, 174, 66,  96,  130})}}});
+     }},
+    {"WordOfGltfThatIsUnknown",
+     [](FileBuilder& f) {
+         f.root["nodes"][1]["colour"] = "red";
+     }},
+    // What is refused, since nobody can say what was meant.
+    {"JointsWithoutWeightsInALaterSet", [](FileBuilder& f) { attributesOf(f)["JOINTS_1"] = 1; },
+     "JOINTS_1 and WEIGHTS_1 must come together"},
+    {"WeightsWithoutJoints", [](FileBuilder& f) { attributesOf(f).erase("JOINTS_0"); },
+     "WEIGHTS_0 and JOINTS_0 must come together"},
+    {"TwoChannelsOfOneTarget",
+     [](FileBuilder& f) {
+         json& channels = f.root["animations"][0]["channels"];
+         channels.push_back(channels[0]);
+     },
+     "two channels animate the same property"},
+    {"TwoChannelsOfOneTargetOutsideTheScene",
+     [](FileBuilder& f) {
+         f.root["nodes"].push_back(json::object());
+         json& channels = f.root["animations"][0]["channels"];
+         channels[0]["target"]["node"] = 3;
+         channels.push_back(channels[0]);
+     },
+     "two channels animate the same property"},
+    {"OffsetThatIsNoMultipleOfTheComponent", [](FileBuilder& f) { f.root["accessors"][3]["byteOffset"] = 2; },
+     "must be a multiple of the component's 4 bytes"},
+    {"BoundsThatAreWrong",
+     [](FileBuilder& f) {
+         f.root["accessors"][0]["max"] = {2, 1, 0};
+     },
+     "the declared maximum differs"},
+};
+
+class GltfFaults : public testing::TestWithParam<Fault> {};
+
+TEST_P(GltfFaults, IsReadOrRefusedAsDocumented)
+{
+    FileBuilder file = faultless();
+    ASSERT_NO_THROW(static_cast<void>(evaluate(file.read(), 0.5)));
+    GetParam().plant(file);
+    if (GetParam().refusal != nullptr) {
+        const std::string message = file.error();
+        EXPECT_NE(message.find(GetParam().refusal), std::string::npos) << message;
+        return;
+    }
+    const Scene scene = file.read();
+    ASSERT_EQ(scene.meshes.at(0).primitives.at(0).positions.size(), 3U);
+    EXPECT_FALSE(evaluate(scene, 0.5).objects.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, GltfFaults, testing::ValuesIn(kFaults),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(GltfFaults, BehindTheLastColumnOfAMatrixNothingNeedsToBe)
+{
+    // Two MAT2 of bytes: columns at 0, 4, 8 and 12, and the last ends at 14.
+    FileBuilder file;
+    const int matrices = file.add<std::uint8_t>("MAT2", 5121, 2, {1, 2, 0, 0, 3, 4, 0, 0, 5, 6, 0, 0, 7, 8});
+    file.root["accessors"][matrices].update({{"min", {1, 2, 3, 4}}, {"max", {5, 6, 7, 8}}}); // so all are read
+    EXPECT_NO_THROW(static_cast<void>(file.read()));
+    file.root["bufferViews"][0]["byteLength"] = 13;
+    const std::string message = file.error();
+    EXPECT_NE(message.find("offset 0, length 14"), std::string::npos) << message;
+}
+
+} // namespace
+} // namespace gnomon::scene::test

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wrong calls of the backend: each is a value or an Error with a sentence, and records nothing.
+#include "null_driver.h"
+#include "scene.h"
+
+#include <gnomon/error.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace gnomon::test {
+namespace {
+
+using vulkan::CasterDrawer;
+using vulkan::DrawBatcher;
+using vulkan::MapPass;
+using vulkan::Profiler;
+using vulkan::ShadowRenderer;
+
+constexpr VkExtent2D kPicture{64, 48};
+
+/// A host that does all right, of which one thing at a time goes wrong.
+class Misuser {
+public:
+    explicit Misuser(const ShadowOptions& options = {})
+        : renderer(driver.view(), {}), drawer(driver.view(), {}), profiler(driver.view(), 2, 8)
+    {
+        lights = {makeSun({0.5, -1.0, 0.2}), makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)};
+        const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {1, 0, 0, 256, 256}};
+        plan = makePlan(scene, lights, tiles, {256, 256, 2}, options);
+        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
+        frame.lights = lights;
+        inputs.extent = kPicture;
+        inputs.depth = driver.makeView();
+        parts = {{{0, 6, 0}, 0}, {{6, 36, 4}, 1}};
+        objects.assign(1, {0, 1});
+        objects.resize(1 + scene.boxes.size(), {1, 1});
+        drawer.setScene(parts, objects, batches);
+        geometry.positions = driver.makeBuffer();
+        geometry.indices = driver.makeBuffer();
+        transforms = scene.transforms();
+    }
+    void prepare() { (void)renderer.prepare(plan, kPicture); }
+    void begin() { drawer.beginFrame(0, plan, geometry, transforms); }
+    void maps(std::uint32_t slot = 0) { renderer.recordMaps(driver.commands(), slot, frame, plan, draw); }
+    void mask(std::uint32_t slot = 0) { renderer.recordMask(driver.commands(), slot, frame, plan, inputs); }
+    /// All of it, as it should be.
+    void record()
+    {
+        driver.beginSlot(0);
+        prepare();
+        begin();
+        maps();
+        mask();
+    }
+
+    NullDriver driver;
+    Scene scene = makeScene();
+    std::vector<Light> lights;
+    Plan plan;
+    Frame frame;
+    vulkan::MaskInputs inputs;
+    std::vector<vulkan::DrawPart> parts;
+    std::vector<vulkan::DrawObject> objects;
+    std::vector<vulkan::CasterBatch> batches = std::vector<vulkan::CasterBatch>(2);
+    vulkan::CasterGeometry geometry;
+    std::vector<vulkan::Rows3x4> transforms;
+    ShadowRenderer renderer;
+    CasterDrawer drawer;
+    Profiler profiler;
+    vulkan::DrawCasters draw = [this](const MapPass& pass) {
+        drawer.draw(pass);
+    };
+};
+
+std::string sentenceOf(const std::function<void()>& call)
+{
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no Error";
+}
+
+/// The call throws with these words, records nothing, and what is right goes on.
+void expectRefused(Misuser& host, const char* words, const std::function<void()>& call)
+{
+    host.driver.clearEvents();
+    const std::string said = sentenceOf(call);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_TRUE(host.driver.events().empty()) << words;
+}
+
+TEST(Misuse, OfTheDeviceViewIsAnError)
+{
+    NullDriver driver;
+    const std::vector<std::function<void(vulkan::DeviceView&)>> faults{
+        [](vulkan::DeviceView& v) { v.instance = VK_NULL_HANDLE; },
+        [](vulkan::DeviceView& v) { v.physical_device = VK_NULL_HANDLE; },
+        [](vulkan::DeviceView& v) { v.device = VK_NULL_HANDLE; },
+        [](vulkan::DeviceView& v) {
+            v.get_instance_proc_addr = nullptr;
+        }};
+    for (const auto& fault : faults) {
+        vulkan::DeviceView view = driver.view();
+        fault(view);
+        EXPECT_THROW(ShadowRenderer(view, {}), Error);
+        EXPECT_THROW(CasterDrawer(view, {}), Error);
+        EXPECT_THROW(Profiler(view, 2, 8), Error);
+    }
+    vulkan::DeviceView half = driver.view();
+    half.memory.allocate = [](void*, const vulkan::MemoryRequest&, vulkan::MemoryBlock*) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    };
+    EXPECT_THROW(ShadowRenderer(half, {}), Error);
+    char text[8];
+    EXPECT_THROW(static_cast<void>(vulkan::supportsLayered({})), Error);
+    EXPECT_THROW(vulkan::missingFeatures({}, text, sizeof text), Error);
+    vulkan::missingFeatures({}, nullptr, 0);
+    EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+}
+
+TEST(Misuse, OfTheNumberOfFramesIsAnError)
+{
+    NullDriver driver;
+    for (const std::uint32_t frames : {0U, vulkan::kMostFrames + 1, 0xFFFFFFFFU}) {
+        EXPECT_THROW(ShadowRenderer(driver.view(), {.frames_in_flight = frames}), Error);
+        EXPECT_THROW(CasterDrawer(driver.view(), {.frames_in_flight = frames}), Error);
+        EXPECT_THROW(Profiler(driver.view(), frames, 8), Error);
+    }
+    for (const std::uint32_t passes : {0U, 0xFFFFFFFFU}) {
+        EXPECT_THROW(Profiler(driver.view(), 2, passes), Error);
+    }
+    EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
+}
+
+TEST(Misuse, OfTheOrderOfCallsIsAnError)
+{
+    Misuser host;
+    expectRefused(host, "call prepare() with it first", [&] { host.maps(); });
+    expectRefused(host, "call prepare() with it first", [&] { host.mask(); });
+    EXPECT_EQ(host.renderer.mask().image, VkImage{VK_NULL_HANDLE});
+    EXPECT_EQ(host.renderer.maps().image, VkImage{VK_NULL_HANDLE});
+    EXPECT_EQ(host.renderer.maps(7).image, VkImage{VK_NULL_HANDLE});
+    EXPECT_EQ(host.renderer.depthLayersBuffer(7).buffer, VkBuffer{VK_NULL_HANDLE});
+    (void)host.renderer.prepare(host.plan, {0, 0});
+    expectRefused(host, "made no mask of this size", [&] { host.mask(); });
+    host.prepare();
+    host.mask(); // without maps: what there is of them is read, and nothing is drawn
+    MapPass pass;
+    expectRefused(host, "no frame has begun", [&] { host.drawer.draw(pass); });
+    host.record();
+    EXPECT_GT(host.driver.counts().instances, 0U);
+}
+
+TEST(Misuse, OfSlotsAndHandlesIsAnError)
+{
+    Misuser host;
+    host.record();
+    for (const std::uint32_t slot : {2U, 1000U, 0xFFFFFFFFU}) {
+        expectRefused(host, "there are 2 frames in flight", [&] { host.maps(slot); });
+        expectRefused(host, "there are 2 frames in flight", [&] { host.mask(slot); });
+        expectRefused(host, "there are 2 frames in flight", [&] {
+            host.renderer.recordBounds(host.driver.commands(), slot, host.frame, host.plan, host.inputs);
+        });
+        expectRefused(host, "there are 2 frames in flight", [&] {
+            host.renderer.recordViews(host.driver.commands(), slot, host.plan, host.geometry.indices);
+        });
+        expectRefused(host, "there are 2 frames in flight",
+                      [&] { host.drawer.beginFrame(slot, host.plan, host.geometry, host.transforms); });
+        expectRefused(host, "there are 2 frames in flight",
+                      [&] { host.profiler.beginFrame(host.driver.commands(), slot); });
+        EXPECT_EQ(host.renderer.reuse(slot).drawn, 0U);
+        EXPECT_EQ(host.renderer.filterCost(slot).texels, 0U);
+        EXPECT_TRUE(host.renderer.fittedViews(slot).empty());
+        EXPECT_TRUE(host.profiler.results(slot).empty());
+    }
+    EXPECT_TRUE(host.renderer.depthLayers(host.plan, 77).empty());
+    expectRefused(host, "command buffer is null",
+                  [&] { host.renderer.recordMaps(VK_NULL_HANDLE, 0, host.frame, host.plan, host.draw); });
+    expectRefused(host, "command buffer is null",
+                  [&] { host.renderer.recordMask(VK_NULL_HANDLE, 0, host.frame, host.plan, host.inputs); });
+    expectRefused(host, "no function that draws casters",
+                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan, nullptr); });
+    vulkan::CasterGeometry nothing;
+    expectRefused(host, "positions or of indices is null",
+                  [&] { host.drawer.beginFrame(0, host.plan, nothing, host.transforms); });
+    host.record();
+}
+
+TEST(Misuse, OfTheMasksInputsIsAnError)
+{
+    Misuser host;
+    host.record();
+    const auto with = [&](const vulkan::MaskInputs& inputs) {
+        return [&host, inputs] {
+            host.renderer.recordMask(host.driver.commands(), 0, host.frame, host.plan, inputs);
+        };
+    };
+    vulkan::MaskInputs inputs = host.inputs;
+    inputs.depth = VK_NULL_HANDLE;
+    expectRefused(host, "depth is null", with(inputs));
+    for (const VkExtent2D extent : {VkExtent2D{0, 48}, VkExtent2D{64, 0}, VkExtent2D{65, 48}, VkExtent2D{64, 99999}}) {
+        inputs = host.inputs;
+        inputs.extent = extent;
+        expectRefused(host, extent.width * extent.height == 0 ? "extent is 0" : "no mask of this size", with(inputs));
+    }
+    const std::vector<Light> more(3, host.lights[0]);
+    host.frame.lights = more;
+    expectRefused(host, "other lights than the plan", with(host.inputs));
+    host.frame.lights = host.lights;
+    host.record();
+}
+
+TEST(Misuse, OfSizesBeyondTheDeviceIsAnErrorAndMendsItself)
+{
+    Misuser host;
+    host.record();
+    expectRefused(host, "goes up to", [&] { (void)host.renderer.prepare(host.plan, {0xFFFFFFFFU, 48}); });
+    expectRefused(host, "call prepare() with it first", [&] { host.mask(); });
+    host.record();
+    const Plan good = host.plan;
+    host.plan.pages[0] = {20000, 20000, 2};
+    expectRefused(host, "goes up to", [&] { host.prepare(); });
+    host.plan.pages[0] = {256, 256, 60000};
+    expectRefused(host, "goes up to", [&] { host.prepare(); });
+    host.plan = good;
+    host.record();
+}
+
+/// Every way in which a plan can point out of itself.
+std::vector<std::function<void(Plan&)>> planFaults()
+{
+    constexpr std::uint32_t kHuge = 0xFFFFFFFFU;
+    return {[](Plan& p) { p.options.reset(); },
+            [](Plan& p) { p.options = std::make_shared<std::vector<ResolvedOptions>>(); },
+            [](Plan& p) { p.pages.clear(); },
+            [](Plan& p) { p.lights[1].options = 1; },
+            [](Plan& p) { p.lights[1].first_view = 2; },
+            [](Plan& p) { p.lights[1].view_count = kHuge; },
+            [](Plan& p) { p.lights[1].mask_layer = 1; },
+            [](Plan& p) { p.lights[1].mask_channel = 4; },
+            [](Plan& p) { p.lights.pop_back(); },
+            [](Plan& p) { p.views[1].light = 2; },
+            [](Plan& p) { p.views[1].first_caster = kHuge; },
+            [](Plan& p) { p.views[1].caster_count = kHuge; },
+            [](Plan& p) { p.views[1].still_count = p.views[1].caster_count + 1; },
+            [](Plan& p) { p.casters.clear(); },
+            [](Plan& p) { p.views[1].tile.layer = 2; },
+            [](Plan& p) { p.views[1].tile.x = 1; },
+            [](Plan& p) { p.views[1].tile.height = kHuge; },
+            [](Plan& p) { p.views[1].tile.width = 0; },
+            [](Plan& p) { p.views[1].kept_layer = 0; },
+            [](Plan& p) {
+                p.views[1].dirty = {250, 0, 10, 10};
+            },
+            [](Plan& p) {
+                p.views[1].map = {kHuge - 1, 0};
+            }};
+}
+
+TEST(Misuse, OfAPlanThatPointsOutOfItselfIsAnError)
+{
+    Misuser host;
+    host.record();
+    const Plan good = host.plan;
+    for (const auto& fault : planFaults()) {
+        Plan wrong = good;
+        fault(wrong);
+        const char* const kHint = "hand in a plan as its planner made it";
+        expectRefused(host, kHint, [&] { (void)host.renderer.prepare(wrong, kPicture); });
+        host.prepare();
+        expectRefused(host, kHint,
+                      [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, wrong, host.draw); });
+        expectRefused(host, kHint,
+                      [&] { host.renderer.recordMask(host.driver.commands(), 0, host.frame, wrong, host.inputs); });
+        expectRefused(host, kHint, [&] { host.drawer.beginFrame(0, wrong, host.geometry, host.transforms); });
+    }
+    host.record();
+}
+
+/// A plan that nobody prepared for: other options, larger pages, more of anything.
+TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
+{
+    Misuser host;
+    host.record();
+    Misuser other({.technique = {.filter = Filter::vsm}});
+    expectRefused(host, "call prepare() with it first",
+                  [&] { host.renderer.recordMaps(host.driver.commands(), 0, other.frame, other.plan, host.draw); });
+    const std::vector<std::function<void(Plan&)>> larger{[](Plan& p) { p.pages[0].layers = 3; },
+                                                         [](Plan& p) { p.pages[0].kept_layers = 1; },
+                                                         [](Plan& p) {
+                                                             p.pages[0] = {512, 512, 2};
+                                                         },
+                                                         [](Plan& p) { p.views.push_back(p.views.back()); },
+                                                         [](Plan& p) {
+                                                             p.lights.push_back(p.lights.back());
+                                                             p.lights.back().mask_channel = 2;
+                                                         }};
+    for (const auto& grow : larger) {
+        Plan grown = host.plan;
+        grow(grown);
+        expectRefused(host, "call prepare() with it first",
+                      [&] { host.renderer.recordMaps(host.driver.commands(), 0, host.frame, grown, host.draw); });
+        (void)host.renderer.prepare(grown, kPicture);
+        host.prepare();
+    }
+    host.record();
+}
+
+TEST(Misuse, OfCascadesThatWereNotFittedIsAnError)
+{
+    Misuser host;
+    for (View& view : host.plan.views) {
+        view.gpu_cascade = 0;
+    }
+    host.plan.frame = 5;
+    host.prepare();
+    host.begin();
+    expectRefused(host, "call recordBounds() with it first", [&] { host.maps(); });
+    expectRefused(host, "call recordBounds() with it first", [&] { host.mask(); });
+    expectRefused(host, "call recordBounds() with it first",
+                  [&] { host.renderer.recordViews(host.driver.commands(), 0, host.plan, host.geometry.indices); });
+    vulkan::MaskInputs inputs = host.inputs;
+    inputs.depth = VK_NULL_HANDLE;
+    expectRefused(host, "depth is null",
+                  [&] { host.renderer.recordBounds(host.driver.commands(), 0, host.frame, host.plan, inputs); });
+    host.renderer.recordBounds(host.driver.commands(), 0, host.frame, host.plan, host.inputs);
+    expectRefused(host, "the buffer of views is null",
+                  [&] { host.renderer.recordViews(host.driver.commands(), 0, host.plan, VK_NULL_HANDLE); });
+    host.maps();
+    host.mask();
+}
+
+TEST(Misuse, OfTheDrawersSceneIsAnError)
+{
+    Misuser host;
+    EXPECT_THROW(host.drawer.setScene(host.parts, host.objects, std::span(host.batches).first(1)), Error);
+    const std::vector<std::vector<vulkan::DrawObject>> wrong{{{0, 3}}, {{3, 0}}, {{0xFFFFFFFFU, 0xFFFFFFFFU}}};
+    for (const auto& objects : wrong) {
+        EXPECT_THROW(host.drawer.setScene(host.parts, objects, host.batches), Error);
+    }
+    expectRefused(host, "fewer transforms than objects",
+                  [&] { host.drawer.beginFrame(0, host.plan, host.geometry, std::span(host.transforms).first(1)); });
+    host.record();
+    // Objects that the scene has not draw nothing.
+    const std::uint64_t before = host.driver.counts().instances;
+    for (std::uint32_t& caster : host.plan.casters) {
+        caster += 1000;
+    }
+    host.plan.views[0].redraw = host.plan.views[1].redraw = true;
+    host.record();
+    EXPECT_EQ(host.driver.counts().instances, before);
+}
+
+TEST(Misuse, OfTheDrawersPassesIsAnError)
+{
+    Misuser host;
+    host.record();
+    host.begin();
+    std::vector<std::uint32_t> many(5000, 1);
+    MapPass pass;
+    pass.commands = host.driver.commands();
+    pass.plan = &host.plan;
+    expectRefused(host, "has no view", [&] { host.drawer.draw(pass); });
+    pass.view = &host.plan.views[0];
+    pass.formats = vulkan::mapFormats((*host.plan.options)[0], true);
+    for (const std::uint32_t count : {0U, 7U, 0xFFFFFFFFU}) {
+        pass.view_count = count;
+        expectRefused(host, "more than one pass can have", [&] { host.drawer.draw(pass); });
+    }
+    pass.view_count = 2;
+    expectRefused(host, "views that the plan of beginFrame() has not", [&] { host.drawer.draw(pass); });
+    pass.view_count = 1;
+    pass.casters = many;
+    expectRefused(host, "more casters than the plan", [&] { host.drawer.draw(pass); });
+    pass.casters = std::span(many).first(1);
+    pass.commands = VK_NULL_HANDLE;
+    expectRefused(host, "command buffer is null", [&] { host.drawer.draw(pass); });
+    host.record();
+}
+
+TEST(Misuse, OfTheBatchersRoomIsAnError)
+{
+    DrawBatcher batcher;
+    const std::vector<vulkan::DrawPart> parts{{{0, 3, 0}, 0}, {{3, 3, 0}, 1}};
+    const std::vector<vulkan::DrawObject> objects{{0, 2}, {1, 1}};
+    batcher.setScene(parts, objects);
+    const std::vector<std::uint32_t> list{0, 1, 99};
+    std::vector<VkDrawIndexedIndirectCommand> commands(2);
+    std::vector<std::uint32_t> instances(3);
+    EXPECT_EQ(batcher.build(list, 0, commands, instances).instance_count, 3U);
+    EXPECT_THROW(batcher.build(list, 0, std::span(commands).first(1), instances), Error);
+    EXPECT_THROW(batcher.build(list, 0, commands, std::span(instances).first(2)), Error);
+    EXPECT_EQ(batcher.build(list, 0, commands, instances).instance_count, 3U);
+    EXPECT_EQ(DrawBatcher().build(list, 0, {}, {}).command_count, 0U);
+}
+
+TEST(Misuse, OfTheProfilersOrderIsAnErrorOrNothing)
+{
+    Misuser host;
+    const VkCommandBuffer commands = host.driver.commands();
+    host.profiler.addDraws(3);
+    host.profiler.endPass(commands);
+    expectRefused(host, "no frame has begun", [&] { host.profiler.beginPass(commands, "early"); });
+    host.profiler.beginFrame(commands, 0);
+    expectRefused(host, "command buffer is null", [&] { host.profiler.beginPass(VK_NULL_HANDLE, "nowhere"); });
+    host.profiler.beginPass(commands, "one");
+    expectRefused(host, "they do not nest", [&] { host.profiler.beginPass(commands, "nested"); });
+    expectRefused(host, "call endPass() first", [&] { host.profiler.beginFrame(commands, 1); });
+    host.profiler.endPass(commands);
+    host.profiler.endPass(commands);
+    for (int i = 0; i < 20; ++i) { // more than it was made for
+        host.profiler.beginPass(commands, "more");
+        host.profiler.endPass(commands);
+    }
+    EXPECT_EQ(host.profiler.results(0).size(), 8U);
+}
+
+/// A callback that throws, and one that ends the profiler's pass: the next frame is drawn as ever.
+TEST(Misuse, OfTheCallbackLeavesTheRendererWhole)
+{
+    Misuser host;
+    host.driver.beginSlot(0);
+    host.prepare();
+    host.begin();
+    EXPECT_THROW(host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan,
+                                          [](const MapPass&) { throw std::runtime_error("of the host"); }),
+                 std::runtime_error);
+    host.profiler.beginFrame(host.driver.commands(), 0);
+    const auto meddle = [&](const MapPass& pass) {
+        host.profiler.endPass(pass.commands);
+        host.drawer.draw(pass);
+    };
+    host.renderer.recordMaps(host.driver.commands(), 0, host.frame, host.plan, meddle, &host.profiler);
+    host.mask();
+    EXPECT_EQ(host.renderer.reuse(0).drawn, 2U);
+    EXPECT_GT(host.driver.counts().instances, 0U);
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames without end, with lights, casters, sizes and techniques changing: memory stays as it is once everything has
+// come round. GNOMON_SOAK_FRAMES says how many frames there are on the null driver, and a fiftieth of them drawn ones.
+#include "changing_host.h"
+#include "fixture.h"
+#include "option_steps.h"
+#include "planned_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <malloc.h>
+#include <optional>
+#include <string>
+#include <unistd.h>
+
+namespace gnomon::test {
+namespace {
+
+std::uint64_t wantedFrames(std::uint64_t unless_said)
+{
+    const char* const said = std::getenv("GNOMON_SOAK_FRAMES");
+    return said != nullptr ? std::strtoull(said, nullptr, 10) : unless_said;
+}
+
+/// What this process has of memory, bytes.
+std::uint64_t residentBytes()
+{
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages >> pages;
+    return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Of the C library's heap, bytes in use; 0 where a sanitizer has taken its place.
+std::uint64_t heapBytes()
+{
+    const struct mallinfo2 info = ::mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+struct Held {
+    std::uint64_t device = 0; // bytes of the device's memory
+    std::uint64_t heap = 0;
+    std::uint64_t resident = 0;
+};
+
+void report(const char* name, std::uint64_t frames, const Held& warm, const Held& end)
+{
+    std::cout << "[   soak   ] " << name << ", " << frames << " frames: device " << warm.device << " -> " << end.device
+              << ", heap " << warm.heap << " -> " << end.heap << ", resident " << warm.resident << " -> "
+              << end.resident << " bytes\n";
+}
+
+// In rounds that are all alike, each with every technique, so that the end of one can be held against that of another.
+constexpr std::uint32_t kFramesOfOne = 10;
+
+FrameSetup setupOf(std::uint64_t frame)
+{
+    constexpr std::array<std::uint32_t, 5> kLights{1, 3, 9, 0, 5};
+    constexpr std::array<VkExtent2D, 4> kScreens{{{64, 40}, {64, 40}, {96, 40}, {33, 70}}};
+    FrameSetup setup;
+    setup.lights = kLights[frame % kLights.size()];
+    setup.screen = kScreens[frame % kScreens.size()];
+    setup.inputs.normals = true;
+    setup.inputs.ids = frame % 2 == 1;
+    return setup;
+}
+
+TEST(Soak, OfFramesOnTheNullDriverHoldsItsMemory)
+{
+    const std::uint64_t round = kFramesOfOne * kBases.size();
+    const std::uint64_t rounds = std::max<std::uint64_t>(wantedFrames(6 * round) / round, 4);
+    Held warm;
+    Held end;
+    // The null driver remembers every object that there ever was, so it is given up with its host after some rounds.
+    constexpr std::uint64_t kRoundsOfAHost = 20;
+    std::optional<ChangingHost> host;
+    for (std::uint64_t i = 0; i < rounds; ++i) {
+        if (i % kRoundsOfAHost == 0) {
+            host.emplace(vulkan::ShadowRendererOptions{.mask_shape = vulkan::MaskShape{.normals = true}});
+        }
+        for (const char* const base : kBases) {
+            Planner planner(optionsFrom(base));
+            for (std::uint32_t k = 0; k < kFramesOfOne; ++k) {
+                (void)host->frame(planner, setupOf(k));
+            }
+        }
+        host->expectNoMistakes("round " + std::to_string(i));
+        ASSERT_FALSE(HasFailure());
+        const bool is_second = i % kRoundsOfAHost == 1;
+        const bool is_last = i % kRoundsOfAHost == kRoundsOfAHost - 1 || i + 1 == rounds;
+        if (is_second && i > 1) {
+            continue;
+        }
+        if (is_second) {
+            warm = {host->driver.counts().bytes, heapBytes(), residentBytes()};
+        } else if (is_last) {
+            end = {host->driver.counts().bytes, heapBytes(), residentBytes()};
+            EXPECT_LE(end.device, warm.device) << "round " << i;
+        }
+    }
+    host.reset();
+    report("null driver", rounds * round, warm, end);
+    // What the driver itself remembers of a host's rounds, and what the C library keeps for later.
+    EXPECT_LT(end.resident, warm.resident + (96U << 20U));
+}
+
+std::vector<Light> lightsOf(std::uint32_t count)
+{
+    std::vector<Light> lights;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        lights.push_back(i % 2 == 0 ? makeSun({0.5 + 0.3 * i, -1.0, 0.2})
+                                    : makeSpot({4.0 - i, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
+        lights.back().key = i;
+    }
+    return lights;
+}
+
+TEST(Soak, OfDrawnFramesHoldsItsMemoryAndIsSilent)
+{
+    constexpr std::array<VkExtent2D, 2> kScreens{{{32, 24}, {24, 32}}};
+    constexpr std::array<std::uint32_t, 4> kLights{1, 3, 2, 5};
+    constexpr std::uint32_t kOfOne = 4;
+    const std::uint64_t round = kOfOne * kBases.size();
+    const std::uint64_t rounds = std::max<std::uint64_t>(wantedFrames(120 * 50) / 50 / round, 3);
+    PlannedScene scene(gpu(), kScreens[0]);
+    Drawing drawing(gpu(), scene.mesh());
+    const auto deviceBytes = [&] {
+        std::uint64_t bytes = 0;
+        for (const auto& uses : {drawing.renderer.memory(), drawing.drawer.memory()}) {
+            for (const vulkan::MemoryUse& use : uses) {
+                bytes += use.bytes;
+            }
+        }
+        return bytes;
+    };
+    Held warm;
+    Held end;
+    std::uint64_t index = 0;
+    for (std::uint64_t i = 0; i < rounds; ++i) {
+        for (const char* const base : kBases) {
+            Planner planner(optionsFrom(base));
+            for (std::uint32_t k = 0; k < kOfOne; ++k) {
+                scene.remakeViews(kScreens[k / 2 % 2], true, k % 2 == 1);
+                const std::vector<Light> lights = lightsOf(kLights[k]);
+                Frame frame = scene.frameOf(lights);
+                frame.index = index++;
+                frame.time_s = 0.1 * static_cast<double>(frame.index);
+                (void)scene.draw(drawing, frame, planner.plan(frame), k % 2);
+            }
+        }
+        end = {deviceBytes(), heapBytes(), residentBytes()};
+        if (i == 1) {
+            warm = end;
+        }
+        EXPECT_LE(i < 2 ? 0 : end.device, warm.device) << "round " << i;
+        expectSilence(gpu());
+    }
+    report("drawn", rounds * round, warm, end);
+    EXPECT_LT(end.resident, warm.resident + (96U << 20U));
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "usage.h"
+
+#include <gnomon/error.h>
+#include <gnomon/pack/cascade_lights.h>
+#include <gnomon/pack/depth_layers.h>
+#include <gnomon/plan_views.h>
+
+#include <algorithm>
+#include <string>
+
+namespace gnomon::vulkan {
+namespace {
+
+constexpr std::uint32_t kMostMaps = 1U << 26; // a name beyond is none that a planner gave
+
+bool isRange(std::uint64_t first, std::uint64_t count, std::uint64_t size)
+{
+    return first + count <= size;
+}
+
+const char* wrongOf(const View& view, const MapPages& pages)
+{
+    const Tile& tile = view.tile;
+    if (tile.width == 0 || tile.height == 0 || !isRange(tile.x, tile.width, pages.width) ||
+        !isRange(tile.y, tile.height, pages.height) || tile.layer >= pages.layers) {
+        return "a view's tile is not inside of its pages";
+    }
+    if (view.kept_layer != kNoIndex && view.kept_layer >= pages.kept_layers) {
+        return "a view's kept layer is beyond its pages";
+    }
+    if (!isRange(view.dirty.x, view.dirty.width, tile.width) ||
+        !isRange(view.dirty.y, view.dirty.height, tile.height)) {
+        return "what is dirty of a view is not inside of its tile";
+    }
+    if ((view.map && view.map.index >= kMostMaps) || (view.kept_map && view.kept_map.index >= kMostMaps)) {
+        return "a view's map has a name that no planner gave";
+    }
+    return nullptr;
+}
+
+const char* wrongOf(const Plan& plan)
+{
+    if (plan.options == nullptr || plan.options->empty() || plan.pages.size() < plan.options->size()) {
+        return "the plan has no options, or no pages for them";
+    }
+    for (const LightPlan& light : plan.lights) {
+        if (light.options >= plan.options->size()) {
+            return "a light names options that the plan has not";
+        }
+        if (!isRange(light.first_view, light.view_count, plan.views.size())) {
+            return "a light names views that the plan has not";
+        }
+        if (light.mask_layer >= plan.mask_layers || light.mask_channel > 3) {
+            return "a light's channel is beyond the mask's layers";
+        }
+    }
+    for (const View& view : plan.views) {
+        if (view.light >= plan.lights.size()) {
+            return "a view names a light that the plan has not";
+        }
+        if (!isRange(view.first_caster, view.caster_count, plan.casters.size()) ||
+            view.still_count > view.caster_count) {
+            return "a view's casters are beyond the plan's list";
+        }
+        if (const char* const wrong = wrongOf(view, plan.pages[plan.lights[view.light].options])) {
+            return wrong;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
+void refuseUse(const char* tried, const char* found, const char* instead)
+{
+    throw Error(tried, found, instead);
+}
+
+std::uint32_t checkedFrames(std::uint32_t frames_in_flight)
+{
+    if (frames_in_flight == 0 || frames_in_flight > kMostFrames) {
+        throw Error("keep " + std::to_string(frames_in_flight) + " frames in flight",
+                    "there can be 1 to " + std::to_string(kMostFrames));
+    }
+    return frames_in_flight;
+}
+
+void checkSlot(const char* tried, std::uint32_t slot, std::uint32_t frames_in_flight)
+{
+    if (slot >= frames_in_flight) {
+        throw Error(std::string(tried) + " with slot " + std::to_string(slot),
+                    "there are " + std::to_string(frames_in_flight) + " frames in flight",
+                    "count slots from 0, and make it with as many as there are");
+    }
+}
+
+void checkCommands(const char* tried, VkCommandBuffer commands)
+{
+    if (commands == VK_NULL_HANDLE) {
+        refuseUse(tried, "the command buffer is null", "hand in one that is being recorded");
+    }
+}
+
+void checkPlan(const char* tried, const Plan& plan)
+{
+    if (const char* const wrong = wrongOf(plan)) {
+        refuseUse(tried, wrong, "hand in a plan as its planner made it");
+    }
+}
+
+std::vector<PreparedSize::OfOptions>& PreparedSize::measure(const Plan& plan, std::vector<OfOptions>& out)
+{
+    out.assign(plan.options->size(), {});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].pages = plan.pages[i];
+    }
+    for (const LightPlan& light : plan.lights) {
+        out[light.options].wanted = true;
+    }
+    for (const View& view : plan.views) {
+        std::uint32_t& side = out[plan.lights[view.light].options].tile_side;
+        side = std::max({side, view.tile.width, view.tile.height});
+    }
+    return out;
+}
+
+void PreparedSize::take(const Plan& plan)
+{
+    (void)measure(plan, options_);
+    asked_.reserve(options_.size());
+    lights_ = plan.lights.size();
+    views_ = std::max(views_, plan.views.size()); // what is made for views does not shrink
+    depth_layers_ = std::max(depth_layers_, pack::depthLayersCount(plan));
+    cascade_lights_ = std::max(cascade_lights_, pack::cascadeLightCount(plan));
+}
+
+bool PreparedSize::holds(const Plan& plan) const
+{
+    if (plan.lights.size() > lights_ || plan.views.size() > views_ || pack::cascadeLightCount(plan) > cascade_lights_) {
+        return false;
+    }
+    for (std::uint32_t view = 0; view < plan.views.size(); ++view) {
+        if (pack::depthLayersSlot(plan, view) >= depth_layers_ &&
+            optionsOf(plan, plan.views[view]).filter() == Filter::lvsm) {
+            return false;
+        }
+    }
+    (void)measure(plan, asked_);
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+        const OfOptions& asked = asked_[i];
+        if (!asked.wanted) {
+            continue;
+        }
+        if (i >= options_.size() || !options_[i].wanted) {
+            return false;
+        }
+        const OfOptions& have = options_[i];
+        if (asked.pages.width > have.pages.width || asked.pages.height > have.pages.height ||
+            asked.pages.layers > have.pages.layers || asked.pages.kept_layers > have.pages.kept_layers ||
+            asked.tile_side > have.tile_side) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace gnomon::vulkan
