@@ -70,6 +70,7 @@ TEST(ExrHeader, AttributesEndWithTheFile)
     expectRefusal({.first = attribute("others", "chlist", std::string(18, '\0'))}, "wrong size");
     expectRefusal({.first = attribute("preview", "preview", little(0xFFFF) + little(0xFFFF))}, "wrong size");
     expectRefusal({.first = attribute("names", "stringvector", little(0x7FFFFFFF))}, "beyond the file");
+    expectRefusal({.first = attribute("ids", "idmanifest", std::string(19, '\0'))}, "ID manifest");
 }
 
 TEST(ExrHeader, SidesAreCheckedBeforeTheTableOfLinesIsMade)
