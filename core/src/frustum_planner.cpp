@@ -14,9 +14,6 @@ namespace {
 constexpr double kLeastTangent = 1e-4;
 constexpr double kLeastPads = 32.0;
 
-constexpr Outcome kTooFarApart{OutcomeKind::degenerate,
-                               "the numbers of camera, light and scene are too far apart to plan a map by"};
-
 bool isFinite(const View& view)
 {
     double sum = view.texel_m + view.metric.near_m + view.metric.far_m;

@@ -124,7 +124,7 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     }
     if (const glm::dvec2 size = rect_.high - rect_.low;
         !std::isfinite(size.x + size.y + receiver_far_m_ - receiver_near_m_)) {
-        return {OutcomeKind::degenerate, "the numbers of camera, light and scene are too far apart to plan a map by"};
+        return kTooFarApart;
     }
     outlineOf(outline_points_, outline_);
     narrowToBoxes(space);

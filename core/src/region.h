@@ -10,6 +10,9 @@
 
 namespace gnomon {
 
+inline constexpr Outcome kTooFarApart{OutcomeKind::degenerate,
+                                      "the numbers of camera, light and scene are too far apart to plan a map by"};
+
 struct RegionInput {
     const LightSpace& space;
     const Slice& slice;

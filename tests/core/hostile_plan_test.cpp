@@ -1,228 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options, frames and lights that nobody means: each is refused or degenerate with a sentence, or planned in numbers
-// that can be drawn; none loops, and none reaches another light's maps.
-#include "worlds.h"
+// Frames and lights that nobody means: each is degenerate with a sentence, or planned in numbers that can be drawn;
+// none loops, and none reaches another light's maps.
+#include "hostile_world.h"
 
-#include <gnomon/option_table.h>
-#include <gnomon/planner.h>
-
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <utility>
 
-namespace gnomon {
+namespace gnomon::test {
 namespace {
-
-using test::Random;
-
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double kWithoutEnd = std::numeric_limits<double>::infinity();
-constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
-
-/// A meadow with things on it, a sun and a lamp.
-struct Meadow {
-    ObjectSet set;
-    std::vector<Light> lights{test::sun({0.4, -1, 0.2}), test::spot({3, 20, 0}, {0, -1, 0}, 0.8)};
-    Frame frame;
-
-    Meadow()
-    {
-        set.add({{-40, -0.5, -40}, {40, 0, 40}});
-        for (int i = 0; i < 12; ++i) {
-            const double turn = 0.5 * i;
-            set.add(test::boxAt({2.5 * i * std::cos(turn), 1, 2.5 * i * std::sin(turn)}, glm::dvec3(0.6)),
-                    {.dynamic = i % 4 == 0});
-        }
-        frame.camera = test::perspectiveCamera({20, 25, 30}, {0, 0, 0}, 1.0);
-        frame.objects = &set;
-        lights[1].key = 1;
-    }
-    const Plan& plan(Planner& planner)
-    {
-        frame.lights = lights;
-        return planner.plan(frame);
-    }
-};
-
-bool isFinite(const glm::dmat4& matrix)
-{
-    for (int i = 0; i < 16; ++i) {
-        if (!std::isfinite(matrix[i / 4][i % 4])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void expectDrawable(const Plan& plan, const View& view)
-{
-    EXPECT_TRUE(isFinite(view.clip_from_world));
-    EXPECT_TRUE(std::isfinite(view.metric.near_m) && view.metric.far_m > view.metric.near_m);
-    EXPECT_TRUE(std::isfinite(glm::dot(view.metric.metric_ws, glm::dvec4(1.0))));
-    EXPECT_TRUE(std::isfinite(view.texel_m) && view.texel_m > 0.0);
-    EXPECT_GE(view.tile.width, 8U);
-    const MapPages& pages = plan.pages.at(plan.lights.at(view.light).options);
-    EXPECT_LE(view.tile.x + view.tile.width, pages.width);
-    EXPECT_LE(view.tile.y + view.tile.height, pages.height);
-    EXPECT_LT(view.tile.layer, pages.layers);
-    EXPECT_LE(view.first_caster + view.caster_count, plan.casters.size());
-    EXPECT_FALSE(std::isnan(view.slice.begin_m) || std::isnan(view.slice.end_m));
-}
-
-/// What a light has is drawable, and what it has not has a reason.
-void expectSound(const Plan& plan, std::size_t lights)
-{
-    ASSERT_EQ(plan.lights.size(), lights);
-    ASSERT_TRUE(plan.options != nullptr && !plan.options->empty());
-    for (const LightPlan& light : plan.lights) {
-        EXPECT_EQ(light.outcome.hasMap(), light.view_count > 0) << light.outcome.reason;
-        EXPECT_EQ(light.outcome.reason.empty(), light.outcome.kind == OutcomeKind::ok);
-    }
-    for (const View& view : plan.views) {
-        expectDrawable(plan, view);
-    }
-    EXPECT_FALSE(toJson(plan).empty());
-}
-
-OptionValue valueOf(double number)
-{
-    OptionValue value;
-    value.real = number;
-    value.numbers = {number};
-    value.integer = !(std::abs(number) < 9e18) ? std::numeric_limits<std::int64_t>::max() * (number < 0 ? -1 : 1)
-                                               : static_cast<std::int64_t>(number);
-    return value;
-}
-
-bool hasRange(const OptionRow& row)
-{
-    return row.type == OptionType::integer || row.type == OptionType::real || row.type == OptionType::numbers;
-}
-
-/// A row's values that it must not take. Integers beyond 32 bits are among them, whose lower bits may be legal.
-std::vector<double> illegalValues(const OptionRow& row)
-{
-    const double step = row.type == OptionType::integer ? 1.0 : 1e-3 * (row.max - row.min);
-    std::vector<double> values{row.min - step, row.max + step, -1e30, 1e30, 4294967296.0 + row.min + 4294967296.0};
-    if (row.type != OptionType::integer) {
-        values.insert(values.end(), {kNotANumber, kWithoutEnd, -kWithoutEnd});
-    }
-    std::erase_if(values, [&](double value) { return value >= row.min && value <= row.max; });
-    return values;
-}
-
-std::string saidOf(const OptionRow& row, double value)
-{
-    return std::string(row.key) + "=" + textOf(row, valueOf(value));
-}
-
-/// Of every row, so of those to come as well.
-TEST(HostileOptions, EveryRowBeyondItsRangeIsRefused)
-{
-    std::size_t tried = 0;
-    for (const OptionRow& row : optionTable()) {
-        if (!hasRange(row)) {
-            continue;
-        }
-        for (const double value : illegalValues(row)) {
-            const std::string said = saidOf(row, value);
-            ShadowOptions options;
-            row.set(options, valueOf(value));
-            if (row.get(options).none) {
-                continue; // 0 may stand for no value
-            }
-            const Resolution resolution = resolve(options);
-            ASSERT_FALSE(resolution) << said;
-            EXPECT_EQ(resolution.refusal.substr(0, row.key.size()), row.key) << said;
-            Meadow meadow;
-            Planner planner(options);
-            const Plan& plan = meadow.plan(planner);
-            expectSound(plan, 2);
-            for (const LightPlan& light : plan.lights) {
-                EXPECT_EQ(light.outcome.kind, OutcomeKind::refused) << said;
-                EXPECT_EQ(light.outcome.reason, resolution.refusal) << said;
-            }
-            EXPECT_TRUE(plan.views.empty() && plan.map_count == 0) << said;
-            ++tried;
-        }
-    }
-    EXPECT_GE(tried, 100U);
-}
-
-/// At the ends of every row's range, by every technique: planned in numbers that can be drawn, or refused.
-TEST(HostileOptions, EveryRowAtTheEndsOfItsRangeIsSound)
-{
-    std::size_t planned = 0;
-    for (const ChoiceValue& choice : choiceValues()) {
-        if (!choice.available || choice.choice == "light") {
-            continue;
-        }
-        for (const OptionRow& row : optionTable()) {
-            if (!hasRange(row)) {
-                continue;
-            }
-            for (const double value : {row.min, row.max}) {
-                ShadowOptions options;
-                options.map_size = 64;
-                OptionValue name;
-                name.text = choice.name;
-                findOption(choice.choice)->set(options, name);
-                row.set(options, valueOf(value));
-                SCOPED_TRACE(std::string(choice.name) + " " + saidOf(row, value));
-                Meadow meadow;
-                Planner planner(options);
-                for (int frame = 0; frame < 2; ++frame) {
-                    meadow.lights[0].direction_ws = glm::normalize(glm::dvec3(0.4 + 0.01 * frame, -1, 0.2));
-                    meadow.frame.time_s = frame;
-                    const Plan& plan = meadow.plan(planner);
-                    expectSound(plan, 2);
-                    planned += plan.views.size();
-                }
-            }
-        }
-    }
-    EXPECT_GE(planned, 1000U);
-}
-
-TEST(HostileOptions, ValuesThatNoChoiceHasAreRefused)
-{
-    const auto refused = [](const ShadowOptions& options) {
-        Meadow meadow;
-        Planner planner(options);
-        const Plan& plan = meadow.plan(planner);
-        expectSound(plan, 2);
-        return plan.lights[0].outcome.kind == OutcomeKind::refused && plan.views.empty();
-    };
-    EXPECT_TRUE(refused({.technique = {.partition = Partition{77}}}));
-    EXPECT_TRUE(refused({.technique = {.fit = Fit{77}}}));
-    EXPECT_TRUE(refused({.technique = {.filter = Filter{77}}}));
-    EXPECT_TRUE(refused({.technique = {.soften = Soften{77}}}));
-    EXPECT_TRUE(refused({.technique = {.motion = Motion{77}}}));
-    EXPECT_TRUE(refused({.format = MapFormat{77}}));
-    EXPECT_TRUE(refused({.cascades = {.pass = CascadePass{77}}}));
-    EXPECT_TRUE(refused({.steps = {.by = StepBy{77}}}));
-    EXPECT_TRUE(refused({.keep_still = KeepStill{77}}));
-    EXPECT_TRUE(refused({.pcf = {.kernel = PcfKernel{77}}}));
-    EXPECT_TRUE(refused({.moments = {.metric = DepthMetricKind{77}}}));
-    EXPECT_TRUE(refused({.moments = {.samples = 3}}));
-    EXPECT_TRUE(refused({.moments = {.placement = LayerPlacement{77}}}));
-    EXPECT_TRUE(refused({.max_layers = 0}));
-    EXPECT_TRUE(refused({.max_layers = 0xFFFFFFFFU}));
-    EXPECT_FALSE(refused({}));
-}
-
-TEST(HostileOptions, QuestionsAboutWhatIsRefusedHaveAnswers)
-{
-    for (const float sigma :
-         {std::numeric_limits<float>::quiet_NaN(), -1.0F, 0.0F, 1e38F, std::numeric_limits<float>::infinity()}) {
-        ShadowOptions options{.technique = {.filter = Filter::vsm}};
-        options.moments.blur_sigma_texels = sigma;
-        EXPECT_GE(blurRadius(options.moments), 1U);
-        EXPECT_LE(blurRadius(options.moments), kMaxBlurRadius);
-        EXPECT_GT(reachTexels(options), 0.0F);
-    }
-}
 
 TEST(HostilePlanner, OfNoOptionsOrMovedFromRefusesEveryLight)
 {
@@ -316,7 +100,7 @@ TEST(HostileFrame, FieldsOfViewAndPlanesOfAnySizeAreDegenerateOrSound)
                 clip_from_view[2][2] = near_m / (far_m - near_m);
                 clip_from_view[2][3] = -1.0;
                 clip_from_view[3][2] = far_m * near_m / (far_m - near_m);
-                meadow.frame.camera.clip_from_world = clip_from_view * test::viewFrom({20, 25, 30}, {0, 0, 0});
+                meadow.frame.camera.clip_from_world = clip_from_view * viewFrom({20, 25, 30}, {0, 0, 0});
                 meadow.frame.size_px = {0, 0};
                 expectSound(meadow.plan(planner), 2);
             }
@@ -377,7 +161,7 @@ TEST(HostileLights, ThatAreNoLightSayWhy)
         Planner planner({.map_size = 64});
         return meadow.plan(planner).lights.at(0).outcome.kind;
     };
-    const Light lamp = test::spot({3, 20, 0}, {0, -1, 0}, 0.8);
+    const Light lamp = spot({3, 20, 0}, {0, -1, 0}, 0.8);
     EXPECT_EQ(kindOf(lamp), OutcomeKind::ok);
     for (const double angle_rad : {kNotANumber, 0.0, -0.5}) {
         Light light = lamp;
@@ -396,12 +180,12 @@ TEST(HostileLights, ThatAreNoLightSayWhy)
             EXPECT_EQ(kindOf(light), OutcomeKind::degenerate);
         }
     }
-    Light dark = test::sun({0, -1, 0});
+    Light dark = sun({0, -1, 0});
     dark.direction_ws = {0, 0, 0};
     EXPECT_EQ(kindOf(dark), OutcomeKind::degenerate);
     dark.direction_ws = {0, kNotANumber, 0};
     EXPECT_EQ(kindOf(dark), OutcomeKind::degenerate);
-    dark = test::sun({0, -1, 0});
+    dark = sun({0, -1, 0});
     dark.angular_diameter_rad = kNotANumber;
     EXPECT_EQ(kindOf(dark), OutcomeKind::degenerate);
 }
@@ -412,7 +196,7 @@ TEST(HostileLights, OfOneKeyEachHaveTheirOwnMaps)
     for (const Motion motion : {Motion::free, Motion::step_alternate}) {
         Meadow meadow;
         for (int i = 0; i < 6; ++i) {
-            meadow.lights.push_back(test::sun({0.1 * i, -1, 0}));
+            meadow.lights.push_back(sun({0.1 * i, -1, 0}));
         }
         for (Light& light : meadow.lights) {
             light.key = 7;
@@ -525,4 +309,4 @@ TEST(HostileFrame, RandomNumbersAreDegenerateOrSound)
 }
 
 } // namespace
-} // namespace gnomon
+} // namespace gnomon::test

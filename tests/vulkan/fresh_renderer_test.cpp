@@ -22,17 +22,6 @@ constexpr std::array kOptions{"filter=pcf map-size=64 motion=snap keep-still=alw
                               "filter=pcf motion=step-band map-size=128"};
 constexpr std::uint32_t kSteps = 21;
 
-std::vector<Light> lightsOf(std::uint32_t count)
-{
-    std::vector<Light> lights;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        lights.push_back(i % 2 == 0 ? makeSun({0.5 + 0.3 * i, -1.0, 0.2})
-                                    : makeSpot({4.0 - i, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
-        lights.back().key = i;
-    }
-    return lights;
-}
-
 struct Step {
     std::uint32_t lights;
     VkExtent2D screen;
@@ -61,7 +50,7 @@ void expectWhatAFreshOneDraws(Gpu& device)
             planner.emplace(optionsFrom(options));
             planned_by = options;
         }
-        const std::vector<Light> lights = lightsOf(step.lights);
+        const std::vector<Light> lights = sunsAndSpots(step.lights);
         Frame frame;
         const Plan* plan = nullptr;
         std::vector<std::byte> mask;
@@ -108,7 +97,7 @@ TEST(SeveralOptions, giveEachLightWhatItsOwnGiveAlone)
     const std::vector<ShadowOptions> options{
         optionsFrom("filter=hard map-size=64"), optionsFrom("filter=pcf map-size=128"),
         optionsFrom("filter=evsm map-size=64"), optionsFrom("filter=lvsm map-size=128")};
-    std::vector<Light> lights = lightsOf(7);
+    std::vector<Light> lights = sunsAndSpots(7);
     constexpr std::array<std::uint32_t, 7> kOptionsOf{0, 1, 2, 3, 3, 0, 1}; // all four in the first layer
     for (std::size_t i = 0; i < lights.size(); ++i) {
         lights[i].options = kOptionsOf[i];

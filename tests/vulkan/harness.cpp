@@ -185,6 +185,9 @@ void Gpu::makeDevice()
     vkGetDeviceQueue(device_, 0, 0, &queue_);
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     require(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
+    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    require(vkAllocateCommandBuffers(device_, &info, &commands_), "vkAllocateCommandBuffers");
 }
 
 Gpu::~Gpu()
@@ -229,20 +232,16 @@ std::vector<std::string> Gpu::takeMessages()
 
 void Gpu::run(const std::function<void(VkCommandBuffer)>& record)
 {
-    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
-                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    require(vkAllocateCommandBuffers(device_, &info, &commands), "vkAllocateCommandBuffers");
+    require(vkResetCommandPool(device_, pool_, 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    require(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-    record(commands);
-    require(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    require(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    record(commands_);
+    require(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands;
+    submit.pCommandBuffers = &commands_;
     require(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
     require(vkQueueWaitIdle(queue_), "vkQueueWaitIdle");
-    vkFreeCommandBuffers(device_, pool_, 1, &commands);
 }
 
 VkDeviceMemory Gpu::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties)

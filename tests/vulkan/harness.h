@@ -92,6 +92,7 @@ private:
     bool layered_ = false;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE; // one for all: the layers keep something of each that there ever was
     VkDescriptorPool texture_pool_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
     std::vector<TestImage> images_;

@@ -8,6 +8,17 @@ Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh) : renderer(gpu.view(), {}), dr
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
 }
 
+std::vector<Light> sunsAndSpots(std::uint32_t count)
+{
+    std::vector<Light> lights;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        lights.push_back(i % 2 == 0 ? makeSun({0.5 + 0.3 * i, -1.0, 0.2})
+                                    : makeSpot({4.0 - i, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
+        lights.back().key = i;
+    }
+    return lights;
+}
+
 PlannedScene::PlannedScene(Gpu& gpu, VkExtent2D screen) : gpu_(gpu), mesh_(uploadMesh(gpu, scene_))
 {
     (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}});

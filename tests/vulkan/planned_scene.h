@@ -18,6 +18,9 @@ struct Drawing {
     vulkan::CasterDrawer drawer;
 };
 
+/// That many lights over the scene of boxes, suns and spots in turn; their keys are their indices.
+[[nodiscard]] std::vector<Light> sunsAndSpots(std::uint32_t count);
+
 class PlannedScene {
 public:
     PlannedScene(Gpu& gpu, VkExtent2D screen);
