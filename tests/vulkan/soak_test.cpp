@@ -103,7 +103,7 @@ TEST(Soak, OfFramesOnTheNullDriverHoldsItsMemory)
         first = i == 0 ? end : first;
     }
     report("null driver", hosts * rounds_of_a_host * round, first, end);
-    EXPECT_LE(end.heap, first.heap + (64U << 10U)); // what is kept for threads counts as taken
+    EXPECT_LE(end.heap, first.heap + (64U << 10U));         // what is kept for threads counts as taken
     EXPECT_LT(end.resident, first.resident + (16U << 20U)); // what the C library keeps for later
 }
 

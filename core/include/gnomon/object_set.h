@@ -33,8 +33,9 @@ struct ObjectId {
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
-/// No coordinate of an object's bounds may be larger; metres. The set's own arithmetic is sound up to here. That is more
-/// than a world may be (kFarthestPlace_m in world_range.h): what lies between is found, and plans say that it is too far.
+/// No coordinate of an object's bounds may be larger; metres. The set's own arithmetic is sound up to here. That is
+/// more than a world may be (kFarthestPlace_m in world_range.h): what lies between is found, and plans say that it is
+/// too far.
 inline constexpr float kFarthestBounds_m = 1e12F;
 
 /// Indices are dense: 0 .. size() - 1 in order of insertion, the smallest one is reused first. They are what Plan lists
