@@ -142,8 +142,9 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     const double begin_m = options.fadeBegin_m();
     const double fade_m = options.fadeEnd_m() - begin_m;
     constexpr double kLeastFade = 1e-5; // of the distance
-    screen.fade = options.fadeEnd_m() > 0.0 ? glm::vec4(begin_m, 1.0 / std::max(fade_m, kLeastFade * options.fadeEnd_m()), 0.0F, 0.0F)
-                                   : glm::vec4(0.0F);
+    screen.fade = options.fadeEnd_m() > 0.0
+                      ? glm::vec4(begin_m, 1.0 / std::max(fade_m, kLeastFade * options.fadeEnd_m()), 0.0F, 0.0F)
+                      : glm::vec4(0.0F);
     const glm::vec2 size(screen_px);
     screen.size = {size, 1.0F / size};
     fillRule(options, out.rule);
