@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace gnomon::scene {
@@ -35,6 +36,41 @@ public:
     virtual void charge(std::uint64_t /*bytes*/) {}
 };
 
+/// Leaves an array or object empty, from its leaves on, which takes no memory. nlohmann's own destructor asks for some
+/// to hold what is in it, and where there is none it ends the program. `value` is nested kMaxJsonDepth levels at most.
+template <typename Json>
+void takeApart(Json& value) noexcept
+{
+    if (value.is_array()) {
+        auto& array = value.template get_ref<typename Json::array_t&>();
+        for (Json& element : array) {
+            takeApart(element);
+        }
+        array.clear();
+    } else if (value.is_object()) {
+        auto& object = value.template get_ref<typename Json::object_t&>();
+        for (auto& member : object) {
+            takeApart(member.second);
+        }
+        object.clear();
+    }
+}
+
+/// What was read, which can be destroyed without memory.
+template <typename Json>
+class JsonTree {
+public:
+    explicit JsonTree(Json&& root) noexcept : root_(std::move(root)) {}
+    JsonTree(JsonTree&& other) noexcept : root_(std::move(other.root_)) {}
+    JsonTree& operator=(JsonTree&&) = delete;
+    ~JsonTree() { takeApart(root_); }
+
+    [[nodiscard]] const Json& root() const { return root_; }
+
+private:
+    Json root_;
+};
+
 namespace detail {
 
 /// What one value costs in memory at least, with its place in a map; keeps a 1 GB file of "[0,0,0,..." within bounds.
@@ -50,6 +86,9 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
 
 public:
     explicit TreeBuilder(JsonOwner& owner) : owner_(owner) {}
+    ~TreeBuilder() override { takeApart(root_); }
+    TreeBuilder(const TreeBuilder&) = delete;
+    TreeBuilder& operator=(const TreeBuilder&) = delete;
 
     bool null() override { return add(nullptr); }
     bool boolean(bool value) override { return add(value); }
@@ -95,7 +134,7 @@ public:
         return false; // never: GCC does not see that fail() never returns
     }
 
-    [[nodiscard]] Json take() { return std::move(root_); }
+    [[nodiscard]] JsonTree<Json> take() { return JsonTree<Json>(std::move(root_)); }
 
 private:
     /// Where the value that comes next will be.
@@ -131,10 +170,31 @@ private:
         }
         auto& object = top.template get_ref<typename Json::object_t&>();
         if constexpr (kOrdered) { // key() has seen that there is none of the name
+            makeRoom(object);
             return object.emplace_back(std::move(key_), std::move(value)).second;
         } else {
             return object.emplace(std::move(key_), std::move(value)).first->second;
         }
+    }
+
+    /// For one more member. An ordered object that grows by itself copies all members and destroys the old ones, which
+    /// takes memory where none may be had: see takeApart().
+    static void makeRoom(typename Json::object_t& object)
+    {
+        if (object.size() < object.capacity()) {
+            return;
+        }
+        constexpr std::size_t kFewest = 8;
+        typename Json::object_t larger;
+        larger.reserve(std::max(kFewest, 2 * object.size()));
+        for (const auto& member : object) {
+            larger.emplace_back(member.first, Json());
+        }
+        auto to = larger.begin();
+        for (auto& member : object) {
+            (to++)->second = std::move(member.second);
+        }
+        object.swap(larger);
     }
 
     bool add(Json value)
@@ -181,7 +241,7 @@ private:
 /// duplicate keys, numbers beyond double and nesting deeper than kMaxJsonDepth. Never recurses; takes time and memory
 /// in proportion to the text.
 template <typename Json>
-[[nodiscard]] Json readJson(std::string_view text, JsonOwner& owner)
+[[nodiscard]] JsonTree<Json> readJson(std::string_view text, JsonOwner& owner)
 {
     if (text.starts_with("\xEF\xBB\xBF")) {
         owner.fail("", "invalid JSON (byte 0)", "a byte order mark", "save the file as UTF-8 without one");

@@ -70,7 +70,8 @@ public:
     [[nodiscard]] Keyframes read(std::string_view text) const
     {
         PathOwner owner(name_);
-        const json file = scene::readJson<json>(text, owner);
+        const scene::JsonTree<json> tree = scene::readJson<json>(text, owner);
+        const json& file = tree.root();
         if (!file.is_object()) {
             fail("", "it is no JSON object");
         }

@@ -16,6 +16,8 @@
 namespace gnomon::app {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr std::array kPresets{
     Preset{"demo", "the built-in rts world at its best: what `make demo` draws", R"({
   "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa",
@@ -45,7 +47,7 @@ constexpr std::array kPresets{
 };
 
 /// A JSON value as it would be typed; `between` the elements of a list.
-std::string typed(const nlohmann::json& value, char between = ',')
+std::string typed(const Json& value, char between = ',')
 {
     if (value.is_string()) {
         return value.get<std::string>();
@@ -68,7 +70,7 @@ std::string typed(const nlohmann::json& value, char between = ',')
 }
 
 /// Whether a value may be given so, as a string or as JSON has it; what it says is for applySetting() to check.
-bool isTyped(SettingType type, const nlohmann::json& value)
+bool isTyped(SettingType type, const Json& value)
 {
     if (value.is_string()) {
         return true;
@@ -92,7 +94,7 @@ bool isTyped(SettingType type, const nlohmann::json& value)
     return false;
 }
 
-void requireType(const Setting& setting, const nlohmann::json& value)
+void requireType(const Setting& setting, const Json& value)
 {
     constexpr std::string_view kTakes[] = {"true or false",     "a number",         "a number", "a string or a number",
                                            "numbers in a list", "a string \"WxH\"", "a string", "a string"};
@@ -107,7 +109,7 @@ void requireType(const Setting& setting, const nlohmann::json& value)
     }
 }
 
-void applyEntry(Settings& settings, const std::string& key, const nlohmann::json& value, std::uint32_t subcommand)
+void applyEntry(Settings& settings, const std::string& key, const Json& value, std::uint32_t subcommand)
 {
     if (key == "scene" || key == "scene_hash") {
         if (!value.is_string()) {
@@ -155,7 +157,8 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
 {
     // Ordered, because bias ends what bias.constant said before it.
     PresetOwner owner(name);
-    const auto file = scene::readJson<nlohmann::ordered_json>(text, owner);
+    const auto tree = scene::readJson<Json>(text, owner);
+    const Json& file = tree.root();
     const bool is_result = file.is_object() && file.contains("settings");
     const auto& json = is_result ? file["settings"] : file;
     if (!json.is_object()) {

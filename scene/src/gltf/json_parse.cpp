@@ -22,7 +22,7 @@ private:
 
 } // namespace
 
-nlohmann::json parseJson(Context& context, std::span<const std::byte> text)
+JsonTree<nlohmann::json> parseJson(Context& context, std::span<const std::byte> text)
 {
     OwnerOfScene owner(context);
     return readJson<nlohmann::json>({reinterpret_cast<const char*>(text.data()), text.size()}, owner);

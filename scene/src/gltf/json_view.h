@@ -18,7 +18,7 @@
 namespace gnomon::scene::gltf {
 
 /// readJson() of scene/json.h, with what is wrong said by the context.
-[[nodiscard]] nlohmann::json parseJson(Context& context, std::span<const std::byte> text);
+[[nodiscard]] JsonTree<nlohmann::json> parseJson(Context& context, std::span<const std::byte> text);
 
 class JsonView {
 public:

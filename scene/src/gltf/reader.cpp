@@ -12,8 +12,8 @@ namespace {
 Scene readBytes(gltf::Context& context, std::span<const std::byte> bytes, const std::string& name)
 {
     const gltf::Container container = gltf::openContainer(context, bytes);
-    const nlohmann::json json = gltf::parseJson(context, container.json);
-    gltf::Document document{.root = gltf::JsonView(context, json, ""), .container = container};
+    const JsonTree<nlohmann::json> json = gltf::parseJson(context, container.json);
+    gltf::Document document{.root = gltf::JsonView(context, json.root(), ""), .container = container};
     document.scene.name = name;
     gltf::readAsset(document);
     gltf::readBuffers(document);
