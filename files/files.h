@@ -36,8 +36,8 @@ private:
 [[nodiscard]] std::string readWholeFile(const std::filesystem::path& file, std::uint64_t max_bytes,
                                         std::string_view what = {});
 
-/// Throws the Error that writeFile() would throw for a directory, a missing folder, a name that is too long or a lack of
-/// rights, so that a program can say so before an hour's work. Creates nothing.
+/// Throws the Error that writeFile() would throw for a directory, a missing folder, a name that is too long or a lack
+/// of rights, so that a program can say so before an hour's work. Creates nothing.
 void requireWritable(const std::filesystem::path& file);
 
 /// Writes to a temporary name in the same folder, flushes, then renames: either the whole file is there or none of it,

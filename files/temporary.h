@@ -6,8 +6,8 @@
 
 namespace gnomon {
 
-/// ".NAME.N.tmp" beside NAME: an empty file or folder that nobody else uses. A lock (flock) on it says that it is in use
-/// and ends with the process, however that ends and on whichever host; so what lies there without one was left by a
+/// ".NAME.N.tmp" beside NAME: an empty file or folder that nobody else uses. A lock (flock) on it says that it is in
+/// use and ends with the process, however that ends and on whichever host; so what lies there without one was left by a
 /// killed process and is removed by whoever makes the same NAME next. Where there are no locks, nothing is taken for
 /// left behind.
 class Temporary {
@@ -16,7 +16,7 @@ public:
 
     /// Throws Error when none can be had.
     Temporary(const std::filesystem::path& target, Kind kind);
-    /// Removes it, unless it was moved.
+    /// Removes it, unless it was moved. A folder that there is no memory to look into stays for whoever makes the next.
     ~Temporary();
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
@@ -28,6 +28,9 @@ public:
     [[nodiscard]] int moveTo(const std::filesystem::path& place);
 
 private:
+    /// Of nothing yet.
+    explicit Temporary(Kind kind) : kind_(kind) {}
+
     Kind kind_;
     std::filesystem::path path_;
     int descriptor_ = -1;

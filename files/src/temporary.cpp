@@ -6,12 +6,14 @@
 #include <cerrno>
 #include <chrono>
 #include <fcntl.h>
+#include <new>
 #include <string>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -52,6 +54,21 @@ bool isThere(const fs::path& path, Temporary::Kind kind, int descriptor)
            (kind == Temporary::Kind::folder ? S_ISDIR(open.st_mode) : S_ISREG(open.st_mode));
 }
 
+/// A file goes without memory. A folder for which there is none stays, for the next that makes the same name.
+bool removedAll(const fs::path& path, Temporary::Kind kind) noexcept
+{
+    if (kind == Temporary::Kind::file) {
+        return ::unlink(path.c_str()) == 0;
+    }
+    try {
+        std::error_code error;
+        fs::remove_all(path, error);
+        return !error;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
 /// Whether the name was left by a killed process and is now free. Who holds the lock alone may remove or rename.
 bool removedStale(const fs::path& path, Temporary::Kind kind)
 {
@@ -59,12 +76,8 @@ bool removedStale(const fs::path& path, Temporary::Kind kind)
     if (descriptor < 0) {
         return false;
     }
-    bool removed = false;
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isThere(path, kind, descriptor)) {
-        std::error_code error;
-        fs::remove_all(path, error);
-        removed = !error;
-    }
+    const bool removed =
+        ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isThere(path, kind, descriptor) && removedAll(path, kind);
     ::close(descriptor);
     return removed;
 }
@@ -78,11 +91,12 @@ bool lockedOurs(const fs::path& path, Temporary::Kind kind, int descriptor)
 
 } // namespace
 
-Temporary::Temporary(const fs::path& target, Kind kind) : kind_(kind)
+// Once the other constructor is done there is a destructor, which removes what was made when something throws here.
+Temporary::Temporary(const fs::path& target, Kind kind) : Temporary(kind)
 {
     int free = 0;
     for (int n = 0; n < kNames && (descriptor_ < 0 || free < kGap); ++n) {
-        const fs::path path = nameOf(target, n);
+        fs::path path = nameOf(target, n);
         if (descriptor_ >= 0) {
             struct stat there {};
             const bool is_free = ::lstat(path.c_str(), &there) != 0 || removedStale(path, kind);
@@ -98,7 +112,7 @@ Temporary::Temporary(const fs::path& target, Kind kind) : kind_(kind)
         }
         if (made >= 0 && lockedOurs(path, kind, made)) {
             descriptor_ = made;
-            path_ = path;
+            path_ = std::move(path);
         } else if (made >= 0) {
             ::close(made);
         }
@@ -111,10 +125,11 @@ Temporary::Temporary(const fs::path& target, Kind kind) : kind_(kind)
 Temporary::~Temporary()
 {
     if (!path_.empty()) {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
+        (void)removedAll(path_, kind_);
     }
-    ::close(descriptor_);
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
 }
 
 int Temporary::moveTo(const fs::path& place)
