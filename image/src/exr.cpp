@@ -6,6 +6,7 @@
 
 #include <gnomon/error.h>
 
+#include <IexBaseExc.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -170,6 +171,8 @@ void writeExr(const std::filesystem::path& file, const ImageF& image, bool half)
         bytes = encodeExr(image, half);
     } catch (const std::bad_alloc&) {
         throw;
+    } catch (const Iex::ErrnoExc&) { // of a stream that failed, and those here are all in memory
+        throw std::bad_alloc();
     } catch (const std::exception& problem) {
         throw Error("writing " + file.string(), oneLine(problem.what()));
     }
@@ -186,7 +189,7 @@ ImageF decodeExr(const std::string& name, std::string_view bytes, std::uint32_t 
     try {
         return decode(bytes, max_side);
     } catch (const std::bad_alloc&) {
-        throw Error("reading " + name, "not a valid EXR: it asks for more memory than there is");
+        throw Error("reading " + name, "it asks for more memory than there is", {}, ErrorKind::out_of_memory);
     } catch (const std::exception& problem) {
         throw Error("reading " + name, "not a valid EXR: " + oneLine(problem.what()));
     }

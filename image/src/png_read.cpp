@@ -4,7 +4,9 @@
 #include <gnomon/error.h>
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
+#include <cstdio>
 #include <cstring>
 #include <png.h>
 #include <vector>
@@ -14,7 +16,7 @@ namespace {
 
 struct Source {
     std::string_view bytes;
-    std::string problem;
+    std::array<char, 160> problem{}; // no string: an exception must not cross libpng's frames
 };
 
 void take(png_structp png, png_bytep data, png_size_t size)
@@ -29,7 +31,8 @@ void take(png_structp png, png_bytep data, png_size_t size)
 
 void onError(png_structp png, png_const_charp message)
 {
-    static_cast<Source*>(png_get_error_ptr(png))->problem = message;
+    auto& problem = static_cast<Source*>(png_get_error_ptr(png))->problem;
+    std::snprintf(problem.data(), problem.size(), "%s", message);
     png_longjmp(png, 1);
 }
 
@@ -112,7 +115,7 @@ ImageF decodePng(const std::string& name, std::string_view bytes, std::uint32_t 
         refuse("the image is wider or higher than the limit of " + std::to_string(max_side));
     }
     if (!readHeader(reader, source, max_side)) {
-        refuse("not a valid PNG: " + source.problem);
+        refuse(std::string("not a valid PNG: ") + source.problem.data());
     }
     const std::uint32_t width = png_get_image_width(reader.png, reader.info);
     const std::uint32_t height = png_get_image_height(reader.png, reader.info);
@@ -131,7 +134,7 @@ ImageF decodePng(const std::string& name, std::string_view bytes, std::uint32_t 
         rows[y] = pixels.data() + row_bytes * y;
     }
     if (!readRows(reader, rows.data())) {
-        refuse("not a valid PNG: " + source.problem);
+        refuse(std::string("not a valid PNG: ") + source.problem.data());
     }
     ImageF image(width, height, channels);
     for (std::size_t i = 0; i < image.values.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <gnomon/error.h>
 
+#include <array>
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
@@ -17,19 +18,19 @@ namespace {
 
 struct Sink {
     std::string bytes;
-    std::string problem;
+    bool full = false; // no memory for more bytes
+    std::array<char, 160> problem{};
 };
 
 void append(png_structp png, png_bytep data, png_size_t size)
 {
     auto* sink = static_cast<Sink*>(png_get_io_ptr(png));
-    bool full = false;
     try {
         sink->bytes.append(reinterpret_cast<const char*>(data), size);
     } catch (const std::exception&) {
-        full = true; // an exception must not cross libpng's frames
+        sink->full = true; // an exception must not cross libpng's frames
     }
-    if (full) {
+    if (sink->full) {
         png_error(png, "out of memory");
     }
 }
@@ -38,7 +39,8 @@ void flushNothing(png_structp) {}
 
 void onError(png_structp png, png_const_charp message)
 {
-    static_cast<Sink*>(png_get_error_ptr(png))->problem = message;
+    auto& problem = static_cast<Sink*>(png_get_error_ptr(png))->problem;
+    std::snprintf(problem.data(), problem.size(), "%s", message);
     png_longjmp(png, 1);
 }
 
@@ -108,7 +110,10 @@ void write(const std::filesystem::path& file, const ImageOf<T>& image)
                         rows.data()};
     Sink sink;
     if (!encode(sink, layout)) {
-        throw Error("writing " + file.string(), sink.problem.empty() ? "out of memory" : sink.problem);
+        // libpng says nothing where it has no memory to begin with.
+        const bool no_memory = sink.full || sink.problem.front() == '\0';
+        throw Error("writing " + file.string(), no_memory ? "out of memory" : sink.problem.data(), {},
+                    no_memory ? ErrorKind::out_of_memory : ErrorKind::other);
     }
     writeFile(file, sink.bytes);
 }
