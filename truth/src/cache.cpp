@@ -11,8 +11,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <dirent.h>
 #include <exception>
 #include <fcntl.h>
+#include <memory>
 #include <string_view>
 #include <sys/stat.h>
 #include <system_error>
@@ -122,6 +124,10 @@ Loaded readEntry(const fs::path& file, const EntryOf& asked, std::uint64_t max_b
     return {std::move(traced), bad};
 }
 
+struct CloseFolder {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
 struct Entry {
     fs::file_time_type used;
     fs::path file;
@@ -132,26 +138,31 @@ struct Entry {
 /// processes may do the same at the same time, so whatever fails is passed over.
 void tidy(const fs::path& folder, std::uint64_t max_bytes, const fs::path& kept)
 {
-    std::error_code error;
     std::vector<Entry> entries;
     std::uint64_t total = 0;
     const auto now = fs::file_time_type::clock::now();
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
-        std::error_code gone;
-        if ((!isEntryName(name) && !isTemporaryName(name)) || !fs::is_regular_file(it->symlink_status(gone))) {
+    // The standard library's iterator ends the program when memory runs out (GCC 12).
+    const std::unique_ptr<DIR, CloseFolder> open(::opendir(folder.c_str()));
+    while (const dirent* const found = open ? ::readdir(open.get()) : nullptr) {
+        const std::string_view name = found->d_name;
+        if (!isEntryName(name) && !isTemporaryName(name)) {
             continue;
         }
-        const fs::file_time_type used = it->last_write_time(gone);
-        const std::uint64_t bytes = gone ? 0 : it->file_size(gone);
+        const fs::path file = folder / name;
+        std::error_code gone;
+        if (!fs::is_regular_file(fs::symlink_status(file, gone))) {
+            continue;
+        }
+        const fs::file_time_type used = fs::last_write_time(file, gone);
+        const std::uint64_t bytes = gone ? 0 : fs::file_size(file, gone);
         if (gone) {
             continue;
         }
         if (isEntryName(name)) {
             total += bytes;
-            entries.push_back({used, it->path(), bytes});
+            entries.push_back({used, file, bytes});
         } else if (now - used > kTemporaryLifetime) {
-            fs::remove(it->path(), gone);
+            fs::remove(file, gone);
         }
     }
     std::sort(entries.begin(), entries.end(),
@@ -161,7 +172,8 @@ void tidy(const fs::path& folder, std::uint64_t max_bytes, const fs::path& kept)
             break;
         }
         if (entry.file != kept) {
-            fs::remove(entry.file, error);
+            std::error_code ignored;
+            fs::remove(entry.file, ignored);
             total -= entry.bytes;
         }
     }
@@ -237,17 +249,20 @@ std::optional<Traced> Cache::load(const scene::Hash128& key, const glm::uvec2& s
 bool Cache::store(const scene::Hash128& key, const Traced& traced, std::string* why) const
 {
     std::string reason;
+    bool written = false;
     try {
         const fs::path file = fileOf(folder_, key);
         reason = writeEntry(folder_, file, key, traced, max_bytes_);
+        written = reason.empty();
         tidy(folder_, max_bytes_, file);
-    } catch (const std::exception& error) {
-        reason = error.what();
+    } catch (const std::exception&) {
+        // No memory for it. An entry that is written stays; the next one's store tidies up.
+        reason = written ? "" : "out of memory"; // so short that it takes none
     }
     if (why != nullptr) {
-        *why = reason;
+        *why = std::move(reason);
     }
-    return reason.empty();
+    return written;
 }
 
 } // namespace gnomon::truth

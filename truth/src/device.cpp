@@ -37,8 +37,10 @@ DevicePointer newDevice()
 {
     DevicePointer device(rtcNewDevice("threads=1,set_affinity=0"));
     if (!device) {
-        throw Error("starting the ray tracer", "Embree gave no device (error " +
-                                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+        const RTCError error = rtcGetDeviceError(nullptr);
+        throw Error("starting the ray tracer",
+                    "Embree gave no device (error " + std::to_string(static_cast<int>(error)) + ")", {},
+                    error == RTC_ERROR_OUT_OF_MEMORY ? ErrorKind::out_of_memory : ErrorKind::other);
     }
     return device;
 }

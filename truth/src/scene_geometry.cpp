@@ -264,7 +264,7 @@ void SceneGeometry::check() const
 {
     const RTCError error = rtcGetDeviceError(device_.get());
     if (error == RTC_ERROR_OUT_OF_MEMORY) {
-        throw Error(kTried, "memory ran out", "use a smaller scene");
+        throw Error(kTried, "memory ran out", "use a smaller scene", ErrorKind::out_of_memory);
     }
     // Who cancelled says so.
     if (error != RTC_ERROR_NONE && error != RTC_ERROR_CANCELLED) {

@@ -32,7 +32,8 @@ std::unique_ptr<SceneGeometry> buildGeometry(const scene::Scene& scene, const sc
     } catch (const BuildingCancelled&) {
         return nullptr;
     } catch (const std::bad_alloc&) {
-        throw Error("building the ray tracer's structure", "memory ran out", "use a smaller scene");
+        throw Error("building the ray tracer's structure", "memory ran out", "use a smaller scene",
+                    ErrorKind::out_of_memory);
     }
 }
 
