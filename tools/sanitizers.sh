@@ -1,5 +1,5 @@
-# Sourced: how the sanitizers behave in a test run. Leaks in our code fail a test; what tools/lsan.supp names is the
-# graphics driver's own.
+# Sourced: how the sanitizers behave in a test run. Leaks in our code fail a test; what tools/lsan.supp names is of
+# libraries.
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 mkdir -p "$top/build-asan"
 gcc -shared -fPIC -o "$top/build-asan/libkeep_loaded.so" "$top/tools/keep_loaded.c"

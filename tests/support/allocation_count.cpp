@@ -17,11 +17,15 @@ thread_local std::ptrdiff_t t_peak = 0;
 
 // How many allocations it is to the one that fails; 0: none does.
 thread_local std::uint64_t t_until_failure = 0;
+thread_local int t_spared = 0; // SpareHeaps that live
 std::atomic<std::uint64_t> until_failure_of_all{0};
 std::atomic<bool> has_failed{false};
 
 bool fails() noexcept
 {
+    if (t_spared != 0) {
+        return false;
+    }
     bool now = t_until_failure != 0 && --t_until_failure == 0;
     // Hardly ever anything else, so that counting costs no more than a look.
     if (std::uint64_t left = until_failure_of_all.load(std::memory_order_relaxed); left != 0) {
@@ -68,6 +72,11 @@ std::uint64_t gnomon::test::heapAllocations()
     return t_count;
 }
 
+std::ptrdiff_t gnomon::test::heapHeld()
+{
+    return t_held;
+}
+
 std::size_t gnomon::test::heapPeakDuring(const std::function<void()>& work)
 {
     const std::ptrdiff_t before = t_held;
@@ -76,7 +85,17 @@ std::size_t gnomon::test::heapPeakDuring(const std::function<void()>& work)
     return static_cast<std::size_t>(t_peak - before);
 }
 
-gnomon::test::FailingAllocation::FailingAllocation(std::uint64_t nth, Of whose)
+gnomon::test::SpareHeap::SpareHeap()
+{
+    ++t_spared;
+}
+
+gnomon::test::SpareHeap::~SpareHeap()
+{
+    --t_spared;
+}
+
+gnomon::test::FailingAllocation::FailingAllocation(std::uint64_t nth, Of whose) : nth_(nth), whose_(whose)
 {
     has_failed = false;
     t_until_failure = whose == Of::this_thread ? nth : 0;
@@ -92,6 +111,11 @@ gnomon::test::FailingAllocation::~FailingAllocation()
 bool gnomon::test::FailingAllocation::failed()
 {
     return has_failed;
+}
+
+std::uint64_t gnomon::test::FailingAllocation::asked() const
+{
+    return nth_ - (whose_ == Of::this_thread ? t_until_failure : until_failure_of_all.load());
 }
 
 void* operator new(std::size_t size)
