@@ -77,8 +77,9 @@ def main() -> int:
             show(f"{megabytes} MB", [run(asked.program, command, folder, limit) for command in COMMANDS.values()])
         # The limit of threads is not held against root.
         user = pwd.getpwnam("nobody") if os.getuid() == 0 else None
-        limit = (resource.RLIMIT_NPROC, 1)
-        show("-u 1", [run(asked.program, command, folder, limit, user) for command in COMMANDS.values()])
+        for threads in range(1, 7):
+            limit = (resource.RLIMIT_NPROC, threads)
+            show(f"-u {threads}", [run(asked.program, command, folder, limit, user) for command in COMMANDS.values()])
     print(f"{runs} runs, {faults} faults")
     return 1 if faults else 0
 

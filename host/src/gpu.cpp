@@ -4,6 +4,7 @@
 #include "abandoned.h"
 #include "check.h"
 #include "pipeline_cache.h"
+#include "threads.h"
 
 #include <gnomon/error.h>
 
@@ -241,12 +242,16 @@ void Gpu::Impl::makeDevice()
     info.pNext = &vulkan::requiredFeatures({.layered = view.layered});
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
-    check(vkCreateDevice(view.physical_device, &info, nullptr, &view.device), "opening the Vulkan device");
+    const char* const opening = "opening the Vulkan device";
+    vkGetPhysicalDeviceProperties(view.physical_device, &properties);
+    if (isSoftware(properties)) {
+        requireThreads(threadsOfSoftwareDriver(), opening);
+    }
+    check(vkCreateDevice(view.physical_device, &info, nullptr, &view.device), opening);
     vkGetDeviceQueue(view.device, family, 0, &queue);
     VkPhysicalDeviceDriverProperties driver_properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver_properties, {}};
     vkGetPhysicalDeviceProperties2(view.physical_device, &all);
-    properties = all.properties;
     driver = std::string(driver_properties.driverName) + " " + driver_properties.driverInfo;
 }
 
