@@ -83,13 +83,14 @@ struct Visibility {
 /// Holds the acceleration structure of a scene at one moment. Opaque and alpha-masked surfaces are seen and cast
 /// (masked ones where the texture's alpha, times factor and vertex colour, reaches the cutoff); blended ones do
 /// neither. Objects that do not cast are seen only. Single-sided triangles are seen from their front but cast from both
-/// sides. Objects whose transform is not finite take no part; flattened ones do.
+/// sides. Objects whose transform is not finite take no part; flattened ones do. Where memory runs out, all of this
+/// throws Error of the kind out_of_memory, or std::bad_alloc.
 class Tracer {
 public:
     /// `scene` and `state` must outlive the tracer and stay as they are. Builds on the calling thread, which takes
     /// about a second for a million triangles; of `options` only `progress` and `cancel` count. Of a tracer whose
-    /// building was cancelled, see() and trace() give nothing. Throws Error when memory runs out, when the scene is
-    /// beyond the limits of gnomon/world_range.h, and what options.progress throws.
+    /// building was cancelled, see() and trace() give nothing. Throws Error when the scene is beyond the limits of
+    /// gnomon/world_range.h, and what options.progress throws.
     Tracer(const scene::Scene& scene, const scene::State& state, const Options& options = {});
     ~Tracer();
     Tracer(const Tracer&) = delete;
