@@ -3,6 +3,7 @@
 
 #include "light_strip.h"
 
+#include <gnomon/error.h>
 #include <gnomon/pack/shading_buffers.h>
 #include <gnomon/plan_views.h>
 
@@ -234,6 +235,10 @@ void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDr
 {
     fillLights(frame, plan, lights);
     for (const MaskDraw& draw : draws) {
+        if (draw.first_light + std::size_t{shared::kLightsPerLayer} > lights.size()) {
+            throw Error("describe lights to the mask pass", "there is no room for those of all strips",
+                        "give room for maskLightCount() lights");
+        }
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             const LightPlan& light = plan.lights[i];
             if (light.mask_layer == draw.layer && (draw.channels >> light.mask_channel & 1U) != 0) {

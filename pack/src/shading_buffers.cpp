@@ -95,7 +95,7 @@ void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight
 
 void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views)
 {
-    if (views.size() < plan.views.size() || maps.size() < plan.options->size()) {
+    if (plan.options == nullptr || views.size() < plan.views.size() || maps.size() < plan.options->size()) {
         throw Error("describe views to shaders", "there is no room for the plan's views, or too few maps are given",
                     "give room for plan.views.size(), and one map for each of plan.options");
     }
@@ -122,6 +122,13 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
 void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, glm::uvec2 screen_px,
                    const MapImage& maps, shared::GpuConstants& out)
 {
+    if (plan.options == nullptr || index >= plan.options->size()) {
+        throw Error("describe a frame to shaders", "the plan has no options of that index",
+                    "give an index into plan.options");
+    }
+    if (screen_px.x == 0 || screen_px.y == 0 || maps.size_px.x == 0 || maps.size_px.y == 0) {
+        throw Error("describe a frame to shaders", "the picture or the maps have no pixels", "give their sizes");
+    }
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
     const glm::dmat4 clip_from_eye = camera.clip_from_world * world_from_eye;

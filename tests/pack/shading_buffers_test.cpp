@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan_by_hand.h"
 
+#include <gnomon/error.h>
+#include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/shading_buffers.h>
 
 #include <glm/geometric.hpp>
@@ -107,6 +109,29 @@ TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
     light.steps.read = SunPosition::later;
     pack::fillLights(by_hand.frame, by_hand.plan, lights);
     EXPECT_EQ(lights[0].views, glm::uvec4(1, 1, 0, 0));
+}
+
+TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
+{
+    PlanByHand by_hand({ShadowOptions{}});
+    by_hand.add(0, 2);
+    const Frame& frame = by_hand.frame;
+    const Plan& plan = by_hand.plan;
+    const pack::MapImage image{{256, 256}, 1};
+    shared::GpuConstants constants{};
+    EXPECT_THROW(pack::fillConstants(frame, plan, 1, {320, 200}, image, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 0}, image, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 200}, {{0, 256}, 1}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, Plan(), 0, {320, 200}, image, constants), Error);
+    std::vector<shared::GpuView> views(1);
+    EXPECT_THROW(pack::fillViews(frame, plan, {&image, 1}, views), Error);
+    EXPECT_THROW(pack::fillViews(frame, plan, {}, std::span(views)), Error);
+    std::vector<shared::GpuLight> lights;
+    EXPECT_THROW(pack::fillLights(frame, plan, lights), Error);
+    lights.resize(shared::kLightsPerLayer);
+    pack::MaskDraw draw;
+    draw.first_light = 1;
+    EXPECT_THROW(pack::fillMaskLights(frame, plan, {&draw, 1}, lights), Error);
 }
 
 } // namespace

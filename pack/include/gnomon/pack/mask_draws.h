@@ -41,7 +41,8 @@ struct MaskDraw {
 void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out);
 /// How many places fillMaskLights() needs at most for a plan like this one, however its suns stand.
 [[nodiscard]] std::uint32_t maskLightCount(const Plan& plan);
-/// As fillLights(), and behind the frame's lights what strips read that do not see all of a light.
+/// As fillLights(), and behind the frame's lights what strips read that do not see all of a light. Throws Error where
+/// there is no room for that.
 void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
                     std::span<shared::GpuLight> lights);
 

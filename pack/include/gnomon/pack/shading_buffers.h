@@ -21,7 +21,8 @@ struct MapImage {
     std::uint32_t levels = 1;
 };
 
-/// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture.
+/// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture. Throws Error where the plan
+/// has no such options, or a size is 0.
 void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, glm::uvec2 screen_px,
                    const MapImage& maps, shared::GpuConstants& out);
 /// Light i of the frame goes to lights[i]; what is beyond the frame's lights gets no views. Lights without a map have
