@@ -68,18 +68,19 @@ def main() -> int:
         faults += sum(outcome.startswith(FAULT) for outcome in outcomes)
         runs += len(outcomes)
 
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        folder.chmod(0o777)
-        print(f"{'limit':>10}  " + "  ".join(f"{command:<18}" for command in COMMANDS))
-        for megabytes in range(asked.first, asked.to + 1, asked.step):
-            limit = (resource.RLIMIT_AS, megabytes * 1024 * 1024)
-            show(f"{megabytes} MB", [run(asked.program, command, folder, limit) for command in COMMANDS.values()])
-        # The limit of threads is not held against root.
-        user = pwd.getpwnam("nobody") if os.getuid() == 0 else None
-        for threads in range(1, 7):
-            limit = (resource.RLIMIT_NPROC, threads)
-            show(f"-u {threads}", [run(asked.program, command, folder, limit, user) for command in COMMANDS.values()])
+    def rows(limits: list, user=None):
+        """In a folder of their own: what one user wrote there, another may not replace."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            folder.chmod(0o777)
+            for what, limit in limits:
+                show(what, [run(asked.program, command, folder, limit, user) for command in COMMANDS.values()])
+
+    print(f"{'limit':>10}  " + "  ".join(f"{command:<18}" for command in COMMANDS))
+    rows([(f"{size} MB", (resource.RLIMIT_AS, size * 1024 * 1024)) for size in range(asked.first, asked.to + 1, asked.step)])
+    # The limit of threads is not held against root.
+    user = pwd.getpwnam("nobody") if os.getuid() == 0 else None
+    rows([(f"-u {threads}", (resource.RLIMIT_NPROC, threads)) for threads in range(1, 7)], user)
     print(f"{runs} runs, {faults} faults")
     return 1 if faults else 0
 
