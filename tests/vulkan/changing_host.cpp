@@ -77,9 +77,12 @@ void ChangingHost::makeScene()
 // One of the boxes, and the suns.
 void ChangingHost::move(const FrameSetup& setup)
 {
-    scene_.boxes.back().centre.x += frames_ % 2 == 0 ? 0.3 : -0.3;
-    objects_.update(objects_.idAt(static_cast<std::uint32_t>(scene_.boxes.size())), boundsOf(scene_.boxes.back()));
     lights_.clear();
+    lights_.reserve(setup.lights); // where memory runs out, nothing has moved yet
+    Box moved = scene_.boxes.back();
+    moved.centre.x += frames_ % 2 == 0 ? 0.3 : -0.3;
+    objects_.update(objects_.idAt(static_cast<std::uint32_t>(scene_.boxes.size())), boundsOf(moved));
+    scene_.boxes.back() = moved;
     for (std::uint32_t i = 0; i < setup.lights; ++i) {
         const double angle = 0.7 * i + 0.002 * frames_;
         const bool spot = i == 0 ? first_light == LightType::spot : i % 3 == 2;
