@@ -238,13 +238,19 @@ private:
 } // namespace detail
 
 /// Reads UTF-8 JSON as nlohmann::json or ordered_json. Refuses, through the owner, byte order marks, invalid UTF-8,
-/// duplicate keys, numbers beyond double and nesting deeper than kMaxJsonDepth. Never recurses; takes time and memory
-/// in proportion to the text.
+/// duplicate keys, numbers beyond double and nesting deeper than kMaxJsonDepth. NUL bytes and white space at the end
+/// are padding. Never recurses; takes time and memory in proportion to the text.
 template <typename Json>
 [[nodiscard]] JsonTree<Json> readJson(std::string_view text, JsonOwner& owner)
 {
     if (text.starts_with("\xEF\xBB\xBF")) {
         owner.fail("", "invalid JSON (byte 0)", "a byte order mark", "save the file as UTF-8 without one");
+    }
+    // The parser takes a NUL for the end of the text, whatever follows.
+    constexpr std::string_view kPadding("\0 \t\r\n", 5);
+    const std::size_t nul = text.find('\0');
+    if (nul != std::string_view::npos && text.find_first_not_of(kPadding, nul) != std::string_view::npos) {
+        owner.fail("", "invalid JSON (byte " + std::to_string(nul + 1) + ")", "a NUL byte", {});
     }
     detail::TreeBuilder<Json> builder(owner);
     Json::sax_parse(text.begin(), text.end(), &builder);

@@ -58,6 +58,20 @@ TEST(GltfHostile, EveryFlippedByteEndsInASceneOrAnError)
     }
 }
 
+/// A NUL ends the text for the parser, so what follows one would not be read.
+TEST(GltfHostile, BehindANulThereMayBePaddingAlone)
+{
+    FileBuilder file;
+    file.addMesh({{"attributes", {{"POSITION", file.addTriangle()}}}});
+    const std::string nuls(3, '\0');
+    EXPECT_EQ(readText(file.text() + nuls).meshes.size(), 1U);
+    EXPECT_EQ(readText(glb(file.text() + nuls, "")).meshes.size(), 1U);
+    const std::string message = errorOfText(file.text() + nuls + "{}");
+    EXPECT_TRUE(contains(message, "a NUL byte")) << message;
+    EXPECT_TRUE(contains(message, "(byte " + std::to_string(file.text().size() + 1) + ")")) << message;
+    EXPECT_TRUE(contains(errorOfText(nuls), "invalid JSON"));
+}
+
 TEST(GltfHostile, HugeCountsAreRefusedBeforeAnythingIsAllocated)
 {
     FileBuilder file;
