@@ -4,8 +4,8 @@
 
 usage: starve.py PROGRAM [--from MB] [--to MB] [--step MB]
 
-Memory is what `ulimit -v` bounds, threads what `ulimit -u` does. A run may succeed, or fail with status 1 and one line of
-its own. Anything else (a signal, another status, no line) is a fault, and then the exit status is 1.
+Memory is what `ulimit -v` bounds, threads what `ulimit -u` does. A run may succeed, or fail with status 1 and a last line of
+its own. Anything else (a signal, another status, no such line) is a fault, and then the exit status is 1.
 """
 
 import argparse
@@ -43,10 +43,11 @@ def run(program: Path, command: list, folder: Path, limit, user=None) -> str:
                              timeout=120, check=False)
     except subprocess.TimeoutExpired:
         return f"{FAULT} (never ends)"
-    lines = [line for line in ran.stderr.decode(errors="replace").splitlines() if line.startswith("gnomon: ")]
+    lines = ran.stderr.decode(errors="replace").splitlines()
     if ran.returncode == 0:
         return "ok"
-    if ran.returncode == 1 and lines:
+    # The last line is ours and no notice; what a driver says of itself comes before.
+    if ran.returncode == 1 and lines and lines[-1].startswith("gnomon: ") and "no GPU found" not in lines[-1]:
         return "line"
     how = f"signal {-ran.returncode}" if ran.returncode < 0 else f"status {ran.returncode}"
     return f"{FAULT} ({how})"
