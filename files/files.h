@@ -42,8 +42,13 @@ void requireWritable(const std::filesystem::path& file);
 
 /// Writes to a temporary name in the same folder, flushes, then renames: either the whole file is there or none of it,
 /// whoever else writes it at the same time. What a killed process left of an earlier try is removed. Devices and pipes
-/// are written to in place. Throws Error.
+/// are written to in place, and a pipe's reader is waited for. Throws Error, and what callWhileWaiting()'s function
+/// throws.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
+
+/// For the whole process: called some times a second, in the thread that waits, while writeFile() waits for a pipe's
+/// reader. What it throws ends the writing. Null, as in the beginning: the wait has no end but the reader.
+void callWhileWaiting(void (*look)());
 
 /// Whether the name ends so (".png"), in capitals or not.
 [[nodiscard]] bool hasExtension(const std::filesystem::path& file, std::string_view extension);

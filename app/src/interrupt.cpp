@@ -29,7 +29,7 @@ extern "C" void onSignal(int number)
 
 void watchForInterrupts()
 {
-    for (const int number : {SIGINT, SIGTERM}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         ::sigaction(number, nullptr, &before);
         if (before.sa_handler == SIG_IGN) {

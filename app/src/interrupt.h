@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ending a run from outside. SIGINT and SIGTERM only set a flag; long work looks at it between its steps (Progress does
-// so by itself), so that files and devices are given back in order. A second signal ends the program at once.
+// Ending a run from outside. SIGINT, SIGTERM and SIGHUP only set a flag; long work looks at it between its steps
+// (Progress does so by itself), so that files and devices are given back in order. A second signal ends the program at
+// once.
 #pragma once
 
 #include <atomic>
@@ -18,7 +19,7 @@ public:
 void watchForInterrupts();
 /// True once a signal came. For work that polls by itself.
 [[nodiscard]] const std::atomic<bool>& interruptFlag();
-/// 128 + the first signal's number: 130 for SIGINT, 143 for SIGTERM. Precondition: one came.
+/// 128 + the first signal's number: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP. Precondition: one came.
 [[nodiscard]] int interruptStatus();
 /// Throws Interrupted once a signal came.
 void requireNotInterrupted();

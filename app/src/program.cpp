@@ -5,6 +5,8 @@
 #include "streams.h"
 #include "subcommands.h"
 
+#include "files/files.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -65,6 +67,7 @@ int runProgram(std::span<const std::string> arguments)
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     watchForInterrupts();
+    callWhileWaiting(requireNotInterrupted);
     constexpr int kFailure = 1;
     constexpr int kWrongUsage = 2;
     try {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "streams.h"
 
+#include "interrupt.h"
+
 #include <gnomon/error.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <climits>
 #include <fcntl.h>
 #include <poll.h>
 #include <system_error>
@@ -13,19 +17,38 @@
 namespace gnomon::app {
 namespace {
 
-/// Writes everything; 0, or the errno of the call that failed.
+/// Waits until a pipe or terminal takes bytes. False when the run is to end and it still takes none.
+bool waitFor(int descriptor) noexcept
+{
+    constexpr int kLookEvery_ms = 50;
+    for (;;) {
+        pollfd ready{descriptor, POLLOUT, 0};
+        const int found = ::poll(&ready, 1, kLookEvery_ms);
+        if (found > 0 || (found < 0 && errno != EINTR)) {
+            return true;
+        }
+        if (interruptFlag()) {
+            return false;
+        }
+    }
+}
+
+/// Writes everything; 0, the errno of the call that failed, or EINTR when the run is to end first.
 int writeTo(int descriptor, std::string_view bytes) noexcept
 {
     while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count < 0 && errno == EAGAIN) { // a terminal that somebody else has set not to block
-            pollfd ready{descriptor, POLLOUT, 0};
-            ::poll(&ready, 1, -1);
-        } else if (count < 0 && errno != EINTR) {
+        if (!waitFor(descriptor)) {
+            return EINTR;
+        }
+        // A pipe that takes bytes takes so many without blocking.
+        const ssize_t count = ::write(descriptor, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
+        if (count < 0 && errno != EINTR && errno != EAGAIN) { // EAGAIN: somebody else has set it not to block
             return errno;
-        } else if (count == 0) {
+        }
+        if (count == 0) {
             return EIO;
-        } else if (count > 0) {
+        }
+        if (count > 0) {
             bytes.remove_prefix(static_cast<std::size_t>(count));
         }
     }
@@ -48,6 +71,9 @@ void holdStandardStreams() noexcept
 void writeStdout(std::string_view text)
 {
     if (const int error = writeTo(STDOUT_FILENO, text); error != 0) {
+        if (error == EINTR) {
+            throw Interrupted();
+        }
         throw Error("writing to standard output", std::generic_category().message(error));
     }
 }

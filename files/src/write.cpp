@@ -5,12 +5,16 @@
 
 #include <gnomon/error.h>
 
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace gnomon {
@@ -38,12 +42,34 @@ private:
     sigset_t before_{};
 };
 
+std::atomic<void (*)()> while_waiting{nullptr};
+constexpr int kLookEvery_ms = 50;
+
+void lookUp()
+{
+    if (auto* const look = while_waiting.load()) {
+        look();
+    }
+}
+
+/// Until a descriptor that does not block can be written to.
+void waitForReader(int descriptor)
+{
+    for (pollfd ready{descriptor, POLLOUT, 0}; ::poll(&ready, 1, kLookEvery_ms) <= 0;) {
+        lookUp();
+    }
+}
+
 /// Writes everything; 0, or the errno of the call that failed.
 int writeAll(int descriptor, std::string_view bytes)
 {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count < 0 && errno == EAGAIN) {
+            waitForReader(descriptor);
             continue;
         }
         if (count <= 0) {
@@ -69,20 +95,48 @@ int closeAfter(int descriptor, int error)
     return ::close(descriptor) != 0 && error == 0 ? errno : error;
 }
 
+/// Never blocks, so that waiting can be ended. A pipe that nobody reads says ENXIO; so do others, for good.
+int openInPlace(const fs::path& file)
+{
+    for (;;) {
+        const int descriptor = ::open(file.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+        const int error = descriptor < 0 ? errno : 0;
+        std::error_code ignored;
+        if (error != ENXIO || !fs::is_fifo(file, ignored)) {
+            errno = error;
+            return descriptor;
+        }
+        lookUp();
+        std::this_thread::sleep_for(std::chrono::milliseconds(kLookEvery_ms));
+    }
+}
+
 /// A device or pipe has no contents to replace, and renaming over it would remove the device itself.
 void writeInPlace(const fs::path& file, std::string_view bytes)
 {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    const int descriptor = openInPlace(file);
     if (descriptor < 0) {
         failWriting(file, errno);
     }
-    const int error = closeAfter(descriptor, writeAndFlush(descriptor, bytes));
+    int error = 0;
+    try {
+        error = writeAndFlush(descriptor, bytes);
+    } catch (...) {
+        ::close(descriptor);
+        throw;
+    }
+    error = closeAfter(descriptor, error);
     if (error != 0) {
         failWriting(file, error);
     }
 }
 
 } // namespace
+
+void callWhileWaiting(void (*look)())
+{
+    while_waiting = look;
+}
 
 void failWriting(const fs::path& file, int error)
 {
@@ -138,13 +192,13 @@ void writeFile(const fs::path& named, std::string_view bytes)
 {
     requireWritable(named);
     std::error_code ignored;
-    // A symbolic link stays one: what it points to is replaced.
-    const fs::path file = fs::is_symlink(named, ignored) ? fs::weakly_canonical(named, ignored) : named;
-    const fs::file_status status = fs::status(file, ignored);
+    const fs::file_status status = fs::status(named, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        writeInPlace(file, bytes);
+        writeInPlace(named, bytes); // by this name: /dev/stdout leads to a pipe that has no other
         return;
     }
+    // A symbolic link stays one: what it points to is replaced.
+    const fs::path file = fs::is_symlink(named, ignored) ? fs::weakly_canonical(named, ignored) : named;
     const SignalsHeld signals;
     Temporary temporary(file, Temporary::Kind::file);
     int error = writeAndFlush(temporary.descriptor(), bytes);

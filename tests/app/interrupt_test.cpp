@@ -12,6 +12,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <sys/stat.h>
 
 namespace gnomon {
 namespace {
@@ -68,6 +69,23 @@ TEST(Interrupt, EndsFramesAndKeepsTheWholeOnes)
     EXPECT_LT(count, 100000U);
 }
 
+/// Whoever reads what the program writes has stopped reading, or never starts.
+TEST(Interrupt, EndsAWaitForAReader)
+{
+    const test::Folder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    for (const char* json : {"--json=-", "--json=pipe"}) {
+        test::How how{.folder = folder.path(), .out = test::Stream::unread};
+        how.signal = SIGTERM;
+        how.signal_when = folder / "a.svg"; // which comes before the JSON, and that is more than a pipe holds
+        const test::Ran ran = test::gnomon({"plan", "rts", "--draw", "a.svg", json}, how);
+        EXPECT_EQ(ran.status, 143) << json;
+        EXPECT_EQ(ran.err, "gnomon: interrupted\n") << json;
+        EXPECT_TRUE(std::filesystem::remove(folder / "a.svg"));
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
+}
+
 /// In a process of its own, for signals stay set.
 void endBySignals(std::initializer_list<int> numbers)
 {
@@ -83,6 +101,7 @@ TEST(InterruptDeathTest, StatusIsOfTheFirstSignalAndTheSecondEndsAtOnce)
     EXPECT_EXIT(endBySignals({}), testing::ExitedWithCode(0), "");
     EXPECT_EXIT(endBySignals({SIGINT}), testing::ExitedWithCode(130), "");
     EXPECT_EXIT(endBySignals({SIGTERM}), testing::ExitedWithCode(143), "");
+    EXPECT_EXIT(endBySignals({SIGHUP}), testing::ExitedWithCode(129), "");
     EXPECT_EXIT(endBySignals({SIGTERM, SIGINT, SIGTERM}), testing::ExitedWithCode(130), "");
     EXPECT_EXIT(endBySignals({SIGINT, SIGTERM, SIGINT}), testing::ExitedWithCode(143), "");
 }

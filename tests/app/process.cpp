@@ -79,6 +79,13 @@ void send(int descriptor, Stream stream, int caught)
         ::close(pipe[0]);
         ::dup2(pipe[1], descriptor);
         break;
+    case Stream::unread:
+        if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+            ::_exit(126);
+        }
+        ::fcntl(pipe[0], F_SETFD, 0); // the program has it open, and knows nothing of it
+        ::dup2(pipe[1], descriptor);
+        break;
     }
 }
 
@@ -270,7 +277,7 @@ public:
     Signals& operator=(const Signals&) = delete;
 
 private:
-    static constexpr std::array kNumbers{SIGINT, SIGTERM, SIGPIPE, SIGXFSZ};
+    static constexpr std::array kNumbers{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
     std::array<struct sigaction, kNumbers.size()> before_{};
 };
 

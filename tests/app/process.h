@@ -25,8 +25,9 @@ struct Ran {
 enum class Stream : std::uint8_t {
     caught, // to Ran
     closed,
-    full,  // a device that is
-    broken // a pipe that nobody reads
+    full,   // a device that is
+    broken, // a pipe that nobody has open for reading
+    unread  // a pipe that is not emptied
 };
 
 struct How {
