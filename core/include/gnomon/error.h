@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one exception type: a failure of the outside world (unreadable file, no driver, out of memory, lost device).
-// Expected outcomes are values (plan.h: Outcome); programming errors are assertions.
+// The one exception type of our own: a failure of the outside world (unreadable file, no driver, out of memory, lost
+// device) or a wrong call that the called header lists. Expected outcomes are values (plan.h: Outcome).
 #pragma once
 
 #include <cstdint>
