@@ -4,8 +4,8 @@
 
 usage: starve.py PROGRAM [--from MB] [--to MB] [--step MB]
 
-Memory is what `ulimit -v` bounds, threads what `ulimit -u` does. A run may succeed, or fail with status 1 and a last line of
-its own. Anything else (a signal, another status, no such line) is a fault, and then the exit status is 1.
+Memory is what `ulimit -v` bounds, or `-d` in two rows; threads what `ulimit -u` does. A run may succeed, or fail with status 1
+and a last line of its own. Anything else (a signal, another status, no such line) is a fault, and then the exit status is 1.
 """
 
 import argparse
@@ -79,6 +79,7 @@ def main() -> int:
 
     print(f"{'limit':>10}  " + "  ".join(f"{command:<18}" for command in COMMANDS))
     rows([(f"{size} MB", (resource.RLIMIT_AS, size * 1024 * 1024)) for size in range(asked.first, asked.to + 1, asked.step)])
+    rows([(f"-d {size} MB", (resource.RLIMIT_DATA, size * 1024 * 1024)) for size in (20, 60)])
     # The limit of threads is not held against root.
     user = pwd.getpwnam("nobody") if os.getuid() == 0 else None
     rows([(f"-u {threads}", (resource.RLIMIT_NPROC, threads)) for threads in range(1, 7)], user)

@@ -44,9 +44,15 @@ constexpr int kFailed = 1;
 
 extern "C" void onFall(int)
 {
-    end("a driver or library fell, most likely for want of memory, which is limited; raise the limit (ulimit -v), or "
-        "take a "
-        "smaller --size or --map-size");
+    end("a driver or library fell, most likely for want of memory, which is limited; raise the limit (ulimit -v or "
+        "-d), "
+        "or take a smaller --size or --map-size");
+}
+
+bool isLimited(decltype(RLIMIT_AS) what) noexcept
+{
+    rlimit limit{};
+    return ::getrlimit(what, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
 } // namespace
@@ -54,8 +60,7 @@ extern "C" void onFall(int)
 void haveLastWords() noexcept
 {
     std::set_terminate(onTerminate);
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    if (!isLimited(RLIMIT_AS) && !isLimited(RLIMIT_DATA)) {
         return;
     }
     struct sigaction action {};

@@ -5,8 +5,8 @@
 namespace gnomon::app {
 
 /// An exception that leaves a thread of a driver or library, mostly for want of memory, ends the program with a line.
-/// So does a signal (SIGSEGV, SIGBUS, SIGABRT), where the address space is limited (`ulimit -v`): drivers on the CPU do
-/// not check all that they allocate. Without a limit signals stay what they are, for debuggers. For main() alone.
+/// So does a signal (SIGSEGV, SIGBUS, SIGABRT), where memory is limited (`ulimit -v`, `-d`): drivers on the CPU do not
+/// check all that they allocate. Without a limit signals stay what they are, for debuggers. For main() alone.
 void haveLastWords() noexcept;
 
 } // namespace gnomon::app
