@@ -351,7 +351,7 @@ TEST(OutsideWorld, NoVulkanDriver)
     const test::How how{
         .folder = folder.path(),
         .environment = {{"VK_ICD_FILENAMES", "/nonexistent.json"}, {"VK_DRIVER_FILES", "/nonexistent.json"}}};
-    expectOneLine(test::gnomon({"render", "planes"}, how), 1, "");
+    expectOneLine(test::gnomon({"render", "planes"}, how), 1, "no Vulkan driver is installed");
     EXPECT_TRUE(folder.names().empty());
 }
 
