@@ -44,9 +44,8 @@ constexpr int kFailed = 1;
 
 extern "C" void onFall(int)
 {
-    end("a driver or library fell, most likely for want of memory, which is limited; raise the limit (ulimit -v or "
-        "-d), "
-        "or take a smaller --size or --map-size");
+    end("a driver or library fell, most likely for want of memory, which is limited; "
+        "raise the limit (ulimit -v or -d), or take a smaller --size or --map-size");
 }
 
 bool isLimited(decltype(RLIMIT_AS) what) noexcept
