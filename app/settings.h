@@ -84,6 +84,7 @@ struct Settings {
     // truth
     std::optional<truth::Kind> truth; // render: nothing unless given; compare: area
     std::uint32_t samples = 0;
+    truth::PixelTruth truth_pixels = truth::PixelTruth::centre;
     bool no_cache = false;
     // time
     double time_s = 0.0;
@@ -154,6 +155,7 @@ struct Setting {
     std::string_view doc;                                 // one line
     std::uint32_t subcommands = kFrames;                  // which have it
     bool own_option = true;                               // false: only --set, presets and techniques
+    bool names_output = false;                            // a file or folder that is written: for command lines alone
     bool repeatable = false;                              // each use adds to the ones before
     std::string_view separator = " ";                     // between the uses of a repeatable one in `values`
     bool (*used)(const Settings&) = nullptr;              // null: always has an effect

@@ -58,6 +58,14 @@ def check(folder: Path):
     require(len(list((folder / "frames").iterdir())) == 4, "frames are missing")
 
 
+def check_cache(program: Path, folder: Path):
+    """What is damaged there would be traced again, in silence."""
+    ran = subprocess.run([program, *COMPARE[:-3], "--json=-"], cwd=folder, capture_output=True, check=False, timeout=300,
+                         env={**os.environ, "XDG_CACHE_HOME": str(folder / "cache")})
+    require(ran.returncode == 0, f"after all: status {ran.returncode}")
+    require(json.loads(ran.stdout)["truth"]["from_cache"] is True, "the truth in the cache is not whole")
+
+
 def start(program: Path, command: list, folder: Path) -> subprocess.Popen:
     environment = {**os.environ, "XDG_CACHE_HOME": str(folder / "cache")}
     return subprocess.Popen([program, *command], cwd=folder, env=environment, stdout=subprocess.DEVNULL,
@@ -96,6 +104,7 @@ def main() -> int:
             try:
                 round_of(asked.program, Path(name), asked.processes, asked.kill)
                 check(Path(name))
+                check_cache(asked.program, Path(name))
             except AssertionError as fault:
                 faults += 1
                 print(f"round {number}: {fault}", file=sys.stderr)

@@ -21,6 +21,10 @@ namespace gnomon::truth {
 /// `hard`: one ray to the light's centre. `area`: many to the disc that the light shows to the surface point.
 enum class Kind : std::uint8_t { hard, area };
 
+/// What a pixel's visibility is of. `centre`: the surface point in its middle, as a renderer has it that shades there.
+/// `area`: the mean over all of the pixel, as one that takes many points in it comes to.
+enum class PixelTruth : std::uint8_t { centre, area };
+
 /// A light as the rays see it.
 struct Light {
     scene::LightType type = scene::LightType::directional;
@@ -47,12 +51,16 @@ struct View {
 /// tells the standard error of the pixel's estimate.
 inline constexpr std::uint32_t kSampleSets = 4;
 inline constexpr std::uint32_t kMaxSamples = 65536;
+/// Points in a pixel for PixelTruth::area, a stratified share of them in each set. They share Options::samples, but
+/// have kSampleSets rays each at least.
+inline constexpr std::uint32_t kPixelPoints = 64;
 
 struct Options {
     Kind kind = Kind::area;
     /// Rays per pixel for area: kSampleSets .. kMaxSamples and a multiple of kSampleSets, else trace() throws Error.
     /// Plays no part for hard.
     std::uint32_t samples = 256;
+    PixelTruth pixels = PixelTruth::centre;
     std::uint64_t seed = 1;
     std::uint32_t threads = 0; // 0: all cores; the result does not depend on it
     /// Called now and then from the calling thread with the share done, [0, 1]. May be empty.
@@ -60,6 +68,9 @@ struct Options {
     /// Becomes true from anywhere (a signal handler, say) to give up. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
+
+/// Shadow rays that each pixel gets by these options, where its centre or all of its points count.
+[[nodiscard]] std::uint32_t raysPerPixel(const Options& options);
 
 /// What the camera sees, by a ray through each pixel's centre. Images of the view's size.
 struct Surfaces {
@@ -102,6 +113,9 @@ public:
     /// the coordinates. A surface that faces away from the light's centre has visibility 0; so has a ray of area truth
     /// that starts below the surface's own horizon. A spot's cone and range play no part: that is shading. Nothing when
     /// cancelled. The same input gives the same bits, whatever the number of threads.
+    /// With PixelTruth::area all this holds of each of a pixel's points. Those at background or on an object that does
+    /// not receive do not count, and first_blocker_m is the least of them all. A pixel whose centre is such a point
+    /// is 1.
     [[nodiscard]] std::optional<Visibility> trace(const Surfaces& surfaces, const View& view, const Light& light,
                                                   const Options& options) const;
 

@@ -151,7 +151,8 @@ Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_er
     const bool timed = !truth.from_cache && truth.seconds > 0.0;
     return {{"kind", nameOf(tracedKind(truth))},
             {"requested", nameOf(truth.kind)},
-            {"samples", tracedKind(truth) == truth::Kind::area ? truth.samples : 1},
+            {"pixels", truth.pixels == truth::PixelTruth::area ? "area" : "centre"},
+            {"samples", truth.samples},
             {"standard_error", numberJson(standard_error)},
             {"seed", truth.seed},
             {"rays", truth.rays},

@@ -7,6 +7,19 @@
 
 namespace gnomon::app {
 
+TruthFacts truthFacts(const Settings& settings, const Light& light)
+{
+    truth::Options options = truthOptions(settings);
+    TruthFacts facts;
+    facts.kind = options.kind;
+    facts.pixels = options.pixels;
+    facts.seed = options.seed;
+    facts.point_like = isPointLike(light);
+    options.kind = facts.point_like ? truth::Kind::hard : options.kind;
+    facts.samples = truth::raysPerPixel(options);
+    return facts;
+}
+
 Judged judge(const Shot& shot, const Settings& settings)
 {
     const std::size_t light = lightIndex(shot, settings);
@@ -16,13 +29,10 @@ Judged judge(const Shot& shot, const Settings& settings)
     TruthRun run = tracer.trace(light);
     judged.truth = std::move(run.traced);
     const truth::Visibility& visibility = judged.truth.visibility;
-    judged.facts = {.kind = visibility.kind,
-                    .samples = visibility.kind == truth::Kind::area ? settings.samples : 1,
-                    .seed = settings.seed,
-                    .rays = visibility.rays,
-                    .seconds = visibility.seconds,
-                    .from_cache = run.from_cache,
-                    .point_like = isPointLike(shot.lights[light].caster)};
+    judged.facts = truthFacts(settings, shot.lights[light].caster);
+    judged.facts.rays = visibility.rays;
+    judged.facts.seconds = visibility.seconds;
+    judged.facts.from_cache = run.from_cache;
     return judged;
 }
 

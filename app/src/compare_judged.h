@@ -14,12 +14,16 @@ namespace gnomon::app {
 struct TruthFacts {
     truth::Kind kind = truth::Kind::hard;
     std::uint32_t samples = 1; // rays per pixel
+    truth::PixelTruth pixels = truth::PixelTruth::centre;
     std::uint64_t seed = 0;
     std::uint64_t rays = 0; // all of them, and the seconds that they took when they were traced
     double seconds = 0.0;
     bool from_cache = false;
     bool point_like = false; // the light has no extent, so that area truth is the hard one
 };
+
+/// What the options and the light say of it; rays, seconds and from_cache are left.
+[[nodiscard]] TruthFacts truthFacts(const Settings& settings, const Light& light);
 
 struct Judged {
     lab::Subject subject; // the light is alone in the frame

@@ -105,11 +105,8 @@ private:
         TruthFacts& facts = result_.judged.facts;
         if (is_first) {
             result_.judged.subject = subjectNow();
-            facts = {.kind = visibility.kind,
-                     .samples = visibility.kind == truth::Kind::area ? settings_.samples : 1,
-                     .seed = settings_.seed,
-                     .from_cache = true,
-                     .point_like = isPointLike(shot_.lights[light_].caster)};
+            facts = truthFacts(settings_, shot_.lights[light_].caster);
+            facts.from_cache = true;
         }
         facts.rays += visibility.rays;
         facts.seconds += visibility.seconds;

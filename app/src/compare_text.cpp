@@ -230,11 +230,14 @@ std::string truthText(const Json& result)
     }
     const Json& truth = result.at("truth");
     const auto rays = truth.at("rays").get<std::uint64_t>();
+    const bool over_pixels = truth.value("pixels", "centre") == "area";
     std::string text = "hard, one ray per pixel";
-    if (truth.at("kind") == "area") {
-        text = fmt::format("area, {} rays per pixel, standard error {}", truth.at("samples").dump(),
+    if (truth.at("kind") == "area" || over_pixels) {
+        text = fmt::format("{}, {} rays per pixel{}, standard error {}", truth.at("kind").get<std::string>(),
+                           truth.at("samples").dump(), over_pixels ? " over its area" : "",
                            cell(numberAt(truth, "/standard_error"), 4));
-    } else if (truth.at("requested") == "area") {
+    }
+    if (truth.at("kind") != "area" && truth.at("requested") == "area") {
         text += ", for the light has no area";
     }
     return fmt::format("{}{}; {}", text, result.contains("path") ? ", at every frame" : "",

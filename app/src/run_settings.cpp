@@ -221,6 +221,10 @@ const std::vector<Setting>& rows()
          .apply = [](Settings& s, const Value& v) { s.truth = v.text == "hard" ? truth::Kind::hard : truth::Kind::area; }},
         {.key = "samples", .group = Group::truth, .type = integer, .form = "N", .unit = "rays", .default_text = "256", .min = 4, .max = 65536, .multiple_of = truth::kSampleSets,
          .doc = "per pixel and light, a multiple of 4", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area", .apply = applySamples},
+        {.key = "truth-pixels", .group = Group::truth, .type = choice, .form = "PART", .default_text = "centre",
+         .choices = [] { return std::vector<std::string_view>{"centre", "area"}; },
+         .doc = "at each pixel's centre, or the mean over its area", .subcommands = kRender | kCompare, .used = hasTruth, .used_when = "--truth",
+         .apply = [](Settings& s, const Value& v) { s.truth_pixels = v.text == "area" ? truth::PixelTruth::area : truth::PixelTruth::centre; }},
         {.key = "no-cache", .group = Group::truth, .type = flag, .default_text = "0", .doc = "trace anew; neither read nor write the cache of truths",
          .subcommands = kRender | kCompare, .used = hasTruth, .used_when = "--truth", .apply = [](Settings& s, const Value& v) { s.no_cache = v.flag; }},
 
@@ -250,7 +254,7 @@ const std::vector<Setting>& rows()
          .apply = applyLimit},
 
         {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; gnomon.png), last of --frames; folder for all",
-         .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
+         .subcommands = kRender, .names_output = true, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
@@ -258,7 +262,7 @@ const std::vector<Setting>& rows()
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kPlan | kCompare,
          .used = judgesALight, .used_when = "--mask, --debug or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
-         .subcommands = kPlan, .apply = applyDraw},
+         .subcommands = kPlan, .names_output = true, .apply = applyDraw},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
@@ -268,13 +272,13 @@ const std::vector<Setting>& rows()
          .doc = "frames of each technique before them", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.warmup = static_cast<std::uint32_t>(v.integer); }},
         {.key = "report", .group = Group::result, .type = text, .form = "DIR", .doc = "folder for a page with pictures and the table",
-         .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+         .subcommands = kCompare, .names_output = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
         {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
         {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
          .subcommands = kCompare, .apply = applySweep},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics, .names_output = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;

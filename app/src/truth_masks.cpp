@@ -97,8 +97,10 @@ std::string TruthMasks::summary() const
     if (!light_name_.empty()) {
         text += " of light " + light_name_;
     }
-    if (area) {
-        text += fmt::format(", {} rays per pixel, standard error {:.2g}", settings_.samples,
+    const bool over_pixels = settings_.truth_pixels == truth::PixelTruth::area;
+    if (area || over_pixels) {
+        text += fmt::format(", {} rays per pixel{}, standard error {:.2g}",
+                            truth::raysPerPixel(truthOptions(settings_)), over_pixels ? " over its area" : "",
                             pixels_ == 0 ? 0.0 : std::sqrt(squared_error_ / static_cast<double>(pixels_)));
     }
     const auto rays = static_cast<double>(rays_);

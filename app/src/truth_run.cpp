@@ -109,10 +109,7 @@ TruthRun TruthTracer::trace(std::size_t light)
     const lab::Subject subject{&shot.scene, &shot.state, shot.eye, shot.lights, static_cast<std::uint32_t>(light)};
     const truth::View view = lab::truthView(subject, settings.size_px);
     const truth::Light rays_to = lab::truthLight(subject);
-    truth::Options options;
-    options.kind = *settings.truth;
-    options.samples = settings.samples;
-    options.seed = settings.seed;
+    const truth::Options options = truthOptions(settings);
     TruthRun run;
     if (impl_->cache) {
         run.key = truth::keyOf(shot.scene, shot.state, view, rays_to, options);
@@ -122,12 +119,23 @@ TruthRun TruthTracer::trace(std::size_t light)
         }
     }
     if (!run.from_cache) {
-        run.traced = impl_->traceAnew(view, rays_to, std::move(options));
+        run.traced = impl_->traceAnew(view, rays_to, options);
         impl_->keep(run.key, run.traced);
     }
     run.rays = run.traced.visibility.rays;
     run.seconds = run.traced.visibility.seconds;
     return run;
+}
+
+truth::Options truthOptions(const Settings& settings)
+{
+    assert(settings.truth);
+    truth::Options options;
+    options.kind = *settings.truth;
+    options.samples = settings.samples;
+    options.pixels = settings.truth_pixels;
+    options.seed = settings.seed;
+    return options;
 }
 
 bool isPointLike(const Light& light)

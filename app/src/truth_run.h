@@ -42,6 +42,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// By --truth, --samples, --truth-pixels and --seed.
+[[nodiscard]] truth::Options truthOptions(const Settings& settings);
+
 /// Whether the light is so small that area truth is the same as hard.
 [[nodiscard]] bool isPointLike(const Light& light);
 

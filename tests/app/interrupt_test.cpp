@@ -74,13 +74,13 @@ TEST(Interrupt, EndsAWaitForAReader)
 {
     const test::Folder folder;
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    for (const char* json : {"--json=-", "--json=pipe"}) {
+    for (const char* option : {"--json=-", "--json=pipe"}) {
         test::How how{.folder = folder.path(), .out = test::Stream::unread};
         how.signal = SIGTERM;
         how.signal_when = folder / "a.svg"; // which comes before the JSON, and that is more than a pipe holds
-        const test::Ran ran = test::gnomon({"plan", "rts", "--draw", "a.svg", json}, how);
-        EXPECT_EQ(ran.status, 143) << json;
-        EXPECT_EQ(ran.err, "gnomon: interrupted\n") << json;
+        const test::Ran ran = test::gnomon({"plan", "rts", "--draw", "a.svg", option}, how);
+        EXPECT_EQ(ran.status, 143) << option;
+        EXPECT_EQ(ran.err, "gnomon: interrupted\n") << option;
         EXPECT_TRUE(std::filesystem::remove(folder / "a.svg"));
     }
     EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});

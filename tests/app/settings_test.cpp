@@ -104,6 +104,28 @@ TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
     EXPECT_FALSE(settingsOf({"plan", "--preset", (folder / "a.json").string()}).truth.has_value());
 }
 
+// A preset is handed on; what is overwritten here is not for whoever wrote it to say.
+TEST(Settings, OfAPresetNameNothingThatIsWritten)
+{
+    const test::Folder folder;
+    const std::string file = (folder / "a.json").string();
+    const auto settingsBy = [&](const char* subcommand, const char* text) {
+        test::spill(folder / "a.json", text);
+        return settingsOf({subcommand, "--preset", file});
+    };
+    EXPECT_THROW((void)settingsBy("plan", R"({"json": "victim.json"})"), app::UsageError);
+    EXPECT_THROW((void)settingsBy("plan", R"({"draw": "victim.svg"})"), app::UsageError);
+    EXPECT_THROW((void)settingsBy("render", R"({"out": "victim.png"})"), app::UsageError);
+    EXPECT_THROW((void)settingsBy("compare", R"({"report": "victim"})"), app::UsageError);
+    EXPECT_THROW((void)settingsBy("render", R"({"report": "victim"})"), app::UsageError) << "of another subcommand";
+    EXPECT_EQ(settingsBy("plan", R"({"json": "-"})").json, "-") << "stdout is no file";
+    // A result is run again without being overwritten.
+    const app::Settings again = settingsBy("compare", R"({"settings": {"json": "r.json", "report": "r", "seed": 7}})");
+    EXPECT_EQ(again.json, "");
+    EXPECT_EQ(again.report, "");
+    EXPECT_EQ(again.seed, 7U);
+}
+
 TEST(Contestants, AreTheOnesNamed)
 {
     EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 12U);

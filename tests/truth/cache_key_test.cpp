@@ -55,6 +55,7 @@ TEST(CacheKey, EveryIngredientChangesIt)
         [](Asked& a) { a.options.kind = Kind::hard; },
         [](Asked& a) { a.options.samples *= 2; },
         [](Asked& a) { ++a.options.seed; },
+        [](Asked& a) { a.options.pixels = PixelTruth::area; },
     };
     std::set<scene::Hash128> seen{asked.key()};
     for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -94,6 +95,9 @@ TEST(CacheKey, WhatDoesNotMatterDoesNotChangeIt)
     hard_too.options.samples = 64;
     hard_too.options.seed = 9;
     EXPECT_EQ(hard_too.key(), hard.key());
+    // But of a pixel's points there are many.
+    hard.options.pixels = hard_too.options.pixels = PixelTruth::area;
+    EXPECT_NE(hard_too.key(), hard.key());
 }
 
 /// Sets a variable of the environment, or removes it, while it lives.

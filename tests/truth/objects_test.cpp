@@ -83,7 +83,7 @@ TEST_P(Instances, mirrored_and_stretched_cubes_are_seen_and_cast_where_they_stan
     std::uint32_t on_flat = 0;
     for (std::uint32_t y = 0; y < 120; ++y) {
         for (std::uint32_t x = 0; x < 160; ++x) {
-            const auto seen = camera.trace(x, y);
+            const auto seen = camera.trace({x + 0.5, y + 0.5});
             ASSERT_TRUE(seen.has_value());
             const glm::dvec3 p = view.eye_ws + seen->point;
             ASSERT_FALSE(cubeBefore(state, view.eye_ws, view.eye_ws + seen->point * (1.0 - 1e-5), -1e-4));

@@ -40,6 +40,12 @@ std::uint64_t heapBytes()
     return info.uordblks + info.hblkhd;
 }
 
+/// What a sanitizer holds back of what was freed counts as resident.
+std::uint64_t heldBack()
+{
+    return heapBytes() == 0 ? 96U << 20U : 0;
+}
+
 struct Held {
     std::uint64_t device = 0; // bytes of the device's memory
     std::uint64_t heap = 0;
@@ -103,8 +109,8 @@ TEST(Soak, OfFramesOnTheNullDriverHoldsItsMemory)
         first = i == 0 ? end : first;
     }
     report("null driver", hosts * rounds_of_a_host * round, first, end);
-    EXPECT_LE(end.heap, first.heap + (64U << 10U));         // what is kept for threads counts as taken
-    EXPECT_LT(end.resident, first.resident + (16U << 20U)); // what the C library keeps for later
+    EXPECT_LE(end.heap, first.heap + (64U << 10U));                      // what is kept for threads counts as taken
+    EXPECT_LT(end.resident, first.resident + (16U << 20U) + heldBack()); // what the C library keeps for later
 }
 
 TEST(Soak, OfDrawnFramesHoldsItsMemoryAndIsSilent)
@@ -151,7 +157,7 @@ TEST(Soak, OfDrawnFramesHoldsItsMemoryAndIsSilent)
     // The layers remember every name that an object ever had, and llvmpipe a little of every frame.
     const std::uint64_t of_others = (1U << 20U) + 8192 * rounds * round;
     EXPECT_LT(end.heap, warm.heap + of_others);
-    EXPECT_LT(end.resident, warm.resident + 2 * of_others);
+    EXPECT_LT(end.resident, warm.resident + 2 * of_others + heldBack());
 }
 
 } // namespace

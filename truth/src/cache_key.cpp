@@ -56,9 +56,10 @@ scene::Hash128 keyBy(std::uint64_t identity, const scene::Scene& scene, const sc
     add(hasher, scene::stateHash(state));
     add(hasher, view);
     add(hasher, light);
-    const auto& [kind, samples, seed, threads, progress, cancel] = options;
+    const auto& [kind, samples, pixels, seed, threads, progress, cancel] = options;
     hasher.add(kind);
-    if (kind == Kind::area) {
+    hasher.add(pixels);
+    if (kind == Kind::area || pixels == PixelTruth::area) {
         hasher.add(samples);
         hasher.add(seed);
     }

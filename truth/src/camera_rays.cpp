@@ -33,9 +33,9 @@ CameraRays::Ray CameraRays::through(double clip_x, double clip_y) const
     return ray;
 }
 
-std::optional<CameraRays::Seen> CameraRays::trace(std::uint32_t x, std::uint32_t y) const
+std::optional<CameraRays::Seen> CameraRays::trace(const glm::dvec2& point_px) const
 {
-    const Ray ray = through((x + 0.5) / view_.size_px.x * 2.0 - 1.0, (y + 0.5) / view_.size_px.y * 2.0 - 1.0);
+    const Ray ray = through(point_px.x / view_.size_px.x * 2.0 - 1.0, point_px.y / view_.size_px.y * 2.0 - 1.0);
     if (!(glm::dot(ray.direction, ray.direction) > 0.5) || !std::isfinite(ray.near_m)) {
         return {}; // a camera that looks nowhere
     }

@@ -22,8 +22,9 @@ public:
 
     CameraRays(const SceneGeometry& geometry, const View& view);
 
-    /// Nothing at background.
-    [[nodiscard]] std::optional<Seen> trace(std::uint32_t x, std::uint32_t y) const;
+    /// Through a point of the picture, in pixels: (x + 0.5, y + 0.5) is the centre of pixel (x, y). Nothing at
+    /// background.
+    [[nodiscard]] std::optional<Seen> trace(const glm::dvec2& point_px) const;
 
 private:
     struct Ray {

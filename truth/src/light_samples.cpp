@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: H. Vogel, "A better way to construct the sunflower head", 1979 (the points of a set); R. Cranley and
 // T. Patterson, "Randomization of number theoretic methods for multiple integration", 1976 (a random shift modulo 1,
-// and the error from several of them); G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators",
-// 2014 (the hash).
+// and the error from several of them).
 #include "light_samples.h"
+
+#include "random_bits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +12,6 @@
 #include <numeric>
 
 namespace gnomon::truth {
-namespace {
-
-std::uint64_t mix(std::uint64_t x)
-{
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-}
-
-constexpr std::uint64_t kGoldenBits = 0x9E3779B97F4A7C15ULL;
-
-} // namespace
 
 std::vector<DiscPoint> makeDiscSet(std::uint32_t count)
 {
@@ -51,7 +40,7 @@ std::vector<DiscPoint> makeDiscSet(std::uint32_t count)
 
 DiscShift shiftOf(std::uint64_t seed, std::uint64_t pixel, std::uint32_t set)
 {
-    const std::uint64_t key = mix(mix(seed + kGoldenBits) + (pixel * kSampleSets + set + 1) * kGoldenBits);
+    const std::uint64_t key = randomBits(seed, pixel * kSampleSets + set + 1);
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(key >> 40) * 0x1p-24;
     return {static_cast<float>(key & 0xFFFFFFU) * 0x1p-24F,
             {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))}};

@@ -3,6 +3,7 @@
 
 #include "camera_rays.h"
 #include "parallel.h"
+#include "pixel_points.h"
 #include "scene_geometry.h"
 #include "shadow_rays.h"
 
@@ -85,18 +86,14 @@ std::optional<Receiver> Tracer::Impl::receiverAt(const Surfaces& surfaces, const
     if (id == 0) {
         return {};
     }
-    Receiver receiver;
-    receiver.object = id - 1;
-    receiver.triangle = *surfaces.triangle_ids.pixel(x, y);
-    receiver.pixel = std::uint64_t{y} * view.size_px.x + x;
-    const std::optional<Triangle> triangle = geometry->triangle(receiver.object, receiver.triangle);
-    if (!triangle || !geometry->part(receiver.object).receives) {
-        return {};
+    std::optional<Receiver> receiver = receiverOn(*geometry, view,
+                                                  {.object = id - 1,
+                                                   .triangle = *surfaces.triangle_ids.pixel(x, y),
+                                                   .point = read3(surfaces.points.pixel(x, y)),
+                                                   .normal = read3(surfaces.normals.pixel(x, y))});
+    if (receiver) {
+        receiver->pixel = std::uint64_t{y} * view.size_px.x + x;
     }
-    const glm::dvec3 normal = read3(surfaces.normals.pixel(x, y));
-    receiver.normal = glm::dot(normal, triangle->front) < 0.0 ? -triangle->front : triangle->front;
-    const glm::dvec3 rel = view.eye_ws + read3(surfaces.points.pixel(x, y)) - geometry->originWs();
-    receiver.rel = offSurface(rel, *triangle, receiver.normal);
     return receiver;
 }
 
@@ -121,7 +118,7 @@ std::optional<Surfaces> Tracer::see(const View& view, const Options& options) co
     const CameraRays rays(*impl_->geometry, view);
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
         forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
-            if (const auto seen = rays.trace(x, y)) {
+            if (const auto seen = rays.trace({x + 0.5, y + 0.5})) {
                 *surfaces.object_ids.pixel(x, y) = seen->object + 1;
                 *surfaces.triangle_ids.pixel(x, y) = seen->triangle;
                 write3(surfaces.points.pixel(x, y), seen->point);
@@ -144,13 +141,16 @@ std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& vi
     const glm::uvec2 size = view.size_px;
     Visibility result{options.kind, ImageF(size.x, size.y, 1, 1.0F), ImageF(size.x, size.y, 1, 0.0F),
                       ImageF(size.x, size.y, 1, std::numeric_limits<float>::infinity())};
-    const ShadowRays shadow_rays(*impl_->geometry, light, options);
+    const bool over_pixels = options.pixels == PixelTruth::area;
+    const ShadowRays shadow_rays(*impl_->geometry, light, over_pixels ? optionsOfPoint(options) : options);
     std::atomic<std::uint64_t> rays{0};
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
         std::uint64_t rays_of_tile = 0;
         forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
             if (const auto receiver = impl_->receiverAt(surfaces, view, x, y)) {
-                const ShadowRays::Result traced = shadow_rays.trace(*receiver);
+                const ShadowRays::Result traced =
+                    over_pixels ? traceOverPixel(*impl_->geometry, view, shadow_rays, options.seed, {x, y})
+                                : shadow_rays.trace(*receiver);
                 *result.visibility.pixel(x, y) = static_cast<float>(traced.visibility);
                 *result.standard_error.pixel(x, y) = static_cast<float>(traced.standard_error);
                 *result.first_blocker_m.pixel(x, y) = static_cast<float>(traced.first_blocker_m);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mean visibility over a pixel's area.
+#pragma once
+
+#include "camera_rays.h"
+#include "shadow_rays.h"
+
+namespace gnomon::truth {
+
+/// The surface point that was seen, as a start of shadow rays. Nothing where none are to be traced.
+[[nodiscard]] std::optional<Receiver> receiverOn(const SceneGeometry& geometry, const View& view,
+                                                 const CameraRays::Seen& seen);
+
+/// Options by which each of a pixel's points is traced.
+[[nodiscard]] Options optionsOfPoint(const Options& options);
+
+/// Where point `index` of set `set` of pixel number `pixel` lies in the pixel, [0, 1) each.
+[[nodiscard]] glm::dvec2 pointInPixel(std::uint64_t seed, std::uint64_t pixel, std::uint32_t set, std::uint32_t index);
+
+/// Over kPixelPoints points of pixel (x, y); `shadow_rays` are of optionsOfPoint(). `seed` is that of the options.
+[[nodiscard]] ShadowRays::Result traceOverPixel(const SceneGeometry& geometry, const View& view,
+                                                const ShadowRays& shadow_rays, std::uint64_t seed,
+                                                const glm::uvec2& pixel);
+
+} // namespace gnomon::truth
