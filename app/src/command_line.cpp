@@ -274,6 +274,13 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
     }
 }
 
+void requireNoMore(std::span<const std::string> arguments, std::size_t most)
+{
+    if (arguments.size() > most) {
+        throw UsageError(fmt::format("{}: \"{}\" is one argument too many", arguments[0], arguments[most]));
+    }
+}
+
 } // namespace
 
 Command parseCommandLine(std::span<const std::string> arguments)
@@ -281,13 +288,16 @@ Command parseCommandLine(std::span<const std::string> arguments)
     Command command;
     if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
         command.kind = Command::Kind::help;
-        if (arguments.size() > 1 && arguments[0] == "help") {
+        const bool of_subcommand = !arguments.empty() && arguments[0] == "help";
+        requireNoMore(arguments, of_subcommand ? 2 : 1);
+        if (arguments.size() > 1) {
             command.subcommand = &findSubcommand(arguments[1]);
         }
         return command;
     }
     if (arguments[0] == "--version") {
         command.kind = Command::Kind::version;
+        requireNoMore(arguments, 1);
         return command;
     }
     if (arguments[0].starts_with("-")) {

@@ -131,6 +131,9 @@ ReportFolder::ReportFolder(fs::path folder, std::vector<std::string> files)
         throw Error(what, error.message());
     }
     const bool is_there = type != fs::file_type::not_found;
+    if (!is_there && fs::is_symlink(path_, error)) {
+        throw Error(what, "it is a link to nothing", "name another, or remove it");
+    }
     if (is_there && type != fs::file_type::directory) {
         throw Error(what, "it is not a folder", "name another, or remove it");
     }

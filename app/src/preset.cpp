@@ -98,6 +98,9 @@ void requireType(const Setting& setting, const Json& value)
 {
     constexpr std::string_view kTakes[] = {"true or false",     "a number",         "a number", "a string or a number",
                                            "numbers in a list", "a string \"WxH\"", "a string", "a string"};
+    if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos) {
+        throw UsageError(fmt::format("{} takes no string with a NUL in it", setting.key));
+    }
     const bool list = setting.repeatable && value.is_array();
     const bool typed =
         list ? std::all_of(value.begin(), value.end(), [&](const auto& x) { return isTyped(setting.type, x); })
@@ -131,6 +134,10 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
         return;
     }
     const Setting* setting = findSetting(key);
+    constexpr std::size_t kLongestKey = 80; // far beyond any that there is
+    if (setting == nullptr && (key.size() > kLongestKey || key.find('\0') != std::string::npos)) {
+        throw UsageError(fmt::format("a key of {} bytes is no setting", key.size()));
+    }
     if (setting != nullptr) {
         requireType(*setting, value);
     }

@@ -55,8 +55,11 @@ RenderTarget::RenderTarget(const Settings& settings)
         if (typeOf(parent) != fs::file_type::directory) {
             throw Error("writing frames to " + path_.string(), "there is no folder " + parent.string());
         }
+        requireWritable(path_);
     } else if (type != fs::file_type::directory) {
         throw Error("writing frames to " + path_.string(), "it is not a folder");
+    } else {
+        requireWritable(path_ / ".gnomon-frame"); // any name there
     }
 }
 

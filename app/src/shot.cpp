@@ -303,6 +303,18 @@ void followPath(Shot& shot, const Settings& settings, std::uint32_t frame)
     }
 }
 
+void requireAnimation(const scene::Scene& scene, const std::string& name)
+{
+    std::vector<std::string_view> names;
+    for (const scene::Animation& animation : scene.animations) {
+        names.push_back(animation.name);
+    }
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
+        throw UsageError(fmt::format("--animation: there is no \"{}\"{}; {}", name, suggestion(name, names),
+                                     names.empty() ? "the scene has none" : "it has " + listed(names)));
+    }
+}
+
 } // namespace
 
 Shot makeShot(const Settings& settings)
@@ -314,6 +326,7 @@ Shot makeShot(const Settings& settings)
     if (settings.material_override == "diffuse") {
         overrideMaterials(shot.scene);
     }
+    requireAnimation(shot.scene, settings.animation);
     const std::uint32_t first = settings.frames ? settings.frames->first : 0;
     const double time_s = momentOf(shot, settings, first);
     shot.state = scene::evaluate(shot.scene, time_s, settings.animation);

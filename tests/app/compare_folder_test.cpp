@@ -53,6 +53,8 @@ TEST(ReportFolder, GoesAwayUnlessItIsKept)
     EXPECT_EQ(namesIn(folder / "new"), std::vector<std::string>{"result.json"});
     EXPECT_THROW(app::ReportFolder(folder / "new/result.json", files), Error);
     EXPECT_THROW(app::ReportFolder(folder / "none/out", files), Error);
+    fs::create_symlink(folder / "nowhere", folder / "link");
+    EXPECT_THROW(app::ReportFolder(folder / "link", files), Error) << "before the work";
 }
 
 TEST(ReportFolder, ChangesAnotherOnlyWhenKept)

@@ -126,6 +126,25 @@ TEST(Settings, OfAPresetNameNothingThatIsWritten)
     EXPECT_EQ(again.seed, 7U);
 }
 
+// Either would make of one line another.
+TEST(Settings, OfAPresetHaveNoNulAndNoEndlessKeys)
+{
+    const test::Folder folder;
+    const auto refusalOf = [&](const std::string& text) -> std::string {
+        test::spill(folder / "a.json", text);
+        try {
+            (void)settingsOf({"plan", "--preset", (folder / "a.json").string()});
+        } catch (const app::UsageError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_TRUE(refusalOf(R"({"size": "16x16\u0000"})").ends_with("size takes no string with a NUL in it"));
+    EXPECT_TRUE(refusalOf(R"({"siz\u0000e": "16x16"})").ends_with("a key of 5 bytes is no setting"));
+    EXPECT_TRUE(
+        refusalOf("{\"" + std::string(100'000, 'k') + "\": 1}").ends_with("a key of 100000 bytes is no setting"));
+}
+
 TEST(Contestants, AreTheOnesNamed)
 {
     EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 12U);

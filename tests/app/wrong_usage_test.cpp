@@ -79,6 +79,8 @@ const std::vector<Wrong> kWrong{
     {"SetOnlyOption", {"render", "--pcf.kernel", "3x3"}, 2, "--set pcf.kernel=VALUE"},
     {"MissingValue", {"render", "--size"}, 2, "--size"},
     {"TooManyScenes", {"render", "planes", "rts"}, 2, "one argument too many"},
+    {"HelpOfOneSubcommand", {"help", "list", "render"}, 2, "one argument too many"},
+    {"VersionOfNothing", {"--version", "list"}, 2, "one argument too many"},
     {"ListTakesNoScene", {"list", "rts"}, 2, "takes no argument"},
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
@@ -311,7 +313,7 @@ const std::vector<Wrong> kWrong{
     {"MetricsOfText", {"metrics", "broken.json", "broken.json"}, 1, "neither a PNG nor an EXR"},
 
     {"UnknownGpu", {"render", "planes", "--gpu", "Voodoo2"}, 1, "Voodoo2"},
-    {"UnknownAnimation", {"plan", "planes", "--animation", "dance"}, 1, "dance"},
+    {"UnknownAnimation", {"plan", "planes", "--animation", "dance"}, 2, "no \"dance\""},
 
     {"SceneMissing", {"render", "missing.gltf"}, 1, "missing.gltf"},
     {"SceneIsAFolder", {"render", "a_folder"}, 1, "a_folder"},
