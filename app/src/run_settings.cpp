@@ -89,7 +89,7 @@ void applyLimit(Settings& s, const Value& v)
         const auto number =
             equals == std::string::npos ? std::nullopt : toInteger(std::string_view(v.text).substr(equals + 1));
         if (!number || *number < 1 || static_cast<double>(*number) > limit.max) {
-            throw UsageError(fmt::format("--limit: {} takes a whole number from 1 to {}", name, limit.max));
+            throw UsageError(fmt::format("--limit: {} takes a whole number from 1 to {:.0f}", name, limit.max));
         }
         limit.set(s.limits, static_cast<std::uint64_t>(*number));
         return;

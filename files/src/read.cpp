@@ -33,6 +33,10 @@ std::optional<PlainFile> PlainFile::open(const std::filesystem::path& file, std:
 {
     // Looked at before it is opened, for that alone can do something to a device; and after, for another may lie there.
     struct stat info {};
+    if (file.empty()) {
+        why = "its name is empty";
+        return std::nullopt;
+    }
     if (::stat(file.c_str(), &info) != 0) {
         why = std::generic_category().message(errno);
         return std::nullopt;

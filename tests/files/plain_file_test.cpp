@@ -49,6 +49,7 @@ TEST(PlainFile, NothingElseIsOpened)
     EXPECT_NE(whyNotRead(folder.path()).find("it is a directory"), std::string::npos);
     EXPECT_NE(whyNotRead("/dev/zero").find("it is a device"), std::string::npos);
     EXPECT_NE(whyNotRead(folder / "none").find("No such file"), std::string::npos);
+    EXPECT_NE(whyNotRead("").find("its name is empty"), std::string::npos);
     EXPECT_NE(whyNotRead(folder / std::string(300, 'a')).find("too long"), std::string::npos);
 
     sockaddr_un address{};
