@@ -128,7 +128,7 @@ std::string textList()
     for (const Refused& row : allRefused()) {
         text += fmt::format("  {}: {}\n", row.technique, row.reason);
     }
-    text += "\nSettings (options of their own as --KEY; all by --set KEY=VALUE and in presets):\n";
+    text += "\nSettings (options of their own as --KEY; all by --set KEY=VALUE and, but for outputs, in presets):\n";
     for (const Setting& setting : settingTable()) {
         text += settingLine(setting);
     }

@@ -112,19 +112,7 @@ void requireType(const Setting& setting, const Json& value)
     }
 }
 
-/// Whoever hands on a preset does not say what is overwritten here. A result names its own file, which is passed over.
-bool isOutput(const Setting& setting, const Json& value, bool is_result)
-{
-    if (!setting.names_output || value == "-") {
-        return false;
-    }
-    if (!is_result) {
-        throw UsageError(fmt::format("{} names what is written; give it on the command line", setting.key));
-    }
-    return true;
-}
-
-void applyEntry(Settings& settings, const std::string& key, const Json& value, std::uint32_t subcommand, bool is_result)
+void applyEntry(Settings& settings, const std::string& key, const Json& value, std::uint32_t subcommand)
 {
     if (key == "scene" || key == "scene_hash") {
         if (!value.is_string()) {
@@ -141,7 +129,10 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
     if (setting != nullptr) {
         requireType(*setting, value);
     }
-    if (setting != nullptr && (isOutput(*setting, value, is_result) || (setting->subcommands & subcommand) == 0)) {
+    if (setting != nullptr && setting->names_output) { // who runs a preset would not see what it overwrites
+        throw UsageError(fmt::format("{} names what is written; give it on the command line", key));
+    }
+    if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
         return;
     }
     settings.named.insert(key);
@@ -195,7 +186,7 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
             if (key == "lvsm.splits" && json.contains("lvsm.placement")) {
                 requireOnePlacement(settings, "lvsm.placement", typed(json["lvsm.placement"]));
             }
-            applyEntry(settings, key, value, subcommand, is_result);
+            applyEntry(settings, key, value, subcommand);
             if (key == "map-format") {
                 settings.format_preset = name;
             }

@@ -48,7 +48,7 @@ Json settingsJson(const Settings& settings, std::uint32_t subcommand)
     Json json;
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
-        if (value != settings.values.end() && (setting.subcommands & subcommand) != 0) {
+        if (value != settings.values.end() && (setting.subcommands & subcommand) != 0 && !setting.names_output) {
             json[std::string(setting.key)] = typed(setting, value->second);
         }
     }

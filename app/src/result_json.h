@@ -13,7 +13,8 @@ namespace gnomon::app {
 
 using Json = nlohmann::ordered_json;
 
-/// Every setting that has a value and is one of the subcommand's, typed, in the table's order.
+/// Every setting that has a value and is one of the subcommand's, typed, in the table's order; so a preset. What is
+/// written where is not among them.
 [[nodiscard]] Json settingsJson(const Settings& settings, std::uint32_t subcommand);
 /// {"partition": "single", ...}
 [[nodiscard]] Json choicesJson(const Technique& technique);

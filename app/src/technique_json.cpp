@@ -264,8 +264,6 @@ Json repeatJson(const Settings& settings, std::uint32_t subcommand)
     if (!settings.shadow.border_texels) {
         json.erase("border");
     }
-    json.erase("json");
-    json.erase("report");
     json.erase("techniques");
     return json;
 }

@@ -64,10 +64,9 @@ glm::dvec2 pointInPixel(std::uint64_t seed, std::uint64_t pixel, std::uint32_t s
     return glm::fract(shift + glm::dvec2(index, reversed) / static_cast<double>(kPointsOfSet));
 }
 
-ShadowRays::Result traceOverPixel(const SceneGeometry& geometry, const View& view, const ShadowRays& shadow_rays,
-                                  std::uint64_t seed, const glm::uvec2& pixel)
+ShadowRays::Result traceOverPixel(const SceneGeometry& geometry, const View& view, const CameraRays& camera,
+                                  const ShadowRays& shadow_rays, std::uint64_t seed, const glm::uvec2& pixel)
 {
-    const CameraRays camera(geometry, view);
     const std::uint64_t number = std::uint64_t{pixel.y} * view.size_px.x + pixel.x;
     ShadowRays::Result result;
     result.first_blocker_m = std::numeric_limits<double>::infinity();

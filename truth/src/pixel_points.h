@@ -17,9 +17,10 @@ namespace gnomon::truth {
 /// Where point `index` of set `set` of pixel number `pixel` lies in the pixel, [0, 1) each.
 [[nodiscard]] glm::dvec2 pointInPixel(std::uint64_t seed, std::uint64_t pixel, std::uint32_t set, std::uint32_t index);
 
-/// Over kPixelPoints points of pixel (x, y); `shadow_rays` are of optionsOfPoint(). `seed` is that of the options.
+/// Over kPixelPoints points of pixel (x, y); `camera` is that of the view, `shadow_rays` are of
+/// optionsOfPoint(), `seed` is that of the options.
 [[nodiscard]] ShadowRays::Result traceOverPixel(const SceneGeometry& geometry, const View& view,
-                                                const ShadowRays& shadow_rays, std::uint64_t seed,
-                                                const glm::uvec2& pixel);
+                                                const CameraRays& camera, const ShadowRays& shadow_rays,
+                                                std::uint64_t seed, const glm::uvec2& pixel);
 
 } // namespace gnomon::truth

@@ -142,6 +142,7 @@ std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& vi
     Visibility result{options.kind, ImageF(size.x, size.y, 1, 1.0F), ImageF(size.x, size.y, 1, 0.0F),
                       ImageF(size.x, size.y, 1, std::numeric_limits<float>::infinity())};
     const bool over_pixels = options.pixels == PixelTruth::area;
+    const CameraRays camera(*impl_->geometry, view);
     const ShadowRays shadow_rays(*impl_->geometry, light, over_pixels ? optionsOfPoint(options) : options);
     std::atomic<std::uint64_t> rays{0};
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
@@ -149,7 +150,7 @@ std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& vi
         forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
             if (const auto receiver = impl_->receiverAt(surfaces, view, x, y)) {
                 const ShadowRays::Result traced =
-                    over_pixels ? traceOverPixel(*impl_->geometry, view, shadow_rays, options.seed, {x, y})
+                    over_pixels ? traceOverPixel(*impl_->geometry, view, camera, shadow_rays, options.seed, {x, y})
                                 : shadow_rays.trace(*receiver);
                 *result.visibility.pixel(x, y) = static_cast<float>(traced.visibility);
                 *result.standard_error.pixel(x, y) = static_cast<float>(traced.standard_error);
