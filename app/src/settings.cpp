@@ -39,6 +39,22 @@ void validateCamera(const Settings& s)
     }
 }
 
+constexpr std::string_view kAuto = "auto";
+
+/// What is joined by + in a technique; `auto` alone stands for that of each choice that has it.
+std::vector<std::string_view> piecesOf(std::string_view text)
+{
+    std::vector<std::string_view> pieces;
+    for (const std::string_view piece : split(text, '+')) {
+        if (piece == kAuto) {
+            pieces.insert(pieces.end(), {"partition=auto", "fit=auto"});
+        } else {
+            pieces.push_back(piece);
+        }
+    }
+    return pieces;
+}
+
 const ChoiceValue* findTechniqueValue(std::string_view name)
 {
     for (const ChoiceValue& row : choiceValues()) {
@@ -312,7 +328,7 @@ Settings parseTechnique(const Settings& base, std::string_view text)
 {
     Settings settings = base;
     std::vector<std::string_view> seen;
-    for (const std::string_view piece : split(text, '+')) {
+    for (const std::string_view piece : piecesOf(text)) {
         std::string_view key;
         std::string_view value;
         if (const std::size_t equals = piece.find('='); equals != std::string_view::npos) {
@@ -369,8 +385,8 @@ std::string describeTechnique(const Settings& settings)
             !isUsed(setting, settings) || goesWithoutSaying(settings, setting, value->second)) {
             continue;
         }
-        text += isChoice(setting.key) ? fmt::format("+{}", value->second)
-                                      : fmt::format("+{}={}", setting.key, value->second);
+        text += isChoice(setting.key) && value->second != kAuto ? fmt::format("+{}", value->second)
+                                                                : fmt::format("+{}={}", setting.key, value->second);
     }
     return text;
 }

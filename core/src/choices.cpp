@@ -25,6 +25,10 @@ constexpr std::string_view kKiteLightning = "Kite & Lightning, Variance Shadow M
 constexpr std::string_view kIceFall = "P. Fortier (IceFall Games), Shadow maps for moving light sources, 2010";
 constexpr std::string_view kWilliams = "L. Williams, Casting Curved Shadows on Curved Surfaces, 1978";
 
+// Where texels of a map are compared with the pixels that they are seen by.
+constexpr std::string_view kDense =
+    "D. B. Lloyd, D. Tuft, S. Yoon, D. Manocha, Warping and partitioning for low error shadow maps, 2006";
+
 constexpr std::string_view kLight = "light";
 constexpr std::string_view kPartition = "partition";
 constexpr std::string_view kFit = "fit";
@@ -48,6 +52,8 @@ constexpr std::array kValues{
     ChoiceValue{kPartition, "cube", number(Partition::cube), false, "six faces around a point light", kForsyth},
     ChoiceValue{kPartition, "multi", number(Partition::multi), false, "frustums grown around groups of receivers",
                 kForsyth},
+    ChoiceValue{kPartition, "auto", number(Partition::automatic), true,
+                "single or cascades, whichever is predicted to err less", kDense},
 
     ChoiceValue{kFit, "uniform", number(Fit::uniform), true, "the light-space box of what matters", kMarinescu},
     ChoiceValue{kFit, "lispsm", number(Fit::lispsm), true, "perspective perpendicular to the light",
@@ -59,6 +65,8 @@ constexpr std::array kValues{
                 "T. Martin, T.-S. Tan, Anti-aliasing and Continuity with Trapezoidal Shadow Maps, 2004"},
     ChoiceValue{kFit, "psm", number(Fit::psm), true, "drawn in post-perspective space",
                 "M. Stamminger, G. Drettakis, Perspective Shadow Maps, 2002"},
+    ChoiceValue{kFit, "auto", number(Fit::automatic), true, "lispsm-simple as strong as is predicted to err least",
+                kDense},
 
     ChoiceValue{kFilter, "hard", number(Filter::hard), true, "one depth comparison per pixel", kWilliams},
     ChoiceValue{kFilter, "pcf", number(Filter::pcf), true, "weighted mean of the comparisons in a kernel",

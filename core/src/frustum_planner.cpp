@@ -31,29 +31,87 @@ bool isFinite(const View& view)
 
 } // namespace
 
+FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
+{
+    const Recipe& recipe = input.recipe;
+    const CameraView& camera = input.camera;
+    Lie lie;
+    lie.border_texels = recipe.resolved.borderOf(input.map_size);
+    lie.space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
+    if (recipe.levelsDepth()) {
+        lie.space.depth_ws = levelDepth(lie.space, *input.frame.objects, input.levellers);
+    }
+    lie.least_size = lie.space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
+    lie.outcome = region_.gatherReceivers(
+        {lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.filter->filterable});
+    return lie;
+}
+
+FitInput FrustumPlanner::fitInputOf(const FrustumInput& input, const Lie& lie) const
+{
+    return {lie.space,
+            region_.outline(),
+            region_.body().points(),
+            region_.body().faceSizes(),
+            input.camera,
+            strongestWarp(lie.border_texels, input.map_size)};
+}
+
+MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const
+{
+    // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
+    const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
+    return input.recipe.motion->move(rect, {lie.space, input.frame.camera, input.camera, input.slice, lie.least_size,
+                                            input.map_size, lie.border_texels});
+}
+
+MapError FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
+{
+    constexpr double kFeature_px = 300.0;
+    const Lie lie = lieOf(input);
+    if (lie.outcome.kind != OutcomeKind::ok) {
+        return {};
+    }
+    lit_.clear();
+    lit_.reserve(sight.points().size());
+    lightPoints(lie.space, sight.points(), input.slice.depth, lit_);
+    places_.clear();
+    if (input.recipe.takesDepth()) {
+        for (const LitPoint& point : lit_) {
+            places_.push_back(point.q);
+        }
+    }
+    const double feature_m = kFeature_px * sight.meanPixel_m();
+    FrustumInput drawn = input;
+    if (input.recipe.searchesWarp()) {
+        const FitInput fit = fitInputOf(input, lie);
+        strength = nextStrength({fit, slopeOfBody(fit), region_.rect(), lie.least_size, input.map_size,
+                                 lie.border_texels, lit_, places_, feature_m},
+                                strength);
+        drawn.strength = strength;
+    }
+    const Warp warp = warpOf(drawn, lie);
+    const MapFrame frame = places_.empty()
+                               ? frameOfWarp(drawn, lie, warp)
+                               : frameOf(rectOf(warp, places_), lie.least_size, input.map_size, lie.border_texels);
+    return mapErrorOf(lit_, warp, frame, feature_m);
+}
+
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)
 {
     const Recipe& recipe = input.recipe;
     const CameraView& camera = input.camera;
     const ObjectSet& objects = *input.frame.objects;
     const bool steady = recipe.steady();
-    const double border_texels = recipe.resolved.borderOf(input.map_size);
-
-    LightSpace space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
-    if (recipe.levelsDepth()) {
-        space.depth_ws = levelDepth(space, objects, input.levellers);
+    const Lie lie = lieOf(input);
+    if (lie.outcome.kind != OutcomeKind::ok) {
+        return lie.outcome;
     }
+    const LightSpace& space = lie.space;
+    const double border_texels = lie.border_texels;
     const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.filter->filterable};
-    if (const Outcome found = region_.gatherReceivers(around); found.kind != OutcomeKind::ok) {
-        return found;
-    }
-
-    const Warp warp = warpOf(input, space, border_texels);
-    // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
-    const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
-    const double least_size = space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
-    const MapFrame shown = recipe.motion->move(
-        rect, {space, input.frame.camera, camera, input.slice, least_size, input.map_size, border_texels});
+    const Warp warp = warpOf(input, lie);
+    const MapFrame shown = frameOfWarp(input, lie, warp);
     const FitReport fit = reportOf(warp, shown, region_.outline());
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),
@@ -84,14 +142,18 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     return warp.outcome;
 }
 
-Warp FrustumPlanner::warpOf(const FrustumInput& input, const LightSpace& space, double border_texels) const
+Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
 {
-    if (!input.recipe.steady()) {
-        return input.recipe.fit({space, region_.outline(), region_.body().points(), region_.body().faceSizes(),
-                                 input.camera, strongestWarp(border_texels, input.map_size)});
+    const Recipe& recipe = input.recipe;
+    if (recipe.searchesWarp()) {
+        const FitInput fit = fitInputOf(input, lie);
+        return warpOfStrength(fit, slopeOfBody(fit), input.strength);
+    }
+    if (!recipe.steady()) {
+        return recipe.fit(fitInputOf(input, lie));
     }
     Warp none;
-    if (input.recipe.options.technique.fit != Fit::uniform) {
+    if (recipe.fit != fitUniform && recipe.fit != nullptr) {
         none.outcome = {OutcomeKind::fallback, kUnwarped};
     }
     return none;

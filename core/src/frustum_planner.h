@@ -2,6 +2,7 @@
 // From one slice of a light to a view: what matters to it, how that is put into a map, and who is drawn.
 #pragma once
 
+#include "auto/warp_search.h"
 #include "depth_range.h"
 #include "recipe.h"
 #include "region.h"
@@ -20,6 +21,7 @@ struct FrustumInput {
     const Light& light;                       // shining from where the map is drawn
     const Slice& slice;
     std::uint32_t map_size = 0; // texels on a side
+    double strength = 1.0;      // of the warp, with fit auto
 };
 
 class FrustumPlanner {
@@ -28,11 +30,27 @@ public:
     /// appends its casters, ascending. Else both are as they were. Keeps its memory.
     Outcome plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters);
 
+    /// With what error the slice's map will be read, found before it is drawn. With fit auto `strength` is that of the
+    /// frame before (0: there was none) and becomes the one to draw by. Keeps its memory.
+    [[nodiscard]] MapError predict(const FrustumInput& input, const Sight& sight, double& strength);
+
 private:
-    [[nodiscard]] Warp warpOf(const FrustumInput& input, const LightSpace& space, double border_texels) const;
+    /// How the slice's map lies across the light, before anybody is drawn.
+    struct Lie {
+        LightSpace space;
+        double border_texels = 0.0;
+        double least_size = 0.0;
+        Outcome outcome; // not ok: the slice needs no map
+    };
+    [[nodiscard]] Lie lieOf(const FrustumInput& input);
+    [[nodiscard]] MapFrame frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const;
+    [[nodiscard]] FitInput fitInputOf(const FrustumInput& input, const Lie& lie) const;
+    [[nodiscard]] Warp warpOf(const FrustumInput& input, const Lie& lie) const;
     void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;
+    std::vector<LitPoint> lit_;
+    std::vector<glm::dvec2> places_;
 };
 
 } // namespace gnomon

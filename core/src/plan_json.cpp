@@ -97,6 +97,21 @@ void writeSteps(JsonWriter& json, const SunSteps& steps)
     json.closeLine('}');
 }
 
+// Of lights that leave nothing to the planner there is nothing to say.
+void writeChoice(JsonWriter& json, const AutoChoice& choice)
+{
+    if (!choice.made) {
+        return;
+    }
+    json.openLine("auto", '{');
+    json.value("partition", nameOf(choice.partition));
+    json.value("texels_per_pixel", choice.texels_per_pixel);
+    json.value("error", choice.error);
+    json.value("other_error", choice.other_error);
+    json.value("reason", choice.reason);
+    json.closeLine('}');
+}
+
 void writeLight(JsonWriter& json, const LightPlan& light)
 {
     json.openLine({}, '{');
@@ -108,6 +123,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     json.value("mask_channel", light.mask_channel);
     json.value("options", light.options);
     writeSteps(json, light.steps);
+    writeChoice(json, light.choice);
     json.closeLine('}');
 }
 

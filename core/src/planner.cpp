@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame's way to its plan: what the camera sees, what each light wants, who has which maps; then one light after the
 // other: where it stands, how it is divided, and for each slice a view and what of its map has to be drawn.
+#include "auto/auto_choice.h"
 #include "camera_view.h"
 #include "frustum_planner.h"
 #include "motion/sun_steps.h"
@@ -27,6 +28,7 @@ struct Setup {
     bool looked = false; // in this frame
     CameraView camera;
     std::vector<std::uint32_t> receivers;
+    Sight sight; // where the recipe predicts
 };
 
 /// One position that a light shines from.
@@ -70,7 +72,8 @@ struct Planner::Impl {
     bool some_nowhere = false; // objects of this frame
     MapStore store;
     SunCourses suns;
-    SunCourses suns_before;   // as they were before this frame
+    SunCourses suns_before; // as they were before this frame
+    AutoChooser chooser;
     std::uint64_t frames = 0; // planned so far: whose turn it is
     bool spoilt = false;      // a plan ended half way, because something threw
 
@@ -90,11 +93,13 @@ struct Planner::Impl {
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
+    const PartitionTraits& decide(const Frame& frame, std::uint32_t index);
     void planLight(const Frame& frame, std::uint32_t index);
     Outcome prospect(std::uint32_t index, const Setup& setup) const;
     std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
     Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
     void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
+    const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
     Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice);
     void addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned);
 };
@@ -122,6 +127,7 @@ void Planner::reset()
 {
     if (impl_ != nullptr) {
         impl_->store.forget();
+        impl_->chooser = {};
     }
 }
 
@@ -151,6 +157,7 @@ const Plan& Planner::plan(const Frame& given)
         s.addPages(fresh);
         s.store = std::move(fresh);
         std::swap(s.suns, s.suns_before);
+        s.chooser = {};
         s.spoilt = false;
     }
     Frame frame = given;
@@ -211,6 +218,7 @@ void Planner::Impl::admit(const Frame& frame)
     keys.clear();
     wishes.clear();
     look(frame, setups[0]);
+    chooser.follow(frame.lights);
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         const Light& light = frame.lights[index];
         LightPlan& planned = plan.lights.emplace_back();
@@ -232,9 +240,28 @@ void Planner::Impl::admit(const Frame& frame)
         if (planned.outcome.kind != OutcomeKind::ok) {
             continue;
         }
-        wishes.back() = setup.recipe.wishOf(light, light.options);
         look(frame, setup);
+        wishes.back() = setup.recipe.wishOf(light, light.options, decide(frame, index));
     }
+}
+
+/// How a light is divided, by its options or by what is predicted of it.
+const PartitionTraits& Planner::Impl::decide(const Frame& frame, std::uint32_t index)
+{
+    const Light& light = frame.lights[index];
+    const Setup& setup = setups[light.options];
+    const Recipe& recipe = setup.recipe;
+    if (!recipe.predicts()) {
+        return *recipe.partition;
+    }
+    if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
+        return *chooser.decisionOf(recipe, index).partition;
+    }
+    const Slice none;
+    const AutoDecision& decision = chooser.decide(
+        {frame, recipe, setup.camera, setup.receivers, setup.receivers, light, none}, setup.sight, index, frustums);
+    plan.lights[index].choice = decision.told;
+    return *decision.partition;
 }
 
 void Planner::Impl::look(const Frame& frame, Setup& setup)
@@ -248,6 +275,9 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
     camera.look(frame, options.max_distance_m, setup.receivers);
     if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
+    }
+    if (setup.recipe.predicts()) {
+        setup.sight.look(frame, camera, setup.receivers);
     }
     if (setup.recipe.steady()) {
         camera.boundDepths(frame.camera, options.max_distance_m);
@@ -369,13 +399,18 @@ void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optio
 {
     const Setup& setup = setups[stand.at.options];
     slices.clear();
-    setup.recipe.partition->divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
+    partitionOf(setup, stand).divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
     for (std::uint32_t i = 0; i < slices.size(); ++i) {
         const Outcome outcome = planSlice(frame, stand, setup, i);
         if (!best || rank(outcome.kind) > rank(best->kind)) {
             best = outcome;
         }
     }
+}
+
+const PartitionTraits& Planner::Impl::partitionOf(const Setup& setup, const Stand& stand)
+{
+    return setup.recipe.predicts() ? *chooser.decisionOf(setup.recipe, stand.light).partition : *setup.recipe.partition;
 }
 
 Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice)
@@ -386,17 +421,19 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
     planned.sun = stand.sun;
     const Outcome outcome =
         frustums.plan({frame, recipe, setup.camera, setup.receivers, recipe.steady() ? all_receivers : setup.receivers,
-                       stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width},
+                       stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width,
+                       recipe.predicts() ? chooser.decisionOf(recipe, stand.light).strengths[slice] : 1.0},
                       planned, plan.casters);
     if (!outcome.hasMap()) {
         return outcome;
     }
-    if (!recipe.partition->fits_on_gpu) {
+    if (!partitionOf(setup, stand).fits_on_gpu) {
         addView(frame, stand, slice, planned);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
-    for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.options.cascades.count; ++planned.gpu_cascade) {
+    for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.mapsOf(partitionOf(setup, stand));
+         ++planned.gpu_cascade) {
         addView(frame, stand, planned.gpu_cascade, planned);
     }
     return outcome;

@@ -22,6 +22,16 @@ std::string_view lasting(const std::string& sentence)
     return *sentences.insert(sentence).first;
 }
 
+/// Of each of `count` maps that share the texels of one.
+std::uint32_t sideOfShared(std::uint32_t side, std::uint32_t count)
+{
+    std::uint32_t level = 0;
+    while ((1U << (2 * level)) < count) {
+        ++level;
+    }
+    return std::max(side >> level, kSmallestMap);
+}
+
 /// Options that can be had, whatever was asked for: nobody plans by those that were refused.
 ResolvedOptions usable(const Resolution& resolution)
 {
@@ -62,18 +72,26 @@ bool Recipe::pairs(const Light& light) const
     return steps(light) && paired(motion->stepping);
 }
 
-MapWish Recipe::wishOf(const Light& light, std::uint32_t index) const
+MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided) const
 {
     MapWish wish;
     wish.options = index;
     wish.side = light.map_size == 0 ? options.map_size : std::clamp(light.map_size, kSmallestMap, options.map_size);
-    wish.count = partition->cascades ? options.cascades.count : 1;
+    wish.count = mapsOf(divided);
+    if (choosesPartition()) {
+        wish.side = sideOfShared(wish.side, wish.count);
+    }
     wish.positions = pairs(light) ? 2 : 1;
     wish.shares_texels = resolved.paired_maps();
     // What the GPU fits is another map in each frame.
-    wish.keeps_still = !partition->fits_on_gpu && (options.keep_still == KeepStill::always ||
-                                                   (options.keep_still == KeepStill::automatic && steps(light)));
+    wish.keeps_still = !divided.fits_on_gpu && (options.keep_still == KeepStill::always ||
+                                                (options.keep_still == KeepStill::automatic && steps(light)));
     return wish;
+}
+
+std::uint32_t Recipe::mapsOf(const PartitionTraits& divided) const
+{
+    return divided.cascades && !takesDepth() ? options.cascades.count : 1;
 }
 
 bool Recipe::levelsDepth() const

@@ -18,7 +18,7 @@ struct Recipe {
     ResolvedOptions resolved; // the default ones where what was asked for is refused
     ShadowOptions options;    // of `resolved`
     const PartitionTraits* partition = nullptr;
-    FitFunction fit = nullptr;
+    FitFunction fit = nullptr; // of fit auto: null
     const MotionTraits* motion = nullptr;
     const FilterTraits* filter = nullptr;
 
@@ -33,12 +33,22 @@ struct Recipe {
     [[nodiscard]] bool steps(const Light& light) const;
     /// It is one with maps of two positions.
     [[nodiscard]] bool pairs(const Light& light) const;
-    /// It depends on the options and the light's own numbers alone, so that maps last.
-    [[nodiscard]] MapWish wishOf(const Light& light, std::uint32_t index) const;
+    /// It depends on the options, the light's own numbers and the partition alone, so that maps last. `divided`: the
+    /// recipe's own partition, or with partition auto the one that was chosen.
+    [[nodiscard]] MapWish wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided) const;
+    /// How many maps a light has so.
+    [[nodiscard]] std::uint32_t mapsOf(const PartitionTraits& divided) const;
 
     /// Depth is measured from a plane that leans with what receives shadow.
     [[nodiscard]] bool levelsDepth() const;
     [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
+    /// The planner finds out how strong a warp is (fit auto).
+    [[nodiscard]] bool searchesWarp() const { return options.technique.fit == Fit::automatic && !steady(); }
+    /// It also finds out how a light is divided (partition auto).
+    [[nodiscard]] bool choosesPartition() const { return options.technique.partition == Partition::automatic; }
+    /// One map around what the camera's depth shows, found on the GPU: what best quality spends on it.
+    [[nodiscard]] bool takesDepth() const { return choosesPartition() && resolved.fitsOnGpu(); }
+    [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition(); }
 };
 
 } // namespace gnomon

@@ -36,8 +36,7 @@ struct Walker {
 /// Can the moment of its last frame be drawn once more and leave it as it was?
 bool canBeRevisited(const host::RenderOptions& options)
 {
-    const Technique& technique = options.shadow.technique;
-    return technique.motion != Motion::step_alternate && technique.partition != Partition::sdsm;
+    return options.shadow.technique.motion != Motion::step_alternate && !fitsOnGpu(options.shadow);
 }
 
 } // namespace

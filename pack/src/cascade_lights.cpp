@@ -51,7 +51,9 @@ shared::GpuCascadeLight describe(const Frame& frame, const Plan& plan, std::uint
     light.reach = glm::dvec4(camera.reversed_z ? 0.0 : 1.0,
                              options.fadeEnd_m() > 0.0 ? options.fadeEnd_m() : kAnywhere_m, inside.x, inside.y);
     light.split = glm::dvec4(cascades.lambda, cascades.blend, widen.x, widen.y);
-    light.cascades = {cascades.count, index, cascades.explicitEnds() ? 1U : 0U, perspective ? 1U : 0U};
+    const std::uint32_t count = plan.lights[view.light].view_count; // partition auto has one, whatever its options say
+    const bool explicit_ends = cascades.explicitEnds() && count == cascades.count;
+    light.cascades = {count, index, explicit_ends ? 1U : 0U, perspective ? 1U : 0U};
     const auto& ends = cascades.ends_m;
     light.ends[0] = glm::dvec4(ends[0], ends[1], ends[2], ends[3]);
     light.ends[1] = glm::dvec4(ends[4], 0.0, 0.0, 0.0);

@@ -193,7 +193,7 @@ std::uint32_t fewViews(const ResolvedOptions& options)
 {
     const Technique& technique = options.technique();
     const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
-    const bool divided = technique.partition == Partition::cascades || technique.partition == Partition::sdsm;
+    const bool divided = technique.partition != Partition::single;
     return steps ? 0 : divided && options.cascades().count > 1 ? shared::kFewViews : 1;
 }
 

@@ -124,6 +124,20 @@ void planNothingMoving(benchmark::State& state)
 }
 BENCHMARK(planNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
 
+/// The same with partition and fit left to the planner, which predicts both partitions in each frame.
+void planAutoNothingMoving(benchmark::State& state)
+{
+    World world(state.range(0), 10);
+    ShadowOptions options;
+    options.technique.partition = Partition::automatic;
+    options.technique.fit = Fit::automatic;
+    Planner planner(options);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(planAutoNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
 /// A frustum that sees about a tenth of the world.
 void querySmallRegion(benchmark::State& state)
 {

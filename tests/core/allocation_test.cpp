@@ -59,6 +59,40 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     }
 }
 
+/// What auto remembers goes on for some laps before one is as the last.
+TEST(Allocation, SteadyStatePlansOfAutoTakeNothingFromTheHeap)
+{
+    test::Random random(22);
+    ObjectSet set;
+    set.add({{-200, -3, -200}, {200, 5, 200}});
+    for (int i = 0; i < 2000; ++i)
+        set.add(test::boxAt(random.inBox({-190, 0, -190}, {190, 30, 190}), glm::dvec3(1.0)));
+    const std::vector<Light> lights{test::sun({0.4, -1, 0.3}), test::spot({0, 40, 0}, {0.2, -1, 0}, 0.9)};
+    Frame frame;
+    frame.lights = lights;
+    frame.objects = &set;
+    for (const Quality quality : {Quality::fast, Quality::balanced, Quality::best}) {
+        ShadowOptions options;
+        options.technique.partition = Partition::automatic;
+        options.technique.fit = Fit::automatic;
+        options.quality = quality;
+        Planner planner(options);
+        const auto lap = [&] {
+            for (int step = 0; step < 60; ++step) {
+                const double turn = 6.283185307179586 * step / 60.0;
+                frame.camera =
+                    test::perspectiveCamera({150 * std::cos(turn), 60, 150 * std::sin(turn)}, {0, 0, 0}, 1.0);
+                (void)planner.plan(frame);
+            }
+        };
+        for (int i = 0; i < 10; ++i)
+            lap();
+        const std::uint64_t before = test::heapAllocations();
+        lap();
+        EXPECT_EQ(test::heapAllocations(), before) << nameOf(quality);
+    }
+}
+
 /// The sun goes to and fro, things move, and what stands still is kept.
 TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
 {

@@ -57,9 +57,9 @@ TEST(HostileFrame, CamerasOfAnyNumbersAreDegenerateOrSound)
 {
     std::size_t degenerate = 0;
     std::size_t planned = 0;
-    for (const Partition partition : {Partition::single, Partition::cascades, Partition::sdsm}) {
+    for (const Partition partition : {Partition::single, Partition::cascades, Partition::sdsm, Partition::automatic}) {
         for (const Motion motion : {Motion::free, Motion::snap}) {
-            for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm, Fit::psm}) {
+            for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm, Fit::psm, Fit::automatic}) {
                 Planner planner(
                     ShadowOptions{.technique = {.partition = partition, .fit = fit, .motion = motion}, .map_size = 64});
                 for (int number = 0; number < 19; ++number) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 namespace gnomon {
@@ -123,8 +124,38 @@ TEST_P(PlanProperties, HoldForRandomScenes)
         EXPECT_EQ(tally.count(OutcomeKind::fallback), 0);
     } else {
         EXPECT_GT(tally.warped, kScenes / 6);
-        EXPECT_GT(tally.count(OutcomeKind::fallback), kScenes / 6);
+        if (technique.fit == Fit::automatic) { // to draw without a warp is its choice
+            EXPECT_EQ(tally.count(OutcomeKind::fallback), 0);
+        } else {
+            EXPECT_GT(tally.count(OutcomeKind::fallback), kScenes / 6);
+        }
     }
+}
+
+/// Partition auto takes other maps, so a used planner's have other names; all else holds.
+TEST(PlanPropertiesOfAuto, HoldForRandomScenes)
+{
+    Tally tally;
+    std::map<Partition, int> taken;
+    for (const Motion motion : {Motion::free, Motion::snap})
+        for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            const Technique technique{.partition = Partition::automatic, .fit = Fit::automatic, .motion = motion};
+            const RandomScene scene = randomScene(seed, technique);
+            Planner planner(scene.options);
+            const Plan& plan = planner.plan(scene.frame());
+            Random random(seed + 1000000);
+            ASSERT_NO_FATAL_FAILURE(judge(scene, plan, random, tally));
+            Planner again(scene.options);
+            ASSERT_EQ(test::bytesOf(plan), test::bytesOf(again.plan(scene.frame())));
+            for (const LightPlan& light : plan.lights)
+                taken[light.choice.made ? light.choice.partition : Partition::automatic] += 1;
+        }
+    EXPECT_GT(tally.seen, 15 * kScenes);
+    EXPECT_GT(tally.blocked, 15 * kScenes);
+    EXPECT_GT(taken[Partition::single], kScenes / 10);
+    EXPECT_GT(taken[Partition::cascades], 0);
+    EXPECT_EQ(taken[Partition::sdsm], 0);
 }
 
 /// The bytes above are a list of what a plan says; its JSON is another.
@@ -140,7 +171,7 @@ TEST_P(PlanProperties, SameInputSameJson)
 std::vector<Technique> allFits(Partition partition, Filter filter)
 {
     std::vector<Technique> techniques;
-    for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm})
+    for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm, Fit::automatic})
         techniques.push_back({.partition = partition, .fit = fit, .filter = filter});
     return techniques;
 }

@@ -33,6 +33,7 @@ inline constexpr std::array kBases{
     "filter=pcf motion=snap keep-still=always map-size=64",
     "filter=pcf partition=cascades motion=snap keep-still=always map-size=64",
     "filter=hard partition=sdsm keep-still=always map-size=64",
+    "filter=pcf partition=auto fit=auto quality=best keep-still=always map-size=64",
     "filter=vsm motion=snap keep-still=always map-size=64",
     "filter=lvsm lvsm.placement=lloyd motion=snap keep-still=always map-size=64",
     "filter=evsm partition=cascades motion=snap keep-still=always map-size=64",

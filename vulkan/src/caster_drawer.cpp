@@ -186,7 +186,7 @@ void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
 void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
 {
     const Technique& technique = options.technique();
-    const bool placed = technique.partition == Partition::sdsm;
+    const bool placed = options.fitsOnGpu();
     const bool layered = options.cascades().pass == CascadePass::layered;
     const bool paired =
         options.paired_maps() && (technique.motion == Motion::step_band || technique.motion == Motion::step_blend ||

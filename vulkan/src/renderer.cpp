@@ -227,7 +227,7 @@ void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
             maps->recorder->warmUp(options);
             parts.spares.push_back({options, std::move(maps)});
         }
-        if (options.technique().partition == Partition::sdsm) {
+        if (options.fitsOnGpu()) {
             parts.fitter.warmUp();
         }
         parts.mask.warmUp(options, what);

@@ -11,8 +11,9 @@
 namespace gnomon {
 
 enum class LightType : std::uint8_t { directional, spot, point };
-enum class Partition : std::uint8_t { single, cascades, sdsm, cube, multi };
-enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm };
+/// automatic: the planner chooses, for each light and frame (docs/techniques/auto.md).
+enum class Partition : std::uint8_t { single, cascades, sdsm, cube, multi, automatic };
+enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, automatic };
 enum class Filter : std::uint8_t { hard, pcf, pcss, vsm, lvsm, esm, evsm, msm, id, depth_id };
 enum class Soften : std::uint8_t { none, blur, smoothies };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };

@@ -81,10 +81,21 @@ struct PcfOptions {
 /// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
+/// What Partition::automatic may spend, for the texels of one map of map_size.
+enum class Quality : std::uint8_t {
+    fast,     // one map
+    balanced, // one map, or cascades that share its texels, whichever is predicted to err less
+    best, // one map, fitted on the GPU to what the camera sees, as sdsm has it: the host gives the camera's depth to
+          // ShadowRenderer::recordBounds() before its maps. With a motion other than free: balanced
+};
+[[nodiscard]] std::string_view nameOf(Quality value);
+
 struct ShadowOptions {
     Technique technique;
-    std::optional<MapFormat> format; // what a texel is stored as; nothing: the filter's first format
-    std::uint32_t map_size = 2048;   // texels on a side of one map; 16 .. 16384
+    Quality quality = Quality::balanced; // partition auto
+    std::optional<MapFormat> format;     // what a texel is stored as; nothing: the filter's first format
+    /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share so many: four have half.
+    std::uint32_t map_size = 2048;
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
@@ -130,6 +141,8 @@ public:
     [[nodiscard]] double fadeEnd_m() const { return asked_.max_distance_m; }
     /// How far from a receiver's place in the map the filter reads, reachTexels().
     [[nodiscard]] float reach_texels() const { return reach_texels_; }
+    /// Of what was asked for, see below.
+    [[nodiscard]] bool fitsOnGpu() const;
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
     [[nodiscard]] bool paired_maps() const { return paired_maps_; }
 
@@ -163,6 +176,8 @@ struct Resolution {
 /// The same for a host whose options are its own constants. Throws Error with the sentence.
 [[nodiscard]] ResolvedOptions resolvedOrThrow(const ShadowOptions& options);
 
+/// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
+[[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);

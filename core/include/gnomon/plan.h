@@ -222,6 +222,19 @@ struct SunSteps {
     SunPosition read = SunPosition::earlier;
 };
 
+/// What Partition::automatic and Fit::automatic came to for a light, and why.
+struct AutoChoice {
+    bool made = false; // the light leaves one of them to the planner, and something was in sight to choose by
+    Partition partition = Partition::single;
+    /// Predicted, before anything is drawn: the geometric mean of texels per pixel over what is probably seen,
+    double texels_per_pixel = 0.0;
+    /// the share of it that is wrong in some measure, 0 .. 1, of use for comparing only, and that of the partition
+    /// that was not taken; 0: there was no other.
+    double error = 0.0;
+    double other_error = 0.0;
+    std::string_view reason; // a sentence with static lifetime
+};
+
 struct LightPlan {
     std::uint32_t first_view = 0; // range of Plan::views; of a paired light the earlier position's come first
     std::uint32_t view_count = 0;
@@ -230,6 +243,7 @@ struct LightPlan {
     std::uint32_t options = 0;      // Light::options
     Outcome outcome;
     SunSteps steps;
+    AutoChoice choice;
 };
 
 /// The images that the maps of one of the planner's options lie in. None of the numbers falls while a map is in use, so

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a Frame to a Plan. Keeps which maps the lights have and what these hold, how far suns that move in steps have
-// got, and its scratch memory; nothing else.
+// got, what partition and fit auto came to, and its scratch memory; nothing else.
 #pragma once
 
 #include <gnomon/frame.h>
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const Plan& plan(const Frame& frame);
     /// A map's texels are gone, or were not drawn: it is drawn whole when it is read next. A name of old is no error.
     void lost(const MapId& map);
-    /// All maps are lost. Suns go on in their steps.
+    /// All maps are lost, and what partition and fit auto came to is found anew. Suns go on in their steps.
     void reset();
     /// Those that Light::options = `index` stands for, as they were asked for; beyond them, default ones.
     [[nodiscard]] const ShadowOptions& options(std::uint32_t index = 0) const;

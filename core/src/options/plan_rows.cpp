@@ -14,7 +14,11 @@ using enum OptionType;
 
 bool hasCascades(const ShadowOptions& o)
 {
-    return o.technique.partition == Partition::cascades || o.technique.partition == Partition::sdsm;
+    return o.technique.partition != Partition::single;
+}
+bool choosesPartition(const ShadowOptions& o)
+{
+    return o.technique.partition == Partition::automatic;
 }
 bool hasSplits(const ShadowOptions& o)
 {
@@ -63,16 +67,17 @@ OptionValue getEnds(const ShadowOptions& o)
 
 void addPlanRows(std::vector<OptionRow>& table)
 {
-    constexpr std::string_view kCascades = "partition cascades or sdsm";
+    constexpr std::string_view kCascades = "partition cascades, sdsm or auto";
     const OptionRow rows[]{
         // clang-format off
+        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: one map, or cascades too, or one fitted to the camera's depth", .own_option = true, .used = choosesPartition, .used_when = "partition auto", GNOMON_MEMBER(quality)},
         {.key = "max-distance", .type = real, .form = "M", .unit = "m", .min = 0, .max = kFarthestPlace_m, .doc = "receivers farther from the eye get no shadow; 0: no limit", GNOMON_MEMBER(max_distance_m)},
         {.key = "fade", .type = real, .form = "V", .unit = "of max-distance", .min = 0, .max = 1, .doc = "over which shadows fade away before it", .used = hasDistance, .used_when = "max-distance above 0", GNOMON_MEMBER(fade)},
         {.key = "cascades.count", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "slices of the view, each with a map", .used = hasCascades, .used_when = kCascades, .get = getCount, .set = setCount},
-        {.key = "cascades.lambda", .type = real, .form = "V", .min = 0, .max = 1, .doc = "1 splits the view logarithmically, 0 evenly", .used = hasSplits, .used_when = "partition cascades or sdsm without cascades.ends", GNOMON_MEMBER(cascades.lambda)},
+        {.key = "cascades.lambda", .type = real, .form = "V", .min = 0, .max = 1, .doc = "1 splits the view logarithmically, 0 evenly", .used = hasSplits, .used_when = "partition cascades, sdsm or auto without cascades.ends", GNOMON_MEMBER(cascades.lambda)},
         {.key = "cascades.ends", .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthestPlace_m, .count = kMaxCascades - 1, .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .used = hasCascades, .used_when = kCascades, .get = getEnds, .set = setEnds},
         {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "over which one fades into the next", .used = hasCascades, .used_when = kCascades, GNOMON_MEMBER(cascades.blend)},
-        {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades or sdsm", GNOMON_MEMBER(cascades.pass)},
+        {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
         {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", GNOMON_MEMBER(border_texels)},
         // clang-format on
     };

@@ -61,6 +61,10 @@ std::string_view nameOf(CascadePass value)
 {
     return nameIn(std::array<std::string_view, 3>{"auto", "each", "layered"}, value);
 }
+std::string_view nameOf(Quality value)
+{
+    return nameIn(std::array<std::string_view, 3>{"fast", "balanced", "best"}, value);
+}
 std::string_view nameOf(StepBy value)
 {
     return nameIn(std::array<std::string_view, 2>{"angle", "time"}, value);
@@ -105,6 +109,19 @@ float reachTexels(const ShadowOptions& options)
     }
     const int width = kernelWidth(options.pcf.kernel);
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
+}
+
+bool fitsOnGpu(const ShadowOptions& options)
+{
+    const Technique& technique = options.technique;
+    return technique.partition == Partition::sdsm ||
+           (technique.partition == Partition::automatic && options.quality == Quality::best &&
+            technique.motion == Motion::free);
+}
+
+bool ResolvedOptions::fitsOnGpu() const
+{
+    return gnomon::fitsOnGpu(asked_);
 }
 
 Resolution resolve(const ShadowOptions& options)

@@ -36,7 +36,7 @@ struct PartitionTraits {
     bool fits_on_gpu;
     bool cascades; // one map for each of CascadeOptions::count, else one
 };
-/// Null for a partition that is not available.
+/// Null for a partition that is not available. That of Partition::automatic stands for all that it may choose.
 [[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
 
 /// Plane z = depth of the view, which faces away from the eye or towards it.

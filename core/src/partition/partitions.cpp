@@ -8,6 +8,7 @@ constexpr PartitionTraits kPartitions[] = {
     {Partition::single, partitionSingle, false, false, false},
     {Partition::cascades, partitionCascades, true, false, true},
     {Partition::sdsm, partitionSdsm, true, true, true},
+    {Partition::automatic, partitionCascades, true, false, true},
 };
 
 } // namespace

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What partition and fit `auto` come to for each light: the candidates' errors are predicted, and the best one is
+// taken, but not at once where it is hardly better than what the light has.
+#pragma once
+
+#include "frustum_planner.h"
+#include "store/light_rows.h"
+
+#include <gnomon/plan.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// What a light that leaves its choice to the planner is planned by.
+struct AutoDecision {
+    const PartitionTraits* partition = nullptr;
+    std::array<double, kMaxCascades> strengths{}; // of the warps of its slices; 0: none was looked for yet
+    AutoChoice told;
+};
+
+/// Remembers a light by its key for as long as it is in the frames.
+class AutoChooser {
+public:
+    /// The lights of a frame. Those that are gone are forgotten.
+    void follow(std::span<const Light> lights);
+
+    /// Precondition: the recipe predicts(), and `camera` is measured.
+    const AutoDecision& decide(const FrustumInput& input, const Sight& sight, std::size_t light,
+                               FrustumPlanner& frustums);
+    /// What was decided last; what a light is given before anything can be said of it, if nothing was.
+    [[nodiscard]] const AutoDecision& decisionOf(const Recipe& recipe, std::size_t light);
+
+private:
+    /// One way to divide a light, and how its warps stand.
+    struct Candidate {
+        const PartitionTraits* partition = nullptr;
+        std::array<double, kMaxCascades> strengths{};
+        MapError error;
+    };
+    struct Memory {
+        std::array<Candidate, 2> candidates;
+        std::size_t count = 0;    // of candidates; 0: nothing is remembered
+        std::uint32_t frames = 0; // since all candidates were looked at
+        AutoDecision decision;
+    };
+    void begin(const Recipe& recipe, Memory& memory) const;
+    void predict(const FrustumInput& input, const Sight& sight, FrustumPlanner& frustums, Candidate& candidate);
+
+    LightRows rows_;
+    std::vector<Memory> memories_; // by row
+    std::vector<std::uint32_t> keys_;
+    std::vector<Slice> slices_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// How wrong the shadows of a map will be, told by its matrix and by where the camera looks.
+#pragma once
+
+#include "auto/sight.h"
+#include "fit/projection.h"
+
+#include <glm/mat2x2.hpp>
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// A SightPoint as a light sees it.
+struct LitPoint {
+    glm::dvec2 q{0.0};            // of the plane across the light, as LightRect has it
+    glm::dmat2 q_from_pixel{1.0}; // by how much q moves to the next pixel on the right, and below
+    double pixel_m = 0.0;         // SightPoint::pixel_m
+};
+
+/// Appends those of the points that are between two depths of the view and in the light's reach.
+void lightPoints(const LightSpace& space, std::span<const SightPoint> points, const ViewSlice& depths,
+                 std::vector<LitPoint>& out);
+
+/// The map's Jacobian at a point: by how many texels the place on the map moves from pixel to pixel.
+[[nodiscard]] glm::dmat2 texelFromPixel(const LitPoint& point, const Warp& warp, const MapFrame& frame);
+
+/// A sum over points.
+struct MapError {
+    double sum = 0.0;        // of errors, each in [0, 1]
+    double log_texels = 0.0; // of natural logarithms of texels per pixel
+    std::size_t count = 0;
+
+    [[nodiscard]] double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
+    void add(const MapError& other)
+    {
+        sum += other.sum;
+        log_texels += other.log_texels;
+        count += other.count;
+    }
+};
+
+/// The edge of a shadow is off by about a texel, so of a shadow of size f a texel of length t gets a share of about
+/// t / (t + f) wrong. A texel smaller than half a pixel is no better than one of that size. `feature_m`: f. Lengths are
+/// those on the receiver: so much of the picture is wrong where things are far off and their shadows small, and
+/// counting texels in pixels alone gives the near end too much of the map (docs/techniques/auto.md has figures).
+[[nodiscard]] MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                                  double feature_m);
+
+} // namespace gnomon

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partition and fit `auto`: what is predicted is what a map has, the best is taken, and it does not flicker.
+#include "fit_stage.h"
+
+#include "auto/sight.h"
+#include "auto/warp_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+using test::FitStage;
+using test::Stage;
+
+constexpr std::uint32_t kSide = 2048;
+constexpr double kBorder_texels = 4.0;
+
+Frame frameOf(const Stage& stage)
+{
+    Frame frame;
+    frame.camera = stage.camera;
+    frame.lights = std::span(&stage.light, 1);
+    frame.objects = &stage.set;
+    return frame;
+}
+
+ShadowOptions automatic(Quality quality = Quality::balanced)
+{
+    ShadowOptions options;
+    options.technique.partition = Partition::automatic;
+    options.technique.fit = Fit::automatic;
+    options.quality = quality;
+    return options;
+}
+
+/// Ground seen from 1.7 m above it, or more.
+Stage meadow(double height_m, double pitch_rad)
+{
+    Stage stage = test::levelGround();
+    stage.light = test::sun({0.4, -1, 0.3});
+    const glm::dvec3 eye(0, height_m, 0);
+    stage.camera = test::perspectiveCamera(eye, eye + glm::dvec3(0, -std::sin(pitch_rad), -std::cos(pitch_rad)),
+                                           glm::radians(60.0), 1.6, 0.1, 200.0);
+    return stage;
+}
+
+/// A row of pixels y below the horizon sees level ground at z = f h / y, f being the picture's focal length in pixels.
+TEST(AutoSight, StepsOfPixelsOnLevelGroundAreThoseOfTheClosedForm)
+{
+    const Stage stage = meadow(1.7, 0.0);
+    const FitStage fit(stage);
+    Frame frame = frameOf(stage);
+    frame.size_px = {1280, 800};
+    Sight sight;
+    sight.look(frame, fit.view, fit.seen);
+    const double focal_px = 400.0 / std::tan(glm::radians(30.0));
+    int on_ground = 0;
+    for (const SightPoint& point : sight.points()) {
+        if (std::abs(point.p_ws.y) > 1e-6)
+            continue; // the box on the ground
+        ++on_ground;
+        const double row = focal_px * 1.7 / point.depth_m;
+        EXPECT_NEAR(glm::length(point.right_ws), point.depth_m / focal_px, 1e-6 * point.depth_m);
+        const double below_m = focal_px * 1.7 / (row + 0.5);
+        EXPECT_NEAR(point.down_ws.z, (point.depth_m - below_m) / 0.5, 1e-6 * point.depth_m); // it looks along -z
+        EXPECT_NEAR(point.pixel_m, std::sqrt(glm::length(point.right_ws) * glm::length(point.down_ws)), 1e-12);
+    }
+    EXPECT_EQ(on_ground, Sight::kColumns * Sight::kRows / 2) << "the lower half of the picture is ground";
+}
+
+/// The Jacobian that candidates are ranked by, against differences of the matrix that a map would be drawn by.
+TEST(AutoPrediction, IsTheJacobianOfTheMapsOwnMatrix)
+{
+    for (const Light& light : {test::sun({0.4, -1, 0.3}), test::spot({3, 30, -20}, {0.1, -1, 0.2}, 1.0)}) {
+        Stage stage = meadow(1.7, 0.2);
+        stage.light = light;
+        const FitStage fit(stage);
+        ASSERT_TRUE(fit.found);
+        Sight sight;
+        sight.look(frameOf(stage), fit.view, fit.seen);
+        std::vector<LitPoint> lit;
+        lightPoints(fit.space, sight.points(), {}, lit);
+        ASSERT_GT(lit.size(), 20U);
+        for (const double strength : {1.0, 3.0, 15.0}) {
+            const Warp warp = warpOfStrength(fit.input(), slopeOfBody(fit.input()), strength);
+            EXPECT_EQ(warp.warped(), strength > 1.0);
+            const MapFrame frame = gnomon::frameOf(rectOf(warp, fit.region.outline()), 0.01, kSide, kBorder_texels);
+            View view;
+            view.clip_from_world = clipFromWorld(fit.space, warp, frame, 1.0, 500.0);
+            std::size_t next = 0;
+            for (const SightPoint& point : sight.points()) {
+                std::vector<LitPoint> one;
+                lightPoints(fit.space, std::span(&point, 1), {}, one);
+                if (one.empty())
+                    continue;
+                const glm::dmat2 told = texelFromPixel(lit[next++], warp, frame);
+                const glm::dmat2 steps = test::mapSteps(view, point.p_ws, point.right_ws, point.down_ws);
+                for (int pixel = 0; pixel < 2; ++pixel) {
+                    const double length = glm::length(steps[pixel]) * kSide * 0.5;
+                    EXPECT_NEAR(std::abs(told[pixel].x), std::abs(steps[pixel].x) * kSide * 0.5, 1e-4 * length);
+                    EXPECT_NEAR(std::abs(told[pixel].y), std::abs(steps[pixel].y) * kSide * 0.5, 1e-4 * length);
+                }
+            }
+        }
+    }
+}
+
+/// Of all strengths, by hand: none errs hardly less than the one that is found.
+TEST(AutoPrediction, TheStrengthFoundIsTheBestOne)
+{
+    for (const double height_m : {1.7, 6.0, 30.0}) {
+        const Stage stage = meadow(height_m, 0.15);
+        const FitStage fit(stage);
+        Sight sight;
+        sight.look(frameOf(stage), fit.view, fit.seen);
+        std::vector<LitPoint> lit;
+        lightPoints(fit.space, sight.points(), {}, lit);
+        const FitInput input = fit.input();
+        const WarpTrial trial{input, slopeOfBody(input),         fit.region.rect(), 0.01, kSide, kBorder_texels, lit,
+                              {},    300.0 * sight.meanPixel_m()};
+        const double found = trial.errorAt(nextStrength(trial, 0.0)).mean();
+        double best = 1.0;
+        double worst = 0.0;
+        for (double strength = 1.0; strength < 200.0; strength *= 1.02) {
+            best = std::min(best, trial.errorAt(strength).mean());
+            worst = std::max(worst, trial.errorAt(strength).mean());
+        }
+        EXPECT_LE(found, 1.001 * best / 0.97) << height_m;
+        EXPECT_GT(worst, 1.5 * best) << "or any strength would have done";
+        EXPECT_LT(found, trial.errorAt(20.0).mean() * 1.001) << "the bound of the other fits";
+    }
+}
+
+TEST(AutoChoice, SaysWhatItTookAndWhy)
+{
+    const Stage stage = meadow(1.7, 0.0);
+    Planner planner(automatic());
+    const Plan& plan = planner.plan(frameOf(stage));
+    const AutoChoice& choice = plan.lights[0].choice;
+    EXPECT_TRUE(choice.made);
+    EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
+    EXPECT_FALSE(choice.reason.empty());
+    EXPECT_GT(choice.texels_per_pixel, 0.0);
+    EXPECT_GT(choice.error, 0.0);
+    EXPECT_GT(choice.other_error, 0.0);
+    EXPECT_GT(plan.views[0].fit.strength, 2.0);
+    EXPECT_NE(toJson(plan).find("\"auto\": {"), std::string::npos);
+    // Nobody asked: nothing is said.
+    EXPECT_EQ(toJson(Planner(ShadowOptions{}).plan(frameOf(stage))).find("\"auto\": {"), std::string::npos);
+}
+
+/// Whatever was chosen, the light's maps have as many texels as one map of map_size at most.
+TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
+{
+    for (const Quality quality : {Quality::fast, Quality::balanced, Quality::best})
+        for (const double pitch : {0.0, 0.3, 1.2}) {
+            const Stage stage = meadow(1.7, pitch);
+            Planner planner(automatic(quality));
+            const Plan& plan = planner.plan(frameOf(stage));
+            std::uint64_t texels = 0;
+            for (const View& view : plan.views) {
+                texels += std::uint64_t{view.tile.width} * view.tile.height;
+                EXPECT_EQ(view.gpu_cascade != kNoIndex, quality == Quality::best);
+            }
+            EXPECT_LE(texels, std::uint64_t{kSide} * kSide);
+            EXPECT_GE(plan.views.size(), 1U);
+            if (quality != Quality::balanced) {
+                EXPECT_EQ(plan.views.size(), 1U);
+            }
+        }
+    // Nobody can hold still what the GPU fits anew in each frame.
+    ShadowOptions steady = automatic(Quality::best);
+    steady.technique.motion = Motion::snap;
+    const Stage stage = meadow(1.7, 0.0);
+    Planner planner(steady);
+    const Plan& plan = planner.plan(frameOf(stage));
+    EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
+    for (const View& view : plan.views)
+        EXPECT_EQ(view.gpu_cascade, kNoIndex);
+}
+
+TEST(AutoChoice, AFrameThatComesAgainDrawsNothing)
+{
+    const Stage stage = meadow(1.7, 0.1);
+    Planner planner(automatic());
+    (void)planner.plan(frameOf(stage));
+    for (int again = 0; again < 3; ++again)
+        for (const View& view : planner.plan(frameOf(stage)).views)
+            EXPECT_FALSE(view.redraw);
+}
+
+struct Watched {
+    int switches = 0;     // of the partition
+    double most_step = 0; // of the logarithm of a warp's strength, while the partition stayed
+};
+
+/// Over `frames` frames; a fresh planner in each one shows what would be chosen without any memory.
+Watched watch(int frames, bool remembers, const std::function<Stage(int)>& stageAt)
+{
+    Watched watched;
+    Planner kept(automatic());
+    Partition last = Partition::automatic;
+    double last_strength = 0.0;
+    for (int i = 0; i < frames; ++i) {
+        const Stage stage = stageAt(i);
+        Planner fresh(automatic());
+        const Plan& plan = (remembers ? kept : fresh).plan(frameOf(stage));
+        const double strength = plan.views[0].fit.strength;
+        if (i > 0 && plan.lights[0].choice.partition != last)
+            ++watched.switches;
+        else if (i > 0 && strength > 1.0 && last_strength > 1.0)
+            watched.most_step = std::max(watched.most_step, std::abs(std::log(strength / last_strength)));
+        last = plan.lights[0].choice.partition;
+        last_strength = strength;
+    }
+    return watched;
+}
+
+/// From high above down to eye height and up again, with a hand that shakes.
+Stage shaken(int frame)
+{
+    test::Random random(static_cast<std::uint64_t>(frame));
+    const double t = std::abs(frame - 300) / 300.0;
+    return meadow(1.7 * std::pow(60.0, t) * random.uniform(0.97, 1.03), 0.02 + 0.8 * t + random.uniform(-0.02, 0.02));
+}
+
+TEST(AutoChoice, AShakenCameraDoesNotMakeItFlicker)
+{
+    const Watched kept = watch(600, true, shaken);
+    const Watched forgetful = watch(600, false, shaken);
+    RecordProperty("switches", kept.switches);
+    RecordProperty("switches without memory", forgetful.switches);
+    EXPECT_LE(kept.switches, 4);
+    EXPECT_LE(kept.most_step, 0.03);
+    EXPECT_GT(forgetful.most_step, 4.0 * kept.most_step) << "or there was nothing to hold still";
+}
+
+TEST(AutoChoice, AfterACutItIsAsGoodAsAnewAtOnce)
+{
+    const Stage above = meadow(100.0, 1.3);
+    const Stage below = meadow(1.7, 0.0);
+    Planner planner(automatic(Quality::fast));
+    (void)planner.plan(frameOf(above));
+    const double after = planner.plan(frameOf(below)).lights[0].choice.error;
+    const double anew = Planner(automatic(Quality::fast)).plan(frameOf(below)).lights[0].choice.error;
+    EXPECT_LE(after, 1.5 * anew);
+}
+
+/// A light that comes back is a new one; others keep theirs.
+TEST(AutoChoice, LightsAreRememberedByTheirKeys)
+{
+    Stage stage = meadow(1.7, 0.1);
+    std::vector<Light> lights{test::sun({0.4, -1, 0.3}), test::sun({-0.5, -1, 0.1})};
+    lights[0].key = 7;
+    lights[1].key = 3;
+    Frame frame = frameOf(stage);
+    frame.lights = lights;
+    Planner planner(automatic());
+    const Plan first = planner.plan(frame);
+    std::swap(lights[0], lights[1]);
+    const Plan& second = planner.plan(frame);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(second.lights[i].choice.error, first.lights[1 - i].choice.error);
+        EXPECT_FALSE(second.views[second.lights[i].first_view].redraw);
+    }
+}
+
+} // namespace
+} // namespace gnomon
