@@ -105,6 +105,23 @@ TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
     EXPECT_FALSE(settingsOf({"plan", "--preset", (folder / "a.json").string()}).truth.has_value());
 }
 
+// Partition and fit have a value of that name; alone in a technique it is both of theirs.
+TEST(Settings, AutoInATechniqueIsThatOfEveryChoiceThatHasIt)
+{
+    const app::Settings base = app::defaultSettings();
+    const app::Settings both = app::parseTechnique(base, "pcf+auto+quality=best");
+    EXPECT_EQ(both.shadow.technique.partition, Partition::automatic);
+    EXPECT_EQ(both.shadow.technique.fit, Fit::automatic);
+    EXPECT_EQ(both.shadow.quality, Quality::best);
+    const app::Settings again = app::parseTechnique(base, app::describeTechnique(both));
+    EXPECT_EQ(again.shadow, both.shadow);
+    const app::Settings warp = app::parseTechnique(base, "pcf+single+fit=auto");
+    EXPECT_EQ(warp.shadow.technique.partition, Partition::single);
+    EXPECT_EQ(warp.shadow.technique.fit, Fit::automatic);
+    EXPECT_THROW((void)app::parseTechnique(base, "pcf+auto+lispsm"), app::UsageError) << "the fit twice";
+    EXPECT_THROW((void)app::parseTechnique(base, "pcf+quality=best"), app::UsageError) << "with partition auto only";
+}
+
 // A preset is handed on; what is overwritten here is not for whoever wrote it to say.
 TEST(Settings, OfAPresetNameNothingThatIsWritten)
 {
