@@ -26,7 +26,7 @@ Cells cellsBetween(double low, double high, int count)
     }
     // How many middles lie below a place; a cast takes less time than std::floor, which counts here.
     const auto below = [&](double place) {
-        return static_cast<int>((std::clamp(place, -1.0, 1.0) + 1.0) * 0.5 * count + 0.5);
+        return static_cast<int>(0.5 * ((std::clamp(place, -1.0, 1.0) + 1.0) * count + 1.0));
     };
     return {below(low), below(high)};
 }
@@ -152,8 +152,10 @@ void Sight::look(const Frame& frame, const CameraView& view, std::span<const std
     world_from_clip_ = glm::inverse(view.clip_from_world);
     near_z_ = frame.camera.reversed_z ? 1.0 : 0.0;
     const auto placeOf = [](std::size_t cell) {
-        return glm::dvec2((2.0 * static_cast<double>(cell % kColumns) + 1.0) / kColumns - 1.0,
-                          (2.0 * static_cast<double>(cell / kColumns) + 1.0) / kRows - 1.0);
+        const std::size_t column = cell % kColumns;
+        const std::size_t row = cell / kColumns;
+        return glm::dvec2((2.0 * static_cast<double>(column) + 1.0) / kColumns - 1.0,
+                          (2.0 * static_cast<double>(row) + 1.0) / kRows - 1.0);
     };
     for (std::size_t cell = 0; cell < rays_.size(); ++cell) {
         rays_[cell] = rayAt(placeOf(cell));
