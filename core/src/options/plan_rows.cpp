@@ -16,10 +16,6 @@ bool hasCascades(const ShadowOptions& o)
 {
     return o.technique.partition != Partition::single;
 }
-bool choosesPartition(const ShadowOptions& o)
-{
-    return o.technique.partition == Partition::automatic;
-}
 bool hasSplits(const ShadowOptions& o)
 {
     return hasCascades(o) && !o.cascades.explicitEnds();
@@ -70,7 +66,6 @@ void addPlanRows(std::vector<OptionRow>& table)
     constexpr std::string_view kCascades = "partition cascades, sdsm or auto";
     const OptionRow rows[]{
         // clang-format off
-        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: one map, or cascades too, or one fitted to the camera's depth", .own_option = true, .used = choosesPartition, .used_when = "partition auto", GNOMON_MEMBER(quality)},
         {.key = "max-distance", .type = real, .form = "M", .unit = "m", .min = 0, .max = kFarthestPlace_m, .doc = "receivers farther from the eye get no shadow; 0: no limit", GNOMON_MEMBER(max_distance_m)},
         {.key = "fade", .type = real, .form = "V", .unit = "of max-distance", .min = 0, .max = 1, .doc = "over which shadows fade away before it", .used = hasDistance, .used_when = "max-distance above 0", GNOMON_MEMBER(fade)},
         {.key = "cascades.count", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "slices of the view, each with a map", .used = hasCascades, .used_when = kCascades, .get = getCount, .set = setCount},

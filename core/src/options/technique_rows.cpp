@@ -12,6 +12,10 @@ bool isPcf(const ShadowOptions& o)
 {
     return o.technique.filter == Filter::pcf;
 }
+bool choosesPartition(const ShadowOptions& o)
+{
+    return o.technique.partition == Partition::automatic;
+}
 bool isDisc(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) == 0;
@@ -60,6 +64,7 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "partition", .type = choice, .form = "NAME", .choices = namesOf<Partition>, .doc = "how a light's receivers are divided among frustums", .own_option = true, GNOMON_MEMBER(technique.partition)},
         {.key = "soften", .type = choice, .form = "NAME", .choices = namesOf<Soften>, .doc = "what happens to the visibility in screen space", .own_option = true, GNOMON_MEMBER(technique.soften)},
         {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
+        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: one map, or cascades too, or one fitted to the camera's depth", .own_option = true, .used = choosesPartition, .used_when = "partition auto", GNOMON_MEMBER(quality)},
         {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .doc = "side of one map", .own_option = true, GNOMON_MEMBER(map_size)},
         {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, GNOMON_MEMBER(format)},
         {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", GNOMON_BIAS(constant_m)},
