@@ -93,6 +93,7 @@ struct Settings {
     std::string animation;
     std::string path; // a name or a file; empty: none
     double path_speed = 1.0;
+    std::uint32_t converge = 1; // frames at rest, of which the last counts
     // run
     std::uint64_t seed = 0;
     std::string gpu;

@@ -25,9 +25,11 @@ namespace gnomon::lab {
 [[nodiscard]] Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const truth::Traced& truth,
                                const host::RenderOptions& options, bool with_perception = true);
 /// Draws the subject with one technique, at the truth's size and without anti-aliasing whatever `options` say, and
-/// holds its mask against the truth. `with_perception`: ssim and flip too, which take longer than all else.
+/// holds its mask against the truth. `with_perception`: ssim and flip too, which take longer than all else. `frames` >=
+/// 1: how many are drawn, of which the last counts.
 [[nodiscard]] Score scoreTechnique(const host::SceneOnGpu& scene, const Subject& subject, const truth::Traced& truth,
-                                   const host::RenderOptions& options, bool with_perception = true);
+                                   const host::RenderOptions& options, bool with_perception = true,
+                                   std::uint32_t frames = 1);
 /// The same for any mask of the truth's size, with the geometry of `picture`; what tells of maps stays 0.
 [[nodiscard]] Score scoreMask(const Subject& subject, const truth::Traced& truth, const host::Picture& picture,
                               const ImageF& mask, bool with_perception = true);

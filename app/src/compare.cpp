@@ -129,8 +129,8 @@ void Comparison::scoreAll(const std::vector<Settings>& techniques)
         ComparedTechnique compared;
         compared.settings = technique;
         compared.name = describeTechnique(technique);
-        compared.score =
-            lab::scoreTechnique(scene_, result_.judged.subject, result_.judged.truth, renderOptions(technique));
+        compared.score = lab::scoreTechnique(scene_, result_.judged.subject, result_.judged.truth,
+                                             renderOptions(technique), true, settings_.converge);
         if (result_.techniques.empty()) {
             result_.pixels = compared.score.pixels.counts;
             result_.standard_error = lab::truthNoise(result_.judged.truth.visibility, compared.score.pixels.counted);

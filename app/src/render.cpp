@@ -99,6 +99,10 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
         const host::SceneOnGpu scene(*gpu, shot.scene, shot.state);
         host::FrameRenderer renderer(scene, renderOptions(settings));
         forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
+            for (std::uint32_t frame = 1; frame < settings.converge; ++frame) {
+                renderer.draw(shot.state, shot.eye, shot.lights);
+                requireNotInterrupted();
+            }
             renderer.draw(shot.state, shot.eye, shot.lights);
             requireSilence(*gpu);
             if (first) {

@@ -77,9 +77,9 @@ bool glows(const Settings& s)
 {
     return isPicture(s) && s.bloom.on;
 }
-bool isArea(const Settings& s)
+bool takesSize(const Settings& s)
 {
-    return s.truth == truth::Kind::area;
+    return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge;
 }
 
 const std::vector<Setting>& rows()
@@ -133,10 +133,10 @@ const std::vector<Setting>& rows()
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 4,
          .doc = "point light: place and reach; likewise", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
-         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area",
+         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kCompare, .used = takesSize, .used_when = "--truth area or soften converge",
          .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kCompare, .used = isArea, .used_when = "--truth area",
+         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kCompare, .used = takesSize, .used_when = "--truth area or soften converge",
          .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
         // clang-format on
     };

@@ -126,7 +126,7 @@ SweepResult runSweep(const host::SceneOnGpu& scene, SweepPlan plan, const Judged
         for (std::size_t line = 0; line < result.plan.lines.size(); ++line) {
             const Settings& settings = result.plan.lines[line].points[value];
             const lab::Score score = lab::scoreTechnique(other ? *other : scene, judged.subject, judged.truth,
-                                                         renderOptions(settings), false);
+                                                         renderOptions(settings), false, settings.converge);
             result.points[line].push_back(
                 {score.error, score.classification ? std::optional(score.classification->errors) : std::nullopt,
                  score.outcome});

@@ -88,6 +88,9 @@ constexpr std::array kValues{
     ChoiceValue{kSoften, "blur", number(Soften::blur), false, "separable Gaussian in screen space", kShastry},
     ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), false, "edges widened by the ratio of distances",
                 "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
+    ChoiceValue{kSoften, "converge", number(Soften::converge), true,
+                "each frame another point of the light, averaged over frames",
+                "D. Scherzer et al., Real-Time Soft Shadows Using Temporal Coherence, 2009"},
 
     ChoiceValue{kMotion, "free", number(Motion::free), true, "the map follows camera and sun exactly", kMarinescu},
     ChoiceValue{kMotion, "snap", number(Motion::snap), true, "the map moves by whole texels", kIceFall},
@@ -129,13 +132,13 @@ constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
-    FilterTraits{Filter::hard, kDepthFormats, true, true, false},
-    FilterTraits{Filter::pcf, kDepthFormats, true, true, false},
-    FilterTraits{Filter::vsm, kVsmFormats, false, true, true},
-    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true},
-    FilterTraits{Filter::esm, kEsmFormats, false, true, true},
-    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true},
-    FilterTraits{Filter::msm, kMsmFormats, false, true, true},
+    FilterTraits{Filter::hard, kDepthFormats, true, true, false, false},
+    FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false},
+    FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false},
+    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false},
+    FilterTraits{Filter::esm, kEsmFormats, false, true, true, false},
+    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true, false},
+    FilterTraits{Filter::msm, kMsmFormats, false, true, true, false},
 };
 
 /// What a user reads who asks a filter for a format that it cannot use.
@@ -166,6 +169,9 @@ constexpr std::array kRules{
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
                "motion free"},
+    ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
+               "soften converge with every motion but free",
+               "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
 };
 
 template <class Enum>

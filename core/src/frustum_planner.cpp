@@ -111,7 +111,8 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const double border_texels = lie.border_texels;
     const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.filter->filterable};
     const Warp warp = warpOf(input, lie);
-    const MapFrame shown = frameOfWarp(input, lie, warp);
+    MapFrame shown = frameOfWarp(input, lie, warp);
+    shown.centre += shown.texel * input.grid_move_texels;
     const FitReport fit = reportOf(warp, shown, region_.outline());
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),

@@ -22,6 +22,7 @@ struct FrustumInput {
     const Slice& slice;
     std::uint32_t map_size = 0; // texels on a side
     double strength = 1.0;      // of the warp, with fit auto
+    glm::dvec2 grid_move_texels{0.0};
 };
 
 class FrustumPlanner {

@@ -78,6 +78,18 @@ std::string_view nameOf(TexelPart part)
     return "?";
 }
 
+void writeSample(JsonWriter& json, const LightSample& sample)
+{
+    if (!sample.joined) {
+        json.nothing("sample");
+        return;
+    }
+    json.openLine("sample", '{');
+    json.vector("position_ws", sample.position_ws, 3);
+    json.vector("direction_ws", sample.direction_ws, 3);
+    json.closeLine('}');
+}
+
 void writeSteps(JsonWriter& json, const SunSteps& steps)
 {
     if (!steps.stepping) {
@@ -124,6 +136,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     json.value("options", light.options);
     writeSteps(json, light.steps);
     writeChoice(json, light.choice);
+    writeSample(json, light.sample);
     json.closeLine('}');
 }
 

@@ -6,8 +6,11 @@
 #include "frustum_planner.h"
 #include "motion/sun_steps.h"
 #include "recipe.h"
+#include "soften/light_sample.h"
+#include "soften/moved_boxes.h"
 #include "store/map_store.h"
 
+#include <gnomon/converge.h>
 #include <gnomon/planner.h>
 #include <gnomon/world_range.h>
 
@@ -76,6 +79,8 @@ struct Planner::Impl {
     AutoChooser chooser;
     std::uint64_t frames = 0; // planned so far: whose turn it is
     bool spoilt = false;      // a plan ended half way, because something threw
+    MovedBoxes moved;
+    std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
 
     Plan plan;
 
@@ -90,6 +95,7 @@ struct Planner::Impl {
     void addPages(MapStore& to) const;
     void makePlan(const Frame& frame);
     void begin(const Frame& frame);
+    void noteMovement(const Frame& frame);
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
@@ -158,6 +164,7 @@ const Plan& Planner::plan(const Frame& given)
         s.store = std::move(fresh);
         std::swap(s.suns, s.suns_before);
         s.chooser = {};
+        s.moved.forget();
         s.spoilt = false;
     }
     Frame frame = given;
@@ -187,6 +194,7 @@ void Planner::Impl::makePlan(const Frame& frame)
 {
     some_nowhere = frame.objects->nowhere() > 0;
     begin(frame);
+    noteMovement(frame);
     admit(frame);
     listReceivers(frame);
     store.beginFrame(*frame.objects, keys, wishes);
@@ -197,6 +205,7 @@ void Planner::Impl::makePlan(const Frame& frame)
     suns.end();
     store.report(plan);
     ++frames;
+    ++converging;
 }
 
 void Planner::Impl::begin(const Frame& frame)
@@ -209,6 +218,18 @@ void Planner::Impl::begin(const Frame& frame)
     for (Setup& setup : setups) {
         setup.looked = false;
     }
+}
+
+/// Which plan this is, and what of the pictures before it still holds.
+void Planner::Impl::noteMovement(const Frame& frame)
+{
+    plan.cut = frame.cut || frames == 0;
+    plan.number = frames + 1;
+    plan.moved_ws.clear();
+    if (std::ranges::any_of(setups, [](const Setup& setup) { return setup.recipe.converges(); })) {
+        plan.cut = !moved.follow(*frame.objects, plan.moved_ws) || plan.cut;
+    }
+    converging = plan.cut ? 0 : converging;
 }
 
 // ---- All lights: what each wants, and what the camera sees for it
@@ -370,7 +391,12 @@ std::uint32_t Planner::Impl::followSun(const Frame& frame, const Recipe& recipe,
 Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot)
 {
     const SunSteps steps = plan.lights[index].steps;
-    const bool has_slots = setups[plan.lights[index].options].recipe.pairs(frame.lights[index]);
+    const Recipe& recipe = setups[plan.lights[index].options].recipe;
+    const bool has_slots = recipe.pairs(frame.lights[index]);
+    if (recipe.converges()) {
+        plan.lights[index].sample =
+            sampleOf(frame.lights[index], convergeSample(recipe.filter->integrates_light ? 0 : converging));
+    }
     std::optional<Outcome> best;
     for (const bool later : {false, true}) {
         if (later && !steps.paired) {
@@ -381,6 +407,10 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
         stand.at = frame.lights[index];
         if (steps.stepping) {
             stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
+        }
+        if (const LightSample& sample = plan.lights[index].sample; sample.joined) {
+            stand.at.position_ws = sample.position_ws;
+            stand.at.direction_ws = sample.direction_ws;
         }
         if (steps.paired) {
             stand.sun = later ? SunPosition::later : SunPosition::earlier;
@@ -419,15 +449,19 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
     View planned;
     planned.light = stand.light;
     planned.sun = stand.sun;
+    const glm::dvec2 grid_move = recipe.converges() ? convergeSample(converging).grid_texels : glm::dvec2(0.0);
+    const bool on_gpu = partitionOf(setup, stand).fits_on_gpu; // whose views have a grid of their own
+    planned.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
     const Outcome outcome =
         frustums.plan({frame, recipe, setup.camera, setup.receivers, recipe.steady() ? all_receivers : setup.receivers,
                        stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width,
-                       recipe.predicts() ? chooser.decisionOf(recipe, stand.light).strengths[slice] : 1.0},
+                       recipe.predicts() ? chooser.decisionOf(recipe, stand.light).strengths[slice] : 1.0,
+                       on_gpu ? glm::dvec2(0.0) : grid_move},
                       planned, plan.casters);
     if (!outcome.hasMap()) {
         return outcome;
     }
-    if (!partitionOf(setup, stand).fits_on_gpu) {
+    if (!on_gpu) {
         addView(frame, stand, slice, planned);
         return outcome;
     }

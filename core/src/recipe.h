@@ -41,6 +41,8 @@ struct Recipe {
 
     /// Depth is measured from a plane that leans with what receives shadow.
     [[nodiscard]] bool levelsDepth() const;
+    /// Its mask is a mean over frames.
+    [[nodiscard]] bool converges() const { return options.technique.soften == Soften::converge; }
     [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
     /// The planner finds out how strong a warp is (fit auto).
     [[nodiscard]] bool searchesWarp() const { return options.technique.fit == Fit::automatic && !steady(); }

@@ -74,12 +74,15 @@ Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const tr
 }
 
 Score scoreTechnique(const host::SceneOnGpu& scene, const Subject& subject, const truth::Traced& truth,
-                     const host::RenderOptions& options, bool with_perception)
+                     const host::RenderOptions& options, bool with_perception, std::uint32_t frames)
 {
+    assert(frames > 0);
     assert(subject.scene == &scene.scene() && subject.state != nullptr && subject.light < subject.lights.size());
     const host::RenderOptions wish = judgedOptions(options, sizeOf(truth.surfaces));
     host::FrameRenderer renderer(scene, wish);
-    renderer.draw(*subject.state, subject.eye, subject.lights);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+        renderer.draw(*subject.state, subject.eye, subject.lights);
+    }
     return scoreDrawn(renderer, subject, truth, wish, with_perception);
 }
 

@@ -57,7 +57,7 @@ shared::GpuCascadeLight describe(const Frame& frame, const Plan& plan, std::uint
     const auto& ends = cascades.ends_m;
     light.ends[0] = glm::dvec4(ends[0], ends[1], ends[2], ends[3]);
     light.ends[1] = glm::dvec4(ends[4], 0.0, 0.0, 0.0);
-    light.texel = glm::dvec4(view.texel_xy_m, 0.0, 0.0);
+    light.texel = glm::dvec4(view.texel_xy_m, view.grid_move_texels * 2.0 / texels);
     return light;
 }
 

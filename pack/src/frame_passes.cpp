@@ -21,6 +21,11 @@ bool takesTurns(const LightPlan& light)
     return light.outcome.hasMap() && light.steps.paired && light.steps.alternate;
 }
 
+bool joinsFrames(const LightPlan& light)
+{
+    return light.outcome.hasMap() && light.sample.joined;
+}
+
 void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
 {
     out.clear();
@@ -35,6 +40,9 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
     out.push_back({FramePassKind::mask});
     if (std::ranges::any_of(plan.lights, takesTurns)) {
         out.push_back({FramePassKind::history});
+    }
+    if (std::ranges::any_of(plan.lights, joinsFrames)) {
+        out.push_back({FramePassKind::converge});
     }
 }
 

@@ -72,7 +72,12 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
     if (views.count == 0) {
         return;
     }
-    placeLight(frame.lights[index], frame.camera.eye_ws, out);
+    Light from = frame.lights[index];
+    if (light.sample.joined) {
+        from.position_ws = light.sample.position_ws;
+        from.direction_ws = light.sample.direction_ws;
+    }
+    placeLight(from, frame.camera.eye_ws, out);
     out.views = {views.first, views.count, views.later_first, views.later_count};
     out.steps = stepRule(light.steps);
     out.options.x = light.options;

@@ -36,7 +36,8 @@ void main()
     }
     vec2 x = axisPlace(view.seen.x, view.seen.z, light.split.z);
     vec2 y = axisPlace(view.seen.y, view.seen.w, light.split.w);
-    view.place = vec4(x.x, y.x, x.y, y.y);
+    vec2 scale = vec2(x.x, y.x);
+    view.place = vec4(scale, vec2(x.y, y.y) + light.texel.zw / scale);
     view.slice.w = max(light.texel.x / x.x, light.texel.y / y.x);
     views[light.cascades.y + i] = view;
     report[light.cascades.y + i] = view;

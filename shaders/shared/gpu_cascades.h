@@ -39,7 +39,7 @@ struct GpuCascadeLight {
     GN_UVEC4
     cascades; // x: how many, y: first view of the plan, z: 1 for ends that are given, w: 1 for a perspective camera
     GN_VEC4 ends[2]; // given: where all cascades but the last end, m
-    GN_VEC4 texel;   // x, y: View::texel_xy_m of the base map
+    GN_VEC4 texel;   // x, y: View::texel_xy_m of the base map, z, w: how far each cascade is moved, of its own [-1, 1]
 };
 
 // Found so far, as whole numbers that only grow, so that the order in which pixels come does not matter: greatestKey()

@@ -24,7 +24,7 @@ TEST(Choices, NamesAreUniqueAndRowsComplete)
     }
     EXPECT_EQ(next_value,
               (std::map<std::string_view, unsigned>{
-                  {"light", 3}, {"partition", 6}, {"fit", 6}, {"filter", 10}, {"soften", 3}, {"motion", 6}}));
+                  {"light", 3}, {"partition", 6}, {"fit", 6}, {"filter", 10}, {"soften", 4}, {"motion", 6}}));
 }
 
 TEST(Choices, NamesRoundTrip)
@@ -97,7 +97,7 @@ TEST(Choices, RefusalsAreSentences)
 
 TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 {
-    ASSERT_EQ(choiceRules().size(), 1U);
+    ASSERT_EQ(choiceRules().size(), 2U);
     const ChoiceRule& rule = choiceRules().front();
     EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
     for (const ChoiceValue& partition : choiceValues())
@@ -110,6 +110,21 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
             EXPECT_EQ(rule.applies(LightType::spot, technique), refused) << partition.name << motion.name;
             EXPECT_EQ(refusal(LightType::spot, technique), refused ? std::optional(rule.reason) : std::nullopt);
         }
+}
+
+TEST(Choices, WhatConvergesIsNotHeldStill)
+{
+    const ChoiceRule& rule = choiceRules().back();
+    EXPECT_EQ(rule.refuses, "soften converge with every motion but free");
+    for (const ChoiceValue& motion : choiceValues()) {
+        if (motion.choice != "motion" || !motion.available)
+            continue;
+        Technique technique{.soften = Soften::converge, .motion = static_cast<Motion>(motion.value)};
+        EXPECT_EQ(refusal(LightType::spot, technique),
+                  motion.name != "free" ? std::optional(rule.reason) : std::nullopt);
+        technique.soften = Soften::none;
+        EXPECT_FALSE(rule.applies(LightType::spot, technique));
+    }
 }
 
 TEST(Choices, EveryAvailableFilterHasTraits)

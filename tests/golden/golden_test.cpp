@@ -118,7 +118,9 @@ protected:
         app::Shot shot = app::makeShot(settings);
         const host::SceneOnGpu uploaded(gpu(), shot.scene, shot.state);
         host::FrameRenderer renderer(uploaded, app::renderOptions(settings));
-        renderer.draw(shot.state, shot.eye, shot.lights);
+        for (std::uint32_t frame = 0; frame < settings.converge; ++frame) {
+            renderer.draw(shot.state, shot.eye, shot.lights);
+        }
         const app::FrameRange range = settings.frames.value_or(app::FrameRange{});
         for (std::uint32_t frame = range.first + 1; frame <= range.last; ++frame) {
             app::moveShot(shot, settings, frame);

@@ -32,9 +32,10 @@ TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
     by_hand.add(0, 0);
     by_hand.plan.views[0].gpu_cascade = 0;
     by_hand.plan.lights[1].steps.paired = by_hand.plan.lights[1].steps.alternate = true;
+    by_hand.plan.lights[0].sample.joined = true;
     const auto passes = passesOf(by_hand.plan);
-    ASSERT_EQ(passes.size(), 5U);
-    const std::array kinds{Kind::bounds, Kind::maps, Kind::maps, Kind::mask, Kind::history};
+    ASSERT_EQ(passes.size(), 6U);
+    const std::array kinds{Kind::bounds, Kind::maps, Kind::maps, Kind::mask, Kind::history, Kind::converge};
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         EXPECT_EQ(passes[i].kind, kinds[i]) << i;
     }

@@ -41,6 +41,8 @@ inline constexpr std::array kBases{
     "filter=pcf motion=step-band keep-still=always map-size=64",
     "filter=hard motion=step-blend map-format=rg16 keep-still=always map-size=64",
     "filter=esm motion=step-alternate keep-still=always map-size=64",
+    "filter=pcf soften=converge map-size=64",
+    "filter=hard partition=sdsm soften=converge map-size=64",
 };
 /// Of letters and digits alone.
 [[nodiscard]] std::string nameOfBase(std::string_view line);

@@ -23,6 +23,9 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
+// Of surfaces the distance from the eye, metres; 0: there is none.
+constexpr MaskHistory::Kind kHistory{.surfaces = VK_FORMAT_R32_SFLOAT};
+
 // Push constants of alternate.frag.
 struct Push {
     Reprojection before; // eye.w: layer of the images
@@ -52,7 +55,7 @@ AlternatePass::AlternatePass(Device& device, std::uint32_t frames_in_flight, VkP
     : device_(device), cache_(cache), sampler_(makeSampler(device, VK_FILTER_NEAREST)),
       sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
       layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Push))),
-      slots_(frames_in_flight), history_(device)
+      slots_(frames_in_flight), history_(device, kHistory)
 {
     sets_.reset(2 * frames_in_flight);
     for (auto& turns : slots_) {
@@ -71,7 +74,7 @@ Pipeline AlternatePass::makePipeline(VkFormat mask_format)
     state.stages = stages;
     state.layout = layout_.get();
     state.colour_format = mask_format;
-    state.second_format = MaskHistory::distanceFormat();
+    state.second_format = kHistory.surfaces;
     state.cache = cache_;
     state.name = "alternate";
     return makeGraphicsPipeline(device_, state);
@@ -107,7 +110,7 @@ void AlternatePass::writeSet(VkDescriptorSet set, const AlternateInputs& inputs)
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         DescriptorSets::image(kNow, sampler, history_.now().visibility.view(), kRead),
         DescriptorSets::image(kBefore, sampler, history_.before().visibility.view(), kRead),
-        DescriptorSets::image(kDistances, sampler, history_.before().distances.view(), kRead)};
+        DescriptorSets::image(kDistances, sampler, history_.before().surfaces.view(), kRead)};
     sets_.write(set, writes);
 }
 
@@ -148,7 +151,7 @@ void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, co
         colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     }
     colours[0].imageView = mask.layer(layer);
-    colours[1].imageView = history_.now().distances.layer(layer);
+    colours[1].imageView = history_.now().surfaces.layer(layer);
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea.extent = extent;
     info.layerCount = 1;

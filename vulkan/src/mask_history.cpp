@@ -3,6 +3,7 @@
 
 #include "barriers.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -27,27 +28,42 @@ bool isAlike(const ImageInfo& a, const ImageInfo& b)
 
 bool MaskHistory::prepare(const ImageInfo& mask)
 {
-    if (now().visibility && isAlike(now().visibility.info(), mask)) {
+    ImageInfo wanted = mask;
+    wanted.format = visibilityFormat(kind_, mask.format);
+    if (now().visibility && isAlike(now().visibility.info(), wanted)) {
         return false;
     }
     for (Images& images : images_) {
         device_.retire(std::move(images.visibility));
-        device_.retire(std::move(images.distances));
-        ImageInfo info = mask;
+        device_.retire(std::move(images.surfaces));
+        ImageInfo info = wanted;
         info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
         info.purpose = "mask of the frame before";
         images.visibility = Image(device_, info);
-        info.format = distanceFormat();
-        images.distances = Image(device_, info);
+        info.format = kind_.surfaces;
+        images.surfaces = Image(device_, info);
     }
     fresh_ = true;
     return true;
 }
 
+VkFormat MaskHistory::visibilityFormat(const Kind& kind, VkFormat mask)
+{
+    if (!kind.precise) {
+        return mask;
+    }
+    return mask == VK_FORMAT_R8_UNORM ? VK_FORMAT_R16_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
+std::array<const Image*, 2> MaskHistory::written(const Images& images) const
+{
+    return {&images.surfaces, kind_.makes_visibility ? &images.visibility : nullptr};
+}
+
 void MaskHistory::begin(VkCommandBuffer commands)
 {
     if (fresh_) { // nobody reads what is not there, but shaders name it
-        for (const Image* image : {&before().visibility, &before().distances}) {
+        for (const Image* image : {&before().visibility, &before().surfaces}) {
             ImageBarrier barrier = barrierOf(*image);
             barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
             barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -55,24 +71,32 @@ void MaskHistory::begin(VkCommandBuffer commands)
             recordBarrier(device_, commands, barrier);
         }
     }
-    ImageBarrier barrier = barrierOf(now().distances);
-    barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; // every pixel is written
-    barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
+    for (const Image* image : written(now())) {
+        if (image != nullptr) {
+            ImageBarrier barrier = barrierOf(*image);
+            barrier.new_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; // every pixel is written
+            barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+            barrier.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+            barrier.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+            recordBarrier(device_, commands, barrier);
+        }
+    }
 }
 
 void MaskHistory::end(VkCommandBuffer commands, const Frame& frame)
 {
-    ImageBarrier barrier = barrierOf(now().distances);
-    barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    recordBarrier(device_, commands, barrier);
+    for (const Image* image : written(now())) {
+        if (image != nullptr) {
+            ImageBarrier barrier = barrierOf(*image);
+            barrier.old_layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+            barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+            barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+            barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+            barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+            barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+            recordBarrier(device_, commands, barrier);
+        }
+    }
     camera_ = frame.camera;
     turn_ = 1 - turn_;
     fresh_ = false;
@@ -83,9 +107,29 @@ Reprojection MaskHistory::reprojection(const Frame& frame) const
     const VkExtent2D extent = now().visibility.info().extent;
     const glm::dmat4 before_from_eye = camera_.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.eye_ws);
     const glm::dvec4 w = glm::row(before_from_eye, 3);
-    return {(glm::row(before_from_eye, 0) + w) * (0.5 * extent.width),
-            (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height), w,
+    // This pixel stands for where it would look without jitter, and so does that one.
+    const glm::dvec2 shift = frame.camera.jitter_px - camera_.jitter_px;
+    return {(glm::row(before_from_eye, 0) + w) * (0.5 * extent.width) + w * shift.x,
+            (glm::row(before_from_eye, 1) + w) * (0.5 * extent.height) + w * shift.y, w,
             glm::dvec4(frame.camera.eye_ws - camera_.eye_ws, 0.0)};
+}
+
+bool MaskHistory::stands(const Frame& frame) const
+{
+    const VkExtent2D extent = now().visibility.info().extent;
+    const glm::dvec2 shift =
+        (frame.camera.jitter_px - camera_.jitter_px) * 2.0 / glm::dvec2(extent.width, extent.height);
+    const glm::dmat4& now = frame.camera.clip_from_world;
+    const glm::dmat4& before = camera_.clip_from_world;
+    constexpr double kRounding = 1e-9; // of a row's length
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec4 row = glm::row(now, i);
+        const glm::dvec4 moved = i < 2 ? row - glm::row(now, 3) * shift[i] : row;
+        if (!(glm::distance(moved, glm::row(before, i)) <= kRounding * glm::length(row))) {
+            return false;
+        }
+    }
+    return frame.camera.eye_ws == camera_.eye_ws && frame.camera.reversed_z == camera_.reversed_z;
 }
 
 } // namespace gnomon::vulkan

@@ -23,11 +23,17 @@ struct Reprojection {
 class MaskHistory {
 public:
     struct Images {
-        Image visibility; // as the mask
-        Image distances;  // R32_SFLOAT: from the eye, metres; 0: no surface
+        Image visibility;
+        Image surfaces; // what was seen, so that another frame can tell whether it sees the same
+    };
+    /// What a pass keeps.
+    struct Kind {
+        VkFormat surfaces = VK_FORMAT_UNDEFINED;
+        bool makes_visibility = false; // the pass itself writes it, else whoever draws the mask
+        bool precise = false;          // visibility in half floats, else as the mask
     };
 
-    explicit MaskHistory(Device& device) : device_(device) {}
+    MaskHistory(Device& device, const Kind& kind) : device_(device), kind_(kind) {}
 
     /// Makes images like the mask if those that are there are not; true when it did. Then nothing is known of the frame
     /// before.
@@ -36,18 +42,27 @@ public:
     [[nodiscard]] std::size_t turn() const { return turn_; }
     [[nodiscard]] const Images& now() const { return images_[turn_]; }
     [[nodiscard]] const Images& before() const { return images_[1 - turn_]; }
-    [[nodiscard]] static constexpr VkFormat distanceFormat() { return VK_FORMAT_R32_SFLOAT; }
+    /// Of visibility that is kept for such masks.
+    [[nodiscard]] static VkFormat visibilityFormat(const Kind& kind, VkFormat mask);
 
-    /// Brings this frame's distances into COLOR_ATTACHMENT_OPTIMAL, and what the frame before would have left, if there
-    /// was none, into SHADER_READ_ONLY_OPTIMAL.
+    /// Brings what the pass writes of this frame into COLOR_ATTACHMENT_OPTIMAL, and what the frame before would have
+    /// left, if there was none, into SHADER_READ_ONLY_OPTIMAL.
     void begin(VkCommandBuffer commands);
-    /// Makes this frame's distances readable by fragment shaders, and this frame the one before.
+    /// Makes what the pass wrote readable by fragment shaders, and this frame the one before.
     void end(VkCommandBuffer commands, const Frame& frame);
-    /// From this frame to the one before, in pixels of the mask. Of use from the second frame on.
+    /// After begin(), instead of end(): what the pass wrote is of no use, and the frame before stays what it is.
+    void drop() { fresh_ = false; }
+    /// From this frame to the one before, in pixels of the mask, as if neither camera were jittered. Of use from the
+    /// second frame on, as what follows.
     [[nodiscard]] Reprojection reprojection(const Frame& frame) const;
+    /// Does the camera, but for its jitter, stand as it did?
+    [[nodiscard]] bool stands(const Frame& frame) const;
 
 private:
+    [[nodiscard]] std::array<const Image*, 2> written(const Images& images) const;
+
     Device& device_;
+    Kind kind_;
     std::array<Images, 2> images_;
     std::size_t turn_ = 0;
     Camera camera_;     // of the frame before

@@ -169,6 +169,13 @@ void MaskPassRecorder::makeAlternate()
     }
 }
 
+void MaskPassRecorder::makeConverge()
+{
+    if (!converge_) {
+        converge_.emplace(device_, slot_count_, cache_);
+    }
+}
+
 void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
@@ -203,6 +210,13 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
             alternate_->warmUp(maskFormat(true));
         }
     }
+    if (options.technique().soften == Soften::converge) {
+        makeConverge();
+        converge_->warmUp(maskFormat(false));
+        if (what.several_lights) {
+            converge_->warmUp(maskFormat(true));
+        }
+    }
 }
 
 bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
@@ -218,14 +232,26 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
     if (shape_) {
         makePipelines(plan, *shape_);
     }
-    const bool may_take_turns = std::ranges::any_of(*plan.options, [](const ResolvedOptions& options) {
-        return options.technique().motion == Motion::step_alternate;
-    });
-    if (may_take_turns || std::ranges::any_of(plan.lights, pack::takesTurns)) {
+    prepareHistories(plan);
+    return !fits;
+}
+
+/// By what lights may come to need, so that nothing is made in the middle of frames.
+void MaskPassRecorder::prepareHistories(const Plan& plan)
+{
+    const auto may = [&](auto&& does) {
+        return std::ranges::any_of(*plan.options, [&](const ResolvedOptions& one) { return does(one.technique()); });
+    };
+    if (may([](const Technique& technique) { return technique.motion == Motion::step_alternate; }) ||
+        std::ranges::any_of(plan.lights, pack::takesTurns)) {
         makeAlternate();
         alternate_->prepare(mask_.info(), plan.lights.size());
     }
-    return !fits;
+    if (may([](const Technique& technique) { return technique.soften == Soften::converge; }) ||
+        std::ranges::any_of(plan.lights, pack::joinsFrames)) {
+        makeConverge();
+        converge_->prepare(mask_.info(), plan.lights.size());
+    }
 }
 
 void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps)
@@ -319,6 +345,15 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, c
     device_.endLabel(commands);
 }
 
+void MaskPassRecorder::recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target)
+{
+    toAttachment(device_, commands, target);
+    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
+        recordLayer(commands, plan, slot, target, layer);
+    }
+    toReadable(device_, commands, target);
+}
+
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
                               const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter)
 {
@@ -334,20 +369,24 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
         fitter.recordViews(commands, slot_index, CascadeFitter::Reader::mask,
                            {slot.constants.buffer(), room_.views_at, static_cast<std::uint32_t>(plan.views.size())});
     }
-    const bool joins = alternate_ && std::ranges::any_of(plan.lights, pack::takesTurns);
-    const Image& target = joins ? alternate_->target() : mask_;
-    toAttachment(device_, commands, target);
-    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
-        recordLayer(commands, plan, slot, target, layer);
-    }
-    toReadable(device_, commands, target);
-    if (joins) {
-        toAttachment(device_, commands, mask_);
-        alternate_->record(commands, slot_index, frame, plan,
-                           {inputs.depth, inputs.depth_layout, slot.constants.buffer()}, mask_);
-        toReadable(device_, commands, mask_);
+    const bool takes_turns = alternate_ && std::ranges::any_of(plan.lights, pack::takesTurns);
+    const bool converges = converge_ && std::ranges::any_of(plan.lights, pack::joinsFrames);
+    const AlternateInputs seen{inputs.depth, inputs.depth_layout, slot.constants.buffer()};
+    // From pass to pass: what the maps alone say, what turns make of it, what frames make of that.
+    const Image& joined = converges ? converge_->target() : mask_;
+    recordLayers(commands, plan, slot, takes_turns ? alternate_->target() : joined);
+    if (takes_turns) {
+        toAttachment(device_, commands, joined);
+        alternate_->record(commands, slot_index, frame, plan, seen, joined);
+        toReadable(device_, commands, joined);
     } else if (alternate_) {
         alternate_->forget();
+    }
+    if (converges) {
+        toAttachment(device_, commands, mask_);
+        converge_->record(commands, slot_index, frame, plan,
+                          {inputs.depth, inputs.depth_layout, inputs.normal, slot.constants.buffer()}, mask_);
+        toReadable(device_, commands, mask_);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "alternate_pass.h"
 #include "cascade_fitter.h"
+#include "converge_pass.h"
 #include "map_class.h"
 #include "mask_pipelines.h"
 
@@ -56,6 +57,9 @@ private:
     void makeBuffers(const Plan& plan);
     void makeMask(const Plan& plan, VkExtent2D screen);
     void makeAlternate();
+    void makeConverge();
+    void prepareHistories(const Plan& plan);
+    void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
     // destroyed may have the same handle.
@@ -80,6 +84,7 @@ private:
     std::vector<pack::MaskDraw> draws_;      // of the frame that is being recorded
     std::vector<pack::MapImage> map_images_; // likewise, by options
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
+    std::optional<ConvergePass> converge_;   // likewise
     std::optional<MaskShape> shape_;         // of the inputs, as far as it is known
 };
 

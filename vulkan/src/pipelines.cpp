@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipelines.h"
 
+#include <algorithm>
+
 namespace gnomon::vulkan {
 
 TwoStages stagesOf(const ShaderModule& vertex, const ShaderModule& fragment, const VkSpecializationInfo* specialisation)
@@ -43,16 +45,17 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = depth.depthTestEnable;
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
-    std::array<VkPipelineColorBlendAttachmentState, 2> attachments{};
+    std::array<VkPipelineColorBlendAttachmentState, 3> attachments{};
     attachments[0].colorWriteMask = state.colour_mask;
     attachments[0].blendEnable = state.keeps_least ? VK_TRUE : VK_FALSE;
     attachments[0].colorBlendOp = state.keeps_least ? VK_BLEND_OP_MIN : VK_BLEND_OP_ADD;
     attachments[0].alphaBlendOp = attachments[0].colorBlendOp;
     attachments[1].colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    const std::array<VkFormat, 2> colour_formats{state.colour_format, state.second_format};
-    const std::uint32_t colours =
-        (state.colour_format != VK_FORMAT_UNDEFINED ? 1U : 0U) + (state.second_format != VK_FORMAT_UNDEFINED ? 1U : 0U);
+    attachments[2].colorWriteMask = attachments[1].colorWriteMask;
+    const std::array<VkFormat, 3> colour_formats{state.colour_format, state.second_format, state.third_format};
+    const auto colours =
+        static_cast<std::uint32_t>(std::ranges::find(colour_formats, VK_FORMAT_UNDEFINED) - colour_formats.begin());
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = colours;
     blend.pAttachments = attachments.data();

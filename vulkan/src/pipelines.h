@@ -21,6 +21,7 @@ struct GraphicsState {
     std::span<const VkVertexInputAttributeDescription> attributes;
     VkFormat colour_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no colour attachment
     VkFormat second_format = VK_FORMAT_UNDEFINED; // of a second colour attachment, likewise
+    VkFormat third_format = VK_FORMAT_UNDEFINED;
     VkColorComponentFlags colour_mask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                                         VK_COLOR_COMPONENT_A_BIT; // what is written of it
     bool keeps_least = false;                    // of what is there and what is drawn, the lesser one of each channel

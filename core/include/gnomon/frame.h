@@ -21,6 +21,9 @@ struct Camera {
     /// Depth 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. Where the
     /// matrix says otherwise, all lights get Outcome degenerate.
     bool reversed_z = true;
+    /// How far clip_from_world moves the picture for anti-aliasing, pixels of Frame::size_px, y down; 0 where it does
+    /// not. Known, it is no movement of the camera: see convergeSample().
+    glm::dvec2 jitter_px{0.0};
 };
 
 /// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light.
@@ -59,6 +62,8 @@ struct Frame {
     glm::uvec2 size_px{1280, 720}; // of the picture; >= 1
     std::span<const Light> lights;
     const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate
+    /// The camera was cut: the picture goes on from no other. What is remembered of earlier pictures is not used.
+    bool cut = false;
 };
 
 } // namespace gnomon

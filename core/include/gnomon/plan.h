@@ -182,6 +182,8 @@ struct View {
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
     glm::dvec3 light_place_ws{0.0};
+    /// With gpu_cascade: how far the view is to be moved over what it shows, in its own texels. Else it has been.
+    glm::dvec2 grid_move_texels{0.0};
 };
 
 /// What the GPU found for a view with View::gpu_cascade: with (x, y) a place on the base map, in [-1, 1], the view's
@@ -235,6 +237,14 @@ struct AutoChoice {
     std::string_view reason; // a sentence with static lifetime
 };
 
+/// soften=converge: where a light shines from in this frame, a point of the light itself (convergeSample()). Its maps
+/// are drawn from there, and its mask is joined with those of the frames before.
+struct LightSample {
+    bool joined = false; // false: the light's own place; nothing below counts
+    glm::dvec3 position_ws{0.0};
+    glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // unit, the way light travels
+};
+
 struct LightPlan {
     std::uint32_t first_view = 0; // range of Plan::views; of a paired light the earlier position's come first
     std::uint32_t view_count = 0;
@@ -244,6 +254,7 @@ struct LightPlan {
     Outcome outcome;
     SunSteps steps;
     AutoChoice choice;
+    LightSample sample;
 };
 
 /// The images that the maps of one of the planner's options lie in. None of the numbers falls while a map is in use, so
@@ -271,7 +282,14 @@ struct Plan {
     /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
     std::uint32_t map_count = 0;
     std::uint32_t mask_layers = 0; // (lights + 3) / 4
+    /// Which of its planner's plans this is, from 1 on: the next one goes on from it.
+    std::uint64_t number = 0;
+    bool cut = false; // this plan goes on from none: Frame::cut, another ObjectSet, or a planner's first
+    /// soften=converge: boxes around all objects that came, went or changed since the plan before, where they are and
+    /// where they were; world space. At most kMostMoved.
+    std::vector<Aabb> moved_ws;
 };
+inline constexpr std::size_t kMostMoved = 16;
 
 /// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).
 [[nodiscard]] std::string toJson(const Plan& plan);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gnomon/converge.h>
 #include <gnomon/error.h>
 #include <gnomon/option_table.h>
 
@@ -42,6 +43,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     }
     if (auto reason = endsRefusal(options.cascades)) {
         return reason;
+    }
+    if (options.technique.soften == Soften::converge && options.keep_still == KeepStill::always) {
+        return "keep-still always: soften converge moves its maps in each frame, so nothing of them can be kept";
     }
     if (options.cascades.pass == CascadePass::layered && filterTraits(options.technique.filter)->filterable) {
         return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
@@ -130,13 +134,15 @@ Resolution resolve(const ShadowOptions& options)
         return {std::nullopt, std::move(*reason)};
     }
     constexpr double kLeastBorder_texels = 4.0;
+    // The filter's reach, from wherever the grid is moved to.
+    const double needed_texels = static_cast<double>(reachTexels(options)) +
+                                 (options.technique.soften == Soften::converge ? kMostGridMove_texels : 0.0);
     ResolvedOptions made;
     made.asked_ = options;
     made.traits_ = filterTraits(options.technique.filter);
     made.format_ = formatOf(options);
     made.reach_texels_ = reachTexels(options);
-    made.border_texels_ = options.border_texels.value_or(
-        std::max(kLeastBorder_texels, std::ceil(static_cast<double>(made.reach_texels_))));
+    made.border_texels_ = options.border_texels.value_or(std::max(kLeastBorder_texels, std::ceil(needed_texels)));
     made.paired_maps_ = holdsTwoMaps(*made.traits_, made.format_);
     return {made, {}};
 }

@@ -14,6 +14,7 @@ enum class FramePassKind : std::uint8_t {
     maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
     mask,    // listMaskDraws()
     history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
+    converge, // join it with the mean of all frames before (LightPlan::sample)
 };
 
 struct FramePass {
@@ -29,5 +30,7 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
 [[nodiscard]] bool hasLights(const Plan& plan, std::uint32_t options);
 /// Does the light's plan join this frame's visibility with that of the frame before?
 [[nodiscard]] bool takesTurns(const LightPlan& light);
+/// Is its visibility a mean over frames?
+[[nodiscard]] bool joinsFrames(const LightPlan& light);
 
 } // namespace gnomon::pack

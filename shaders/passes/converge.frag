@@ -1,0 +1,193 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Joins this frame's mask with the mean of the frames before it, where these saw the same surface and nothing that moved
+// can have changed its light. shared/converge.h has the sources.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/reprojection.glsl"
+#include "../shared/converge.h"
+#include "../shared/gpu_converge.h"
+#include "../shared/gpu_structs.h"
+#include "../shared/octahedral.h"
+
+layout(set = 0, binding = 0, std140) uniform Constants
+{
+    GpuConstants gnomon;
+};
+layout(set = 0, binding = 1, std430) restrict readonly buffer Layers
+{
+    GpuConverge layers[];
+};
+layout(set = 0, binding = 2) uniform sampler2D depths;
+layout(set = 0, binding = 3) uniform sampler2D normals;
+layout(set = 0, binding = 4) uniform sampler2DArray visibility_now;
+layout(set = 0, binding = 5) uniform sampler2DArray mean_before;
+layout(set = 0, binding = 6) uniform usampler2DArray surface_before;
+layout(push_constant) uniform Push
+{
+    int layer;
+};
+layout(location = 0) out vec4 visibility;
+layout(location = 1) out vec4 mean;
+layout(location = 2) out uvec2 surface; // x: packSurface(); y: by light, how many frames the mean counts for: 8 bits each
+
+// A distance's upper 16 bits, which tell surfaces apart at any scale, and its normal.
+uint packSurface(float distance_m, vec2 normal)
+{
+    return ((floatBitsToUint(distance_m) + 0x4000u) >> 15) | (packSnorm4x8(vec4(0.0, 0.0, normal)) & 0xFFFF0000u);
+}
+float distanceOf(uint packed)
+{
+    return uintBitsToFloat((packed & 0xFFFFu) << 15);
+}
+vec3 normalOf(uint packed)
+{
+    return octahedralDecode(unpackSnorm4x8(packed).zw);
+}
+
+uint packCounts(vec4 counts)
+{
+    uvec4 c = uvec4(counts + 0.5);
+    return c.x | (c.y << 8) | (c.z << 16) | (c.w << 24);
+}
+vec4 countsOf(uint packed)
+{
+    return vec4((uvec4(packed) >> uvec4(0, 8, 16, 24)) & 255u);
+}
+
+// What the frames before made of a point.
+struct Known {
+    vec4 mean;
+    vec4 counts;
+};
+
+// What is known of the pixel itself.
+Known knownHere(ivec3 at)
+{
+    return Known(texelFetch(mean_before, at, 0), countsOf(texelFetch(surface_before, at, 0).y));
+}
+
+struct Gathered {
+    vec4 sum;
+    vec4 counts;
+    float shares;
+    vec4 least; // of the pixels' means
+    vec4 most;
+};
+
+void gather(ivec3 at, float share, float expected_m, vec3 normal, inout Gathered found)
+{
+    if (any(lessThan(at.xy, ivec2(0))) || any(greaterThanEqual(vec2(at.xy), gnomon.screen.size.xy))) {
+        return;
+    }
+    uvec2 packed = texelFetch(surface_before, at, 0).xy;
+    bool same = isSameSurface(distanceOf(packed.x), expected_m);
+    if (same && (layers[layer].state.w == 0u || dot(normalOf(packed.x), normal) >= kSameFacing)) {
+        vec4 mean_there = texelFetch(mean_before, at, 0);
+        found.sum += share * mean_there;
+        found.least = min(found.least, mean_there);
+        found.most = max(found.most, mean_there);
+        found.counts += share * countsOf(packed.y);
+        found.shares += share;
+    }
+}
+
+// A bicubic read between the four pixels from `first` on, all of one surface, and no further than these go. A bilinear
+// one in each frame would blur the mean without end.
+vec4 cubicMean(ivec3 first, vec2 part, Gathered found)
+{
+    // lavapipe executes both sides of a branch, but ends a loop that no pixel needs.
+    int pixels = any(greaterThan(found.most - found.least, vec4(0.004))) ? 16 : 0;
+    if (pixels == 0) {
+        return found.sum;
+    }
+    vec4 x = cubicWeights(part.x);
+    vec4 y = cubicWeights(part.y);
+    vec4 sum = vec4(0.0);
+    ivec2 last = ivec2(gnomon.screen.size.xy) - 1;
+    for (int i = 0; i < pixels; ++i) {
+        ivec2 pixel = clamp(first.xy + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
+        sum += x[i & 3] * y[i >> 2] * texelFetch(mean_before, ivec3(pixel, first.z), 0);
+    }
+    return clamp(sum, found.least, found.most);
+}
+
+// Of p, relative to the eye: a read between those pixels that showed the same surface.
+Known knownOf(vec3 p, vec3 normal)
+{
+    Known none = Known(vec4(1.0), vec4(0.0));
+    vec4 point = vec4(p, 1.0);
+    float w = dot(layers[layer].before_w, point);
+    if (!(w > 0.0)) {
+        return none;
+    }
+    vec2 size = gnomon.screen.size.xy;
+    vec2 texel = vec2(dot(layers[layer].before_x, point), dot(layers[layer].before_y, point)) / w - 0.5;
+    texel = clamp(texel, vec2(-2.0), size + 1.0); // what is far off the screen need not be representable as an integer
+    vec2 cell = floor(texel);
+    vec2 part = texel - cell;
+    ivec3 first = ivec3(ivec2(cell), layer);
+    float expected_m = length(p + layers[layer].before_eye.xyz);
+    Gathered found = Gathered(vec4(0.0), vec4(0.0), 0.0, vec4(1.0), vec4(0.0));
+    gather(first, (1.0 - part.x) * (1.0 - part.y), expected_m, normal, found);
+    gather(first + ivec3(1, 0, 0), part.x * (1.0 - part.y), expected_m, normal, found);
+    gather(first + ivec3(0, 1, 0), (1.0 - part.x) * part.y, expected_m, normal, found);
+    gather(first + ivec3(1, 1, 0), part.x * part.y, expected_m, normal, found);
+    if (found.shares <= 0.05) { // a sliver of the surface says nothing of this pixel
+        return none;
+    }
+    vec4 known = found.shares > 0.999 ? cubicMean(first, part, found) : found.sum / found.shares;
+    return Known(known, floor(found.counts / found.shares + 1e-3));
+}
+
+// The lights whose shadow on p something that moved may have changed: 0, others 1.
+vec4 unmoved(vec3 p)
+{
+    vec4 kept = vec4(1.0);
+    for (uint i = 0u; i < layers[layer].state.x; ++i) {
+        vec3 centre = layers[layer].box[2u * i].xyz;
+        vec3 extent = layers[layer].box[2u * i + 1u].xyz;
+        for (int light = 0; light < kLightsPerLayer; ++light) {
+            if (mayShadow(centre, extent, p, layers[layer].place[light], layers[layer].size[light], layers[layer].pad[light])) {
+                kept[light] = 0.0;
+            }
+        }
+    }
+    return kept;
+}
+
+void main()
+{
+    ivec3 at = ivec3(ivec2(gl_FragCoord.xy), layer);
+    vec4 now = texelFetch(visibility_now, at, 0);
+    visibility = now;
+    mean = now;
+    surface = uvec2(0u); // none
+    bool still = layers[layer].state.y != 0u;
+    float depth = texelFetch(depths, at.xy, 0).r;
+    if (depth == gnomon.screen.view_axis.w) {
+        if (still && layers[layer].state.z == 0u) { // this frame looks past a surface's edge, and says nothing of it
+            mean = texelFetch(mean_before, at, 0);
+            surface = texelFetch(surface_before, at, 0).xy;
+            visibility = mix(now, mean, notEqual(countsOf(surface.y), vec4(0.0)));
+        }
+        return;
+    }
+    vec4 ndc = vec4((vec2(at.xy) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);
+    vec4 h = vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
+    vec3 p = h.xyz / h.w;
+    vec2 packed_normal = texelFetch(normals, at.xy, 0).rg;
+    Known known = Known(vec4(1.0), vec4(0.0));
+    if (layers[layer].most != vec4(0.0)) {
+        if (still && layers[layer].state.z == 0u) {
+            known = knownHere(at);
+        } else {
+            known = knownOf(p, octahedralDecode(packed_normal));
+        }
+    }
+    vec4 counts = min(known.counts, layers[layer].most) * unmoved(p);
+    vec4 joined = vec4(joinedMean(known.mean.x, counts.x, now.x), joinedMean(known.mean.y, counts.y, now.y),
+                       joinedMean(known.mean.z, counts.z, now.z), joinedMean(known.mean.w, counts.w, now.w));
+    mean = mix(now, joined, notEqual(counts, vec4(0.0)));
+    visibility = mean;
+    surface = uvec2(packSurface(length(p), packed_normal), packCounts(counts + 1.0));
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Masks that are means over frames, on a device under the validation layer: where they begin, and when they begin anew.
+#include "fixture.h"
+#include "planned_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::test {
+namespace {
+
+constexpr VkExtent2D kScreen{96, 60};
+
+ShadowOptions optionsOf(Soften soften, Partition partition = Partition::single)
+{
+    ShadowOptions options;
+    options.technique.filter = Filter::hard;
+    options.technique.soften = soften;
+    options.technique.partition = partition;
+    options.map_size = 128;
+    options.cascades.blend = 0.0; // one frame's mask is 0 or 1 everywhere
+    return options;
+}
+
+/// A renderer with its planner, of the one scene.
+struct Watcher {
+    Watcher(PlannedScene& scene_in, const ShadowOptions& options)
+        : scene(scene_in), drawing(gpu(), scene_in.mesh()), planner(options)
+    {
+    }
+    std::vector<std::byte> draw(const Frame& frame) { return scene.draw(drawing, frame, planner.plan(frame)); }
+    std::vector<std::byte> draw(std::span<const Light> lights) { return draw(scene.frameOf(lights)); }
+
+    PlannedScene& scene;
+    Drawing drawing;
+    Planner planner;
+};
+
+std::size_t countBetween(const std::vector<std::byte>& mask)
+{
+    return static_cast<std::size_t>(
+        std::ranges::count_if(mask, [](std::byte b) { return b != std::byte{0} && b != std::byte{255}; }));
+}
+
+class Converging : public testing::TestWithParam<Partition> {
+protected:
+    void TearDown() override { expectSilence(gpu()); }
+
+    /// What is not softened shows.
+    std::vector<std::byte> plain(std::span<const Light> lit)
+    {
+        return Watcher(scene, optionsOf(Soften::none, GetParam())).draw(lit);
+    }
+
+    PlannedScene scene{gpu(), kScreen};
+    Watcher watcher{scene, optionsOf(Soften::converge, GetParam())};
+    std::vector<Light> lights = [] {
+        std::vector<Light> made = sunsAndSpots(2);
+        made[0].angular_diameter_rad = 0.15;
+        made[1].radius_m = 0.3;
+        return made;
+    }();
+};
+
+TEST_P(Converging, beginsUnsoftenedAndGrowsSoft)
+{
+    for (const std::size_t count : {1U, 2U}) {
+        Watcher fresh(scene, optionsOf(Soften::converge, GetParam()));
+        const std::span some(lights.data(), count);
+        const auto first = fresh.draw(some);
+        EXPECT_EQ(first, plain(some)) << count << " lights";
+        EXPECT_EQ(countBetween(first), 0U);
+        auto mask = first;
+        for (int frame = 1; frame < 8; ++frame) {
+            mask = fresh.draw(some);
+        }
+        EXPECT_GT(countBetween(mask), mask.size() / 50);
+    }
+}
+
+TEST_P(Converging, isTheMeanOfItsFrames)
+{
+    const std::span sun(lights.data(), 1);
+    Watcher alone(scene, optionsOf(Soften::converge, GetParam()));
+    Drawing other(gpu(), scene.mesh());
+    std::vector<double> sum;
+    for (int frame = 0; frame < 12; ++frame) {
+        const Frame now = scene.frameOf(sun);
+        const Plan& plan = alone.planner.plan(now);
+        const auto mean = scene.draw(alone.drawing, now, plan);
+        Plan apart = plan; // of a renderer that knows of no frame before
+        apart.cut = true;
+        apart.number = 100U + 2U * static_cast<std::uint64_t>(frame);
+        const auto one = scene.draw(other, now, apart);
+        sum.resize(one.size());
+        double worst = 0.0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            sum[i] += std::to_integer<int>(one[i]);
+            worst = std::max(worst, std::abs(sum[i] / (frame + 1) - std::to_integer<int>(mean[i])));
+        }
+        EXPECT_LE(worst, 0.5 + 0.5) << "half floats, and eight bits of the mask"; // 255 / 2048 of each frame's rounding
+    }
+}
+
+TEST_P(Converging, beginsAnewAfterACutAFrameNotDrawnAndAnotherSize)
+{
+    const auto expected = plain(lights);
+    const auto warm = [&] {
+        for (int frame = 0; frame < 4; ++frame) {
+            (void)watcher.draw(lights);
+        }
+        return watcher.draw(lights);
+    };
+    EXPECT_NE(warm(), expected);
+    Frame cut = scene.frameOf(lights);
+    cut.cut = true;
+    EXPECT_EQ(watcher.draw(cut), expected);
+    (void)warm();
+    (void)watcher.planner.plan(scene.frameOf(lights)); // which nobody draws
+    EXPECT_EQ(countBetween(watcher.draw(lights)), 0U);
+    (void)warm();
+    scene.remakeViews({64, 40}, false, true);
+    EXPECT_EQ(countBetween(watcher.draw(lights)), 0U);
+}
+
+TEST_P(Converging, keepsEachLightApart)
+{
+    for (int frame = 0; frame < 6; ++frame) {
+        (void)watcher.draw(lights);
+    }
+    const auto channel = [](const std::vector<std::byte>& mask, std::size_t light) {
+        std::vector<std::byte> one;
+        for (std::size_t i = light; i < mask.size(); i += 4) {
+            one.push_back(mask[i]);
+        }
+        return one;
+    };
+    std::vector<Light> turned = lights;
+    turned[0].direction_ws = glm::normalize(glm::dvec3(-0.4, -1.0, 0.4)); // by more than it is wide
+    const auto mask = watcher.draw(turned);
+    EXPECT_EQ(countBetween(channel(mask, 0)), 0U) << "the sun jumped";
+    EXPECT_GT(countBetween(channel(mask, 1)), 20U) << "the spot stayed";
+    std::vector<Light> swapped{turned[1], turned[0], turned[0]};
+    swapped[2].key = 7;
+    const auto after = watcher.draw(swapped);
+    for (const std::size_t light : {0U, 1U, 2U}) {
+        EXPECT_EQ(countBetween(channel(after, light)), 0U) << light << ": another light had its place";
+    }
+    (void)watcher.draw(std::vector<Light>{});
+    EXPECT_EQ(countBetween(watcher.draw(std::span(lights.data(), 1))), 0U);
+}
+
+TEST_P(Converging, aCameraThatMovesFindsItsSurfacesAgain)
+{
+    for (int frame = 0; frame < 6; ++frame) {
+        (void)watcher.draw(lights);
+    }
+    scene.remakeViews(kScreen, true, false);
+    const auto mask = watcher.draw(lights);
+    EXPECT_GT(countBetween(mask), mask.size() / 100);
+    const auto expected = plain(lights);
+    std::size_t far_off = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        far_off += std::abs(std::to_integer<int>(mask[i]) - std::to_integer<int>(expected[i])) > 200 ? 1 : 0;
+    }
+    EXPECT_LT(far_off, mask.size() / 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(Partitions, Converging,
+                         testing::Values(Partition::single, Partition::cascades, Partition::sdsm),
+                         [](const auto& one) { return std::string(nameOf(one.param)); });
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// soften=converge: joins each frame's mask with the mean of those before it. Frames before count as far as they saw the
+// same surface and nothing has moved that can have changed its light; else this frame counts alone.
+#pragma once
+
+#include "descriptors.h"
+#include "mask_history.h"
+
+#include <gpu_converge.h>
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+/// What the pass reads besides its own images.
+struct ConvergeInputs {
+    VkImageView depth = VK_NULL_HANDLE;
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageView normal = VK_NULL_HANDLE; // VK_NULL_HANDLE: none
+    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
+};
+
+class ConvergePass {
+public:
+    ConvergePass(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
+
+    /// Makes the pipeline for masks of this format, if it is not there.
+    void warmUp(VkFormat mask_format);
+    /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
+    void prepare(const ImageInfo& mask, std::size_t lights);
+    /// Where this frame's visibility alone is to be drawn; afterwards it is to be readable by fragment shaders.
+    [[nodiscard]] const Image& target() const { return target_; }
+    /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
+    void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                const ConvergeInputs& inputs, const Image& mask);
+
+private:
+    /// Of a light of the frame before.
+    struct LightBefore {
+        bool known = false;
+        Light light;
+    };
+    struct Slot {
+        HostBuffer layers;                   // GpuConverge by layer of the mask
+        std::array<VkDescriptorSet, 2> sets; // by turn
+    };
+    void writeSet(const Slot& slot, const ConvergeInputs& inputs);
+    [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);
+    [[nodiscard]] bool goesOn(const Plan& plan) const;
+    [[nodiscard]] bool isAgain(const Plan& plan) const;
+    void fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals);
+    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, bool still, shared::GpuConverge& out) const;
+    void recordLayer(VkCommandBuffer commands, std::uint32_t layer, const Image& mask);
+    void remember(const Frame& frame, const Plan& plan, bool has_normals);
+
+    Device& device_;
+    VkPipelineCache cache_;
+    Sampler sampler_;
+    DescriptorSets sets_;
+    PipelineLayout layout_;
+    // Few: of one light, of several.
+    struct Made {
+        VkFormat mask_format = VK_FORMAT_UNDEFINED;
+        Pipeline pipeline;
+    };
+    std::vector<Made> pipelines_;
+    std::vector<Slot> slots_;
+    MaskHistory history_;
+    Image target_;
+    // Of the frame before.
+    std::vector<LightBefore> lights_;
+    std::uint64_t planner_ = 0; // 0: there is none
+    std::uint64_t number_ = 0;
+    bool had_normals_ = false;
+};
+
+} // namespace gnomon::vulkan
