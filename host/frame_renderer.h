@@ -45,6 +45,9 @@ struct RenderOptions {
     ShadowOptions shadow;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
     bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
+    /// Each frame looks at another point of its pixels (convergeSample()), so that what is averaged over frames is
+    /// averaged over pixels too. The first looks at their middles.
+    bool average_pixels = false;
 };
 
 /// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.

@@ -375,6 +375,8 @@ host::RenderOptions renderOptions(const Settings& settings)
     if (traits != nullptr && traits->filterable) { // made one by one, whatever others in a list do
         options.shadow.cascades.pass = CascadePass::automatic;
     }
+    options.average_pixels =
+        settings.shadow.technique.soften == Soften::converge && settings.truth_pixels == truth::PixelTruth::area;
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;
     return options;

@@ -2,6 +2,7 @@
 // One frame, from the scene's state to its submission.
 #include "frame_renderer_impl.h"
 
+#include <gnomon/converge.h>
 #include <gnomon/error.h>
 
 #include <algorithm>
@@ -100,7 +101,7 @@ void FrameRenderer::Impl::prepareFrame(const scene::State& state, const Eye& eye
 {
     beginSlot();
     update(state);
-    look(state, eye, lights);
+    look(state, eye, lights, maps);
     times.advance_ms = millisecondsSince(start);
     const Clock::time_point plan_start = Clock::now();
     makePlan(maps, masks_instead != nullptr);
@@ -141,14 +142,19 @@ void FrameRenderer::Impl::update(const scene::State& state)
     draws.update(state, objects, deformed);
 }
 
-void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights)
+void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,
+                               Maps maps)
 {
     const VkExtent2D shown = screen->targets.shown;
     const VkExtent2D drawn = screen->targets.drawn;
+    const glm::dvec2 drawn_px(drawn.width, drawn.height);
     sight = sightOf(eye, shown.width, shown.height, state.bounds_ws);
+    if (options.average_pixels && maps == Maps::planned) {
+        sight.jitter = convergeSample(next_sample++).pixel_px * 2.0 / drawn_px;
+    }
     frame.index = next_index++;
     frame.time_s = state.time_s;
-    frame.camera = cameraOf(eye, shown.width, shown.height, state.bounds_ws);
+    frame.camera = cameraOf(sight, drawn_px);
     frame.size_px = {drawn.width, drawn.height};
     frame_lights.clear();
     for (const ShadedLight& light : lights) {

@@ -95,8 +95,8 @@ Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const A
 
 glm::dmat4 clipFromEye(const Sight& s)
 {
-    const glm::dvec3 x = s.right_ws / s.tan_x;
-    const glm::dvec3 y = -s.up_ws / s.tan_y;
+    const glm::dvec3 x = s.right_ws / s.tan_x + s.forward_ws * s.jitter.x;
+    const glm::dvec3 y = -s.up_ws / s.tan_y + s.forward_ws * s.jitter.y;
     // z_clip = near (far - d) / (far - near) and w = d, d the view depth: 1 at the near plane, 0 at the far plane.
     const double k = s.near_m / (s.far_m - s.near_m);
     const glm::dvec3 z = -k * s.forward_ws;
@@ -107,11 +107,16 @@ glm::dmat4 clipFromEye(const Sight& s)
 
 Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws)
 {
-    const Sight sight = sightOf(eye, width, height, scene_bounds_ws);
+    return cameraOf(sightOf(eye, width, height, scene_bounds_ws), {width, height});
+}
+
+Camera cameraOf(const Sight& sight, const glm::dvec2& drawn_px)
+{
     Camera camera;
     camera.eye_ws = sight.eye_ws;
     camera.clip_from_world = clipFromEye(sight);
     camera.clip_from_world[3] += camera.clip_from_world * glm::dvec4(-sight.eye_ws, 0.0);
+    camera.jitter_px = sight.jitter * 0.5 * drawn_px;
     return camera;
 }
 
@@ -134,7 +139,8 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
     data.clip_from_eye = glm::mat4(clipFromEye(sight));
     const glm::dvec3 step_x = sight.right_ws * (2.0 * sight.tan_x / width);
     const glm::dvec3 step_y = sight.up_ws * (-2.0 * sight.tan_y / height);
-    const glm::dvec3 corner = sight.forward_ws - sight.right_ws * sight.tan_x + sight.up_ws * sight.tan_y;
+    const glm::dvec3 corner = sight.forward_ws - sight.right_ws * (sight.tan_x * (1.0 + sight.jitter.x)) +
+                              sight.up_ws * (sight.tan_y * (1.0 + sight.jitter.y));
     data.ray_x = glm::vec4(glm::vec3(step_x), 0.0F);
     data.ray_y = glm::vec4(glm::vec3(step_y), 0.0F);
     data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);

@@ -43,11 +43,14 @@ struct Sight {
     double tan_y = 1.0;
     double near_m = 0.1;
     double far_m = 100.0;
+    glm::dvec2 jitter{0.0}; // how far the picture is moved, of clip space's [-1, 1]
 };
 /// Throws Error when position and target are the same or up is along the view.
 [[nodiscard]] Sight sightOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
 /// Reversed z, y down, about the eye.
 [[nodiscard]] glm::dmat4 clipFromEye(const Sight& sight);
+/// The camera of a picture of `drawn_px` pixels.
+[[nodiscard]] Camera cameraOf(const Sight& sight, const glm::dvec2& drawn_px);
 
 /// What brings the brightest light, at its full strength, to the range that the tone curve is made for; multiplies all
 /// light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only

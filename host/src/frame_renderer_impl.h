@@ -65,6 +65,7 @@ struct FrameRenderer::Impl {
     std::vector<std::uint32_t> visible; // nearest first
     std::vector<std::pair<float, std::uint32_t>> by_distance;
     std::uint64_t next_index = 0;
+    std::uint64_t next_sample = 0;       // with RenderOptions::average_pixels
     std::optional<double> deformed_at_s; // as `objects` has been told
     Plan no_plan;
 
@@ -78,7 +79,7 @@ struct FrameRenderer::Impl {
     void beginSlot();
     void finish();
     void update(const scene::State& state);
-    void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights);
+    void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights, Maps maps);
     void sortNearestFirst();
     void makePlan(Maps maps, bool masked_instead);
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);

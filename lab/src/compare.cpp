@@ -2,6 +2,7 @@
 #include "lab/compare.h"
 
 #include <cassert>
+#include <utility>
 
 namespace gnomon::lab {
 namespace {
@@ -60,10 +61,16 @@ host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2
 Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const truth::Traced& truth,
                  const host::RenderOptions& options, bool with_perception)
 {
-    const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
+    host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
+    const Plan plan = renderer.plan();
+    if (options.average_pixels) { // what was drawn of geometry is not in the middle of pixels, where the truth's is
+        std::vector<ImageF> masks = std::move(picture.masks);
+        renderer.drawAgain(*subject.state, subject.eye, subject.lights);
+        picture = renderer.read({.colour = false, .masks = false, .geometry = true});
+        picture.masks = std::move(masks);
+    }
     Score score = scoreMask(subject, truth, picture, picture.masks[subject.light], with_perception);
 
-    const Plan& plan = renderer.plan();
     const Camera camera = cameraOf(subject, sizeOf(truth.surfaces));
     const double reach_texels = reachTexels(options.shadow);
     score.outcome = plan.lights[subject.light].outcome;

@@ -9,6 +9,10 @@
 #include "../shared/gpu_structs.h"
 #include "../shared/octahedral.h"
 
+// The camera stands and nothing moved: then a pixel is joined with itself alone, and what follows for others need not be
+// compiled. lavapipe executes both sides of every branch whose condition is not a constant.
+layout(constant_id = 0) const bool kAtRest = false;
+
 layout(set = 0, binding = 0, std140) uniform Constants
 {
     GpuConstants gnomon;
@@ -60,11 +64,9 @@ struct Known {
     vec4 counts;
 };
 
-// What is known of the pixel itself.
-Known knownHere(ivec3 at)
-{
-    return Known(texelFetch(mean_before, at, 0), countsOf(texelFetch(surface_before, at, 0).y));
-}
+// Of the pass, read once: lavapipe 22.3 loads a uniform again for each lane and each use.
+vec2 size_px;
+bool has_normals;
 
 struct Gathered {
     vec4 sum;
@@ -76,12 +78,12 @@ struct Gathered {
 
 void gather(ivec3 at, float share, float expected_m, vec3 normal, inout Gathered found)
 {
-    if (any(lessThan(at.xy, ivec2(0))) || any(greaterThanEqual(vec2(at.xy), gnomon.screen.size.xy))) {
+    if (any(lessThan(at.xy, ivec2(0))) || any(greaterThanEqual(vec2(at.xy), size_px))) {
         return;
     }
     uvec2 packed = texelFetch(surface_before, at, 0).xy;
     bool same = isSameSurface(distanceOf(packed.x), expected_m);
-    if (same && (layers[layer].state.w == 0u || dot(normalOf(packed.x), normal) >= kSameFacing)) {
+    if (same && (!has_normals || dot(normalOf(packed.x), normal) >= kSameFacing)) {
         vec4 mean_there = texelFetch(mean_before, at, 0);
         found.sum += share * mean_there;
         found.least = min(found.least, mean_there);
@@ -103,7 +105,7 @@ vec4 cubicMean(ivec3 first, vec2 part, Gathered found)
     vec4 x = cubicWeights(part.x);
     vec4 y = cubicWeights(part.y);
     vec4 sum = vec4(0.0);
-    ivec2 last = ivec2(gnomon.screen.size.xy) - 1;
+    ivec2 last = ivec2(size_px) - 1;
     for (int i = 0; i < pixels; ++i) {
         ivec2 pixel = clamp(first.xy + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
         sum += x[i & 3] * y[i >> 2] * texelFetch(mean_before, ivec3(pixel, first.z), 0);
@@ -120,9 +122,8 @@ Known knownOf(vec3 p, vec3 normal)
     if (!(w > 0.0)) {
         return none;
     }
-    vec2 size = gnomon.screen.size.xy;
     vec2 texel = vec2(dot(layers[layer].before_x, point), dot(layers[layer].before_y, point)) / w - 0.5;
-    texel = clamp(texel, vec2(-2.0), size + 1.0); // what is far off the screen need not be representable as an integer
+    texel = clamp(texel, vec2(-2.0), size_px + 1.0); // what is far off the screen need not be representable as an integer
     vec2 cell = floor(texel);
     vec2 part = texel - cell;
     ivec3 first = ivec3(ivec2(cell), layer);
@@ -136,7 +137,12 @@ Known knownOf(vec3 p, vec3 normal)
         return none;
     }
     vec4 known = found.shares > 0.999 ? cubicMean(first, part, found) : found.sum / found.shares;
-    return Known(known, floor(found.counts / found.shares + 1e-3));
+    vec4 counts = floor(found.counts / found.shares + 1e-3);
+    if (layers[layer].state.y == 0u) {
+        vec4 spread = max(found.most - found.least, vec4(0.0));
+        counts = min(counts, vec4(mostInMotion(spread.x), mostInMotion(spread.y), mostInMotion(spread.z), mostInMotion(spread.w)));
+    }
+    return Known(known, counts);
 }
 
 // The lights whose shadow on p something that moved may have changed: 0, others 1.
@@ -155,39 +161,53 @@ vec4 unmoved(vec3 p)
     return kept;
 }
 
+vec4 joined(vec4 before, vec4 counts, vec4 now)
+{
+    vec4 all = vec4(joinedMean(before.x, counts.x, now.x), joinedMean(before.y, counts.y, now.y),
+                    joinedMean(before.z, counts.z, now.z), joinedMean(before.w, counts.w, now.w));
+    return mix(now, all, notEqual(counts, vec4(0.0)));
+}
+
+// Joins the pixel with itself. Where this frame looks past a surface's edge it says nothing of it.
+void joinAtRest(ivec3 at, vec4 now, bool sees)
+{
+    uvec2 before = texelFetch(surface_before, at, 0).xy;
+    vec4 mean_there = texelFetch(mean_before, at, 0);
+    vec4 counts = min(countsOf(before.y), layers[layer].most);
+    mean = sees ? joined(mean_there, counts, now) : mix(now, mean_there, notEqual(counts, vec4(0.0)));
+    visibility = mean;
+    surface = uvec2(before.x, sees ? packCounts(counts + 1.0) : before.y);
+}
+
 void main()
 {
     ivec3 at = ivec3(ivec2(gl_FragCoord.xy), layer);
     vec4 now = texelFetch(visibility_now, at, 0);
+    float depth = texelFetch(depths, at.xy, 0).r;
+    bool sees = depth != gnomon.screen.view_axis.w;
+    if (kAtRest) {
+        joinAtRest(at, now, sees);
+        return;
+    }
     visibility = now;
     mean = now;
     surface = uvec2(0u); // none
-    bool still = layers[layer].state.y != 0u;
-    float depth = texelFetch(depths, at.xy, 0).r;
-    if (depth == gnomon.screen.view_axis.w) {
-        if (still && layers[layer].state.z == 0u) { // this frame looks past a surface's edge, and says nothing of it
-            mean = texelFetch(mean_before, at, 0);
-            surface = texelFetch(surface_before, at, 0).xy;
-            visibility = mix(now, mean, notEqual(countsOf(surface.y), vec4(0.0)));
-        }
+    if (!sees) {
         return;
     }
+    size_px = gnomon.screen.size.xy;
+    has_normals = layers[layer].state.w != 0u;
     vec4 ndc = vec4((vec2(at.xy) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);
     vec4 h = vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
     vec3 p = h.xyz / h.w;
     vec2 packed_normal = texelFetch(normals, at.xy, 0).rg;
+    vec4 counts = layers[layer].most;
     Known known = Known(vec4(1.0), vec4(0.0));
-    if (layers[layer].most != vec4(0.0)) {
-        if (still && layers[layer].state.z == 0u) {
-            known = knownHere(at);
-        } else {
-            known = knownOf(p, octahedralDecode(packed_normal));
-        }
+    if (counts != vec4(0.0)) {
+        known = knownOf(p, octahedralDecode(packed_normal));
     }
-    vec4 counts = min(known.counts, layers[layer].most) * unmoved(p);
-    vec4 joined = vec4(joinedMean(known.mean.x, counts.x, now.x), joinedMean(known.mean.y, counts.y, now.y),
-                       joinedMean(known.mean.z, counts.z, now.z), joinedMean(known.mean.w, counts.w, now.w));
-    mean = mix(now, joined, notEqual(counts, vec4(0.0)));
+    counts = min(known.counts, counts) * unmoved(p);
+    mean = joined(known.mean, counts, now);
     visibility = mean;
     surface = uvec2(packSurface(length(p), packed_normal), packCounts(counts + 1.0));
 }

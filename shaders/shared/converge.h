@@ -15,6 +15,14 @@ GN_FN real joinedMean(real before, real count, real now)
     return before + (now - before) / (count + real(1.0));
 }
 
+// As how many frames those before count at most, under a camera that moves: the mean is then read between pixels in
+// each frame, and each time blurred by some tenth of a pixel's square. `spread`: how far the pixels there are apart.
+// Where that is little the shadow's edge is so wide that much blur is none.
+GN_FN real mostInMotion(real spread)
+{
+    return clamp(real(0.6) / max(spread * spread, real(1e-4)), real(3.0), real(15.0));
+}
+
 // Weights of the four pixels around a place `part` of the way from the second to the third; they add up to 1. Straight
 // lines and parabolas stay as they are (E. Catmull, R. Rom, "A Class of Local Interpolating Splines", 1974).
 GN_FN real4 cubicWeights(real part)

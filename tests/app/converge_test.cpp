@@ -16,8 +16,8 @@ nlohmann::json comparedWith(const std::vector<std::string>& more)
 {
     const test::Folder folder;
     const test::Folder cache;
-    std::vector<std::string> arguments{"compare",   "rts", "--camera",    "unit", "--size", "256x144",
-                                       "--samples", "64",  "--sun-angle", "2",    "--json", "--validate"};
+    std::vector<std::string> arguments{"compare", "--size",      "256x144", "--light", "sun",       "--samples",
+                                       "64",      "--sun-angle", "2",       "--json",  "--validate"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const test::Ran ran =
         test::gnomon(arguments, {.folder = folder.path(), .environment = {{"XDG_CACHE_HOME", cache.path().string()}}});
@@ -28,8 +28,9 @@ nlohmann::json comparedWith(const std::vector<std::string>& more)
 TEST(Converge, comesNearerToTheTruthWithEachDoubling)
 {
     const nlohmann::json json =
-        comparedWith({"--techniques", "hard+converge+lispsm,hard+converge+cascades,pcf+pcf.kernel=2x2+converge+lispsm",
-                      "--map-size", "1024", "--sweep", "converge=1:32:6:log"});
+        comparedWith({"rts", "--camera", "unit", "--techniques",
+                      "hard+converge+lispsm,hard+converge+cascades,pcf+pcf.kernel=2x2+converge+lispsm", "--map-size",
+                      "1024", "--sweep", "converge=1:32:6:log"});
     ASSERT_EQ(json["sweep"]["values"], (std::vector<double>{1, 2, 4, 8, 16, 32}));
     for (const nlohmann::json& line : json["sweep"]["results"]) {
         const std::vector<double> rmse = line["rmse"];
@@ -43,8 +44,9 @@ TEST(Converge, comesNearerToTheTruthWithEachDoubling)
 TEST(Converge, isNearerAndSteadierAlongPaths)
 {
     for (const char* const path : {"pan", "orbit"}) {
-        const nlohmann::json json = comparedWith({"--techniques", "hard+lispsm,hard+converge+lispsm", "--map-size",
-                                                  "512", "--path", path, "--frames", "0-11"});
+        const nlohmann::json json =
+            comparedWith({"planes", "--camera", "side", "--techniques", "hard+lispsm,hard+converge+lispsm",
+                          "--map-size", "512", "--path", path, "--frames", "0-23"});
         ASSERT_EQ(json["results"].size(), 2U);
         const auto of = [&](const char* soften) {
             for (const nlohmann::json& one : json["results"]) {
@@ -57,7 +59,7 @@ TEST(Converge, isNearerAndSteadierAlongPaths)
         const nlohmann::json one = of("none");
         const nlohmann::json mean = of("converge");
         EXPECT_LE(mean["error"]["rmse"].get<double>(), 1.1 * one["error"]["rmse"].get<double>()) << path;
-        EXPECT_LE(mean["stability"]["shimmer"].get<double>(), 0.5 * one["stability"]["shimmer"].get<double>()) << path;
+        EXPECT_LE(mean["stability"]["shimmer"].get<double>(), 0.65 * one["stability"]["shimmer"].get<double>()) << path;
     }
 }
 

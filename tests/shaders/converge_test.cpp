@@ -42,6 +42,13 @@ TEST(JoinedMean, heldForgetsByEqualShares)
     EXPECT_EQ(joinedMean(0.7, 0.0, 0.25), 0.25) << "of no frames this one is left";
 }
 
+TEST(MostInMotion, isLittleAtSharpEdgesAlone)
+{
+    EXPECT_EQ(mostInMotion(1.0), 3.0);
+    EXPECT_EQ(mostInMotion(0.0), 15.0);
+    EXPECT_NEAR(mostInMotion(0.3), 0.6 / 0.09, 1e-12);
+}
+
 TEST(CubicWeights, keepConstantsLinesAndParabolas)
 {
     for (double part = 0.0; part <= 1.0; part += 0.125) {

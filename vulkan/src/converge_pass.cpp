@@ -3,6 +3,7 @@
 
 #include "pipelines.h"
 #include "samplers.h"
+#include "specialisation.h"
 
 #include <gnomon/pack/frame_passes.h>
 #include <gnomon/plan_views.h>
@@ -28,12 +29,14 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
 // Half floats: eight bits would lose what one of many frames adds. Of surfaces what converge.frag packs.
 constexpr MaskHistory::Kind kHistory{.surfaces = VK_FORMAT_R32G32_UINT, .makes_visibility = true, .precise = true};
 
-// As how many frames those before count at most. A half float's step at 1 is 1/2048: of a mean of more frames it would
-// lose what one of them adds. A camera that moves sees each surface between pixels, and what is read there is blurred
-// each time: on kenney_city, along orbit, means of 16 frames were 1.25 times as far from the truth as one frame is, of
-// 4 0.96.
+// As how many frames those before count at most, at rest. A half float's step at 1 is 1/2048: of a mean of more frames
+// it would lose what one of them adds. In motion converge.frag has its own bound.
 constexpr float kMostAtRest = 63.0F;
-constexpr float kMostInMotion = 3.0F;
+
+// Specialisation constants of converge.frag.
+struct Constants {
+    VkBool32 at_rest;
+};
 
 /// How far a light moved, as a share of half its width: by so much its penumbra has moved.
 double moveOf(const Light& before, const Light& now)
@@ -81,11 +84,12 @@ ConvergePass::ConvergePass(Device& device, std::uint32_t frames_in_flight, VkPip
     }
 }
 
-Pipeline ConvergePass::makePipeline(VkFormat mask_format)
+Pipeline ConvergePass::makePipeline(VkFormat mask_format, bool at_rest)
 {
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment = makeShader(device_, spirv::converge_frag);
-    const TwoStages stages = stagesOf(vertex, fragment);
+    const Specialisation constants(Constants{at_rest ? VK_TRUE : VK_FALSE});
+    const TwoStages stages = stagesOf(vertex, fragment, constants.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout_.get();
@@ -100,7 +104,7 @@ Pipeline ConvergePass::makePipeline(VkFormat mask_format)
 void ConvergePass::warmUp(VkFormat mask_format)
 {
     if (std::ranges::find(pipelines_, mask_format, &Made::mask_format) == pipelines_.end()) {
-        pipelines_.push_back({mask_format, makePipeline(mask_format)});
+        pipelines_.push_back({mask_format, makePipeline(mask_format, false), makePipeline(mask_format, true)});
     }
 }
 
@@ -153,8 +157,7 @@ bool ConvergePass::isAgain(const Plan& plan) const
     return planner_ == plan.planner && number_ == plan.number;
 }
 
-void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t index, bool still,
-                             shared::GpuConverge& out) const
+void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t index, shared::GpuConverge& out) const
 {
     const LightPlan& planned = plan.lights[index];
     const Light& light = frame.lights[index];
@@ -163,8 +166,7 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
     }
     const auto channel = static_cast<int>(planned.mask_channel);
     const double move = moveOf(lights_[index].light, light);
-    const double most = still ? kMostAtRest : kMostInMotion;
-    out.most[channel] = static_cast<float>(move > 0.0 ? std::min(most, std::floor(1.0 / move)) : most);
+    out.most[channel] = move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
     const bool parallel = light.type == LightType::directional;
     const glm::dvec3 to_light = light.position_ws - frame.camera.eye_ws;
     out.place[channel] = parallel ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
@@ -173,13 +175,14 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
     out.pad[channel] = static_cast<float>(padOf(plan, planned, to_light));
 }
 
-void ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals)
+/// Returns whether the camera stands and nothing moved.
+bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals)
 {
     static_assert(shared::kMovedBoxes == static_cast<int>(kMostMoved));
     const std::span layers(static_cast<shared::GpuConverge*>(slot.layers.data()), target_.info().layers);
     std::ranges::fill(layers, shared::GpuConverge{});
     if (!goesOn(plan)) {
-        return;
+        return false;
     }
     const bool still = history_.stands(frame);
     const Reprojection before = history_.reprojection(frame);
@@ -188,8 +191,7 @@ void ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
         layer.before_y = before.y;
         layer.before_w = before.w;
         layer.before_eye = before.eye;
-        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, plan.moved_ws.empty() ? 0U : 1U,
-                       has_normals && had_normals_ ? 1U : 0U};
+        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, 0U, has_normals && had_normals_ ? 1U : 0U};
         for (std::size_t i = 0; i < plan.moved_ws.size(); ++i) {
             const Aabb& box = plan.moved_ws[i];
             layer.box[2 * i] = glm::dvec4((glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5 - frame.camera.eye_ws, 0.0);
@@ -197,8 +199,9 @@ void ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
         }
     }
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        fillLight(frame, plan, i, still, layers[plan.lights[i].mask_layer]);
+        fillLight(frame, plan, i, layers[plan.lights[i].mask_layer]);
     }
+    return still && plan.moved_ws.empty();
 }
 
 void ConvergePass::remember(const Frame& frame, const Plan& plan, bool has_normals)
@@ -249,12 +252,13 @@ void ConvergePass::record(VkCommandBuffer commands, std::uint32_t slot_index, co
     const Slot& slot = slots_[slot_index];
     const bool has_normals = inputs.normal != VK_NULL_HANDLE;
     writeSet(slot, inputs);
-    fill(slot, frame, plan, has_normals);
+    const bool at_rest = fill(slot, frame, plan, has_normals);
     const VkDescriptorSet set = slot.sets[history_.turn()];
     history_.begin(commands);
     device_.beginLabel(commands, "converge");
     const auto made = std::ranges::find(pipelines_, mask.info().format, &Made::mask_format);
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, made->pipeline.get());
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               at_rest ? made->at_rest.get() : made->moving.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
     for (std::uint32_t layer = 0; layer < mask.info().layers; ++layer) {
         recordLayer(commands, layer, mask);

@@ -45,11 +45,11 @@ private:
         std::array<VkDescriptorSet, 2> sets; // by turn
     };
     void writeSet(const Slot& slot, const ConvergeInputs& inputs);
-    [[nodiscard]] Pipeline makePipeline(VkFormat mask_format);
+    [[nodiscard]] Pipeline makePipeline(VkFormat mask_format, bool at_rest);
     [[nodiscard]] bool goesOn(const Plan& plan) const;
     [[nodiscard]] bool isAgain(const Plan& plan) const;
-    void fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals);
-    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, bool still, shared::GpuConverge& out) const;
+    [[nodiscard]] bool fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals);
+    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, shared::GpuConverge& out) const;
     void recordLayer(VkCommandBuffer commands, std::uint32_t layer, const Image& mask);
     void remember(const Frame& frame, const Plan& plan, bool has_normals);
 
@@ -61,7 +61,8 @@ private:
     // Few: of one light, of several.
     struct Made {
         VkFormat mask_format = VK_FORMAT_UNDEFINED;
-        Pipeline pipeline;
+        Pipeline moving;
+        Pipeline at_rest;
     };
     std::vector<Made> pipelines_;
     std::vector<Slot> slots_;
