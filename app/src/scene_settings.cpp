@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace gnomon::app {
@@ -77,9 +78,19 @@ bool glows(const Settings& s)
 {
     return isPicture(s) && s.bloom.on;
 }
-bool takesSize(const Settings& s)
+/// Does anybody look at how large a light is?
+bool lightHasSize(const Settings& s)
 {
-    return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge;
+    const auto follows = [](Filter filter) {
+        const FilterTraits* const traits = filterTraits(filter);
+        return traits != nullptr && traits->integrates_light;
+    };
+    const auto names = [&](const std::string& technique) {
+        const ChoiceValue* const filter = findChoice("filter", technique.substr(0, technique.find('+')));
+        return filter != nullptr && follows(static_cast<Filter>(filter->value));
+    };
+    return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge || follows(s.shadow.technique.filter) ||
+           std::ranges::any_of(s.techniques, names);
 }
 
 const std::vector<Setting>& rows()
@@ -133,10 +144,10 @@ const std::vector<Setting>& rows()
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 4,
          .doc = "point light: place and reach; likewise", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
-         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kCompare, .used = takesSize, .used_when = "--truth area or soften converge",
+         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter raymarch or soften converge",
          .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kCompare, .used = takesSize, .used_when = "--truth area or soften converge",
+         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter raymarch or soften converge",
          .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
         // clang-format on
     };

@@ -73,6 +73,9 @@ constexpr std::array kValues{
                 "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
     ChoiceValue{kFilter, "pcss", number(Filter::pcss), false, "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
+    ChoiceValue{
+        kFilter, "raymarch", number(Filter::raymarch), true, "rays to points of the light, through the map",
+        "S. Xie, E. Tabellion, A. Pearce, Soft shadows by ray tracing multilayer transparent shadow maps, 2007"},
     ChoiceValue{kFilter, "vsm", number(Filter::vsm), true, "two moments and Chebyshev's bound", kKiteLightning},
     ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), true, "variance maps in layers of depth", kMarinescu},
     ChoiceValue{kFilter, "esm", number(Filter::esm), true, "an exponential of depth", kKiteLightning},
@@ -125,6 +128,7 @@ constexpr std::array kFormats{
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
 // rg16 and rgba8: two maps a texel, each of 16 bits.
 constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rgba8};
+constexpr std::array kRayFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
 constexpr std::array kVsmFormats{MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f};
 constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f};
 constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
@@ -134,6 +138,7 @@ constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
     FilterTraits{Filter::hard, kDepthFormats, true, true, false, false},
     FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false},
+    FilterTraits{Filter::raymarch, kRayFormats, true, false, false, true},
     FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false},
     FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false},
     FilterTraits{Filter::esm, kEsmFormats, false, true, true, false},
@@ -145,6 +150,8 @@ constexpr std::array kFilters{
 constexpr std::string_view formatReason(Filter filter)
 {
     switch (filter) {
+    case Filter::raymarch:
+        return "raymarch follows rays through one depth per texel: d32f, r32f or d16";
     case Filter::vsm:
         return "vsm stores two moments: rg32f, rg16 or rg16f; of four channels it would waste two, where lvsm has a "
                "second layer";

@@ -3,9 +3,11 @@
 
 #include "depth_tilt.h"
 #include "fit/projection.h"
+#include "light_reach.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -42,8 +44,12 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
         lie.space.depth_ws = levelDepth(lie.space, *input.frame.objects, input.levellers);
     }
     lie.least_size = lie.space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
-    lie.outcome = region_.gatherReceivers(
-        {lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.filter->filterable});
+    const RegionInput around{
+        lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.filter->filterable};
+    lie.outcome = region_.gatherReceivers(around);
+    if (lie.outcome.kind == OutcomeKind::ok && recipe.filter->integrates_light) {
+        lie.outcome = widenForLight(input, around, lie);
+    }
     return lie;
 }
 
@@ -62,7 +68,7 @@ MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, 
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
     return input.recipe.motion->move(rect, {lie.space, input.frame.camera, input.camera, input.slice, lie.least_size,
-                                            input.map_size, lie.border_texels});
+                                            input.map_size, lie.border_texels, lie.light_reach});
 }
 
 MapError FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
@@ -113,6 +119,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const Warp warp = warpOf(input, lie);
     MapFrame shown = frameOfWarp(input, lie, warp);
     shown.centre += shown.texel * input.grid_move_texels;
+    view.light_reach = lie.light_reach;
     const FitReport fit = reportOf(warp, shown, region_.outline());
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),
@@ -141,6 +148,27 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
         return kTooFarApart;
     }
     return warp.outcome;
+}
+
+/// Makes room for the rays to all of the light. How far they lead depends on who casts, and who casts on how far they
+/// lead; so the casters are looked for once more before, as far out as a map may have to show.
+Outcome FrustumPlanner::widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie)
+{
+    if (input.recipe.steady()) { // all of the scene, so that the map holds still
+        lie.light_reach = steadyReach(input.light, lie.space, input.camera.scene_ws);
+        return {};
+    }
+    const glm::dvec2 size = region_.rect().high - region_.rect().low;
+    const double most = affordableReach(std::numeric_limits<double>::infinity(), size);
+    const CasterReach reach{region_.rect(), most, farthestCaster(region_, lie.space, false, input.camera.pad_m), false};
+    near_casters_.clear();
+    const Outcome found = region_.gatherCasters(around, reach, near_casters_);
+    if (found.kind == OutcomeKind::ok) {
+        lie.light_reach =
+            affordableReach(lightReach(input.light, lie.space, region_.casterNear_m(), region_.receiverFar_m()), size);
+        region_.widen(lie.light_reach);
+    }
+    return found;
 }
 
 Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const

@@ -41,15 +41,18 @@ private:
         LightSpace space;
         double border_texels = 0.0;
         double least_size = 0.0;
-        Outcome outcome; // not ok: the slice needs no map
+        double light_reach = 0.0; // View::light_reach
+        Outcome outcome;          // not ok: the slice needs no map
     };
     [[nodiscard]] Lie lieOf(const FrustumInput& input);
     [[nodiscard]] MapFrame frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const;
     [[nodiscard]] FitInput fitInputOf(const FrustumInput& input, const Lie& lie) const;
     [[nodiscard]] Warp warpOf(const FrustumInput& input, const Lie& lie) const;
+    [[nodiscard]] Outcome widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie);
     void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;
+    std::vector<std::uint32_t> near_casters_;
     std::vector<LitPoint> lit_;
     std::vector<glm::dvec2> places_;
 };

@@ -205,6 +205,19 @@ void Region::narrowOutline()
     }
 }
 
+void Region::widen(double by)
+{
+    outline_points_.clear();
+    for (const glm::dvec2& p : outline_) {
+        for (const glm::dvec2& side :
+             {glm::dvec2(-by, -by), glm::dvec2(by, -by), glm::dvec2(by, by), glm::dvec2(-by, by)}) {
+            outline_points_.push_back(p + side);
+        }
+    }
+    outlineOf(outline_points_, outline_);
+    rect_ = {rect_.low - by, rect_.high + by};
+}
+
 void Region::addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad)
 {
     // normal . xy + offset + pad >= 0, as a plane along the rays of light.

@@ -34,6 +34,8 @@ class Region {
 public:
     /// ok or no_receiver. Keeps its memory.
     Outcome gatherReceivers(const RegionInput& input);
+    /// Makes outline() and rect() larger by so much on all sides; after gatherReceivers() said ok.
+    void widen(double by);
     /// ok or no_caster; after gatherReceivers() said ok for the same input. Appends the casters to `casters`,
     /// ascending.
     Outcome gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters);

@@ -58,6 +58,8 @@ shared::GpuCascadeLight describe(const Frame& frame, const Plan& plan, std::uint
     light.ends[0] = glm::dvec4(ends[0], ends[1], ends[2], ends[3]);
     light.ends[1] = glm::dvec4(ends[4], 0.0, 0.0, 0.0);
     light.texel = glm::dvec4(view.texel_xy_m, view.grid_move_texels * 2.0 / texels);
+    // Texels of the base map are at their finest where w is 1.
+    light.room = glm::dvec4(2.0 * view.light_reach / (view.fit.finest_texel * texels), view.parallel ? 1.0 : 0.0, 0.0);
     return light;
 }
 

@@ -177,7 +177,8 @@ void fillRule(const ResolvedOptions& options, shared::GpuRule& out)
     const BiasOptions& bias = options.bias();
     const PcfOptions& pcf = options.pcf();
     out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
-    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(options), depthQuantum(options.format()), 0.0F};
+    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(options), depthQuantum(options.format()),
+                     options.traits().integrates_light ? 1.0F : 0.0F};
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(pcf.kernel), 1), pcf.sigma_texels.value_or(0.0F));
     out.disc = {pcf.radius_texels, 0.0F, 0.0F, 0.0F};
     const auto taps = static_cast<int>(pcf.taps);
@@ -223,6 +224,12 @@ std::uint32_t mipLevels(const ResolvedOptions& options, std::uint32_t width, std
     // As coarsestLevel(): a texel of a coarser level is an average of whole texels of the next finer one.
     const auto halvings = static_cast<std::uint32_t>(std::countr_zero(width | height));
     return std::min(halvings + 1, kMostLevels);
+}
+
+std::uint32_t blockLevels(const glm::uvec2& size_px)
+{
+    const std::uint32_t side = std::max({size_px.x, size_px.y, 2U});
+    return static_cast<std::uint32_t>(std::bit_width(side - 1));
 }
 
 std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels)

@@ -111,7 +111,9 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
         shared::GpuView gpu =
             gpuView(view, world_from_eye, tileMarginTexels(static_cast<double>(options.reach_texels())));
         gpu.more.x = options.filter() == Filter::lvsm ? static_cast<float>(depthLayersSlot(plan, i)) : 0.0F;
-        gpu.more.y = static_cast<float>(coarsestLevel(view.tile, maps[optionsIndexOf(plan, view)].levels));
+        const MapImage& image = maps[optionsIndexOf(plan, view)];
+        gpu.more.y = static_cast<float>(options.traits().integrates_light ? blockLevels(image.size_px)
+                                                                 : coarsestLevel(view.tile, image.levels));
         if (view.gpu_cascade != kNoIndex) {
             gpu.slice.w = static_cast<float>(i + 1);
         }

@@ -59,11 +59,12 @@ struct Seen {
     bool counts;
     float depth_m;
     vec2 place;
+    vec2 room; // on all sides of it
 };
 
 Seen seenAt(GpuCascadeLight light, ivec2 pixel)
 {
-    Seen seen = Seen(false, 0.0, vec2(0.0));
+    Seen seen = Seen(false, 0.0, vec2(0.0), vec2(0.0));
     if (any(greaterThanEqual(vec2(pixel), light.screen.xy))) {
         return seen;
     }
@@ -86,6 +87,7 @@ Seen seenAt(GpuCascadeLight light, ivec2 pixel)
                   dot(p.xyz, p.xyz) <= light.reach.y * light.reach.y;
     seen.depth_m = dot(light.view_axis.xyz, p.xyz);
     seen.place = place;
+    seen.room = light.room.xy / (light.room.z > 0.0 ? w : 1.0);
     return seen;
 }
 

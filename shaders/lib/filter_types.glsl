@@ -7,6 +7,9 @@
 //   real mapTexel(real2 texel, real layer, real part);    // texel: integer coordinates
 //   real4 mapGather(real2 corner, real layer, real part); // corner: integer coordinates
 // `part`: which of the two maps that a texel may hold (shared/paired_depth.h).
+// To what is known of squares of texels (shared/map_blocks.h): block (i, j) of a level >= 1 has the texels from
+// (i, j) times 2^level on; nearest and farthest depth.
+//   real2 mapBlock(real2 block, int level, real layer);
 // And to the points of a disc filter's pattern, which are a table on the GPU (shared/discs.h):
 //   real2 discPoint(int i); // in the unit disc
 // And to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level, and
@@ -27,11 +30,16 @@ struct FilterInput {
     real disc_radius;   // texels
     real4 kernel;       // gaussianWeights(kernel_width, sigma)
     real2 pixel;        // of the screen, for noise
+    real4 tile;         // the view's whole tile: x0, y0, x1, y1
+    // Of filters that know how large the light is:
+    MapRows rows;
+    real3 n;            // the receiver's unit geometric normal
+    real3 toward;       // from the receiver to the light's centre; of unit length for a parallel light
+    real spread;        // radius, at the end of `toward`, of the disc that the light is seen as
     // Of filterable maps:
     MomentRule moments;
     int slot;           // lvsm: of the view's depth layers
-    real4 tile;         // the view's whole tile: x0, y0, x1, y1
-    real coarsest;      // last mip level that it may read
+    real coarsest;      // last mip level, or level of blocks, that it may read
     real near_over_far; // of the view's depth metric
     real2 footprint_x;  // texels that the receiver's surface moves on the map to the next pixel on the right
     real2 footprint_y;  // and below

@@ -11,6 +11,9 @@
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCF
 #include "pcf.glsl"
 #endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+#include "raymarch.glsl"
+#endif
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_VSM
 #include "vsm.glsl"
 #endif
@@ -36,6 +39,8 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
     return filterHard(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_PCF
     return filterPcf(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+    return filterRaymarch(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_VSM
     return filterVsm(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_LVSM
@@ -53,6 +58,8 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
         return filterHard(point, f);
     case GNOMON_FILTER_PCF:
         return filterPcf(point, f);
+    case GNOMON_FILTER_RAYMARCH:
+        return filterRaymarch(point, f);
     case GNOMON_FILTER_VSM:
         return filterVsm(point, f);
     case GNOMON_FILTER_LVSM:

@@ -54,6 +54,9 @@ layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFew
 #define GNOMON_MAP_BINDING GNOMON_BINDING + 1
 #define GNOMON_LAYERS_BINDING GNOMON_BINDING + 4
 #define GNOMON_MAP_TEXEL_SIZE GNOMON_NUMBERS.rule.disc.zw
+#ifndef GNOMON_BLOCKS_BINDING
+#define GNOMON_BLOCKS_BINDING GNOMON_BINDING + 5
+#endif
 #include "map_texture.glsl"
 
 vec2 discPoint(int i)
@@ -178,6 +181,7 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
     GpuLight light;
     if (GNOMON_FEW_VIEWS > 0) {
         light.place = GNOMON_FEW_PLACE;
+        light.size = gnomon_lights[0].size;
         light.views = uvec4(0u, GNOMON_FEW_VIEWS, 0u, 0u);
     } else {
         light = gnomon_lights[index];
@@ -192,6 +196,8 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
     FilterInput f = filterInput(pixel);
+    f.toward = towardLight(light.place, p);
+    f.spread = lightSpread(light.place, f.toward, light.size.x);
     BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
     float v = 1.0;

@@ -35,6 +35,7 @@ GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
     rule.receiver_plane = real(more.x);
     rule.reach_texels = real(more.y);
     rule.quantum = real(more.z);
+    rule.exact_plane = real(more.w);
     return rule;
 }
 
@@ -53,6 +54,24 @@ GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
 {
     real4 place = real4(light.place);
     return facesDirection(n, real3(place.x, place.y, place.z) - p * place.w);
+}
+
+// From a surface's eye-relative point `p` to the light's centre, as FilterInput has it.
+GN_FN real3 towardLight(GN_VEC4 place, real3 p)
+{
+    return real3(real(place.x), real(place.y), real(place.z)) - p * real(place.w);
+}
+
+// FilterInput::spread, `size` being GpuLight::size.x. A lamp is a sphere: the cone that touches it has the sine
+// radius / distance. What is inside is as near as half as far again.
+GN_FN real lightSpread(GN_VEC4 place, real3 toward, real size)
+{
+    if (real(place.w) == real(0.0)) {
+        return size;
+    }
+    real far2 = dot(toward, toward);
+    real r2 = min(size * size, far2 * real(0.9));
+    return size * sqrt(far2 / max(far2 - r2, real(1e-30)));
 }
 
 // GpuRule's moment_warp, moment_variance and moment_shape, with what pipelines may have as constants: the flags of
@@ -134,6 +153,8 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
     input_here.footprint_x = real2(real(0.0));
     input_here.footprint_y = real2(real(0.0));
     MapRows rows = rowsOf(view);
+    input_here.rows = rows;
+    input_here.n = n;
     MapPoint point = projectReceiver(rows, rule, p, n);
     // It and what comes after it choose a mip level by the receiver's footprint.
     if (f.moments.sampling >= kSamplingTrilinear) {

@@ -26,10 +26,10 @@ void main()
         if (seen.counts) {
             for (int c = 0; c < count; ++c) {
                 if (sliceCounts(seen.depth_m, slices[c].x, slices[c].y)) {
-                    atomicMax(found[4 * c], greatestKey(-seen.place.x));
-                    atomicMax(found[4 * c + 1], greatestKey(-seen.place.y));
-                    atomicMax(found[4 * c + 2], greatestKey(seen.place.x));
-                    atomicMax(found[4 * c + 3], greatestKey(seen.place.y));
+                    atomicMax(found[4 * c], greatestKey(seen.room.x - seen.place.x));
+                    atomicMax(found[4 * c + 1], greatestKey(seen.room.y - seen.place.y));
+                    atomicMax(found[4 * c + 2], greatestKey(seen.place.x + seen.room.x));
+                    atomicMax(found[4 * c + 3], greatestKey(seen.place.y + seen.room.y));
                 }
             }
         }

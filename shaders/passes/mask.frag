@@ -25,6 +25,7 @@ GpuConstants numbers;
 #define GNOMON_FEW_PLACE (kByVertex ? numbers_in[kLightPlace] : gnomon_lights[0].place)
 #define GNOMON_FEW_VIEWS kViewCount
 #define GNOMON_FEW_BINDING 8
+#define GNOMON_BLOCKS_BINDING 9
 #define GNOMON_KERNEL_WIDTH kKernelWidth
 #define GNOMON_DISC_TAPS kDiscTaps
 #define GNOMON_AUTOMATIC_BIAS kAutomaticBias

@@ -35,6 +35,7 @@ struct BiasRule {
     real receiver_plane; // 1: taps compare with the receiver's plane
     real reach_texels;   // how far from the receiver, per axis, a tap's texel centre can be
     real quantum;        // error of a stored depth, as a metric difference
+    real exact_plane;    // 1: texels are compared with the plane at their own centres, wherever they are
 };
 
 // A receiver on a map. At d texels from it, its reference depth is
@@ -50,6 +51,7 @@ struct MapPoint {
     real cap;
     real w;           // > 0 in front of a perspective light; 1 for an orthographic one
     real texel_depth; // a texel's width here, as a metric difference
+    real plane_doubt; // what the plane's depth is off by a texel away, for the normal's error
 };
 
 // A plane is followed up to this tangent of the angle between its normal and the light. Beyond it (87 degrees) the
@@ -164,15 +166,18 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
     real texel_depth = texelExtent(map, r.texel, r.w) / map.range_m; // a texel's width, as a metric difference
     real steepness = length(slope) / texel_depth;
 
+    r.plane_doubt = real(0.0);
     real follow = real(0.0);
     real bias = real(0.0);
     if (rule.automatic > real(0.0)) {
-        follow = min(real(1.0), kSteepest / max(steepness, real(1e-6)));
+        follow = max(rule.exact_plane, min(real(1.0), kSteepest / max(steepness, real(1e-6))));
         real lost = (real(1.0) - follow) * (abs(slope.x) + abs(slope.y)); // per texel, where the plane is not followed
         real bounded = min(steepness, real(1000.0));
-        bias = rule.quantum + texel_depth * (kRoughness + kRoughnessPerTexel * rule.reach_texels + kSnap * bounded +
-                                             kNormalError * rule.reach_texels * (real(1.0) + bounded * bounded));
+        real doubt = kNormalError * (real(1.0) + bounded * bounded);
+        real at_reach = kRoughness + (kRoughnessPerTexel + doubt) * rule.reach_texels;
+        bias = rule.quantum + texel_depth * (kSnap * bounded + (real(1.0) - rule.exact_plane) * at_reach);
         bias = bias + lost * rule.reach_texels;
+        r.plane_doubt = doubt * texel_depth;
     } else {
         follow = rule.receiver_plane;
         bias = rule.constant_m / map.range_m + rule.slope * length(slope);

@@ -8,16 +8,18 @@
 // gnomon::Filter. Macros, because the preprocessor chooses by them.
 #define GNOMON_FILTER_HARD 0
 #define GNOMON_FILTER_PCF 1
-#define GNOMON_FILTER_VSM 3
-#define GNOMON_FILTER_LVSM 4
-#define GNOMON_FILTER_ESM 5
-#define GNOMON_FILTER_EVSM 6
-#define GNOMON_FILTER_MSM 7
+#define GNOMON_FILTER_RAYMARCH 3
+#define GNOMON_FILTER_VSM 4
+#define GNOMON_FILTER_LVSM 5
+#define GNOMON_FILTER_ESM 6
+#define GNOMON_FILTER_EVSM 7
+#define GNOMON_FILTER_MSM 8
 
 GN_BEGIN
 
 GN_CONST int kFilterHard = GNOMON_FILTER_HARD;
 GN_CONST int kFilterPcf = GNOMON_FILTER_PCF;
+GN_CONST int kFilterRaymarch = GNOMON_FILTER_RAYMARCH;
 GN_CONST int kFilterVsm = GNOMON_FILTER_VSM;
 GN_CONST int kFilterLvsm = GNOMON_FILTER_LVSM;
 GN_CONST int kFilterEsm = GNOMON_FILTER_ESM;

@@ -40,6 +40,7 @@ struct GpuCascadeLight {
     cascades; // x: how many, y: first view of the plan, z: 1 for ends that are given, w: 1 for a perspective camera
     GN_VEC4 ends[2]; // given: where all cascades but the last end, m
     GN_VEC4 texel;   // x, y: View::texel_xy_m of the base map, z, w: how far each cascade is moved, of its own [-1, 1]
+    GN_VEC4 room;    // x, y: on all sides of a pixel's place, for View::light_reach; z: 1: of a place where w is 1
 };
 
 // Found so far, as whole numbers that only grow, so that the order in which pixels come does not matter: greatestKey()
@@ -56,7 +57,7 @@ struct GpuFittedView {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuCascadeLight) == 15 * 16 && sizeof(GpuCascadeKeys) == 28 * 4 && sizeof(GpuFittedView) == 48);
+static_assert(sizeof(GpuCascadeLight) == 16 * 16 && sizeof(GpuCascadeKeys) == 28 * 4 && sizeof(GpuFittedView) == 48);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -37,7 +37,8 @@ struct GpuView {
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
     GN_VEC4 whole; // all of its tile, as `tile`
-    GN_VEC4 more;  // x: slot of its depth layers (lvsm), y: coarsest mip level that it may read, z: near / far
+    GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
+                  // near / far
     // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: only while the GPU
     // has yet to fit the view (cascade_constants.comp): one past its number in the plan
     GN_VEC4 slice;
@@ -64,7 +65,7 @@ struct GpuLight {
 // What a light's options come to, for the filter that reads its maps.
 struct GpuRule {
     GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
-    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum
+    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum, exact_plane
     GN_VEC4 kernel;                       // gaussianWeights
     GN_VEC4 disc;                         // x: radius, texels; zw: one over the size of the maps' image in texels
     GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy

@@ -24,7 +24,7 @@ TEST(Choices, NamesAreUniqueAndRowsComplete)
     }
     EXPECT_EQ(next_value,
               (std::map<std::string_view, unsigned>{
-                  {"light", 3}, {"partition", 6}, {"fit", 6}, {"filter", 10}, {"soften", 4}, {"motion", 6}}));
+                  {"light", 3}, {"partition", 6}, {"fit", 6}, {"filter", 11}, {"soften", 4}, {"motion", 6}}));
 }
 
 TEST(Choices, NamesRoundTrip)
@@ -90,7 +90,7 @@ TEST(Choices, RefusalsAreSentences)
     Technique technique;
     technique.filter = Filter::pcss;
     EXPECT_EQ(refusal(LightType::spot, technique),
-              "filter pcss is not in this version; it has hard, pcf, vsm, lvsm, esm, evsm and msm");
+              "filter pcss is not in this version; it has hard, pcf, raymarch, vsm, lvsm, esm, evsm and msm");
     EXPECT_EQ(refusal(LightType::point, Technique{}),
               "light point is not in this version; it has directional and spot");
 }

@@ -122,8 +122,8 @@ TEST(Average, exponentsAreThoseOfTheFilter)
     rule.flags = kMomentLogSpace;
     EXPECT_EQ(averageExponents(kFilterEsm, rule), glm::dvec4(40.0));
     EXPECT_EQ(averageExponents(kFilterEvsm, rule), glm::dvec4(40.0, 80.0, -5.0, -10.0));
-    EXPECT_EQ(averageExponents(3, rule), glm::dvec4(0.0)) << "vsm has no logarithms";
-    EXPECT_EQ(averageExponents(7, rule), glm::dvec4(0.0));
+    EXPECT_EQ(averageExponents(kFilterVsm, rule), glm::dvec4(0.0)) << "vsm has no logarithms";
+    EXPECT_EQ(averageExponents(kFilterMsm, rule), glm::dvec4(0.0));
     EXPECT_FALSE(averagesLogarithms(3, kMomentLogSpace));
     EXPECT_TRUE(averagesLogarithms(kFilterEsm, kMomentLogSpace));
 }

@@ -15,6 +15,8 @@
 namespace gnomon::test {
 /// Stored depth of a texel, by its integer coordinates.
 inline std::function<double(int x, int y)> map_texels;
+/// Nearest and farthest depth of a block (shared/map_blocks.h). Nothing: found by looking at all texels.
+inline std::function<glm::dvec2(int x, int y, int level)> map_block;
 /// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
 inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
 /// GpuDepthLayers::layer of a view.
@@ -121,6 +123,21 @@ inline real4 mapGather(real2 corner, real, real)
     const int y = static_cast<int>(corner.y);
     return {test::map_texels(x - 1, y), test::map_texels(x, y), test::map_texels(x, y - 1),
             test::map_texels(x - 1, y - 1)};
+}
+inline real2 mapBlock(real2 block, int level, real)
+{
+    const int x = static_cast<int>(block.x);
+    const int y = static_cast<int>(block.y);
+    if (test::map_block) {
+        return test::map_block(x, y, level);
+    }
+    real2 depths(1.0, 0.0);
+    const int side = 1 << level;
+    for (int i = 0; i < side * side; ++i) {
+        const real depth = test::map_texels(x * side + i % side, y * side + i / side);
+        depths = real2(std::min(depths.x, depth), std::max(depths.y, depth));
+    }
+    return depths;
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {

@@ -125,8 +125,8 @@ TEST_F(Filters, numbersInTheTableAreThoseOfTheEnum)
     FilterInput input{};
     input.kernel_width = 3;
     input.kernel = gaussianWeights(3, 0.0);
-    EXPECT_EQ(applyFilter(0, point, input), filterHard(point, input));
-    EXPECT_EQ(applyFilter(1, point, input), filterPcf(point, input));
+    EXPECT_EQ(applyFilter(kFilterHard, point, input), filterHard(point, input));
+    EXPECT_EQ(applyFilter(kFilterPcf, point, input), filterPcf(point, input));
     EXPECT_EQ(applyFilter(99, point, input), 1.0);
 }
 

@@ -20,6 +20,10 @@ inline real mapTexel(real2, real, real)
 {
     return test::float_texel().x;
 }
+inline real2 mapBlock(real2, int, real)
+{
+    return {0.0F, 1.0F};
+}
 inline real4 mapGather(real2, real, real)
 {
     return test::float_texel();

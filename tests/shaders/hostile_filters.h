@@ -50,6 +50,16 @@ std::pair<MapPoint, FilterInput> receiver(const Options& o, Uniform uniform)
     const real reach = exp2(uniform(-3.0, 20.0));
     f.footprint_x = real2(uniform(-1.0, 1.0), uniform(-1.0, 1.0)) * reach;
     f.footprint_y = real2(uniform(-1.0, 1.0), uniform(-1.0, 1.0)) * reach;
+    const auto row = [&](double size) {
+        return real4(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)) * real(size);
+    };
+    f.rows.x = row(1000.0);
+    f.rows.y = row(1000.0);
+    f.rows.w = row(1.0);
+    f.rows.metric = row(0.1);
+    f.n = real3(row(1.0));
+    f.toward = real3(row(1.0));
+    f.spread = uniform(0.0, 0.5);
     return {point, f};
 }
 
@@ -72,7 +82,7 @@ inline void expectBounded(const Options& o, int draws)
 // Every filter with every way to store and to read.
 inline void expectAllBounded()
 {
-    for (const int filter : {3, 4, 5, 6, 7}) {
+    for (const int filter : {kFilterVsm, kFilterLvsm, kFilterEsm, kFilterEvsm, kFilterMsm}) {
         for (int flags = 0; flags < 2 * kMomentDerivatives; ++flags) {
             for (const real exponent : {real(5.5), real(88.0)}) {
                 expectBounded({filter, flags, flags % 4, exponent}, 60);
@@ -82,6 +92,7 @@ inline void expectAllBounded()
             expectBounded({filter, kMomentFourChannels, sampling, real(40.0)}, 1000);
         }
     }
+    expectBounded({kFilterRaymarch, 0, 0, real(0.0)}, 300);
 }
 
 } // namespace hostile

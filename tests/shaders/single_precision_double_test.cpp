@@ -54,8 +54,9 @@ double visibilityInDouble(const glm::vec4& stored, const DepthDraw& draw, const 
 // What the other half holds single precision against must itself be right: one depth before or behind the receiver.
 TEST(SinglePrecision, isHeldAgainstWhatKnowsLightFromShadow)
 {
-    for (const int filter : {3, 4, 5, 6, 7}) {
-        SingleOptions o{filter, filter == 7 ? int(shared::kMomentRemap) : 0, 40.0, 1e-6, 1.3e-6};
+    for (const int filter :
+         {shared::kFilterVsm, shared::kFilterLvsm, shared::kFilterEsm, shared::kFilterEvsm, shared::kFilterMsm}) {
+        SingleOptions o{filter, filter == shared::kFilterMsm ? int(shared::kMomentRemap) : 0, 40.0, 1e-6, 1.3e-6};
         DepthDraw draw{1, {0.3F}, {1.0F}, 0.9F, 0.0F};
         EXPECT_LT(visibilityInDouble(storedInDouble(draw, o), draw, o), 0.01) << filter;
         draw.receiver = 0.2F;

@@ -317,11 +317,11 @@ TEST_F(Vsm, numbersInTheTablesAreThoseOfTheEnum)
 {
     stored = {0.5, 0.3, 0.0, 0.0};
     point.depth = 0.7;
-    EXPECT_EQ(applyFilter(3, point, input), filterVsm(point, input));
+    EXPECT_EQ(applyFilter(kFilterVsm, point, input), filterVsm(point, input));
     EXPECT_LT(filterVsm(point, input), 1.0);
     EncodeInput e{};
     e.depth = 0.3;
-    EXPECT_EQ(encodeDepth(3, e, input.moments), glm::dvec4(0.3, 0.3 * 0.3, 0.0, 0.0));
+    EXPECT_EQ(encodeDepth(kFilterVsm, e, input.moments), glm::dvec4(0.3, 0.3 * 0.3, 0.0, 0.0));
 }
 
 } // namespace

@@ -73,8 +73,10 @@ void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
         setSteppingSun(lights == ParityLights::stepping_band, hasTwoMapsInATexel(options), r);
         return;
     }
-    const Light sun = makeSun({0.8, -0.9, -0.35});
-    const Light spot = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
+    Light sun = makeSun({0.8, -0.9, -0.35});
+    Light spot = makeSpot({-6.0, 9.0, 5.0}, {0.0, 0.0, 0.0}, 0.6);
+    sun.angular_diameter_rad = 0.06; // of use to filters that know how large the light is
+    spot.radius_m = 0.3;
     std::vector<Tile> tiles{{0, 0, 0, 512, 512}, {1, 128, 64, 384, 384}};
     MapPages atlas{512, 512, 2};
     r.lights = {sun, spot};

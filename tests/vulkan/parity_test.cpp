@@ -51,7 +51,10 @@ INSTANTIATE_TEST_SUITE_P(Filters, Parity,
                                          Case{"pcf_5x5_rg16", Filter::pcf, PcfKernel::gaussian_5x5, MapFormat::rg16},
                                          Case{"pcf_3x3_rgba8", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::rgba8},
                                          Case{"pcf_poisson_d32f", Filter::pcf, PcfKernel::poisson, MapFormat::d32f},
-                                         Case{"pcf_vogel_d32f", Filter::pcf, PcfKernel::vogel, MapFormat::d32f}),
+                                         Case{"pcf_vogel_d32f", Filter::pcf, PcfKernel::vogel, MapFormat::d32f},
+                                         Case{"raymarch_d32f", Filter::raymarch, PcfKernel::vogel, MapFormat::d32f},
+                                         Case{"raymarch_d16", Filter::raymarch, PcfKernel::vogel, MapFormat::d16},
+                                         Case{"raymarch_r32f", Filter::raymarch, PcfKernel::vogel, MapFormat::r32f}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 
 // Two positions of a sun, joined: by maps in halves of a texel and by maps with layers of their own.

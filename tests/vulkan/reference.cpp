@@ -5,11 +5,14 @@
 #include "moment_numbers.h"
 
 #include <shared/discs.h>
+#include <shared/map_blocks.h>
 #include <shared/paired_depth.h>
 #include <shared/sun_steps.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace gnomon::test {
 namespace {
@@ -28,6 +31,38 @@ double texel(double layer, double x, double y, double part)
 {
     return shared::pairedDepth(current_holding, texelAt(mapOf(layer), 0, x, y), part);
 }
+
+/// All levels of one layer's blocks, made here texel by texel: level L at L - 1.
+struct Blocks {
+    std::vector<std::vector<int>> levels;
+
+    static std::size_t sideOf(std::size_t map_side, std::size_t level)
+    {
+        return std::size_t{1} << (std::bit_width(map_side - 1) - level);
+    }
+};
+std::vector<Blocks> current_blocks;
+
+Blocks blocksOf(const CpuMap& map)
+{
+    Blocks blocks;
+    const std::size_t map_side = std::max(map.width, map.height);
+    for (std::size_t level = 1; level <= std::size_t(std::bit_width(map_side - 1)); ++level) {
+        const std::size_t side = Blocks::sideOf(map_side, level);
+        const std::size_t texels = std::size_t{1} << level;
+        std::vector<int>& made = blocks.levels.emplace_back(side * side);
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            glm::dvec2 range(1.0, 0.0);
+            for (std::size_t t = 0; t < texels * texels; ++t) {
+                const double depth =
+                    texelAt(map, 0, double(i % side * texels + t % texels), double(i / side * texels + t / texels)).x;
+                range = glm::dvec2(std::min(range.x, depth), std::max(range.y, depth));
+            }
+            made[i] = shared::blockOf(range.x, range.y);
+        }
+    }
+    return blocks;
+}
 } // namespace
 } // namespace gnomon::test
 
@@ -42,6 +77,13 @@ inline real4 mapGather(real2 corner, real layer, real part)
     const real y = corner.y;
     return {test::texel(layer, x - 1, y, part), test::texel(layer, x, y, part), test::texel(layer, x, y - 1, part),
             test::texel(layer, x - 1, y - 1, part)};
+}
+inline real2 mapBlock(real2 block, int level, real layer)
+{
+    const test::Blocks& blocks = test::current_blocks.at(std::size_t(layer));
+    const std::size_t side =
+        test::Blocks::sideOf(std::max(test::mapOf(layer).width, test::mapOf(layer).height), std::size_t(level));
+    return blockDepths(blocks.levels.at(std::size_t(level) - 1).at(std::size_t(block.y) * side + std::size_t(block.x)));
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {
@@ -129,6 +171,9 @@ double reachOf(const ShadowOptions& options)
     if (options.technique.filter == Filter::hard) {
         return 0.5;
     }
+    if (options.technique.filter == Filter::raymarch) {
+        return 2.0;
+    }
     if (isFilterable(options.technique.filter)) {
         return blurRadius(options.moments) + 1.0;
     }
@@ -170,6 +215,7 @@ BiasRule ruleOf(const ShadowOptions& options)
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
     rule.reach_texels = biasReachOf(options);
     rule.quantum = quantumOf(formatOf(options));
+    rule.exact_plane = options.technique.filter == Filter::raymarch ? 1.0 : 0.0;
     return rule;
 }
 
@@ -206,9 +252,27 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
         shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.pcf.sigma_texels.value_or(0.0F)));
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
-    input.coarsest = coarsestOf(view.tile, levelsOf(options, scene.plan.pages[0]));
+    const MapPages& pages = scene.plan.pages[0];
+    input.coarsest = options.technique.filter == Filter::raymarch
+                         ? std::bit_width(std::max(pages.width, pages.height) - 1U)
+                         : coarsestOf(view.tile, levelsOf(options, pages));
     input.near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
     return input;
+}
+
+// From a receiver to the light, and the light's size at that distance: a sphere's is that of the cone that touches it.
+void turnToLight(const Light& light, const MapRows& rows, const glm::dvec3& p, const glm::dvec3& n, FilterInput& input)
+{
+    input.rows = rows;
+    input.n = n;
+    if (light.type == LightType::directional) {
+        input.toward = -glm::normalize(light.direction_ws);
+        input.spread = std::tan(0.5 * light.angular_diameter_rad);
+        return;
+    }
+    input.toward = light.position_ws - p;
+    const double distance_m = glm::length(input.toward);
+    input.spread = distance_m * std::tan(std::asin(std::min(light.radius_m / distance_m, 0.9)));
 }
 
 // The receiver's footprint on the map. In world space: the camera's rays are those of its whole matrix.
@@ -247,6 +311,10 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     current_poisson = options.pcf.kernel == PcfKernel::poisson;
     current_taps = int(options.pcf.taps);
     current_holding = holdingOf(options);
+    current_blocks.clear();
+    if (options.technique.filter == Filter::raymarch) {
+        std::ranges::transform(scene.maps, std::back_inserter(current_blocks), blocksOf);
+    }
     const Picture& picture = scene.picture;
     const MapRows rows = rowsOf(view);
     const BiasRule rule = ruleOf(options);
@@ -273,6 +341,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             }
             input.pixel = glm::dvec2(i % picture.extent.width, i / picture.extent.width) + 0.5;
             const auto point = shared::projectReceiver(rows, rule, p, n);
+            turnToLight(light, rows, p, n, input);
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }

@@ -30,7 +30,7 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
     if (options.filterable()) {
         return std::make_unique<MomentMaps>(device, options, storage, placer, slots, cache);
     }
-    return std::make_unique<DepthMaps>(device, storage, cache);
+    return std::make_unique<DepthMaps>(device, storage, options.traits().integrates_light, cache);
 }
 
 } // namespace

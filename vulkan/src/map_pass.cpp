@@ -43,9 +43,12 @@ bool mayKeepStill(const ResolvedOptions& options)
 
 } // namespace
 
-DepthMaps::DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache)
+DepthMaps::DepthMaps(Device& device, const MapStorage& storage, bool with_blocks, VkPipelineCache cache)
     : device_(device), storage_(storage), cache_(cache)
 {
+    if (with_blocks) {
+        blocks_.emplace(device, cache);
+    }
 }
 
 void DepthMaps::makeMaps(const MapPages& size)
@@ -67,6 +70,9 @@ void DepthMaps::makeMaps(const MapPages& size)
         device_.retire(std::move(depth_));
         depth_ = Image(device_, {storage_.depth, extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                  VK_IMAGE_ASPECT_DEPTH_BIT, "shadow map depth"});
+    }
+    if (blocks_) {
+        blocks_->setMaps(maps_.image());
     }
 }
 
@@ -347,6 +353,32 @@ void DepthMaps::record(const MapJob& job)
     drawKept(job);
     drawMaps(job);
     makeReadable(job.commands);
+    if (blocks_) {
+        makeBlocks(job);
+    }
+}
+
+void DepthMaps::makeBlocks(const MapJob& job)
+{
+    if (blocks_->isNew()) {
+        blocks_->recordAll(job.commands);
+        return;
+    }
+    bool begun = false;
+    for (std::uint32_t i = 0; i < job.plan.views.size(); ++i) {
+        if (!job.of(i).draw) {
+            continue;
+        }
+        if (!begun) {
+            blocks_->begin(job.commands);
+            begun = true;
+        }
+        const View& view = job.plan.views[i];
+        blocks_->record(job.commands, redrawnArea(view, job.of(i).whole), view.tile.layer);
+    }
+    if (begun) {
+        blocks_->end(job.commands);
+    }
 }
 
 void DepthMaps::copyOutgrown(VkCommandBuffer commands)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "barriers.h"
+#include "depth_blocks.h"
 #include "layered_target.h"
 #include "map_recorder.h"
 #include "map_restore.h"
@@ -16,13 +17,15 @@ namespace gnomon::vulkan {
 
 class DepthMaps final : public MapRecorder {
 public:
-    DepthMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
+    /// `with_blocks`: makes DepthBlocks of what it draws.
+    DepthMaps(Device& device, const MapStorage& storage, bool with_blocks, VkPipelineCache cache);
 
     void warmUp(const ResolvedOptions& options) override;
     Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
+    [[nodiscard]] const Image* blocks() const override { return blocks_ ? &blocks_->image() : nullptr; }
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
@@ -46,6 +49,7 @@ private:
     void makeKept(std::uint32_t layers);
     void prepareTogether(const Plan& plan, std::uint32_t options);
     void copyOutgrown(VkCommandBuffer commands);
+    void makeBlocks(const MapJob& job);
     void drawKept(const MapJob& job);
     void drawMaps(const MapJob& job);
     void drawMap(const MapJob& job, std::uint32_t index);
@@ -66,6 +70,7 @@ private:
     LayeredTarget kept_colours_;
     LayeredTarget kept_depths_;
     std::optional<MapRestorer> restorer_; // made when first needed
+    std::optional<DepthBlocks> blocks_;
 };
 
 } // namespace gnomon::vulkan

@@ -59,6 +59,7 @@ enum Binding : std::uint32_t {
     kNormal,
     kObjectId,
     kFewViews,
+    kBlocks,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -66,7 +67,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 VkFormat maskFormat(bool several_lights)
 {
@@ -265,6 +266,7 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
                                       : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);
     };
     const VkBuffer constants = slot.constants.buffer();
+    const Image* const blocks = maps.recorder->blocks();
     const VkSampler of_maps = maps.filterable() ? linear_.get() : nearest_.get();
     const std::array<DescriptorSets::Write, kBindingCount> writes{
         DescriptorSets::buffer(kConstants, constants, sizeof(shared::GpuConstants), options * room_.constants_stride),
@@ -275,7 +277,9 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         orDepth(kNormal, inputs.normal),
         orDepth(kObjectId, inputs.object_id),
-        DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at)};
+        DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at),
+        blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
+                          : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead)};
     sets_.write(slot.sets[options], writes);
 }
 

@@ -343,6 +343,18 @@ ImageRef ShadowRenderer::maps(std::uint32_t options) const
     return made ? describe(impl_->parts->classes[options]->recorder->maps()) : ImageRef{};
 }
 
+ImageRef ShadowRenderer::blocks(std::uint32_t options) const
+{
+    const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];
+    const Image* const blocks = made ? impl_->parts->classes[options]->recorder->blocks() : nullptr;
+    if (blocks == nullptr) {
+        return {};
+    }
+    ImageRef ref = describe(*blocks);
+    ref.layout = VK_IMAGE_LAYOUT_GENERAL;
+    return ref;
+}
+
 BufferRef ShadowRenderer::depthLayersBuffer(std::uint32_t options) const
 {
     const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];

@@ -14,7 +14,7 @@ enum class LightType : std::uint8_t { directional, spot, point };
 /// automatic: the planner chooses, for each light and frame (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, multi, automatic };
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, automatic };
-enum class Filter : std::uint8_t { hard, pcf, pcss, vsm, lvsm, esm, evsm, msm, id, depth_id };
+enum class Filter : std::uint8_t { hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm, id, depth_id };
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
@@ -67,7 +67,7 @@ struct FilterTraits {
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light;              // one frame takes all of the light's size: soften=converge needs not sample it
+    bool integrates_light;              // one frame takes all of the light's size: it reads as far from a receiver as that leads
 };
 /// Null for a filter that is not available.
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

@@ -172,6 +172,8 @@ struct View {
     SunPosition sun = SunPosition::only;
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
+    /// Room on all sides for the rays to the rest of the light (FilterTraits::integrates_light), in texel_m's units of length.
+    double light_reach = 0.0;
     ViewSlice slice;
     /// Partition::sdsm: which of its light's cascades this is. Then what is above says how the light's base map lies,
     /// and the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters

@@ -18,6 +18,7 @@ struct MotionInput {
     double least_size = 0.0; // no side of a map is shorter, as LightRect has it
     std::uint32_t map_size = 0;
     double border_texels = 0.0;
+    double light_reach = 0.0; // of a steady map: room on all sides, as LightRect has it (light_reach.h)
 };
 /// From the rectangle that matters now to the map that is drawn, which holds it and the border.
 using MotionFunction = MapFrame (*)(const LightRect& wanted, const MotionInput& input);

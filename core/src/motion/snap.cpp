@@ -4,6 +4,7 @@
 // Based on: M. Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6, 2008 (the sphere around a slice of the
 // view); "Common Techniques to Improve Shadow Depth Maps", Microsoft, 2010 (moving the light in texel-sized
 // increments).
+#include "light_reach.h"
 #include "motion/motion.h"
 #include "motion/steps.h"
 
@@ -88,7 +89,8 @@ MapFrame moveInTexels(const LightRect& /*wanted*/, const MotionInput& input)
     glm::dvec2 centre(0.0);
     glm::dvec2 size(0.0);
     if (input.space.perspective) {
-        size = glm::dvec2(2.0 * input.space.tangent); // all that it lights
+        size = glm::dvec2(2.0 *
+                          (input.space.tangent + affordableReach(input.light_reach, glm::dvec2(input.space.tangent))));
     } else {
         const Sphere sphere =
             sphereAround(input.camera, input.view, std::max(input.slice.depth.begin_m, input.view.near_m),
@@ -96,7 +98,8 @@ MapFrame moveInTexels(const LightRect& /*wanted*/, const MotionInput& input)
         const LightRect scene = sceneRect(input.space, input.view.scene_ws);
         const glm::dvec2 sphere_centre(input.space.coordinates(sphere.centre_ws));
         for (int axis = 0; axis < 2; ++axis) {
-            const double around_view = 2.0 * (sphere.radius_m + input.view.pad_m);
+            const double reach = affordableReach(input.light_reach, glm::dvec2(2.0 * sphere.radius_m));
+            const double around_view = 2.0 * (sphere.radius_m + reach + input.view.pad_m);
             const double around_scene = scene.high[axis] - scene.low[axis] + 2.0 * input.view.pad_m;
             // A scene that is smaller than the view's reach is shown whole, and the map stands still for good.
             const bool whole = around_scene <= around_view;

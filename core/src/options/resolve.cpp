@@ -108,6 +108,9 @@ float reachTexels(const ShadowOptions& options)
     if (traits != nullptr && traits->filterable) {
         return static_cast<float>(blurRadius(options.moments)) + 1.0F; // and a bilinear read of what was blurred
     }
+    if (traits != nullptr && traits->integrates_light) {
+        return 2.0F; // from where a ray may start; the way to the light has room of its own
+    }
     if (options.technique.filter != Filter::pcf) {
         return 0.5F;
     }

@@ -3,7 +3,7 @@
 // library that this declares begins with gnomon or GNOMON, or GN_.
 //
 // Define beforehand, if the defaults do not suit:
-//   GNOMON_SET      descriptor set of the five bindings below (0)
+//   GNOMON_SET      descriptor set of the six bindings below (0)
 //   GNOMON_BINDING  the first of them (0)
 //   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of shared/choice_numbers.h: the one filter that is compiled,
 //                   which the options must have. Without it all of them are, and GpuRule says which.
@@ -15,6 +15,8 @@
 //   2  storage buffer: GpuLight, by the light's index
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
+//   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (shared/map_blocks.h), in GENERAL,
+//      sampler nearest. Filter raymarch; a shader for another filter alone does not have it
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"

@@ -36,6 +36,8 @@ void fillRule(const ResolvedOptions& options, shared::GpuRule& out);
 /// The coarsest mip level whose texels lie in one tile, each over whole texels of the next finer level. `levels`: of
 /// the map's image, at least 1.
 [[nodiscard]] std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels);
+/// Levels of the blocks of maps of this size (shaders/shared/map_blocks.h), at least 1.
+[[nodiscard]] std::uint32_t blockLevels(const glm::uvec2& size_px);
 
 /// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
 /// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential

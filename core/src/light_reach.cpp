@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light_reach.h"
+
+#include "motion/steps.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+double lightReach(const Light& light, const LightSpace& space, double near_m, double far_m)
+{
+    if (!space.perspective) {
+        return std::tan(0.5 * light.angular_diameter_rad) * std::max(far_m - near_m, 0.0);
+    }
+    // From (x / d, d) to the lamp's rim (r, 0): at depth z the ray is at x / d + r (1 / z - 1 / d).
+    const double z = std::max(near_m, space.near_m);
+    return light.radius_m * std::max(1.0 / z - 1.0 / std::max(far_m, z), 0.0);
+}
+
+double affordableReach(double reach, const glm::dvec2& size)
+{
+    return std::min(reach, 0.25 * std::max(size.x, size.y));
+}
+
+double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws)
+{
+    const glm::dvec3 size = glm::dvec3(scene_ws.max) - glm::dvec3(scene_ws.min);
+    const double reach = space.perspective ? lightReach(light, space, space.near_m, space.reach_m)
+                                           : lightReach(light, space, 0.0, glm::dot(glm::abs(space.depth_ws), size));
+    return reach > 0.0 ? steppedUp(reach) : 0.0;
+}
+
+} // namespace gnomon

@@ -1,0 +1,51 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Two levels of a map's blocks (shared/map_blocks.h), from its texels (FROM_MAP) or from a level of blocks. A thread
+// makes four blocks of the finer level and the one of the coarser level that they are parts of: without a word to other
+// threads, for which some devices have to wait long.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "../shared/map_blocks.h"
+layout(local_size_x = kBlockGroup, local_size_y = kBlockGroup) in;
+#ifdef FROM_MAP
+layout(set = 0, binding = 0) uniform texture2DArray source;
+#else
+layout(set = 0, binding = 0, r32ui) readonly uniform uimage2DArray source;
+#endif
+layout(set = 0, binding = 1, r32ui) writeonly uniform uimage2DArray finer;
+layout(set = 0, binding = 2, r32ui) writeonly uniform uimage2DArray coarser;
+layout(push_constant) uniform Push
+{
+    ivec4 first; // x, y: group; z: layer; w: levels to make
+    ivec4 last;  // texels or blocks of the source to read at most: x, y
+};
+
+int sourceAt(ivec2 at)
+{
+    ivec3 place = ivec3(min(at, last.xy), first.z);
+#ifdef FROM_MAP
+    float depth = texelFetch(source, place, 0).x;
+    return blockOf(depth, depth);
+#else
+    return int(imageLoad(source, place).x);
+#endif
+}
+
+void main()
+{
+    ivec2 me = first.xy * kBlockGroup + ivec2(gl_GlobalInvocationID.xy);
+    int whole = 0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 part = 2 * me + ivec2(i & 1, i >> 1);
+        ivec2 at = 2 * part;
+        int block = joinedBlocks(joinedBlocks(sourceAt(at), sourceAt(at + ivec2(1, 0))),
+                                 joinedBlocks(sourceAt(at + ivec2(0, 1)), sourceAt(at + ivec2(1, 1))));
+        if (all(lessThan(part, imageSize(finer).xy))) {
+            imageStore(finer, ivec3(part, first.z), uvec4(uint(block)));
+        }
+        whole = i == 0 ? block : joinedBlocks(whole, block);
+    }
+    if (first.w > 1 && all(lessThan(me, imageSize(coarser).xy))) {
+        imageStore(coarser, ivec3(me, first.z), uvec4(uint(whole)));
+    }
+}

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays through maps whose shadows are known in closed form.
+#include "cpu_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+using namespace shared;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Parallel light that shines along -z from `top` metres over the origin. A texel is `texel` metres wide, and the
+/// origin is in the middle of the page.
+struct Stage {
+    double texel = 0.02;
+    double top = 8.0;
+    double side = 1024.0;
+    double tangent = std::tan(1.0 * kDegree); // of half the light's angle
+    glm::dvec3 n{0.0, 0.0, 1.0};              // of the receiver
+
+    [[nodiscard]] MapRows rows() const
+    {
+        MapRows rows;
+        rows.x = {1.0 / texel, 0.0, 0.0, side / 2.0};
+        rows.y = {0.0, 1.0 / texel, 0.0, side / 2.0};
+        rows.w = {0.0, 0.0, 0.0, 1.0};
+        rows.metric = {0.0, 0.0, -0.5 / top, 0.5};
+        rows.texel_m = texel;
+        rows.range_m = 2.0 * top;
+        return rows;
+    }
+    /// What the map holds: `height` of the highest surface over a place.
+    template <class Height>
+    void draw(Height height) const
+    {
+        test::map_texels = [=, *this](int x, int y) {
+            const glm::dvec2 centre = (glm::dvec2(x, y) + 0.5 - side / 2.0) * texel;
+            return std::clamp(0.5 - 0.5 * height(centre) / top, 0.0, 1.0);
+        };
+        test::map_block = {};
+    }
+    [[nodiscard]] std::pair<MapPoint, FilterInput> receiver(glm::dvec3 p, glm::dvec2 pixel) const
+    {
+        BiasRule rule{};
+        rule.automatic = 1.0;
+        rule.quantum = 4e-6;
+        rule.exact_plane = 1.0;
+        FilterInput f{};
+        f.pixel = pixel;
+        f.rows = rows();
+        f.n = n;
+        f.toward = {0.0, 0.0, 1.0};
+        f.spread = tangent;
+        f.tile = {0.0, 0.0, side, side};
+        f.coarsest = std::log2(side);
+        return {projectReceiver(f.rows, rule, p, n), f};
+    }
+    [[nodiscard]] double visibility(glm::dvec3 p, glm::dvec2 pixel) const
+    {
+        const auto [point, f] = receiver(p, pixel);
+        return filterRaymarch(point, f);
+    }
+};
+
+glm::dvec2 pixelOf(int i)
+{
+    return {i % 61 + 0.5, i / 61 + 0.5};
+}
+
+/// Of a disc, the share on one side of a line at t radii from its centre.
+double beyondLine(double t)
+{
+    const double c = std::clamp(t, -1.0, 1.0);
+    return 1.0 - (std::acos(c) - c * std::sqrt(1.0 - c * c)) / std::numbers::pi;
+}
+
+TEST(Raymarch, SeesTheShareOfADiscBesideAHalfPlane)
+{
+    constexpr int kPoints = 3000;
+    for (const double degrees : {0.53, 2.0, 8.0}) {
+        for (const double texels : {8.0, 12.0, 24.0}) { // the penumbra's width
+            for (const double height : {1.0, 7.0}) {
+                Stage stage;
+                stage.tangent = std::tan(0.5 * degrees * kDegree);
+                const double reach = height * stage.tangent;
+                stage.texel = 2.0 * reach / texels;
+                const glm::dvec2 across = glm::normalize(glm::dvec2(1.0, 0.3)); // not along the texels
+                stage.draw([&](glm::dvec2 q) { return glm::dot(across, q) < 0.0 ? height : 0.0; });
+                double squares = 0.0;
+                double sum = 0.0;
+                for (int i = 0; i < kPoints; ++i) {
+                    const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
+                    const glm::dvec2 q = across * x + glm::dvec2(-across.y, across.x) * (0.037 * i * stage.texel);
+                    const double error = stage.visibility({q, 0.0}, pixelOf(i)) - beyondLine(x / reach);
+                    squares += error * error;
+                    sum += error;
+                }
+                // From twelve texels on the rays' noise is what is left; below there are fewer rays.
+                EXPECT_LT(std::sqrt(squares / kPoints), texels < 12.0 ? 0.03 : 0.02) << texels << " texels";
+                EXPECT_LT(std::abs(sum / kPoints), 0.002) << texels << " texels";
+            }
+        }
+    }
+}
+
+// The mean depth of blockers says about a half here.
+TEST(Raymarch, OccludersThatCoverTheLightTogetherFuse)
+{
+    Stage stage;
+    stage.tangent = std::tan(4.0 * kDegree);
+    stage.draw([](glm::dvec2 q) { return q.x < 0.0 ? 2.0 : 6.0; });
+    for (int i = 0; i < 200; ++i) {
+        EXPECT_LE(stage.visibility({0.004 * (i - 100), 0.1, 0.0}, pixelOf(i)), 0.02) << i;
+    }
+}
+
+TEST(Raymarch, APlaneIsLitAtAnyIncidence)
+{
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<double> place(-0.5, 0.5);
+    for (int degrees = 1; degrees <= 89; degrees += 4) {
+        Stage stage;
+        stage.top = 100.0;
+        const double turn = 0.7;
+        const double tangent = std::tan(degrees * kDegree);
+        stage.n = glm::normalize(glm::dvec3(-tangent * std::cos(turn), -tangent * std::sin(turn), 1.0));
+        const auto height = [&](glm::dvec2 q) {
+            return tangent * (q.x * std::cos(turn) + q.y * std::sin(turn));
+        };
+        stage.draw(height);
+        // Of the light's disc what is below the plane's own horizon is not seen.
+        const double beyond = beyondLine(1.0 / (tangent * stage.tangent));
+        for (int i = 0; i < 50; ++i) {
+            const glm::dvec2 q(place(rng), place(rng));
+            EXPECT_GE(stage.visibility({q, height(q)}, pixelOf(i)), beyond - 0.1) << degrees << " degrees";
+        }
+    }
+}
+
+TEST(Raymarch, ASphereIsLitToItsRim)
+{
+    Stage stage;
+    const auto height = [](glm::dvec2 q) {
+        return std::sqrt(std::max(1.0 - glm::dot(q, q), 0.0));
+    };
+    stage.draw(height);
+    for (int i = 0; i < 400; ++i) {
+        const double radius = 0.97 * std::sqrt((i + 0.5) / 400.0);
+        const glm::dvec2 q = radius * glm::dvec2(std::cos(2.4 * i), std::sin(2.4 * i));
+        stage.n = glm::dvec3(q, height(q));
+        EXPECT_EQ(stage.visibility({q, height(q)}, pixelOf(i)), 1.0) << radius;
+    }
+}
+
+// A wall that faces the light and the ground before it: both lit, and shadow from the wall's top begins at its foot.
+TEST(Raymarch, ACreaseIsLitAndAFootIsDark)
+{
+    Stage stage;
+    const double lean = 0.5; // the wall's foot is at x = 0, its top 0.5 m behind that, a metre up
+    stage.draw([&](glm::dvec2 q) { return q.x < 0.003 ? 0.0 : q.x < 0.003 + lean ? (q.x - 0.003) / lean : 0.0; });
+    for (int i = 1; i < 100; ++i) {
+        const double x = 0.003 - 0.0005 * i;
+        EXPECT_EQ(stage.visibility({x, 0.07, 0.0}, pixelOf(i)), 1.0) << "before the wall, " << x;
+    }
+    for (int i = 0; i < 50; ++i) {
+        const double x = 0.003 + lean - 2.0 * stage.texel - 0.002 * i;
+        EXPECT_EQ(stage.visibility({x, 0.07, 0.0}, pixelOf(i)), 0.0) << "beneath it, " << x;
+    }
+}
+
+// Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.
+TEST(Raymarch, BlocksOnlySaveWork)
+{
+    std::mt19937 rng(5);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    int decided = 0;
+    for (int round = 0; round < 20; ++round) {
+        Stage stage;
+        stage.tangent = 0.02 * std::pow(8.0, uniform(rng));
+        const double edge = uniform(rng) - 0.5;
+        const double width = 0.3 * uniform(rng);
+        const double height = 0.1 + 6.0 * uniform(rng);
+        stage.draw([&](glm::dvec2 q) { return std::abs(q.x + 0.4 * q.y - edge) < width ? height : 0.0; });
+        for (int i = 0; i < 100; ++i) {
+            const auto [point, f] = stage.receiver({3.0 * uniform(rng) - 1.5, uniform(rng), 0.0}, pixelOf(i));
+            const double v = filterRaymarch(point, f);
+            if (v == 0.0 || v == 1.0) {
+                EXPECT_NEAR(raysUnblocked(point, f, rayCone(point, f), 0.0, 64), v, 0.08) << round << ", " << i;
+                ++decided;
+            }
+        }
+    }
+    EXPECT_GT(decided, 1000);
+}
+
+TEST(Raymarch, TheSizeOfTheWorldDoesNotMatter)
+{
+    for (const double scale : {1.0 / 1024.0, 1024.0}) {
+        for (int i = 0; i < 100; ++i) {
+            const auto seen = [&](double k) {
+                Stage stage;
+                stage.texel *= k;
+                stage.top *= k;
+                stage.draw([&](glm::dvec2 q) { return q.x < 0.1 * k ? 3.0 * k : 0.0; });
+                return stage.visibility({(0.1 + 0.001 * (i - 50)) * k, 0.03 * k, 0.0}, pixelOf(i));
+            };
+            EXPECT_EQ(seen(1.0), seen(scale)) << i;
+        }
+    }
+}
+
+/// A lamp 4 m over a floor, and a half plane between them: the same closed form, by similar triangles.
+TEST(Raymarch, ALampIsSeenBesideAHalfPlane)
+{
+    constexpr double kLamp_m = 4.0;
+    constexpr double kRadius_m = 0.2;
+    constexpr double kTexels = 1024.0;
+    for (const double height : {0.8, 2.0, 3.0}) {
+        MapRows rows;
+        const double focus = kTexels / 2.0; // 90 degrees
+        rows.x = {focus, 0.0, -kTexels / 2.0, kTexels / 2.0 * kLamp_m};
+        rows.y = {0.0, focus, -kTexels / 2.0, kTexels / 2.0 * kLamp_m};
+        rows.w = {0.0, 0.0, -1.0, kLamp_m};
+        const double near = 0.5;
+        const double far = 4.1;
+        rows.metric = {0.0, 0.0, -1.0 / (far - near), (kLamp_m - near) / (far - near)};
+        rows.texel_m = 0.0;
+        rows.range_m = far - near;
+        test::map_texels = [&](int x, int) {
+            const double tangent = (x + 0.5 - kTexels / 2.0) / focus;
+            const double depth = tangent < 0.0 ? kLamp_m - height : kLamp_m;
+            return (depth - near) / (far - near);
+        };
+        test::map_block = {};
+        const double reach = kRadius_m * height / (kLamp_m - height);
+        double squares = 0.0;
+        constexpr int kPoints = 1500;
+        for (int i = 0; i < kPoints; ++i) {
+            const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
+            BiasRule rule{};
+            rule.automatic = 1.0;
+            rule.quantum = 4e-6;
+            rule.exact_plane = 1.0;
+            FilterInput f{};
+            const glm::dvec3 p(x, 0.2, 0.0);
+            f.pixel = pixelOf(i);
+            f.rows = rows;
+            f.n = {0.0, 0.0, 1.0};
+            f.toward = glm::dvec3(0.0, 0.0, kLamp_m) - p;
+            f.spread = lightSpread(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F), f.toward, kRadius_m);
+            f.tile = {0.0, 0.0, kTexels, kTexels};
+            f.coarsest = 10.0;
+            const double error = filterRaymarch(projectReceiver(rows, rule, p, f.n), f) - beyondLine(x / reach);
+            squares += error * error;
+        }
+        // At the highest the lamp is 150 texels wide on the map, so there are few rays.
+        EXPECT_LT(std::sqrt(squares / kPoints), height < 1.0 ? 0.02 : height < 3.0 ? 0.04 : 0.1) << height << " m";
+    }
+}
+
+} // namespace
+} // namespace gnomon
