@@ -89,8 +89,8 @@ bool lightHasSize(const Settings& s)
         const ChoiceValue* const filter = findChoice("filter", technique.substr(0, technique.find('+')));
         return filter != nullptr && follows(static_cast<Filter>(filter->value));
     };
-    return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge || follows(s.shadow.technique.filter) ||
-           std::ranges::any_of(s.techniques, names);
+    return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge ||
+           follows(s.shadow.technique.filter) || std::ranges::any_of(s.techniques, names);
 }
 
 const std::vector<Setting>& rows()

@@ -396,6 +396,7 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
     if (recipe.converges()) {
         plan.lights[index].sample =
             sampleOf(frame.lights[index], convergeSample(recipe.filter->integrates_light ? 0 : converging));
+        plan.lights[index].sample.number = static_cast<std::uint32_t>(converging % 1024);
     }
     std::optional<Outcome> best;
     for (const bool later : {false, true}) {

@@ -113,7 +113,7 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
         gpu.more.x = options.filter() == Filter::lvsm ? static_cast<float>(depthLayersSlot(plan, i)) : 0.0F;
         const MapImage& image = maps[optionsIndexOf(plan, view)];
         gpu.more.y = static_cast<float>(options.traits().integrates_light ? blockLevels(image.size_px)
-                                                                 : coarsestLevel(view.tile, image.levels));
+                                                                          : coarsestLevel(view.tile, image.levels));
         if (view.gpu_cascade != kNoIndex) {
             gpu.slice.w = static_cast<float>(i + 1);
         }
@@ -162,6 +162,8 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     const glm::vec2 size(screen_px);
     screen.size = {size, 1.0F / size};
     fillRule(options, out.rule);
+    const auto light = std::ranges::find(plan.lights, index, &LightPlan::options);
+    out.rule.disc.y = light != plan.lights.end() ? static_cast<float>(light->sample.number) : 0.0F;
     out.rule.disc.z = 1.0F / static_cast<float>(maps.size_px.x);
     out.rule.disc.w = 1.0F / static_cast<float>(maps.size_px.y);
 }

@@ -83,7 +83,8 @@ FilterInput filterInput(vec2 pixel)
     f.disc_taps = GNOMON_DISC_TAPS;
     f.disc_radius = GNOMON_NUMBERS.rule.disc.x;
     f.kernel = GNOMON_NUMBERS.rule.kernel;
-    f.pixel = pixel;
+    // So far from frame to frame, the noise of discs.h is another one everywhere: J. Jimenez, as there.
+    f.pixel = pixel + 5.588238 * GNOMON_NUMBERS.rule.disc.y;
     f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, GNOMON_NUMBERS.rule.moment_warp,
                           GNOMON_NUMBERS.rule.moment_variance, GNOMON_NUMBERS.rule.moment_shape);
     return f;

@@ -64,11 +64,11 @@ struct GpuLight {
 
 // What a light's options come to, for the filter that reads its maps.
 struct GpuRule {
-    GN_VEC4 bias;                         // automatic, constant_m, slope, normal_texels
-    GN_VEC4 bias_more;                    // receiver_plane, reach_texels, quantum, exact_plane
-    GN_VEC4 kernel;                       // gaussianWeights
-    GN_VEC4 disc;                         // x: radius, texels; zw: one over the size of the maps' image in texels
-    GN_VEC4 moment_warp;                  // exponent, negative exponent, moment bias, anisotropy
+    GN_VEC4 bias;        // automatic, constant_m, slope, normal_texels
+    GN_VEC4 bias_more;   // receiver_plane, reach_texels, quantum, exact_plane
+    GN_VEC4 kernel;      // gaussianWeights
+    GN_VEC4 disc;        // x: radius, texels; y: frame, for noise; zw: one over the size of the maps' image in texels
+    GN_VEC4 moment_warp; // exponent, negative exponent, moment bias, anisotropy
     GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-
     GN_VEC4 moment_shape;                 // linstep, power, lighten
     GN_IVEC4 reading;                     // gnomon::Filter, kernel width, taps of the disc, holding (paired_depth.h)

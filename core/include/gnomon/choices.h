@@ -67,7 +67,7 @@ struct FilterTraits {
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light;              // one frame takes all of the light's size: it reads as far from a receiver as that leads
+    bool integrates_light; // one frame takes all of the light's size: it reads as far from a receiver as that leads
 };
 /// Null for a filter that is not available.
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

@@ -172,7 +172,8 @@ struct View {
     SunPosition sun = SunPosition::only;
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
-    /// Room on all sides for the rays to the rest of the light (FilterTraits::integrates_light), in texel_m's units of length.
+    /// Room on all sides for the rays to the rest of the light (FilterTraits::integrates_light), in texel_m's units of
+    /// length.
     double light_reach = 0.0;
     ViewSlice slice;
     /// Partition::sdsm: which of its light's cascades this is. Then what is above says how the light's base map lies,
@@ -245,6 +246,7 @@ struct LightSample {
     bool joined = false; // false: the light's own place; nothing below counts
     glm::dvec3 position_ws{0.0};
     glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // unit, the way light travels
+    std::uint32_t number = 0; // of the frame since the last cut, from 0 on, modulo 1024: what noise goes by
 };
 
 struct LightPlan {
