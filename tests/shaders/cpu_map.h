@@ -15,8 +15,33 @@
 namespace gnomon::test {
 /// Stored depth of a texel, by its integer coordinates.
 inline std::function<double(int x, int y)> map_texels;
-/// Nearest and farthest depth of a block (shared/map_blocks.h). Nothing: found by looking at all texels.
+/// Nearest and farthest depth of a block (shared/map_blocks.h). makeBlocks() is one way to have them.
 inline std::function<glm::dvec2(int x, int y, int level)> map_block;
+/// Of map_texels from 0 to `side`, a power of two.
+inline void makeBlocks(int side)
+{
+    std::vector<std::vector<glm::dvec2>> levels(1);
+    for (int i = 0; i < side * side; ++i) {
+        levels[0].emplace_back(map_texels(i % side, i / side));
+    }
+    for (int size = side / 2; size > 0; size /= 2) {
+        const std::vector<glm::dvec2> finer = levels.back();
+        std::vector<glm::dvec2>& made = levels.emplace_back();
+        for (int i = 0; i < size * size; ++i) {
+            glm::dvec2 range(1.0, 0.0);
+            for (int part = 0; part < 4; ++part) {
+                const int x = 2 * (i % size) + part % 2;
+                const int y = 2 * (i / size) + part / 2;
+                const glm::dvec2 of_part = finer[static_cast<std::size_t>(y * 2 * size + x)];
+                range = {std::min(range.x, of_part.x), std::max(range.y, of_part.y)};
+            }
+            made.push_back(range);
+        }
+    }
+    map_block = [levels, side](int x, int y, int level) {
+        return levels.at(static_cast<std::size_t>(level)).at(static_cast<std::size_t>(y * (side >> level) + x));
+    };
+}
 /// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
 inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
 /// GpuDepthLayers::layer of a view.
@@ -126,18 +151,7 @@ inline real4 mapGather(real2 corner, real, real)
 }
 inline real2 mapBlock(real2 block, int level, real)
 {
-    const int x = static_cast<int>(block.x);
-    const int y = static_cast<int>(block.y);
-    if (test::map_block) {
-        return test::map_block(x, y, level);
-    }
-    real2 depths(1.0, 0.0);
-    const int side = 1 << level;
-    for (int i = 0; i < side * side; ++i) {
-        const real depth = test::map_texels(x * side + i % side, y * side + i / side);
-        depths = real2(std::min(depths.x, depth), std::max(depths.y, depth));
-    }
-    return depths;
+    return test::map_block(static_cast<int>(block.x), static_cast<int>(block.y), level);
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {

@@ -20,7 +20,15 @@ TEST(HostileMaps, giveVisibilityInDouble)
     test::depth_layers = [](int, int) {
         return glm::dvec4(test::hostileTexel());
     };
+    test::map_texels = [](int, int) {
+        return double(test::hostileTexel().x);
+    };
+    test::map_block = [](int, int, int) {
+        return glm::dvec2(test::hostileTexel());
+    };
     hostile::expectAllBounded();
+    test::map_texels = nullptr;
+    test::map_block = nullptr;
     test::map_moments = nullptr;
     test::depth_layers = nullptr;
 }
