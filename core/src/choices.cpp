@@ -71,7 +71,7 @@ constexpr std::array kValues{
     ChoiceValue{kFilter, "hard", number(Filter::hard), true, "one depth comparison per pixel", kWilliams},
     ChoiceValue{kFilter, "pcf", number(Filter::pcf), true, "weighted mean of the comparisons in a kernel",
                 "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
-    ChoiceValue{kFilter, "pcss", number(Filter::pcss), false, "penumbra as wide as the blocker's distance asks",
+    ChoiceValue{kFilter, "pcss", number(Filter::pcss), true, "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
     ChoiceValue{
         kFilter, "raymarch", number(Filter::raymarch), true, "rays to points of the light, through the map",
@@ -138,6 +138,7 @@ constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
     FilterTraits{Filter::hard, kDepthFormats, true, true, false, false},
     FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false},
+    FilterTraits{Filter::pcss, kRayFormats, true, false, false, true},
     FilterTraits{Filter::raymarch, kRayFormats, true, false, false, true},
     FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false},
     FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false},
@@ -150,6 +151,8 @@ constexpr std::array kFilters{
 constexpr std::string_view formatReason(Filter filter)
 {
     switch (filter) {
+    case Filter::pcss:
+        return "pcss takes the mean of blockers' depths, one per texel: d32f, r32f or d16";
     case Filter::raymarch:
         return "raymarch follows rays through one depth per texel: d32f, r32f or d16";
     case Filter::vsm:

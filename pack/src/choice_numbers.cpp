@@ -15,9 +15,10 @@ constexpr bool is(int number, Enum value)
 }
 
 static_assert(is(shared::kFilterHard, Filter::hard) && is(shared::kFilterPcf, Filter::pcf) &&
-              is(shared::kFilterRaymarch, Filter::raymarch) && is(shared::kFilterVsm, Filter::vsm) &&
-              is(shared::kFilterLvsm, Filter::lvsm) && is(shared::kFilterEsm, Filter::esm) &&
-              is(shared::kFilterEvsm, Filter::evsm) && is(shared::kFilterMsm, Filter::msm));
+              is(shared::kFilterPcss, Filter::pcss) && is(shared::kFilterRaymarch, Filter::raymarch) &&
+              is(shared::kFilterVsm, Filter::vsm) && is(shared::kFilterLvsm, Filter::lvsm) &&
+              is(shared::kFilterEsm, Filter::esm) && is(shared::kFilterEvsm, Filter::evsm) &&
+              is(shared::kFilterMsm, Filter::msm));
 static_assert(is(shared::kSamplingNearest, MapSampling::nearest) &&
               is(shared::kSamplingBilinear, MapSampling::bilinear) &&
               is(shared::kSamplingTrilinear, MapSampling::trilinear) &&

@@ -11,6 +11,9 @@
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCF
 #include "pcf.glsl"
 #endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS
+#include "pcss.glsl"
+#endif
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
 #include "raymarch.glsl"
 #endif
@@ -39,6 +42,8 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
     return filterHard(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_PCF
     return filterPcf(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_PCSS
+    return filterPcss(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
     return filterRaymarch(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_VSM
@@ -58,6 +63,8 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
         return filterHard(point, f);
     case GNOMON_FILTER_PCF:
         return filterPcf(point, f);
+    case GNOMON_FILTER_PCSS:
+        return filterPcss(point, f);
     case GNOMON_FILTER_RAYMARCH:
         return filterRaymarch(point, f);
     case GNOMON_FILTER_VSM:

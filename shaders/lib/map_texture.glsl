@@ -2,7 +2,7 @@
 // GLSL only. Texels of the maps from one array texture: define GNOMON_MAP_SET and GNOMON_MAP_BINDING, and
 // GNOMON_MAP_TEXEL_SIZE as an expression for (1 / width, 1 / height) of the atlas. For filterable maps the sampler must
 // be linear within and between mip levels and clamp to the edge; for all others its filter does not matter. For lvsm
-// define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For raymarch define
+// define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For pcss and raymarch define
 // GNOMON_BLOCKS_BINDING: the image of the maps' blocks. For formats of two maps a texel
 // (rg16 of hard and pcf, rgba8) define GNOMON_DEPTH_HOLDING: kDepthChannel or kDepthBytes of shared/paired_depth.h.
 #ifndef GNOMON_MAP_TEXTURE_GLSL
@@ -45,7 +45,7 @@ vec4 mapGather(vec2 corner, float layer, float part)
 }
 
 // Only a filter that looks for them has blocks.
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
 layout(set = GNOMON_MAP_SET, binding = GNOMON_BLOCKS_BINDING) uniform usampler2DArray gnomon_blocks;
 vec2 mapBlock(vec2 block, int level, float layer)
 {

@@ -8,6 +8,7 @@
 // gnomon::Filter. Macros, because the preprocessor chooses by them.
 #define GNOMON_FILTER_HARD 0
 #define GNOMON_FILTER_PCF 1
+#define GNOMON_FILTER_PCSS 2
 #define GNOMON_FILTER_RAYMARCH 3
 #define GNOMON_FILTER_VSM 4
 #define GNOMON_FILTER_LVSM 5
@@ -19,6 +20,7 @@ GN_BEGIN
 
 GN_CONST int kFilterHard = GNOMON_FILTER_HARD;
 GN_CONST int kFilterPcf = GNOMON_FILTER_PCF;
+GN_CONST int kFilterPcss = GNOMON_FILTER_PCSS;
 GN_CONST int kFilterRaymarch = GNOMON_FILTER_RAYMARCH;
 GN_CONST int kFilterVsm = GNOMON_FILTER_VSM;
 GN_CONST int kFilterLvsm = GNOMON_FILTER_LVSM;

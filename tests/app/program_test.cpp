@@ -70,18 +70,18 @@ TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
     ASSERT_EQ(list["choices"].size(), 6U);
     EXPECT_GE(list["settings"].size(), 30U);
     bool vsm_is_there = false;
-    bool pcss_is_known = false;
+    bool id_is_known = false;
     bool point_is_known = false;
     for (const auto& choice : list["choices"]) {
         for (const auto& value : choice["values"]) {
             vsm_is_there |= value["name"] == "vsm" && value["available"] == true;
-            pcss_is_known |= value["name"] == "pcss" && value["available"] == false;
+            id_is_known |= value["name"] == "id" && value["available"] == false;
             point_is_known |= value["name"] == "point" && value["available"] == false;
             EXPECT_FALSE(value["source"].get<std::string>().empty());
         }
     }
     EXPECT_TRUE(vsm_is_there);
-    EXPECT_TRUE(pcss_is_known);
+    EXPECT_TRUE(id_is_known);
     EXPECT_TRUE(point_is_known);
     bool sdsm_held_still = false;
     bool vsm_in_depth = false;

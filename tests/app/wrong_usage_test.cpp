@@ -84,7 +84,7 @@ const std::vector<Wrong> kWrong{
     {"ListTakesNoScene", {"list", "rts"}, 2, "takes no argument"},
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
-    {"FilterNotHere", {"render", "--filter", "pcss"}, 2, "not in this version"},
+    {"FilterNotHere", {"render", "--filter", "id"}, 2, "not in this version"},
     {"PartitionNotHere", {"render", "--partition", "cube"}, 2, "not in this version"},
     {"SdsmHeldStill", {"render", "--partition", "sdsm", "--motion", "snap"}, 2, "needs motion free"},
     {"CascadesThatDoNotAscend", {"render", "--partition", "cascades", "--set", "cascades.ends=40/10"}, 2, "ascend"},

@@ -88,9 +88,9 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
 TEST(Choices, RefusalsAreSentences)
 {
     Technique technique;
-    technique.filter = Filter::pcss;
+    technique.filter = Filter::id;
     EXPECT_EQ(refusal(LightType::spot, technique),
-              "filter pcss is not in this version; it has hard, pcf, raymarch, vsm, lvsm, esm, evsm and msm");
+              "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm and msm");
     EXPECT_EQ(refusal(LightType::point, Technique{}),
               "light point is not in this version; it has directional and spot");
 }

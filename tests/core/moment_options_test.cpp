@@ -47,8 +47,8 @@ TEST(MomentOptions, WhatAFilterCannotStoreIsRefusedFirst)
 {
     EXPECT_EQ(reasonFor(Filter::esm, MapFormat::rgba16, [](MomentOptions& o) { o.samples = 3; }),
               "esm stores one exponential, which only a float holds: r32f or r16f");
-    EXPECT_EQ(reasonFor(Filter::pcss, MapFormat::d32f, [](MomentOptions&) {}),
-              "filter pcss is not in this version; it has hard, pcf, raymarch, vsm, lvsm, esm, evsm and msm");
+    EXPECT_EQ(reasonFor(Filter::id, MapFormat::d32f, [](MomentOptions&) {}),
+              "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm and msm");
 }
 
 TEST(MomentOptions, FiltersThatCompareDepthsPassOverThem)

@@ -254,7 +254,7 @@ TEST(Outcome, EachCanBeProvoked)
     alone.set.remove(alone.set.idAt(0));
     EXPECT_EQ(alone.outcome(), OutcomeKind::no_receiver);
     World refused;
-    EXPECT_EQ(refused.outcome({.technique = {.filter = Filter::pcss}}), OutcomeKind::refused);
+    EXPECT_EQ(refused.outcome({.technique = {.filter = Filter::id}}), OutcomeKind::refused);
     refused.lights[0].type = LightType::point;
     EXPECT_EQ(refused.outcome(), OutcomeKind::refused);
     refused.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, 1.2);

@@ -93,6 +93,7 @@ inline void expectAllBounded()
         }
     }
     expectBounded({kFilterRaymarch, 0, 0, real(0.0)}, 300);
+    expectBounded({kFilterPcss, 0, 0, real(0.0)}, 300);
 }
 
 } // namespace hostile

@@ -24,6 +24,7 @@ struct Stage {
     double side = 512.0;
     double tangent = std::tan(1.0 * kDegree); // of half the light's angle
     glm::dvec3 n{0.0, 0.0, 1.0};              // of the receiver
+    int filter = kFilterRaymarch;
 
     [[nodiscard]] MapRows rows() const
     {
@@ -65,7 +66,7 @@ struct Stage {
     [[nodiscard]] double visibility(glm::dvec3 p, glm::dvec2 pixel) const
     {
         const auto [point, f] = receiver(p, pixel);
-        return filterRaymarch(point, f);
+        return applyFilter(filter, point, f);
     }
 };
 
@@ -172,6 +173,65 @@ TEST(Raymarch, ACreaseIsLitAndAFootIsDark)
     for (int i = 0; i < 50; ++i) {
         const double x = 0.003 + lean - 2.0 * stage.texel - 0.002 * i;
         EXPECT_EQ(stage.visibility({x, 0.07, 0.0}, pixelOf(i)), 0.0) << "beneath it, " << x;
+    }
+}
+
+// Of one caster the mean depth of blockers is exact, and so is the penumbra.
+TEST(Pcss, SeesTheShareOfADiscBesideAHalfPlane)
+{
+    constexpr int kPoints = 2000;
+    for (const double degrees : {0.53, 4.0}) {
+        for (const double height : {1.0, 3.0, 7.0}) {
+            Stage stage;
+            stage.filter = kFilterPcss;
+            stage.tangent = std::tan(0.5 * degrees * kDegree);
+            const double reach = height * stage.tangent;
+            stage.texel = 2.0 * reach / 12.0;
+            const glm::dvec2 across = glm::normalize(glm::dvec2(0.4, 1.0));
+            stage.draw([&](glm::dvec2 q) { return glm::dot(across, q) < 0.0 ? height : 0.0; });
+            double squares = 0.0;
+            for (int i = 0; i < kPoints; ++i) {
+                const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
+                const double error = stage.visibility({across * x, 0.0}, pixelOf(i)) - beyondLine(x / reach);
+                squares += error * error;
+            }
+            EXPECT_LT(std::sqrt(squares / kPoints), 0.03) << degrees << " degrees, " << height << " m";
+        }
+    }
+}
+
+// What it is known for: occluders that cover the light together let half of it through. Rays do not.
+TEST(Pcss, DoesNotFuseOccluders)
+{
+    Stage stage;
+    stage.tangent = std::tan(4.0 * kDegree);
+    stage.draw([](glm::dvec2 q) { return q.x < -0.3 ? 6.0 : q.x < 0.0 ? 2.0 : 0.0; });
+    double pcss = 0.0;
+    double rays = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 p(-0.25 + 0.0005 * i, 0.1, 0.0);
+        stage.filter = kFilterPcss;
+        pcss += stage.visibility(p, pixelOf(i)) / 200.0;
+        stage.filter = kFilterRaymarch;
+        rays += stage.visibility(p, pixelOf(i)) / 200.0;
+    }
+    std::printf("pcss %g rays %g\n", pcss, rays);
+    EXPECT_GT(pcss, rays + 0.02);
+}
+
+TEST(Pcss, APlaneAndASphereAreLit)
+{
+    Stage stage;
+    stage.filter = kFilterPcss;
+    const auto height = [](glm::dvec2 q) {
+        return std::sqrt(std::max(1.0 - glm::dot(q, q), 0.0));
+    };
+    stage.draw(height);
+    for (int i = 0; i < 400; ++i) {
+        const double radius = 0.97 * std::sqrt((i + 0.5) / 400.0);
+        const glm::dvec2 q = radius * glm::dvec2(std::cos(2.4 * i), std::sin(2.4 * i));
+        stage.n = glm::dvec3(q, height(q));
+        EXPECT_EQ(stage.visibility({q, height(q)}, pixelOf(i)), 1.0) << radius;
     }
 }
 

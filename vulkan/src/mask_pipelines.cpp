@@ -30,6 +30,8 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bo
     switch (filter) {
     case Filter::hard:
         return of(GN_CODES(hard));
+    case Filter::pcss:
+        return of(GN_CODES(pcss));
     case Filter::raymarch:
         return of(GN_CODES(raymarch));
     case Filter::vsm:

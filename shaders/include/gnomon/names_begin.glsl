@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by tools/public_names.py: names of the library's shaders, which a host may have too.
 #define BiasRule gnomon_BiasRule
+#define ConeNoise gnomon_ConeNoise
 #define EncodeInput gnomon_EncodeInput
 #define FilterInput gnomon_FilterInput
 #define FootprintReads gnomon_FootprintReads
@@ -19,6 +20,7 @@
 #define RayRegion gnomon_RayRegion
 #define Receiver gnomon_Receiver
 #define Search gnomon_Search
+#define Surroundings gnomon_Surroundings
 #define applyFilter gnomon_applyFilter
 #define beginsBefore gnomon_beginsBefore
 #define biasOf gnomon_biasOf
@@ -30,6 +32,7 @@
 #define boundedFootprint gnomon_boundedFootprint
 #define boundedTexels gnomon_boundedTexels
 #define boundedVisibility gnomon_boundedVisibility
+#define canBlock gnomon_canBlock
 #define casterMetric gnomon_casterMetric
 #define casterPlaced gnomon_casterPlaced
 #define casterStored gnomon_casterStored
@@ -37,7 +40,9 @@
 #define chebyshevBound gnomon_chebyshevBound
 #define compareGather gnomon_compareGather
 #define compareTexel gnomon_compareTexel
+#define coneNoise gnomon_coneNoise
 #define coneReach gnomon_coneReach
+#define coneTexel gnomon_coneTexel
 #define coneTexels gnomon_coneTexels
 #define depthFromBytes gnomon_depthFromBytes
 #define depthMetricLinear gnomon_depthMetricLinear
@@ -74,6 +79,7 @@
 #define filterLvsm gnomon_filterLvsm
 #define filterMsm gnomon_filterMsm
 #define filterPcf gnomon_filterPcf
+#define filterPcss gnomon_filterPcss
 #define filterRaymarch gnomon_filterRaymarch
 #define filterVsm gnomon_filterVsm
 #define footprintLevel gnomon_footprintLevel
@@ -98,6 +104,7 @@
 #define kBlockGroup gnomon_kBlockGroup
 #define kBlockLevelsOfPass gnomon_kBlockLevelsOfPass
 #define kBlockSteps gnomon_kBlockSteps
+#define kCrease gnomon_kCrease
 #define kDepthAlone gnomon_kDepthAlone
 #define kDepthBytes gnomon_kDepthBytes
 #define kDepthChannel gnomon_kDepthChannel
@@ -112,6 +119,7 @@
 #define kFilterLvsm gnomon_kFilterLvsm
 #define kFilterMsm gnomon_kFilterMsm
 #define kFilterPcf gnomon_kFilterPcf
+#define kFilterPcss gnomon_kFilterPcss
 #define kFilterRaymarch gnomon_kFilterRaymarch
 #define kFilterVsm gnomon_kFilterVsm
 #define kGrazing gnomon_kGrazing
@@ -135,15 +143,16 @@
 #define kMostLog gnomon_kMostLog
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
+#define kNarrowings gnomon_kNarrowings
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNormalError gnomon_kNormalError
+#define kOneSurface gnomon_kOneSurface
+#define kPcssTaps gnomon_kPcssTaps
 #define kPlaneAlone gnomon_kPlaneAlone
-#define kRayCrease gnomon_kRayCrease
+#define kRayBeyond gnomon_kRayBeyond
 #define kRayEnd gnomon_kRayEnd
-#define kRayNarrowings gnomon_kRayNarrowings
 #define kRaySteps gnomon_kRaySteps
-#define kRaySurface gnomon_kRaySurface
 #define kRayTexels gnomon_kRayTexels
 #define kRaysFewest gnomon_kRaysFewest
 #define kRaysLeast gnomon_kRaysLeast
@@ -158,6 +167,7 @@
 #define kSamplingBilinear gnomon_kSamplingBilinear
 #define kSamplingNearest gnomon_kSamplingNearest
 #define kSamplingTrilinear gnomon_kSamplingTrilinear
+#define kSearchTaps gnomon_kSearchTaps
 #define kSnap gnomon_kSnap
 #define kSteepest gnomon_kSteepest
 #define kTinyVariance gnomon_kTinyVariance
@@ -176,6 +186,7 @@
 #define lloydMean gnomon_lloydMean
 #define lloydSplit gnomon_lloydSplit
 #define lloydStart gnomon_lloydStart
+#define lookAround gnomon_lookAround
 #define mapBlock gnomon_mapBlock
 #define mapDepthLayer gnomon_mapDepthLayer
 #define mapGather gnomon_mapGather
@@ -183,6 +194,7 @@
 #define mapMoments gnomon_mapMoments
 #define mapTexel gnomon_mapTexel
 #define mapW gnomon_mapW
+#define meanBlocker gnomon_meanBlocker
 #define metricStretch gnomon_metricStretch
 #define momentCoordinate gnomon_momentCoordinate
 #define momentDepth gnomon_momentDepth
@@ -203,6 +215,8 @@
 #define pixelSteps gnomon_pixelSteps
 #define planeDeviation gnomon_planeDeviation
 #define planeNearest gnomon_planeNearest
+#define pointOfLight gnomon_pointOfLight
+#define pointOfTexel gnomon_pointOfTexel
 #define projectReceiver gnomon_projectReceiver
 #define quantisedMoments gnomon_quantisedMoments
 #define rayCone gnomon_rayCone
@@ -228,6 +242,7 @@
 #define slicesAt gnomon_slicesAt
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
+#define tapBlocks gnomon_tapBlocks
 #define tapWeight gnomon_tapWeight
 #define texelAt gnomon_texelAt
 #define texelExtent gnomon_texelExtent

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by tools/public_names.py: names of the library's shaders, which a host may have too.
 #undef BiasRule
+#undef ConeNoise
 #undef EncodeInput
 #undef FilterInput
 #undef FootprintReads
@@ -19,6 +20,7 @@
 #undef RayRegion
 #undef Receiver
 #undef Search
+#undef Surroundings
 #undef applyFilter
 #undef beginsBefore
 #undef biasOf
@@ -30,6 +32,7 @@
 #undef boundedFootprint
 #undef boundedTexels
 #undef boundedVisibility
+#undef canBlock
 #undef casterMetric
 #undef casterPlaced
 #undef casterStored
@@ -37,7 +40,9 @@
 #undef chebyshevBound
 #undef compareGather
 #undef compareTexel
+#undef coneNoise
 #undef coneReach
+#undef coneTexel
 #undef coneTexels
 #undef depthFromBytes
 #undef depthMetricLinear
@@ -74,6 +79,7 @@
 #undef filterLvsm
 #undef filterMsm
 #undef filterPcf
+#undef filterPcss
 #undef filterRaymarch
 #undef filterVsm
 #undef footprintLevel
@@ -98,6 +104,7 @@
 #undef kBlockGroup
 #undef kBlockLevelsOfPass
 #undef kBlockSteps
+#undef kCrease
 #undef kDepthAlone
 #undef kDepthBytes
 #undef kDepthChannel
@@ -112,6 +119,7 @@
 #undef kFilterLvsm
 #undef kFilterMsm
 #undef kFilterPcf
+#undef kFilterPcss
 #undef kFilterRaymarch
 #undef kFilterVsm
 #undef kGrazing
@@ -135,15 +143,16 @@
 #undef kMostLog
 #undef kMostReads
 #undef kMostWarpOfTexel
+#undef kNarrowings
 #undef kNearlyOne
 #undef kNoLayerBegins
 #undef kNormalError
+#undef kOneSurface
+#undef kPcssTaps
 #undef kPlaneAlone
-#undef kRayCrease
+#undef kRayBeyond
 #undef kRayEnd
-#undef kRayNarrowings
 #undef kRaySteps
-#undef kRaySurface
 #undef kRayTexels
 #undef kRaysFewest
 #undef kRaysLeast
@@ -158,6 +167,7 @@
 #undef kSamplingBilinear
 #undef kSamplingNearest
 #undef kSamplingTrilinear
+#undef kSearchTaps
 #undef kSnap
 #undef kSteepest
 #undef kTinyVariance
@@ -176,6 +186,7 @@
 #undef lloydMean
 #undef lloydSplit
 #undef lloydStart
+#undef lookAround
 #undef mapBlock
 #undef mapDepthLayer
 #undef mapGather
@@ -183,6 +194,7 @@
 #undef mapMoments
 #undef mapTexel
 #undef mapW
+#undef meanBlocker
 #undef metricStretch
 #undef momentCoordinate
 #undef momentDepth
@@ -203,6 +215,8 @@
 #undef pixelSteps
 #undef planeDeviation
 #undef planeNearest
+#undef pointOfLight
+#undef pointOfTexel
 #undef projectReceiver
 #undef quantisedMoments
 #undef rayCone
@@ -228,6 +242,7 @@
 #undef slicesAt
 #undef stepWeight
 #undef steppedVisibility
+#undef tapBlocks
 #undef tapWeight
 #undef texelAt
 #undef texelExtent
