@@ -16,7 +16,7 @@
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
 //   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (shared/map_blocks.h), in GENERAL,
-//      sampler nearest. Filter raymarch; a shader for another filter alone does not have it
+//      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"

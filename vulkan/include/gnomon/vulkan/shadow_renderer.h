@@ -226,8 +226,8 @@ public:
     /// them. After recordMaps() its writes are
     /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
     [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
-    /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise. Of other filters than raymarch, and
-    /// where maps() is empty, an empty one.
+    /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise. Of other filters than pcss and
+    /// raymarch, and where maps() is empty, an empty one.
     [[nodiscard]] ImageRef blocks(std::uint32_t options = 0) const;
     /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
     /// Empty where maps() is.
