@@ -25,7 +25,7 @@ GN_FN bool tapBlocks(MapPoint point, FilterInput f, real2 texel, GN_OUT(real) st
 {
     real2 low = real2(f.tile.x, f.tile.y);
     real2 high = real2(f.tile.z, f.tile.w) - real2(real(1.0));
-    real2 cell = clamp(floor(texel), low, high);
+    real2 cell = min(high, max(low, floor(texel))); // what is no number is a texel, too
     stored = mapTexel(cell, f.layer, f.part);
     return canBlock(point, f, cell, cell + real2(real(0.5)) - point.texel, stored);
 }
