@@ -41,7 +41,7 @@ GN_FN real meanBlocker(MapPoint point, FilterInput f, RayCone cone, ConeNoise no
         real2 at = pointOfLight(noise, i, kSearchTaps);
         real stored = real(1.0);
         bool blocks = tapBlocks(point, f, coneTexel(cone, widest, at) + pointOfTexel(noise, i), stored);
-        // At its depth the cone is narrower; by a texel all counts.
+        // At its depth the cone is narrower. A little wider counts, for texels are not points.
         real here = coneReach(cone, stored) * real(1.25);
         blocks = blocks && length(at) * widest <= max(here, real(0.1) * widest);
         sum += blocks ? stored : real(0.0);

@@ -142,26 +142,8 @@ void AlternatePass::remember(const Plan& plan)
 void AlternatePass::recordLayer(VkCommandBuffer commands, const Frame& frame, const Plan& plan, std::uint32_t layer,
                                 const Image& mask)
 {
-    const VkExtent2D extent = mask.info().extent;
-    std::array<VkRenderingAttachmentInfo, 2> colours{};
-    for (VkRenderingAttachmentInfo& colour : colours) {
-        colour.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-        colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-        colour.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    }
-    colours[0].imageView = mask.layer(layer);
-    colours[1].imageView = history_.now().surfaces.layer(layer);
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea.extent = extent;
-    info.layerCount = 1;
-    info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
-    info.pColorAttachments = colours.data();
-    device_.vk.CmdBeginRendering(commands, &info);
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0F, 1.0F};
-    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    device_.vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
+    beginJoining(device_, commands, mask.info().extent,
+                 std::array{mask.layer(layer), history_.now().surfaces.layer(layer)});
     Push push{};
     push.before = history_.reprojection(frame);
     push.before.eye.w = static_cast<float>(layer);

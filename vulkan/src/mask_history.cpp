@@ -7,6 +7,8 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cassert>
+
 namespace gnomon::vulkan {
 namespace {
 
@@ -130,6 +132,30 @@ bool MaskHistory::stands(const Frame& frame) const
         }
     }
     return frame.camera.eye_ws == camera_.eye_ws && frame.camera.reversed_z == camera_.reversed_z;
+}
+
+void beginJoining(const Device& device, VkCommandBuffer commands, VkExtent2D extent,
+                  std::span<const VkImageView> targets)
+{
+    std::array<VkRenderingAttachmentInfo, 3> colours{};
+    assert(targets.size() <= colours.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        colours[i].sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+        colours[i].imageView = targets[i];
+        colours[i].imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+        colours[i].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        colours[i].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    }
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea.extent = extent;
+    info.layerCount = 1;
+    info.colorAttachmentCount = static_cast<std::uint32_t>(targets.size());
+    info.pColorAttachments = colours.data();
+    device.vk.CmdBeginRendering(commands, &info);
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0F, 1.0F};
+    device.vk.CmdSetViewport(commands, 0, 1, &viewport);
+    device.vk.CmdSetScissor(commands, 0, 1, &info.renderArea);
 }
 
 } // namespace gnomon::vulkan

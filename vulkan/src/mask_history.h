@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <span>
 
 namespace gnomon::vulkan {
 
@@ -68,5 +69,11 @@ private:
     Camera camera_;     // of the frame before
     bool fresh_ = true; // there is none
 };
+
+/// Begins the drawing of one layer of a mask that is joined with the frame before. `targets`, at most three: of the
+/// mask and of what the next frame needs, in COLOR_ATTACHMENT_OPTIMAL and all of `extent`, every texel of which is to
+/// be written.
+void beginJoining(const Device& device, VkCommandBuffer commands, VkExtent2D extent,
+                  std::span<const VkImageView> targets);
 
 } // namespace gnomon::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through maps whose shadows are known in closed form.
+// Filters that know how large the light is, on maps whose shadows are known in closed form.
 #include "cpu_map.h"
 
 #include <gtest/gtest.h>
@@ -82,30 +82,44 @@ double beyondLine(double t)
     return 1.0 - (std::acos(c) - c * std::sqrt(1.0 - c * c)) / std::numbers::pi;
 }
 
-TEST(Raymarch, SeesTheShareOfADiscBesideAHalfPlane)
+struct Errors {
+    double rms = 0.0;
+    double mean = 0.0;
+};
+
+/// Along a line over the penumbra of a half plane at a height, `texels` wide on the map, against the closed form. The
+/// half plane ends across `across`, not along the map's texels.
+Errors errorsBesideAHalfPlane(int filter, double degrees, double height, double texels, glm::dvec2 across)
 {
     constexpr int kPoints = 2000;
+    Stage stage;
+    stage.filter = filter;
+    stage.tangent = std::tan(0.5 * degrees * kDegree);
+    const double reach = height * stage.tangent;
+    stage.texel = 2.0 * reach / texels;
+    across = glm::normalize(across);
+    stage.draw([&](glm::dvec2 q) { return glm::dot(across, q) < 0.0 ? height : 0.0; });
+    Errors errors;
+    for (int i = 0; i < kPoints; ++i) {
+        const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
+        const glm::dvec2 q = across * x + glm::dvec2(-across.y, across.x) * (0.037 * i * stage.texel);
+        const double error = stage.visibility({q, 0.0}, pixelOf(i)) - beyondLine(x / reach);
+        errors.rms += error * error / kPoints;
+        errors.mean += error / kPoints;
+    }
+    errors.rms = std::sqrt(errors.rms);
+    return errors;
+}
+
+TEST(Raymarch, SeesTheShareOfADiscBesideAHalfPlane)
+{
     for (const double degrees : {0.53, 2.0, 8.0}) {
-        for (const double texels : {8.0, 12.0, 24.0}) { // the penumbra's width
+        for (const double texels : {8.0, 12.0, 24.0}) {
             for (const double height : {1.0, 7.0}) {
-                Stage stage;
-                stage.tangent = std::tan(0.5 * degrees * kDegree);
-                const double reach = height * stage.tangent;
-                stage.texel = 2.0 * reach / texels;
-                const glm::dvec2 across = glm::normalize(glm::dvec2(1.0, 0.3)); // not along the texels
-                stage.draw([&](glm::dvec2 q) { return glm::dot(across, q) < 0.0 ? height : 0.0; });
-                double squares = 0.0;
-                double sum = 0.0;
-                for (int i = 0; i < kPoints; ++i) {
-                    const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
-                    const glm::dvec2 q = across * x + glm::dvec2(-across.y, across.x) * (0.037 * i * stage.texel);
-                    const double error = stage.visibility({q, 0.0}, pixelOf(i)) - beyondLine(x / reach);
-                    squares += error * error;
-                    sum += error;
-                }
+                const Errors errors = errorsBesideAHalfPlane(kFilterRaymarch, degrees, height, texels, {1.0, 0.3});
                 // From twelve texels on the rays' noise is what is left; below there are fewer rays.
-                EXPECT_LT(std::sqrt(squares / kPoints), texels < 12.0 ? 0.03 : 0.02) << texels << " texels";
-                EXPECT_LT(std::abs(sum / kPoints), 0.002) << texels << " texels";
+                EXPECT_LT(errors.rms, texels < 12.0 ? 0.03 : 0.02) << texels << " texels";
+                EXPECT_LT(std::abs(errors.mean), 0.002) << texels << " texels";
             }
         }
     }
@@ -179,23 +193,10 @@ TEST(Raymarch, ACreaseIsLitAndAFootIsDark)
 // Of one caster the mean depth of blockers is exact, and so is the penumbra.
 TEST(Pcss, SeesTheShareOfADiscBesideAHalfPlane)
 {
-    constexpr int kPoints = 2000;
     for (const double degrees : {0.53, 4.0}) {
         for (const double height : {1.0, 3.0, 7.0}) {
-            Stage stage;
-            stage.filter = kFilterPcss;
-            stage.tangent = std::tan(0.5 * degrees * kDegree);
-            const double reach = height * stage.tangent;
-            stage.texel = 2.0 * reach / 12.0;
-            const glm::dvec2 across = glm::normalize(glm::dvec2(0.4, 1.0));
-            stage.draw([&](glm::dvec2 q) { return glm::dot(across, q) < 0.0 ? height : 0.0; });
-            double squares = 0.0;
-            for (int i = 0; i < kPoints; ++i) {
-                const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
-                const double error = stage.visibility({across * x, 0.0}, pixelOf(i)) - beyondLine(x / reach);
-                squares += error * error;
-            }
-            EXPECT_LT(std::sqrt(squares / kPoints), 0.03) << degrees << " degrees, " << height << " m";
+            EXPECT_LT(errorsBesideAHalfPlane(kFilterPcss, degrees, height, 12.0, {0.4, 1.0}).rms, 0.03)
+                << degrees << " degrees, " << height << " m";
         }
     }
 }
@@ -215,7 +216,6 @@ TEST(Pcss, DoesNotFuseOccluders)
         stage.filter = kFilterRaymarch;
         rays += stage.visibility(p, pixelOf(i)) / 200.0;
     }
-    std::printf("pcss %g rays %g\n", pcss, rays);
     EXPECT_GT(pcss, rays + 0.02);
 }
 
