@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon::app {
 namespace {
 
@@ -34,18 +36,42 @@ std::vector<Filter> availableFilters()
     return filters;
 }
 
+/// The formats that a filter refuses, and why.
+struct RefusedFormats {
+    std::string filters;
+    std::string formats;
+    std::string reason;
+};
+
+RefusedFormats formatsRefusedBy(Filter filter)
+{
+    RefusedFormats row{std::string(nameOf(filter)), {}, {}};
+    for (auto format = MapFormat{}; format <= MapFormat::rgba8; format = MapFormat(std::uint8_t(format) + 1)) {
+        if (const auto reason = refusal(filter, format)) {
+            row.formats += fmt::format("{}{}", row.formats.empty() ? "" : "|", nameOf(format));
+            row.reason = *reason;
+        }
+    }
+    return row;
+}
+
+/// One row for all filters that refuse the same formats for the same reason.
 void addRefusedFormats(std::vector<Refused>& refused)
 {
+    std::vector<RefusedFormats> rows;
     for (const Filter filter : availableFilters()) {
-        Refused row;
-        for (auto format = MapFormat{}; format <= MapFormat::rgba8; format = MapFormat(std::uint8_t(format) + 1)) {
-            if (const auto reason = refusal(filter, format)) {
-                row.technique += fmt::format("{}{}", row.technique.empty() ? "" : "|", nameOf(format));
-                row.reason = *reason;
-            }
+        RefusedFormats row = formatsRefusedBy(filter);
+        const auto same = std::find_if(rows.begin(), rows.end(), [&row](const RefusedFormats& other) {
+            return other.formats == row.formats && other.reason == row.reason;
+        });
+        if (same == rows.end()) {
+            rows.push_back(std::move(row));
+        } else {
+            same->filters += "|" + row.filters;
         }
-        row.technique = fmt::format("{}+map-format={}", nameOf(filter), row.technique);
-        refused.push_back(std::move(row));
+    }
+    for (RefusedFormats& row : rows) {
+        refused.push_back({fmt::format("{}+map-format={}", row.filters, row.formats), std::move(row.reason)});
     }
 }
 
