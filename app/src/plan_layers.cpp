@@ -21,7 +21,7 @@ struct PlanLayers::Drawing {
 PlanLayers::PlanLayers(const Settings& settings, const Shot& shot) : settings_(settings)
 {
     const ShadowOptions& options = settings.shadow;
-    if (options.technique.filter == Filter::lvsm && options.moments.placement == LayerPlacement::lloyd) {
+    if (options.technique.filter == Filter::lvsm && followsDepths(options.moments.placement)) {
         drawing_ = std::make_unique<Drawing>(settings, shot);
     }
 }

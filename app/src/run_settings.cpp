@@ -110,7 +110,7 @@ bool isArea(const Settings& s)
 bool draws(const Settings& s)
 {
     if (s.subcommand == kPlan) {
-        return s.shadow.technique.filter == Filter::lvsm && s.shadow.moments.placement == LayerPlacement::lloyd;
+        return s.shadow.technique.filter == Filter::lvsm && followsDepths(s.shadow.moments.placement);
     }
     return !(s.mask && s.truth.has_value());
 }

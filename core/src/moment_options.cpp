@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 2> kMetrics{"linear", "z-over-w"};
 constexpr std::array<std::string_view, 3> kBlurs{"none", "gaussian", "box"};
 constexpr std::array<std::string_view, 3> kPaths{"auto", "compute", "fragment"};
 constexpr std::array<std::string_view, 4> kSamplings{"nearest", "bilinear", "trilinear", "anisotropic"};
-constexpr std::array<std::string_view, 3> kPlacements{"uniform", "hand", "lloyd"};
+constexpr std::array<std::string_view, 4> kPlacements{"uniform", "hand", "lloyd", "gaps"};
 constexpr std::array<std::string_view, 2> kSolvers{"hamburger", "hausdorff"};
 
 template <class Enum, std::size_t n>
@@ -94,6 +94,11 @@ std::string_view nameOf(LayerPlacement value)
 std::string_view nameOf(MomentSolver value)
 {
     return nameIn(kSolvers, value);
+}
+
+bool followsDepths(LayerPlacement placement)
+{
+    return placement == LayerPlacement::lloyd || placement == LayerPlacement::gaps;
 }
 
 std::uint32_t blurRadius(const MomentOptions& options)

@@ -35,8 +35,8 @@ std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers, con
 
 std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options)
 {
-    return options.placement == LayerPlacement::lloyd ? std::vector<DepthLayer>{}
-                                                      : describeLayers(firstDepthLayers(options), options);
+    return followsDepths(options.placement) ? std::vector<DepthLayer>{}
+                                            : describeLayers(firstDepthLayers(options), options);
 }
 
 std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view)

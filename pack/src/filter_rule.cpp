@@ -151,12 +151,11 @@ shared::MomentRule momentRuleOf(const ResolvedOptions& options)
     rule.layers = static_cast<int>(o.layers);
     rule.exponent = exponent(options.filter() == Filter::esm ? o.esm_exponent : o.evsm_positive, false);
     rule.exponent_negative = exponent(o.evsm_negative, true);
-    // The least that keeps slanted planes lit whose moments were rounded at the first write and by the blur, found by
-    // trying (tests/shaders/msm_test.cpp); the tighter bound takes twice as much of 16 bits. Of 32 bits a tenth of that
-    // would do, but the bounds' own arithmetic, in single precision, is then off by up to a fifth: at 3e-6 it stays
+    // The least that keeps slanted planes lit whose moments were rounded at the first write and by the blur, alone and
+    // below a little of an occluder, found by trying (tests/shaders/msm_test.cpp). Of 32 bits a tenth of that would do,
+    // but the bounds' own arithmetic, in single precision, is then off by up to a fifth: at 3e-6 it stays
     // within a step of the mask in 99.9 % of distributions (tests/shaders/single_precision_float_test.cpp).
-    const float bias16 = o.solver == MomentSolver::hausdorff ? 6e-5F : 3e-5F;
-    rule.moment_bias = o.moment_bias.value_or(options.format() == MapFormat::rgba16 ? bias16 : 3e-6F);
+    rule.moment_bias = o.moment_bias.value_or(options.format() == MapFormat::rgba16 ? 4e-5F : 3e-6F);
     if (options.filter() == Filter::msm) {
         rule.min_variance_texels = blurDeviation(o);
     } else if (o.min_variance) {

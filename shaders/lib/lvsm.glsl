@@ -29,7 +29,10 @@ GN_FN real filterLvsm(MapPoint point, FilterInput f)
     real t = momentCoordinate(layerMetric(d, layer), flags);
     real stretch = metricStretch(point.depth, flags, f.near_over_far) / max(layer.y - layer.x, real(1e-6));
     real least = leastVariance(f.moments, point.texel_depth, stretch);
-    return shapeVisibility(chebyshevBound(own.x, own.y, t, least), f.moments);
+    real bound = chebyshevBound(own.x, own.y, t, least);
+    real first = momentCoordinate(real(0.0), flags);
+    bound = min(bound, markovBound(own.x - first, t - first, f.moments.min_variance));
+    return shapeVisibility(bound, f.moments);
 }
 
 GN_END

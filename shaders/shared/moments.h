@@ -119,6 +119,14 @@ GN_FN real chebyshevBound(real m1, real m2, real t, real least)
     return beyond > real(0.0) ? variance / (variance + beyond * beyond) : real(1.0);
 }
 
+// Markov's bound: depths are never before 0, so no more than M1 / t of them is at t or beyond. `slack`: by how much
+// rounding may have lowered M1.
+GN_FN real markovBound(real m1, real t, real slack)
+{
+    real most = max(m1, real(0.0)) + slack;
+    return t > most ? most / t : real(1.0);
+}
+
 // What is done against light bleeding, in this order: (3) linstep(a, 1, V), GPU Gems 3, ch. 8.4.1; (4) V^k; and (5)
 // shadows are lightened, V (1 - b) + b, Marinescu 2011. Always in [0, 1]; what is not a number is lit.
 GN_FN real shapeVisibility(real visibility, MomentRule rule)

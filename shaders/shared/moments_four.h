@@ -28,9 +28,13 @@ GN_BEGIN
 GN_CONST real kBiasMoment = real(0.628);
 GN_CONST real kBiasSecond = real(0.5);
 GN_CONST real kBiasFourth = real(0.375);
-// Least pivots: what rounding leaves of a pivot that is 0.
+// Least pivots: what rounding leaves of a pivot that is 0. The last one is 0 for two depths, as a receiver with a
+// little of an occluder over it is. What rounding of 16 bits leaves of it instead is noise, which moves the roots by
+// more than any bias of the receiver: a lit one goes black where a root falls before it. As large as that noise, it
+// does not. A larger moment bias would do the same, but acts everywhere, and lets light in at contacts.
 GN_CONST real kLeastPivot = real(1e-7);
 GN_CONST real kLeastLastPivot = real(1e-12);
+GN_CONST real kLeastLastPivot16 = real(1e-5);
 // The ends of the interval have no room for a point beside them.
 GN_CONST real kNearlyOne = real(0.99999);
 
@@ -65,7 +69,12 @@ GN_FN real4 encodeMsm(EncodeInput e, MomentRule rule)
     return hasFlag(rule.flags, kMomentQuantised) ? quantisedMoments(b) : b;
 }
 
-GN_FN Hankel factorise(real4 b)
+GN_FN real leastLastPivot(int flags)
+{
+    return hasFlag(flags, kMomentQuantised) ? kLeastLastPivot16 : kLeastLastPivot;
+}
+
+GN_FN Hankel factorise(real4 b, real least_last)
 {
     Hankel h;
     h.b1 = b.x;
@@ -73,7 +82,7 @@ GN_FN Hankel factorise(real4 b)
     h.d1 = max(b.y - b.x * b.x, kLeastPivot);
     real product = b.z - b.x * b.y;
     h.l = product / h.d1;
-    h.d2 = max((b.w - b.y * b.y) - product * h.l, kLeastLastPivot);
+    h.d2 = max((b.w - b.y * b.y) - product * h.l, least_last);
     return h;
 }
 
@@ -109,10 +118,9 @@ GN_FN real rootBelow(real3 k)
     return max(s, real(-100.0));
 }
 
-// Largest visibility of a receiver at z0 that moments b allow, occluders being anywhere.
-GN_FN real hamburgerVisibility(real4 b, real z0)
+// Largest visibility of a receiver at z0 that moments allow, occluders being anywhere.
+GN_FN real hamburgerVisibility(Hankel h, real z0)
 {
-    Hankel h = factorise(b);
     real3 k = kernelAbout(h, z0);
     if (k.z < real(0.0)) {
         return real(1.0) - weightAt(h, z0 + rootBelow(k));
@@ -153,11 +161,10 @@ GN_FN real endpointVisibility(real4 b, real z0)
 }
 
 // The same for occluders in [-1, 1]: never more than hamburgerVisibility().
-GN_FN real hausdorffVisibility(real4 b, real z0)
+GN_FN real hausdorffVisibility(Hankel h, real4 b, real z0)
 {
     real z = clamp(z0, -kNearlyOne, kNearlyOne);
-    Hankel h = factorise(b);
-    real v = hamburgerVisibility(b, z);
+    real v = hamburgerVisibility(h, z);
     return rootsInside(h, z, kernelAbout(h, z)) ? v : min(v, endpointVisibility(b, z));
 }
 
@@ -174,7 +181,8 @@ GN_FN real msmVisibility(real4 stored, real t, MomentRule rule)
 {
     real4 b = hasFlag(rule.flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
     b = biasedMoments(clamp(b, real4(real(-1.0)), real4(real(1.0))), rule);
-    real v = hasFlag(rule.flags, kMomentHausdorff) ? hausdorffVisibility(b, t) : hamburgerVisibility(b, t);
+    Hankel h = factorise(b, leastLastPivot(rule.flags));
+    real v = hasFlag(rule.flags, kMomentHausdorff) ? hausdorffVisibility(h, b, t) : hamburgerVisibility(h, t);
     return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));
 }
 

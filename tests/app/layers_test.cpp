@@ -62,10 +62,10 @@ TEST(PlanOfLayers, ByHandNeedsNoDriver)
     }
 }
 
-TEST(PlanOfLayers, ByLloydIsOfWhatIsDrawn)
+TEST(PlanOfLayers, FoundOnesAreOfWhatIsDrawn)
 {
     const test::Folder folder;
-    const test::Ran ran = inFolder(folder, with({"plan", "planes"}, {"--validate"}));
+    const test::Ran ran = inFolder(folder, with({"plan", "canopies"}, {"--validate"}));
     ASSERT_EQ(ran.status, 0) << ran.err;
     const json plan = json::parse(ran.out);
     const json& layers = plan["views"].at(0)["layers"];
@@ -74,7 +74,7 @@ TEST(PlanOfLayers, ByLloydIsOfWhatIsDrawn)
     EXPECT_GT(split, 0.0);
     EXPECT_LT(split, 1.0);
     EXPECT_NE(split, 0.5);
-    EXPECT_NE(inFolder(folder, with({"plan", "planes"}, {}), false).status, 0);
+    EXPECT_NE(inFolder(folder, with({"plan", "canopies"}, {}), false).status, 0);
 }
 
 TEST(PlanOfLayers, OtherFiltersHaveNone)

@@ -171,10 +171,10 @@ TEST(MomentSettings, APlacementSaidLaterTakesSplitsBack)
     test::spill(folder / "a.json", R"({"filter": "lvsm", "lvsm.splits": [0.25]})");
     const std::string preset = (folder / "a.json").string();
     EXPECT_EQ(settingsOf({"plan", "--preset", preset}).shadow.moments.splits[0], 0.25F);
-    const app::Settings lloyd = settingsOf({"plan", "--preset", preset, "--set", "lvsm.placement=lloyd"});
-    EXPECT_EQ(lloyd.shadow.moments.placement, LayerPlacement::lloyd);
-    EXPECT_FALSE(lloyd.values.contains("lvsm.splits"));
-    EXPECT_EQ(app::describeTechnique(lloyd), "lvsm");
+    const app::Settings found = settingsOf({"plan", "--preset", preset, "--set", "lvsm.placement=gaps"});
+    EXPECT_EQ(found.shadow.moments.placement, LayerPlacement::gaps);
+    EXPECT_FALSE(found.values.contains("lvsm.splits"));
+    EXPECT_EQ(app::describeTechnique(found), "lvsm");
     const app::Settings base = settingsOf({"plan", "--preset", preset});
     EXPECT_EQ(app::describeTechnique(app::parseTechnique(base, "lvsm+lvsm.splits=0.75")), "lvsm+lvsm.splits=0.75");
     test::spill(folder / "b.json", R"({"filter": "lvsm", "lvsm.placement": "lloyd", "lvsm.splits": [0.25]})");

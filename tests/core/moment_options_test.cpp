@@ -293,7 +293,7 @@ TEST(MomentOptions, Names)
     EXPECT_EQ(namesOf<BlurKind>(4), (Names{"none", "gaussian", "box", "?"}));
     EXPECT_EQ(namesOf<BlurPath>(4), (Names{"auto", "compute", "fragment", "?"}));
     EXPECT_EQ(namesOf<MapSampling>(5), (Names{"nearest", "bilinear", "trilinear", "anisotropic", "?"}));
-    EXPECT_EQ(namesOf<LayerPlacement>(4), (Names{"uniform", "hand", "lloyd", "?"}));
+    EXPECT_EQ(namesOf<LayerPlacement>(5), (Names{"uniform", "hand", "lloyd", "gaps", "?"}));
     EXPECT_EQ(namesOf<MomentSolver>(3), (Names{"hamburger", "hausdorff", "?"}));
 }
 

@@ -36,6 +36,14 @@ host::RenderOptions lvsm(const std::vector<float>& splits)
     return options;
 }
 
+host::RenderOptions lvsmByGaps(std::uint32_t layers)
+{
+    host::RenderOptions options = filterOptions(Filter::lvsm, MapFormat::rgba16, kVsmSide);
+    options.shadow.moments.layers = layers;
+    options.shadow.moments.placement = LayerPlacement::gaps;
+    return options;
+}
+
 double bleedingOf(const Score& score)
 {
     return score.classification.value().errors.bleeding;
@@ -119,6 +127,36 @@ TEST(Bleeding, IsLessOnTheStrategyWorld)
     // Measured: 28 %, and 35, 35 and 21 % for the others; a picture this small has few pixels to tell by.
     const Shares most{.lvsm = 0.6, .rivals = {0.7, 0.7, 0.6}};
     expectShares(stage, stage.hardTruth(), "rts, camp, hard", 0.6F, most, 2e-6);
+}
+
+/// Two layers found by gaps leave at most this share of vsm's bleeding, and more of them no more than two.
+void expectGapsFound(Stage& stage, const truth::Traced& truth, const std::string& name, double most)
+{
+    const double of_vsm = bleedingOf(stage.score(vsm(), truth));
+    const double of_two = bleedingOf(stage.score(lvsmByGaps(2), truth));
+    std::printf("%s, bleeding: vsm %.3e, two layers by gaps %.3e (%.1f %%)\n", name.c_str(), of_vsm, of_two,
+                100.0 * of_two / of_vsm);
+    EXPECT_LE(of_two, most * of_vsm) << name;
+    for (const std::uint32_t layers : {4U, 8U}) {
+        const double own = bleedingOf(stage.score(lvsmByGaps(layers), truth));
+        std::printf("  %u layers %.3e\n", layers, own);
+        EXPECT_LE(own, of_two) << name << ", " << layers << " layers";
+    }
+}
+
+TEST(Bleeding, IsLessWithLayersByGapsOnCanopies)
+{
+    for (const char* camera : {"side", "top"}) {
+        Stage stage(scene::makeCanopies(1), camera, {240, 160});
+        // By Lloyd's rule two layers leave 27 to 31 %.
+        expectGapsFound(stage, stage.hardTruth(), std::string("canopies, ") + camera, 0.03);
+    }
+}
+
+TEST(Bleeding, IsLessWithLayersByGapsOnTheStrategyWorld)
+{
+    Stage stage(scene::makeRts(1), "camp", {240, 135});
+    expectGapsFound(stage, stage.hardTruth(), "rts, camp", 0.4);
 }
 
 } // namespace

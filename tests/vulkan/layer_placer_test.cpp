@@ -2,14 +2,9 @@
 // Layers of depth: the GPU's relaxation against the same rules on the CPU, in double precision and by another sum; what
 // keeps its place from frame to frame and what does not.
 #define GNOMON_REAL double
-#include "fixture.h"
-
-#include "layer_placer.h"
+#include "placed_layers.h"
 
 #include <depth_layers.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -18,44 +13,7 @@ namespace {
 
 using pack::DepthLayer;
 
-constexpr std::uint32_t kSide = 256;
 constexpr int kBins = 1024;
-
-class LayersOfDepth : public testing::Test {
-protected:
-    void TearDown() override { expectSilence(gpu()); }
-};
-
-ShadowOptions lvsm(LayerPlacement placement, std::uint32_t layers)
-{
-    ShadowOptions filter;
-    filter.technique.filter = Filter::lvsm;
-    filter.format = MapFormat::rgba16;
-    filter.moments.placement = placement;
-    filter.moments.layers = layers;
-    filter.moments.samples = 1;
-    return filter;
-}
-
-/// Looks down an axis from a place; 100 m deep.
-View viewOf(const Tile& tile, const glm::dvec3& direction_ws = {0.0, -1.0, 0.0}, double backed_out_m = 0.0)
-{
-    View view;
-    view.tile = tile;
-    view.light_place_ws = -direction_ws * (100.0 + backed_out_m);
-    view.metric.near_m = 0.0;
-    view.metric.far_m = 100.0;
-    view.metric.metric_ws = glm::dvec4(direction_ws, -glm::dot(direction_ws, view.light_place_ws)) / 100.0;
-    return view;
-}
-
-Plan planOf(const std::vector<View>& views)
-{
-    Plan plan;
-    plan.lights.resize(4);
-    plan.views = views;
-    return plan;
-}
 
 /// Ground that rises slowly, houses on it, things in the air; a fifth is empty. `lower` sinks all of it.
 std::vector<float> depthsOf(float lower = 0.0F)
@@ -113,34 +71,6 @@ std::vector<double> lloydOnCpu(const std::vector<float>& depths, int count, int 
     begins.pop_back();
     return begins;
 }
-
-class Placed {
-public:
-    explicit Placed(const ShadowOptions& filter)
-        : device_(gpu().view()), filter_(filter), placer_(device_, resolvedOrThrow(filter), VK_NULL_HANDLE)
-    {
-    }
-    std::vector<pack::DepthLayer> place(const View& view, const std::vector<float>& depths,
-                                        Motion motion = Motion::free)
-    {
-        const TestImage image = gpu().makeImage(VK_FORMAT_R32_SFLOAT, {kSide, kSide}, std::as_bytes(std::span(depths)));
-        Plan plan = planOf({view});
-        filter_.technique.motion = motion;
-        plan.options = planOptions(filter_);
-        (void)placer_.prepare(plan);
-        placer_.setDepth(image.view);
-        gpu().run([&](VkCommandBuffer commands) { placer_.record(commands, plan, 0); });
-        return placer_.read(0);
-    }
-    vulkan::LayerPlacer& placer() { return placer_; }
-
-private:
-    vulkan::Device device_;
-    ShadowOptions filter_;
-    vulkan::LayerPlacer placer_;
-};
-
-constexpr Tile kWhole{0, 0, 0, kSide, kSide};
 
 TEST_F(LayersOfDepth, areWhereTheHandPutThem)
 {

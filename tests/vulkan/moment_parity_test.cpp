@@ -112,6 +112,10 @@ void eightLayers(MomentOptions& o)
     o.placement = LayerPlacement::by_hand;
     o.splits = {0.18F, 0.23F, 0.27F, 0.3F, 0.33F, 0.37F, 0.45F};
 }
+void byLloyd(MomentOptions& o)
+{
+    o.placement = LayerPlacement::lloyd;
+}
 void fourUniformLayers(MomentOptions& o)
 {
     o.layers = 4;
@@ -145,7 +149,8 @@ const MomentCase kLvsm[] = {
     {"lvsm_rgba16_three", Filter::lvsm, MapFormat::rgba16, threeLayers},
     {"lvsm_rgba32f_eight", Filter::lvsm, MapFormat::rgba32f, eightLayers},
     {"lvsm_rgba16f_four_uniform", Filter::lvsm, MapFormat::rgba16f, fourUniformLayers},
-    {"lvsm_rgba16_lloyd", Filter::lvsm, MapFormat::rgba16},
+    {"lvsm_rgba16_lloyd", Filter::lvsm, MapFormat::rgba16, byLloyd},
+    {"lvsm_rgba16_gaps", Filter::lvsm, MapFormat::rgba16},
     {"lvsm_rgba16_eight_together", Filter::lvsm, MapFormat::rgba16, eightLayers, kTogether},
     {"lvsm_rgba16_alone", Filter::lvsm, MapFormat::rgba16, threeLayers, kAlone},
 };

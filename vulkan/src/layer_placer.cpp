@@ -51,8 +51,8 @@ constexpr float kLaterShare = 0.5F;
 LayerPlacer::LayerPlacer(Device& device, const ResolvedOptions& options, VkPipelineCache cache)
     : device_(device), options_(options)
 {
-    if (options.filter() == Filter::lvsm && options.moments().placement == LayerPlacement::lloyd) {
-        relaxation_.emplace(device, options, cache);
+    if (options.filter() == Filter::lvsm && followsDepths(options.moments().placement)) {
+        passes_.emplace(device, options, cache);
     }
     makeBuffer(1);
 }
@@ -63,7 +63,7 @@ void LayerPlacer::makeBuffer(std::uint32_t slots)
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     HostBuffer larger(device_, slots * sizeof(shared::GpuDepthLayers), kUsage, "depth layers");
     const bool placed =
-        relaxation_ && std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.metric; });
+        passes_ && std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.metric; });
     if (placed && !outgrown_) {
         outgrown_ = std::move(buffer_);
     } else {
@@ -98,8 +98,8 @@ bool LayerPlacer::prepare(const Plan& plan)
 
 void LayerPlacer::setDepth(VkImageView depth)
 {
-    if (relaxation_) {
-        relaxation_->setImages(depth, buffer_.buffer());
+    if (passes_) {
+        passes_->setImages(depth, buffer_.buffer());
     }
 }
 
@@ -133,7 +133,10 @@ shared::GpuHistogramPush LayerPlacer::histogramPush(const View& view) const
     const auto side = static_cast<int>(std::max(tile.width, tile.height));
     shared::GpuHistogramPush push;
     push.tile = {0, 0, tile.width, tile.height};
-    push.more = {(side + shared::kMostSamplesAlong - 1) / shared::kMostSamplesAlong, depthFlags(options_), 0, 0};
+    const MomentOptions& moments = options_.moments();
+    const int most = moments.placement == LayerPlacement::gaps ? shared::kMostPairsAlong : shared::kMostSamplesAlong;
+    const auto reach = static_cast<int>(blurRadius(moments)) / 2 + 1;
+    push.more = {(side + most - 1) / most, depthFlags(options_), reach, 0};
     push.metric = {nearOverFar(view, view.metric), 0.0F, 0.0F, 0.0F};
     return push;
 }
@@ -155,14 +158,14 @@ shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t inde
 
 void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view_index)
 {
-    if (!relaxation_) {
+    if (!passes_) {
         return;
     }
     const View& view = plan.views[view_index];
     const std::uint32_t index = slotOf(plan, view_index);
     assert(index < slots_.size());
     const bool held = optionsOf(plan, view).technique().motion != Motion::free;
-    relaxation_->record(commands, {histogramPush(view), placePush(view, index, held)});
+    passes_->record(commands, {histogramPush(view), placePush(view, index, held)});
     slots_[index].map = view.map;
     slots_[index].light = view.light;
     slots_[index].metric = view.metric;

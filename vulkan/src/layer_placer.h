@@ -2,7 +2,7 @@
 // Where lvsm's layers of depth lie, for every view, in one buffer that the passes read.
 #pragma once
 
-#include "layer_relaxation.h"
+#include "layer_passes.h"
 
 #include <gpu_structs.h>
 
@@ -49,7 +49,7 @@ private:
 
     Device& device_;
     ResolvedOptions options_;
-    std::optional<LayerRelaxation> relaxation_; // lvsm with layers placed by Lloyd's rule
+    std::optional<LayerPasses> passes_; // lvsm with layers that follow what is drawn
     HostBuffer buffer_;
     HostBuffer outgrown_; // what was placed is there until it has been copied
     bool copied_ = false; // it has been, and is retired by the next prepare(): recording allocates nothing

@@ -24,7 +24,7 @@ enum class BlurPath : std::uint8_t { automatic, compute, fragment };
 /// such reads along its longer side.
 enum class MapSampling : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
 /// lvsm: where one layer of depth ends and the next begins.
-enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd };
+enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd, gaps };
 /// msm: which of the paper's two bounds.
 enum class MomentSolver : std::uint8_t { hamburger, hausdorff };
 
@@ -56,7 +56,7 @@ struct MomentOptions {
 
     // lvsm
     std::uint32_t layers = 2; // 2 .. 8, two to a texel
-    LayerPlacement placement = LayerPlacement::lloyd;
+    LayerPlacement placement = LayerPlacement::gaps;
     /// by_hand: where layers meet, ascending, (0, 1), in the depths that the map stores (`metric`); the first layers -
     /// 1 count.
     std::array<float, kMaxDepthLayers - 1> splits{};
@@ -72,8 +72,8 @@ struct MomentOptions {
     // msm
     MomentSolver solver = MomentSolver::hamburger;
     /// How far moments are moved towards those of a known distribution, 0 .. 0.1: hides rounding, and lets a little
-    /// light through. Nothing: the least that keeps lit surfaces lit and single precision exact enough: 3e-5 at 16
-    /// bits, 6e-5 for the Hausdorff bound, 3e-6 at 32 bits.
+    /// light through. Nothing: the least that keeps lit surfaces lit and single precision exact enough: 4e-5 at 16
+    /// bits, 3e-6 at 32 bits.
     std::optional<float> moment_bias;
 
     bool operator==(const MomentOptions&) const = default;
@@ -86,6 +86,8 @@ struct MomentOptions {
 [[nodiscard]] std::string_view nameOf(LayerPlacement value);
 [[nodiscard]] std::string_view nameOf(MomentSolver value);
 
+/// Does it go by what each map holds? Then layers are found on the GPU.
+[[nodiscard]] bool followsDepths(LayerPlacement placement);
 /// Texels of the kernel on each side of its middle; 0 without blur.
 [[nodiscard]] std::uint32_t blurRadius(const MomentOptions& options);
 /// Of a filter's map: lvsm has two layers of depth to an image layer, all others one image layer a map.

@@ -164,7 +164,7 @@ void addOwnRows(std::vector<OptionRow>& table)
     const OptionRow rows[]{
         // clang-format off
         {.key = "lvsm.layers", .type = integer, .form = "N", .unit = "layers", .min = 2, .max = kMaxDepthLayers, .doc = "of depth, two to a texel", .used = isLvsm, .used_when = "filter lvsm", GNOMON_MEMBER(moments.layers)},
-        {.key = "lvsm.placement", .type = choice, .form = "NAME", .choices = namesOf<LayerPlacement>, .doc = "hand: lvsm.splits; lloyd: where the map's depths gather", .used = isLvsm, .used_when = "filter lvsm", .get = getPlacement, .set = setPlacement},
+        {.key = "lvsm.placement", .type = choice, .form = "NAME", .choices = namesOf<LayerPlacement>, .doc = "gaps: where the least light bleeds; lloyd: where depths gather; hand: lvsm.splits", .used = isLvsm, .used_when = "filter lvsm", .get = getPlacement, .set = setPlacement},
         {.key = "lvsm.splits", .type = numbers, .form = "D/D/...", .unit = "depth", .min = 0, .max = 1, .count = kMaxDepthLayers - 1, .doc = "where layers meet, as 0.3/0.6: above 0, ascending, below 1, one less than layers; means placement hand", .used = isLvsm, .used_when = "filter lvsm", .get = getSplits, .set = setSplits},
         {.key = "lvsm.overlap", .type = real, .form = "V", .unit = "of a layer", .min = 0, .max = 0.5, .doc = "how far a layer reaches into its neighbours", .used = isLvsm, .used_when = "filter lvsm", GNOMON_MEMBER(moments.layer_overlap)},
         {.key = "log-space", .type = flag, .form = "0|1", .doc = "store logarithms: any exponent fits any format", .used = hasExponent, .used_when = "filter esm or evsm", GNOMON_MEMBER(moments.log_space)},

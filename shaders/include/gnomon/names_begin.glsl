@@ -125,6 +125,7 @@
 #define kGrazing gnomon_kGrazing
 #define kHeldShare gnomon_kHeldShare
 #define kLeastLastPivot gnomon_kLeastLastPivot
+#define kLeastLastPivot16 gnomon_kLeastLastPivot16
 #define kLeastLayerWidth gnomon_kLeastLayerWidth
 #define kLeastPivot gnomon_kLeastPivot
 #define kLightsPerLayer gnomon_kLightsPerLayer
@@ -179,6 +180,7 @@
 #define layerByHand gnomon_layerByHand
 #define layerHoldsBin gnomon_layerHoldsBin
 #define layerMetric gnomon_layerMetric
+#define leastLastPivot gnomon_leastLastPivot
 #define leastVariance gnomon_leastVariance
 #define levelOf gnomon_levelOf
 #define lightSpread gnomon_lightSpread
@@ -194,6 +196,7 @@
 #define mapMoments gnomon_mapMoments
 #define mapTexel gnomon_mapTexel
 #define mapW gnomon_mapW
+#define markovBound gnomon_markovBound
 #define meanBlocker gnomon_meanBlocker
 #define metricStretch gnomon_metricStretch
 #define momentCoordinate gnomon_momentCoordinate

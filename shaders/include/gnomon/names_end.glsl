@@ -125,6 +125,7 @@
 #undef kGrazing
 #undef kHeldShare
 #undef kLeastLastPivot
+#undef kLeastLastPivot16
 #undef kLeastLayerWidth
 #undef kLeastPivot
 #undef kLightsPerLayer
@@ -179,6 +180,7 @@
 #undef layerByHand
 #undef layerHoldsBin
 #undef layerMetric
+#undef leastLastPivot
 #undef leastVariance
 #undef levelOf
 #undef lightSpread
@@ -194,6 +196,7 @@
 #undef mapMoments
 #undef mapTexel
 #undef mapW
+#undef markovBound
 #undef meanBlocker
 #undef metricStretch
 #undef momentCoordinate

@@ -19,7 +19,7 @@ struct DepthLayer {
     float far = 1.0F;
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };
-/// The layers of every view where they do not depend on what is drawn (uniform, by hand); empty for lloyd.
+/// The layers of every view where they do not depend on what is drawn (uniform, by hand); else empty.
 [[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
 [[nodiscard]] std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
                                                      const MomentOptions& options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lloyd relaxation of one view's layers of depth on the GPU: a histogram of what was drawn, then steps of k-means.
+// The two passes that place one view's layers of depth on the GPU: one sums up what was drawn, one places them by it.
+// By Lloyd's rule a histogram and steps of k-means, by gaps a table of what would bleed and its least.
 #pragma once
 
 #include "descriptors.h"
@@ -8,9 +9,9 @@
 
 namespace gnomon::vulkan {
 
-class LayerRelaxation {
+class LayerPasses {
 public:
-    LayerRelaxation(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
+    LayerPasses(Device& device, const ResolvedOptions& options, VkPipelineCache cache);
 
     /// What every job reads from and writes to, from here on. They are new: a handle may be one that was used before.
     void setImages(VkImageView depth, VkBuffer layers);
@@ -23,7 +24,8 @@ public:
 
 private:
     Device& device_;
-    DeviceBuffer histogram_;
+    VkDeviceSize sum_bytes_;
+    DeviceBuffer sums_;
     DescriptorSets sets_;
     PipelineLayout count_layout_;
     PipelineLayout place_layout_;
