@@ -23,7 +23,7 @@ GN_CONST real kLeastLayerWidth = real(0.015625); // 1 / 64
 GN_CONST real kNoLayerBegins = real(2.0);
 
 // (1) A layer's own metric: d'' = clamp((d - near) / (far - near), 0, 1). `layer` as in GpuDepthLayers: near, far,
-// begins, mean. What is not a number is the far end: lit.
+// begins, mean or begins. What is not a number is the far end: lit.
 GN_FN real layerMetric(real d, real4 layer)
 {
     real x = (d - layer.x) / max(layer.y - layer.x, real(1e-6));
