@@ -46,7 +46,7 @@ struct GpuView {
 
 // The layers of depth of one view's lvsm map, ascending; beyond the last, begins is 2. In the view's depth metric.
 struct GpuDepthLayers {
-    GN_VEC4 layer[kDepthLayers]; // x: near and y: far that it spans, z: where its receivers begin, w: Lloyd's mean, or z
+    GN_VEC4 layer[kDepthLayers]; // x: near and y: far that it spans, z: where its receivers begin, w: Lloyd's mean or z
 };
 
 // A storage buffer of them: the frame's lights by their index, then what the mask pass alone reads.
