@@ -81,6 +81,9 @@ struct MorphTarget {
     std::vector<glm::vec3> tangents;
 };
 
+/// A prism's corners lean by 45 degrees where it has four sides, by 36 where it has five.
+inline constexpr double kCreaseAngle_rad = 0.698; // 40 degrees
+
 /// Triangles of one material. Every vector but `positions` and `indices` may be empty; what is there is as long as
 /// `positions`. `normals` is always filled (the reader makes flat normals where a file has none). Quantised
 /// attributes are already expanded. Indices are a triangle list, each below positions.size().
@@ -97,6 +100,9 @@ struct Primitive {
     std::vector<MorphTarget> morph_targets;
     std::uint32_t material = kNone; // kNone: the default material
     Aabb bounds;                    // of the undeformed positions, object space
+    /// 1 at a vertex whose normal leans away from one of its triangles' by more than kCreaseAngle_rad: it rounds off an
+    /// edge that is there, or is none of the surface's own, as of foliage. Made by finishScene().
+    std::vector<std::uint8_t> creased;
 };
 
 struct Mesh {

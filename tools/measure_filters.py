@@ -80,7 +80,7 @@ BLEEDING = [
     ("msm", "msm+map-format=rgba16"),
 ]
 SPLITS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
-CLASSES = ["edge", "acne", "detached", "bleeding"]
+CLASSES = ["edge", "acne", "detached", "bleeding", "terminator"]
 SMALLEST_MAP, LARGEST_MAP = 128, 8192
 
 

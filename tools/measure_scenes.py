@@ -29,7 +29,7 @@ VIEWS = [
 ]
 # What a light of each truth is: sun angles in degrees for area.
 SUNS = ["0.53", "2"]
-CLASSES = ["edge", "acne", "detached", "bleeding"]
+CLASSES = ["edge", "acne", "detached", "bleeding", "terminator"]
 
 
 def compare(options, gnomon: str, scene: str, view: list[str], truth: list[str]):
@@ -49,8 +49,8 @@ def table(name: str, runs) -> str:
     counted = main["pixels"]["counted"]
     head = " | ".join(f"rmse {label}" for label, _ in runs)
     lines = [f"### {name}", "", f"{counted} pixels count; the area truth's own noise is {main['truth']['standard_error']:.4f}.", "",
-             f"| technique | {head} | bias | edge % | acne % | detached % | bleeding % | ssim | flip | fit efficiency |",
-             "|---|" + "---|" * (len(runs) + 8)]
+             f"| technique | {head} | bias | edge % | acne % | detached % | bleeding % | terminator % | ssim | flip | fit efficiency |",
+             "|---|" + "---|" * (len(runs) + 9)]
     by_name = [{r["technique"]: r for r in one["results"]} for _, one in runs]
     for row in sorted(main["results"], key=lambda r: r["error"]["rmse"]):
         error = row["error"]

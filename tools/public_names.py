@@ -16,7 +16,7 @@ from pathlib import Path
 from sources import project_root
 
 FOLDER = "shaders/include/gnomon"
-HEADERS = ["visibility.glsl", "caster.glsl"]
+HEADERS = ["visibility.glsl", "smooth_surface.glsl", "caster.glsl"]
 TYPE = r"(?:void|bool|u?int|float|real[234]?|[biu]?vec[234]|[A-Z]\w+)"
 DECLARATIONS = [
     re.compile(rf"^(?:GN_FN )?{TYPE} (\w+)\([^;]*$", re.M),
@@ -57,10 +57,14 @@ def written(names: list[str]) -> dict[str, str]:
 def host_shader(names: list[str]) -> str:
     functions = "".join(f"float {name}() {{ return 1.0; }}\n" for name in [*names, "real", "real2", "real3", "real4"])
     return ("#version 460\n#extension GL_GOOGLE_include_directive : require\n"
-            '#include "gnomon/caster.glsl"\n#include "gnomon/visibility.glsl"\n' + functions +
+            '#include "gnomon/caster.glsl"\n#include "gnomon/smooth_surface.glsl"\n#include "gnomon/visibility.glsl"\n' +
+            functions +
             "layout(location = 0) in vec3 point;\nlayout(location = 1) in vec3 normal;\n"
             "layout(location = 0) out float seen;\n"
             "void main() { seen = gnomonLightVisibility(3u, point, normal, gl_FragCoord.xy) +\n"
+            "    gnomonLightVisibility(2u, point, normal, gnomonSmoothSurface(point, normal, vec4(normal,\n"
+            "        gnomonSmoothPlane(normal, point, false))), gl_FragCoord.xy) +\n"
+            "    gnomonSmoothEncode(vec4(normal, 1.0), point).x +\n"
             "    gnomonCasterDepth(gnomonCasterMetric(point, vec4(normal, 1.0))); }\n")
 
 

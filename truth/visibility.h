@@ -78,6 +78,9 @@ struct Surfaces {
     ImageOf<std::uint32_t> triangle_ids; // within the object's primitive; kNone: background
     ImageF points;                       // xyz, metres, relative to the eye; 0 at background
     ImageF normals;                      // xyz, unit, geometric normal of the triangle, towards the eye
+    /// xyz, unit, the normal interpolated between the vertices, on the same side; `normals` where no smooth surface
+    /// lies over the triangle.
+    ImageF smooth_normals;
 };
 
 /// One light's visibility at every pixel.
@@ -110,9 +113,11 @@ public:
     /// One ray per pixel. Nothing when cancelled.
     [[nodiscard]] std::optional<Surfaces> see(const View& view, const Options& options) const;
     /// Shadow rays from every surface point, offset along the geometric normal by an epsilon that follows the size of
-    /// the coordinates. A surface that faces away from the light's centre has visibility 0; so has a ray of area truth
-    /// that starts below the surface's own horizon. A spot's cone and range play no part: that is shading. Nothing when
-    /// cancelled. The same input gives the same bits, whatever the number of threads.
+    /// the coordinates. A surface whose smooth normal faces away from the light's centre has visibility 0; so has a ray
+    /// of area truth that starts below the surface's own horizon. Where a triangle does not face all of the light, but
+    /// lies below the smooth surface that its vertices' normals speak of, rays start on that (smooth_surface.h). A
+    /// spot's cone and range play no part: that is shading. Nothing when cancelled. The same input gives the same bits,
+    /// whatever the number of threads.
     /// With PixelTruth::area all this holds of each of a pixel's points. Those at background or on an object that does
     /// not receive do not count, and first_blocker_m is the least of them all. A pixel whose centre is such a point
     /// is 1.

@@ -119,7 +119,8 @@ void addPlaces(Json& json, const SweepResult& sweep)
 Json unitsJson()
 {
     Json units = sharedUnitsJson();
-    units["error"] = "visibility, 0 to 1; edge, acne, detached and bleeding are mean squares that add up to rmse^2";
+    units["error"] =
+        "visibility, 0 to 1; edge, acne, detached, bleeding and terminator are mean squares that add up to rmse^2";
     units["equal_error_ratio"] = "median frame / median frame of the PCF that errs no more";
     units["equal_error_shadow_ratio"] = "the same of what the two frames take beyond the frame without shadows";
     units["standard_error"] = "visibility, root mean square over the counted pixels";
@@ -136,6 +137,7 @@ Json unitsJson()
 Json pixelsJson(const lab::PixelCounts& pixels)
 {
     return {{"counted", pixels.counted},
+            {"terminator", pixels.terminator},
             {"left_out", pixels.leftOut()},
             {"left_out_by_reason",
              {{"background", pixels.background},

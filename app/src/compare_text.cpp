@@ -42,6 +42,8 @@ constexpr Column kColumns[] = {
      "share of the squared error in light between an object and its shadow"},
     {"bleeding%", "", "/error/bleeding", 1, Form::share_of_squared_rmse,
      "share of the squared error in light inside a shadow, far behind what casts it"},
+    {"term%", "", "/error/terminator", 1, Form::share_of_squared_rmse,
+     "share of the squared error where smooth-shaded bodies turn away from the light"},
     {"ssim", "/baseline", "/error/ssim", 3, Form::plain, "structural similarity of the mask to the truth; 1 is best"},
     {"flip", "/baseline", "/error/flip", 3, Form::plain, "what an eye sees when mask and truth alternate; 0 is best"},
     {"ratio", "/baseline", "/frame_ratio", 2, Form::plain,

@@ -149,7 +149,8 @@ Json sweepJson(const SweepResult& result)
     json["class_colours"] = {{"edge", colourText(lab::ErrorClass::edge)},
                              {"acne", colourText(lab::ErrorClass::acne)},
                              {"detached", colourText(lab::ErrorClass::detached)},
-                             {"bleeding", colourText(lab::ErrorClass::bleeding)}};
+                             {"bleeding", colourText(lab::ErrorClass::bleeding)},
+                             {"terminator", colourText(lab::ErrorClass::terminator)}};
     json["results"] = Json::array();
     for (std::size_t i = 0; i < result.plan.lines.size(); ++i) {
         Json line{{"technique", result.plan.lines[i].technique}};

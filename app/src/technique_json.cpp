@@ -240,7 +240,8 @@ Json errorJson(const std::optional<lab::ErrorNumbers>& error, const std::optiona
     json.update({{"edge", memberJson(classes, &lab::ClassErrors::edge)},
                  {"acne", memberJson(classes, &lab::ClassErrors::acne)},
                  {"detached", memberJson(classes, &lab::ClassErrors::detached)},
-                 {"bleeding", memberJson(classes, &lab::ClassErrors::bleeding)}});
+                 {"bleeding", memberJson(classes, &lab::ClassErrors::bleeding)},
+                 {"terminator", memberJson(classes, &lab::ClassErrors::terminator)}});
     return json;
 }
 

@@ -65,8 +65,8 @@ struct ReuseCounter {
 [[nodiscard]] std::vector<ReuseCounter> reuseCounters(const std::vector<host::FrameTimes>& samples);
 /// Those, by name.
 [[nodiscard]] Json reuseJson(const std::vector<host::FrameTimes>& samples);
-/// {"rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding"}, with `more` before the last four; null where
-/// no pixel counts.
+/// {"rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding", "terminator"}, with `more` before the
+/// classes; null where no pixel counts.
 [[nodiscard]] Json errorJson(const std::optional<lab::ErrorNumbers>& error,
                              const std::optional<lab::ClassErrors>& classes, const Json& more = Json::object());
 /// The member of a value; null where there is no value.

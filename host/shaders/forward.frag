@@ -9,7 +9,7 @@
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(set = 0, binding = 7) uniform sampler2DArray cookies;
 
-layout(location = 0) in vec3 normal;
+layout(location = 0) in vec4 normal;
 layout(location = 1) in vec4 uvs;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 colour;
@@ -25,7 +25,7 @@ void main()
         return;
     }
     vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
-    Surface surface = surfaceAt(p, normal, tangent, uvs, base);
+    Surface surface = surfaceAt(p, normal.xyz, tangent, uvs, base);
     if (surface.model == 2.0) {
         out_light = vec4(base.rgb * frame.sky_horizon.w * base.a, base.a);
         return;

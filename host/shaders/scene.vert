@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
+#include "shared/smooth_surface.h"
 
 layout(constant_id = 2) const bool kAllTextures = false;
 
@@ -18,7 +19,7 @@ layout(location = 7) in vec4 row_y;
 layout(location = 8) in vec4 row_z;
 layout(location = 9) in uvec2 ids; // object id + 1; the same where it receives, else 0
 
-layout(location = 0) out vec3 out_normal;
+layout(location = 0) out vec4 out_normal; // w: smoothPlane()
 layout(location = 1) out vec4 out_uvs;
 layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_colour;
@@ -28,19 +29,21 @@ invariant gl_Position; // drawn again with depth compared for equality
 void main()
 {
     vec4 p = vec4(position, 1.0);
-    gl_Position = frame.clip_from_eye * vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
+    vec4 q = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
+    gl_Position = frame.clip_from_eye * q;
     // The cofactors take normals along whatever the transform is.
     vec3 c_x = cross(row_y.xyz, row_z.xyz);
     vec3 c_y = cross(row_z.xyz, row_x.xyz);
     vec3 c_z = cross(row_x.xyz, row_y.xyz);
-    out_normal = vec3(dot(c_x, normal.xyz), dot(c_y, normal.xyz), dot(c_z, normal.xyz));
+    out_normal.xyz = vec3(dot(c_x, normal.xyz), dot(c_y, normal.xyz), dot(c_z, normal.xyz));
     out_tangent = vec4(0.0);
     if (kAllTextures) {
         float mirrored = sign(dot(row_x.xyz, c_x));
-        out_normal *= mirrored;
+        out_normal.xyz *= mirrored;
         out_tangent.xyz = vec3(dot(row_x.xyz, tangent.xyz), dot(row_y.xyz, tangent.xyz), dot(row_z.xyz, tangent.xyz));
         out_tangent.w = tangent.w * mirrored;
     }
+    out_normal.w = smoothPlane(out_normal.xyz, q.xyz, normal.w > 0.5);
     out_uvs = vec4(uv_base, uv_other);
     out_colour = colour * colour;
     out_ids = ids;

@@ -32,9 +32,10 @@ std::uint32_t baseUvSet(const scene::Scene& scene, const scene::Primitive& primi
     return primitive.material == scene::kNone ? 0 : scene.materials[primitive.material].base_colour_texture.uv_set;
 }
 
-void packDirections(const glm::vec3& normal, const glm::vec4* tangent, VertexAttributes& out)
+void packDirections(const glm::vec3& normal, bool creased, const glm::vec4* tangent, VertexAttributes& out)
 {
-    out.normal = {snorm<std::int16_t>(normal.x), snorm<std::int16_t>(normal.y), snorm<std::int16_t>(normal.z), 0};
+    out.normal = {snorm<std::int16_t>(normal.x), snorm<std::int16_t>(normal.y), snorm<std::int16_t>(normal.z),
+                  snorm<std::int16_t>(creased ? 1.0F : 0.0F)};
     out.tangent = {};
     if (tangent != nullptr) {
         out.tangent = {snorm<std::int8_t>(tangent->x), snorm<std::int8_t>(tangent->y), snorm<std::int8_t>(tangent->z),
@@ -121,7 +122,7 @@ void Geometry::uploadRigid(Uploader& uploader, const scene::Primitive& primitive
         packed.resize(std::min(kChunk, primitive.positions.size() - first));
         for (std::size_t i = 0; i < packed.size(); ++i) {
             packConstant(primitive, base_set, first + i, packed[i]);
-            packDirections(primitive.normals[first + i],
+            packDirections(primitive.normals[first + i], primitive.creased[first + i] != 0,
                            primitive.tangents.empty() ? nullptr : &primitive.tangents[first + i], packed[i]);
         }
         uploader.toBuffer(attributes, (first_vertex + first) * sizeof(VertexAttributes), packed.data(),
@@ -189,7 +190,8 @@ void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& stat
         for (std::size_t i = 0; i < now.positions.size(); ++i) {
             VertexAttributes packed;
             packConstant(primitive, base_set, i, packed);
-            packDirections(now.normals[i], now.tangents.empty() ? nullptr : &now.tangents[i], packed);
+            packDirections(now.normals[i], primitive.creased[i] != 0, now.tangents.empty() ? nullptr : &now.tangents[i],
+                           packed);
             all_attributes[deformed_first_[d] + i] = packed;
         }
     }

@@ -17,7 +17,7 @@ namespace gnomon::host {
 
 /// One vertex of the attribute stream.
 struct VertexAttributes {
-    std::array<std::int16_t, 4> normal{};                   // snorm; w unused
+    std::array<std::int16_t, 4> normal{};                   // snorm; w: Primitive::creased
     std::array<std::int8_t, 4> tangent{};                   // snorm; w handedness, 0: no tangent
     std::array<std::uint8_t, 4> colour{255, 255, 255, 255}; // unorm, square root of linear
     glm::vec2 uv_other{0.0F};                               // the set that the base colour does not use

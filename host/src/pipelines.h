@@ -15,9 +15,10 @@ namespace gnomon::host {
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
-/// Base colour and occlusion; geometric and shading normal; material; ids.
-inline constexpr std::array<VkFormat, 4> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SNORM,
-                                                         VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT};
+/// Base colour and occlusion; geometric and shading normal; material; ids; MaskInputs::smooth.
+inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SNORM,
+                                                         VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
+                                                         VK_FORMAT_R16G16B16A16_SNORM};
 
 /// Instance-rate vertex data of host/shaders/scene.vert.
 struct InstanceData {

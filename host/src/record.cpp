@@ -72,7 +72,7 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     const Targets& targets = screen->targets;
     memory.names().begin(cmd, "g-buffer");
     profiler.beginPass(cmd, "g-buffer");
-    std::array<VkRenderingAttachmentInfo, 4> colours{};
+    std::array<VkRenderingAttachmentInfo, kGBufferFormats.size()> colours{};
     for (std::size_t i = 0; i < colours.size(); ++i) {
         barrier(cmd, targets.gbuffer[i], discardAfter(kSampledByAll), kColourWrite);
         // Where nothing is drawn only depth and ids are looked at.
@@ -102,6 +102,7 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     inputs.depth = targets.depth.view;
     inputs.depth_layout = kDepthRead.layout;
     inputs.normal = targets.normals().view;
+    inputs.smooth = targets.smooth().view;
     inputs.object_id = targets.ids().view;
     vulkan::ShadowRenderer& renderer = shadows->renderer;
     vulkan::CasterDrawer& casters = shadows->casters;

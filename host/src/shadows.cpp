@@ -9,7 +9,7 @@ namespace {
 vulkan::ShadowRendererOptions rendererOptions(const Gpu& gpu, const RenderOptions& options)
 {
     vulkan::ShadowRendererOptions wish;
-    wish.mask_shape = vulkan::MaskShape{true, true}; // recordShadows() gives both
+    wish.mask_shape = vulkan::MaskShape{true, true, true}; // recordShadows() gives all
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = gpu.pipelineCache();
     return wish;

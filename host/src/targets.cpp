@@ -18,7 +18,8 @@ Targets::Targets(Memory& memory, VkExtent2D drawn_size, VkExtent2D shown_size, b
     constexpr VkImageUsageFlags kSampledColour = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     depth =
         make("depth", kDepthFormat, drawn, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    constexpr std::array<const char*, 4> kNames{"base colour", "normals", "material", "object ids"};
+    constexpr std::array<const char*, kGBufferFormats.size()> kNames{"base colour", "normals", "material", "object ids",
+                                                                     "smooth surfaces"};
     for (std::size_t i = 0; i < gbuffer.size(); ++i) {
         gbuffer[i] = make(kNames[i], kGBufferFormats[i], drawn, kSampledColour);
     }

@@ -26,6 +26,9 @@ struct ErrorNumbers {
 /// All pixels count.
 [[nodiscard]] Counted countAll(std::uint32_t width, std::uint32_t height);
 
+/// The pixels that count in `counted` and not in `other`, which are of one size.
+[[nodiscard]] Counted without(const Counted& counted, const Counted& other);
+
 /// Mean structural similarity over the counted pixels, [-1, 1], 1 for equal images; nothing when no pixel counts. An
 /// 11x11 Gaussian window of sigma 1.5, K1 = 0.01, K2 = 0.03, range 1; at the border the window is cut and renormalised.
 /// Pixels that do not count hold the truth in both images. Based on: Z. Wang, A. C. Bovik, H. R. Sheikh, E. P.

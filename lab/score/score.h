@@ -31,9 +31,10 @@ namespace gnomon::lab {
 /// Why pixels do not count, and how many do. A pixel that several reasons leave out belongs to the first of them.
 struct PixelCounts {
     std::uint64_t counted = 0;
+    std::uint64_t terminator = 0;   // of those that count
     std::uint64_t background = 0;   // neither side sees anything
     std::uint64_t other_object = 0; // the sides see different objects
-    std::uint64_t facing_away = 0;  // N·L of the triangle is 0.05 or less
+    std::uint64_t facing_away = 0;  // N·L of the smooth surface, else of the triangle, is 0.05 or less
     std::uint64_t unlit = 0;        // outside the light's cone or farther than its range: nothing to shadow
     std::uint64_t no_receiver = 0;  // the object receives no shadow
 
@@ -44,6 +45,8 @@ struct PixelCounts {
 };
 struct CountedPixels {
     Counted counted;
+    /// 1 where the smooth surface faces the light and the triangle under it does not: the terminator.
+    Counted terminator;
     PixelCounts counts;
 };
 

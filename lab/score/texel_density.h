@@ -51,7 +51,7 @@ struct TexelUse {
 
 /// 1 where a pixel's geometric surface faces the light with N·L > kFacing, whatever truth there is; for benches, which
 /// have none.
-inline constexpr double kFacing = 0.05; // below, a pixel sees the terminator, whose error is shading's
+inline constexpr double kFacing = 0.05; // below, light all but grazes, and errors are large that none can see
 [[nodiscard]] Counted facingPixels(const Sight& seen, const Light& light);
 
 } // namespace gnomon::lab

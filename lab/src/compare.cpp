@@ -75,8 +75,10 @@ Score scoreDrawn(host::FrameRenderer& renderer, const Subject& subject, const tr
     const double reach_texels = reachTexels(options.shadow);
     score.outcome = plan.lights[subject.light].outcome;
     score.atlas = plan.pages[0];
-    score.density = texelDensity(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
-    score.fit_efficiency = fitEfficiency(picture, score.pixels.counted, camera, plan, subject.light, reach_texels);
+    // At the terminator the triangle, whose plane texels are laid out on, may face away.
+    const Counted facing = without(score.pixels.counted, score.pixels.terminator);
+    score.density = texelDensity(picture, facing, camera, plan, subject.light, reach_texels);
+    score.fit_efficiency = fitEfficiency(picture, facing, camera, plan, subject.light, reach_texels);
     return score;
 }
 

@@ -164,7 +164,8 @@ Colour densityColour(double texels_per_pixel)
 Colour classColour(ErrorClass error_class)
 {
     // Four of Okabe and Ito's eight that differ in hue and stay apart from each other and from the faint greys for
-    // every kind of colour vision. Their bluish green comes too near to blue, orange to vermillion.
+    // every kind of colour vision. Their bluish green comes too near to blue, orange to vermillion. The fifth is a
+    // light green of ours, the farthest from all of these.
     switch (error_class) {
     case ErrorClass::edge:
         return {0x00, 0x72, 0xb2}; // blue
@@ -174,6 +175,8 @@ Colour classColour(ErrorClass error_class)
         return {0xf0, 0xe4, 0x42}; // yellow
     case ErrorClass::bleeding:
         return {0xcc, 0x79, 0xa7}; // reddish purple
+    case ErrorClass::terminator:
+        return {0x9b, 0xff, 0xaa}; // light green
     case ErrorClass::correct:
         return kFaintLight;
     case ErrorClass::left_out:

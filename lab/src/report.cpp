@@ -80,6 +80,7 @@ Legend classLegend()
              swatch(kFaintLight, ErrorClass::acne, "acne: false self-shadowing"),
              swatch(kFaintDark, ErrorClass::detached, "detached: peter-panning"),
              swatch(kFaintDark, ErrorClass::bleeding, "bleeding: light leaks"),
+             swatch(kFaintDark, ErrorClass::terminator, "terminator: smooth body turns away"),
              swatch(kFaintDark, ErrorClass::correct, "no error: the truth in grey"),
              {kLeftOut, kLeftOut, "left out"}}};
 }

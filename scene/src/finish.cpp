@@ -101,6 +101,26 @@ void addTangents(Primitive& primitive, const std::vector<glm::vec2>& uv)
     }
 }
 
+void markCreases(Primitive& primitive)
+{
+    const double least = std::cos(kCreaseAngle_rad);
+    primitive.creased.assign(primitive.positions.size(), 0);
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const std::uint32_t* v = &primitive.indices[i];
+        const glm::dvec3 first(primitive.positions[v[0]]);
+        const glm::dvec3 across =
+            glm::cross(glm::dvec3(primitive.positions[v[1]]) - first, glm::dvec3(primitive.positions[v[2]]) - first);
+        const double length = glm::length(across);
+        for (int k = 0; k < 3; ++k) {
+            // Mirrored objects and backs have their normals turned.
+            const double along = std::abs(glm::dot(across, glm::dvec3(primitive.normals[v[k]])));
+            if (along < least * length) {
+                primitive.creased[v[k]] = 1;
+            }
+        }
+    }
+}
+
 void finishPrimitive(const Scene& scene, Primitive& primitive)
 {
     if (primitive.normals.size() != primitive.positions.size()) {
@@ -114,6 +134,7 @@ void finishPrimitive(const Scene& scene, Primitive& primitive)
             addTangents(primitive, uv);
         }
     }
+    markCreases(primitive);
     primitive.bounds = {};
     for (const glm::vec3& p : primitive.positions) {
         primitive.bounds.min = glm::min(primitive.bounds.min, p);

@@ -108,7 +108,7 @@ private:
     void add(const Primitive& primitive)
     {
         const auto& [positions, normals, tangents, uv0, uv1, colours, joints, weights, indices, morph_targets, material,
-                     bounds] = primitive;
+                     bounds, creased] = primitive;
         addEach(positions, normals, tangents, uv0, uv1, colours, joints, weights, indices);
         addEach(morph_targets);
         addEach(material, bounds);

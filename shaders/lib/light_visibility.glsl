@@ -175,9 +175,9 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
     return v;
 }
 
-// `p` eye-relative, `n` its unit geometric normal; `pixel` of the screen; `w` of the point by GpuScreen's eye_w: one over
-// clip space's w.
-float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
+// `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `pixel` of the screen; `w` of the
+// point by GpuScreen's eye_w: one over clip space's w.
+float lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, float w)
 {
     GpuLight light;
     if (GNOMON_FEW_VIEWS > 0) {
@@ -190,14 +190,15 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
     if (light.views.y == 0u) {
         return 1.0;
     }
+    LightPoint at = lightPoint(p, n, s, towardLight(light.place, p));
     Receiver r;
-    r.p = p;
-    r.n = n;
+    r.p = at.p;
+    r.n = at.n;
     r.depth = dot(GNOMON_NUMBERS.screen.view_axis.xyz, p);
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
     FilterInput f = filterInput(pixel);
-    f.toward = towardLight(light.place, p);
+    f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);
     BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
@@ -213,7 +214,7 @@ float lightVisibility(uint index, vec3 p, vec3 n, vec2 pixel, float w)
         is_later = true;
     } while (more);
     v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
-    return facesLight(light, p, n) ? v : 0.0;
+    return at.faces ? v : 0.0;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef GNOMON_VISIBILITY_GLSL
 #define GNOMON_VISIBILITY_GLSL
 #include "../shared/gpu_structs.h"
+#include "../shared/smooth_surface.h"
 #include "filters.glsl"
 #include "receiver_footprint.glsl"
 GN_BEGIN
@@ -49,11 +50,31 @@ GN_FN bool facesDirection(real3 n, real3 to_light)
     return dot(n, to_light) > kGrazing * length(to_light);
 }
 
-// The same for a light and the surface's eye-relative point `p`.
-GN_FN bool facesLight(GpuLight light, real3 p, real3 n)
+// Where a surface takes its light from.
+struct LightPoint {
+    real3 p;
+    real3 n;    // of the plane that the surface is taken for there
+    bool faces; // the light; else its visibility is 0
+};
+
+// Of the point `p` of a triangle with unit normal `n`, for a light in direction `to_light` (any length). Whether it
+// faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
+// light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all but grazes, the plane is leant back to where filters can
+// follow it: the bias of a steeper one would let light through whatever shades the body.
+GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
 {
-    real4 place = real4(light.place);
-    return facesDirection(n, real3(place.x, place.y, place.z) - p * place.w);
+    LightPoint at;
+    at.p = p;
+    at.n = n;
+    at.faces = facesDirection(n, to_light);
+    if (s.lift > real(0.0)) {
+        bool lifts = !at.faces;
+        at.p = lifts ? p + s.n * s.lift : p;
+        real3 l = normalize(to_light);
+        at.n = lifts ? normalize(s.n + l * max(real(1.0) / kSteepest - dot(s.n, l), real(0.0))) : n;
+        at.faces = facesDirection(s.n, to_light);
+    }
+    return at;
 }
 
 // From a surface's eye-relative point `p` to the light's centre, as FilterInput has it.

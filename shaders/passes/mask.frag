@@ -6,7 +6,7 @@
 #include "../shared/choice_numbers.h"
 #include "../lib/mask_numbers.glsl"
 #include "../shared/gpu_structs.h"
-#include "../shared/octahedral.h"
+#include "../shared/smooth_surface.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
 layout(constant_id = 0) const int kKernelWidth = 3; // see FilterInput
@@ -19,6 +19,7 @@ layout(constant_id = 6) const int kMomentLayers = 2;   // of lvsm
 layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_depth.h
 layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
 layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
+layout(constant_id = 10) const bool kHasSmooth = false;
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -42,6 +43,7 @@ layout(push_constant) uniform Lights
 };
 layout(set = 0, binding = 5) uniform sampler2D depths;
 layout(set = 0, binding = 6) uniform sampler2D normals;
+layout(set = 0, binding = 10) uniform sampler2D smooth_surfaces;
 #ifdef GNOMON_OBJECT_IDS
 layout(set = 0, binding = 7) uniform usampler2D object_ids;
 #endif
@@ -111,11 +113,12 @@ void main()
     vec4 h = pointAt(pixel, depth);
     vec3 p = h.xyz / h.w;
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
+    SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
     uint first = kViewCount > 0 ? 0u : first_light;
     uint left = kViewCount > 0 ? 1u : channels;
     do {
         int channel = findLSB(left);
-        float v = lightVisibility(first + channel, p, n, gl_FragCoord.xy, h.w);
+        float v = lightVisibility(first + channel, p, n, s, gl_FragCoord.xy, h.w);
         visibility = mix(visibility, vec4(v), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
         left &= left - 1u;
     } while (left != 0u);

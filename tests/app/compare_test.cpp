@@ -91,12 +91,14 @@ TEST(Compare, JsonHasWhatScriptsRelyOn)
         expectKeys(one, {"technique", "choices", "map", "error", "time_ms", "iqr_ms", "frame_ratio", "memory_bytes",
                          "texel_density", "fit_efficiency", "outcome", "counters", "settings"});
         const json& error = one["error"];
-        expectKeys(error, {"rmse", "mae", "bias", "p99", "ssim", "flip", "edge", "acne", "detached", "bleeding"});
+        expectKeys(error, {"rmse", "mae", "bias", "p99", "ssim", "flip", "edge", "acne", "detached", "bleeding",
+                           "terminator"});
         const double rmse = error["rmse"];
         EXPECT_GT(rmse, 0.0);
         EXPECT_LT(rmse, 0.2);
         const double parts = error["edge"].get<double>() + error["acne"].get<double>() +
-                             error["detached"].get<double>() + error["bleeding"].get<double>();
+                             error["detached"].get<double>() + error["bleeding"].get<double>() +
+                             error["terminator"].get<double>();
         EXPECT_NEAR(parts, rmse * rmse, 1e-12);
         EXPECT_GT(error["edge"].get<double>(), 0.5 * rmse * rmse); // a box over a plane has little else
         for (const char* stage : {"plan", "maps", "filter", "mask", "frame"}) {

@@ -98,7 +98,7 @@ void expectStability(const json& one, std::size_t frames)
     const json& error = one["error"];
     const double rmse = error["rmse"];
     const double parts = error["edge"].get<double>() + error["acne"].get<double>() + error["detached"].get<double>() +
-                         error["bleeding"].get<double>();
+                         error["bleeding"].get<double>() + error["terminator"].get<double>();
     EXPECT_NEAR(parts, rmse * rmse, 1e-12);
     ASSERT_EQ(one["over_frames"]["rmse"].size(), frames);
     ASSERT_EQ(one["over_frames"]["mean_abs_change"].size(), frames);

@@ -123,7 +123,7 @@ TEST(Sweep, ErrorFallsAsTheMapGrows)
         EXPECT_GT(rmse[0], 2.0 * rmse[2]) << line;
         for (std::size_t i = 0; i < rmse.size(); ++i) {
             double parts = 0.0;
-            for (const char* part : {"edge", "acne", "detached", "bleeding"}) {
+            for (const char* part : {"edge", "acne", "detached", "bleeding", "terminator"}) {
                 parts += line[part][i].get<double>();
             }
             EXPECT_NEAR(parts, rmse[i] * rmse[i], 1e-12);

@@ -224,6 +224,7 @@ truth::Traced lit(std::uint32_t width, std::uint32_t height)
     traced.surfaces.triangle_ids = {width, height, 1, scene::kNone};
     traced.surfaces.points = {width, height, 3};
     traced.surfaces.normals = {width, height, 3};
+    traced.surfaces.smooth_normals = {width, height, 3};
     traced.visibility.kind = truth::Kind::hard;
     traced.visibility.visibility = {width, height, 1, 1.0F};
     traced.visibility.standard_error = {width, height, 1};

@@ -19,10 +19,10 @@ EVIL = "</text><script>\"&'<\x01 $x^2$ ä"
 
 def sweep(techniques: list[str], values: list[float], logarithmic: bool) -> dict:
     gap = [None] + [0.25] * (len(values) - 1)
-    line = {key: gap for key in ("rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding")}
+    line = {key: gap for key in ("rmse", "mae", "bias", "p99", "edge", "acne", "detached", "bleeding", "terminator")}
     return {"scene": EVIL, "results": [],
             "sweep": {"key": "map-size", "unit": "texels", "logarithmic": logarithmic, "values": values,
-                      "class_colours": dict.fromkeys(["edge", "acne", "detached", "bleeding"], "#0072b2"),
+                      "class_colours": dict.fromkeys(["edge", "acne", "detached", "bleeding", "terminator"], "#0072b2"),
                       "results": [{"technique": name, **line} for name in techniques]}}
 
 
@@ -71,7 +71,7 @@ class Plots(unittest.TestCase):
 
     def test_does_with_nothing_to_show(self):
         result = sweep(["hard"], [1.0], True)
-        for key in ("rmse", "edge", "acne", "detached", "bleeding"):
+        for key in ("rmse", "edge", "acne", "detached", "bleeding", "terminator"):
             result["sweep"]["results"][0][key] = [None]
         self.assertIn("sweep.svg", self.drawn(result, "a"))
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gnomon::lab::test {
 namespace {
@@ -36,12 +37,15 @@ public:
         lamp.caster.range_m = 10.5;
         subject.lights = {lamp};
     }
-    void add(std::uint32_t exact_id, std::uint32_t drawn_id, glm::dvec3 point_ws, glm::vec3 normal)
+    void add(std::uint32_t exact_id, std::uint32_t drawn_id, glm::dvec3 point_ws, glm::vec3 normal,
+             std::optional<glm::vec3> smooth_normal = {})
     {
         const glm::vec3 point(point_ws - subject.eye.position_ws);
         surfaces.object_ids.values.push_back(exact_id);
         surfaces.points.values.insert(surfaces.points.values.end(), {point.x, point.y, point.z});
         surfaces.normals.values.insert(surfaces.normals.values.end(), {normal.x, normal.y, normal.z});
+        const glm::vec3 smooth = smooth_normal.value_or(normal);
+        surfaces.smooth_normals.values.insert(surfaces.smooth_normals.values.end(), {smooth.x, smooth.y, smooth.z});
         picture.object_ids.values.push_back(drawn_id);
     }
     CountedPixels count()
@@ -55,6 +59,7 @@ public:
         shape(surfaces.object_ids, 1);
         shape(surfaces.points, 3);
         shape(surfaces.normals, 3);
+        shape(surfaces.smooth_normals, 3);
         shape(picture.object_ids, 1);
         return countPixels(subject, surfaces, picture);
     }
@@ -68,6 +73,7 @@ public:
 void expectCounts(const PixelCounts& counts, const PixelCounts& expected)
 {
     EXPECT_EQ(counts.counted, expected.counted);
+    EXPECT_EQ(counts.terminator, expected.terminator);
     EXPECT_EQ(counts.background, expected.background);
     EXPECT_EQ(counts.other_object, expected.other_object);
     EXPECT_EQ(counts.facing_away, expected.facing_away);
@@ -121,6 +127,28 @@ TEST(CountPixels, TheLightReachesAsFarAsItsConeRangeAndAngle)
     all.subject.lights[0].caster.type = LightType::directional;
     all.subject.lights[0].caster.range_m = 1.0; // means nothing to a sun
     EXPECT_EQ(all.count().counted.values, (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 0}));
+}
+
+TEST(CountPixels, TheTerminatorIsWhereTheSmoothNormalAloneFacesTheLight)
+{
+    const auto leant = [](float facing) {
+        return glm::vec3(std::sqrt(1.0F - facing * facing), facing, 0.0F);
+    };
+    ByHand all;
+    all.state.objects[1].receives = false; // id 2
+    const auto at = [&](float facing, float smooth, std::uint32_t id = 1) {
+        all.add(id, id, {0.0, 0.0, 0.0}, leant(facing), leant(smooth));
+    };
+    at(0.2F, 0.3F);
+    at(-0.1F, 0.06F);
+    at(0.06F, -0.1F);
+    at(0.04F, 0.04F);
+    at(-0.1F, 0.04F);
+    at(-0.1F, 0.06F, 2);
+    const CountedPixels pixels = all.count();
+    expectCounts(pixels.counts, {.counted = 2, .terminator = 1, .facing_away = 3, .no_receiver = 1});
+    EXPECT_EQ(pixels.counted.values, (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(pixels.terminator.values, (std::vector<std::uint8_t>{0, 1, 0, 0, 0, 0}));
 }
 
 TEST(TruthLight, HasTheNearDistanceThatThePlannerPicks)
@@ -256,7 +284,7 @@ TEST(ScoreMask, OfTheTruthItselfIsPerfectAndOfItsNegativeIsNot)
     EXPECT_EQ(worst.error.value().rmse, 1.0);
     EXPECT_LT(worst.ssim.value(), 0.1);
     const ClassErrors& errors = worst.classification.value().errors;
-    EXPECT_NEAR(errors.edge + errors.acne + errors.detached + errors.bleeding, 1.0, 1e-12);
+    EXPECT_NEAR(errors.edge + errors.acne + errors.detached + errors.bleeding + errors.terminator, 1.0, 1e-12);
 }
 
 TEST(ScoreMask, FromPlainImagesIsTheSame)

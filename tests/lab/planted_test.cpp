@@ -106,7 +106,8 @@ struct NamedClass {
 };
 constexpr std::array kClasses{NamedClass{"edge", &ClassErrors::edge}, NamedClass{"acne", &ClassErrors::acne},
                               NamedClass{"detached", &ClassErrors::detached},
-                              NamedClass{"bleeding", &ClassErrors::bleeding}};
+                              NamedClass{"bleeding", &ClassErrors::bleeding},
+                              NamedClass{"terminator", &ClassErrors::terminator}};
 
 /// The artefact's own class must rise to `factor` times what it was and to `least` at least; every other class by at
 /// most `share` of that rise.

@@ -145,7 +145,8 @@ TEST(ReportColour, NotANumberIsLikeNothingElse)
         others.push_back(errorColour(i / 64.0));
         others.push_back(densityColour(std::exp2(i / 16.0)));
     }
-    for (const ErrorClass c : {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached, ErrorClass::bleeding})
+    for (const ErrorClass c :
+         {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached, ErrorClass::bleeding, ErrorClass::terminator})
         others.push_back(classColour(c));
     for (const Vision& vision : kVisions) {
         for (const Colour other : others)
@@ -155,8 +156,8 @@ TEST(ReportColour, NotANumberIsLikeNothingElse)
 
 TEST(ReportColour, ClassesAreToldApartByEveryone)
 {
-    const std::array<ErrorClass, 4> classes = {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached,
-                                               ErrorClass::bleeding};
+    const std::array<ErrorClass, 5> classes = {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached,
+                                               ErrorClass::bleeding, ErrorClass::terminator};
     for (const Vision& vision : kVisions) {
         for (std::size_t i = 0; i < classes.size(); ++i) {
             const Colour colour = classColour(classes[i]);
@@ -176,8 +177,8 @@ TEST(ReportColour, ClassesAreToldApartByEveryone)
 // A hue has a name; two blues have one. Angles of a* and b* for normal vision.
 TEST(ReportColour, ClassesDifferInHue)
 {
-    const std::array<ErrorClass, 4> classes = {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached,
-                                               ErrorClass::bleeding};
+    const std::array<ErrorClass, 5> classes = {ErrorClass::edge, ErrorClass::acne, ErrorClass::detached,
+                                               ErrorClass::bleeding, ErrorClass::terminator};
     const auto hue = [](ErrorClass error_class) {
         const Triple lab = seen(classColour(error_class), kVisions[0]);
         return std::atan2(lab[2], lab[1]) * 180.0 / 3.14159265358979;

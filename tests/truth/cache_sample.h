@@ -43,12 +43,14 @@ inline Traced sample(std::uint32_t width, std::uint32_t height, unsigned seed = 
     traced.surfaces.triangle_ids = {width, height, 1, scene::kNone};
     traced.surfaces.points = {width, height, 3};
     traced.surfaces.normals = {width, height, 3};
+    traced.surfaces.smooth_normals = {width, height, 3};
     traced.visibility.visibility = {width, height, 1, 1.0F};
     traced.visibility.standard_error = {width, height, 1};
     traced.visibility.first_blocker_m = {width, height, 1, kInfinity};
     fill(traced.surfaces.object_ids, random, scene::kNone);
     fill(traced.surfaces.points, random, 3e38F);
     fill(traced.surfaces.normals, random, 1.0F);
+    fill(traced.surfaces.smooth_normals, random, 1.0F);
     fill(traced.visibility.visibility, random, 1.0F);
     traced.visibility.first_blocker_m.values.back() = 0.25F;
     traced.surfaces.points.values.front() = -0.0F;
@@ -72,7 +74,8 @@ inline bool same(const Traced& a, const Traced& b)
 {
     return same(a.surfaces.object_ids, b.surfaces.object_ids) &&
            same(a.surfaces.triangle_ids, b.surfaces.triangle_ids) && same(a.surfaces.points, b.surfaces.points) &&
-           same(a.surfaces.normals, b.surfaces.normals) && same(a.visibility.visibility, b.visibility.visibility) &&
+           same(a.surfaces.normals, b.surfaces.normals) && same(a.surfaces.smooth_normals, b.surfaces.smooth_normals) &&
+           same(a.visibility.visibility, b.visibility.visibility) &&
            same(a.visibility.standard_error, b.visibility.standard_error) &&
            same(a.visibility.first_blocker_m, b.visibility.first_blocker_m) && a.visibility.kind == b.visibility.kind &&
            a.visibility.rays == b.visibility.rays && a.visibility.seconds == b.visibility.seconds;

@@ -198,6 +198,10 @@ std::vector<Mark> marks()
          [](Traced& t) -> float& {
              return t.surfaces.normals.values[31];
          }},
+        {"smooth normal",
+         [](Traced& t) -> float& {
+             return t.surfaces.smooth_normals.values[31];
+         }},
         {"visibility",
          [](Traced& t) -> float& {
              return t.visibility.visibility.values.back();
@@ -249,7 +253,7 @@ TEST_F(CacheTest, ValuesThatNoTruthHasAreNeitherLoadedNorStored)
         if (name != "point" && name != "first blocker") {
             expectRefused(mark, 1.001F);
         }
-        if (name != "point" && name != "normal") {
+        if (name != "point" && name != "normal" && name != "smooth normal") {
             expectRefused(mark, -1e-6F);
         }
         gnomon::test::spill(entryOf(folder_), withValue(mark, 0.25F));

@@ -164,6 +164,7 @@ void expectSound(const Traced& traced)
     ASSERT_EQ(surfaces.triangle_ids.values.size(), pixels);
     ASSERT_EQ(surfaces.points.values.size(), 3 * pixels);
     ASSERT_EQ(surfaces.normals.values.size(), 3 * pixels);
+    ASSERT_EQ(surfaces.smooth_normals.values.size(), 3 * pixels);
     ASSERT_EQ(visibility.visibility.values.size(), pixels);
     ASSERT_EQ(visibility.standard_error.values.size(), pixels);
     ASSERT_EQ(visibility.first_blocker_m.values.size(), pixels);
@@ -177,9 +178,11 @@ void expectSound(const Traced& traced)
         const float error = visibility.standard_error.values[i];
         ASSERT_TRUE(error >= 0.0F && error <= 0.5F) << error;
         ASSERT_TRUE(visibility.first_blocker_m.values[i] >= 0.0F) << visibility.first_blocker_m.values[i];
-        const float* n = surfaces.normals.values.data() + 3 * i;
-        const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        ASSERT_NEAR(length, surfaces.object_ids.values[i] == 0 ? 0.0F : 1.0F, 1e-5F);
+        for (const ImageF* normals : {&surfaces.normals, &surfaces.smooth_normals}) {
+            const float* n = normals->values.data() + 3 * i;
+            const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            ASSERT_NEAR(length, surfaces.object_ids.values[i] == 0 ? 0.0F : 1.0F, 1e-5F);
+        }
     }
 }
 

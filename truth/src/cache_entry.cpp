@@ -10,9 +10,9 @@ namespace gnomon::truth {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31485452'4D4F4E47ULL; // "GNOMTRH1" on a little-endian machine
-constexpr std::uint32_t kFormatVersion = 1;
-constexpr std::uint64_t kImages = 7;
-constexpr std::uint64_t kBytesPerPixel = 44; // of all images: five numbers and twice xyz, 4 bytes each
+constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint64_t kImages = 8;
+constexpr std::uint64_t kBytesPerPixel = 56; // of all images: five numbers and thrice xyz, 4 bytes each
 constexpr std::uint64_t kBitsPerByte = 8;
 
 std::uint64_t maskBytes(std::uint64_t pixels)
@@ -34,6 +34,7 @@ void visitImages(AnyTraced& traced, Visit visit)
     visit(traced.surfaces.triangle_ids, 1U);
     visit(traced.surfaces.points, 3U);
     visit(traced.surfaces.normals, 3U);
+    visit(traced.surfaces.smooth_normals, 3U);
     visit(traced.visibility.visibility, 1U);
     visit(traced.visibility.standard_error, 1U);
     visit(traced.visibility.first_blocker_m, 1U);
@@ -70,6 +71,7 @@ bool hasValuesOfATruth(const Traced& traced)
     return visibility.seconds >= 0.0 && visibility.seconds <= std::numeric_limits<double>::max() &&
            allWithin(traced.surfaces.points, -kLargest, kLargest) &&
            allWithin(traced.surfaces.normals, -kLongestAxis, kLongestAxis) &&
+           allWithin(traced.surfaces.smooth_normals, -kLongestAxis, kLongestAxis) &&
            allWithin(visibility.visibility, 0.0F, 1.0F) && allWithin(visibility.standard_error, 0.0F, 1.0F) &&
            allWithin(visibility.first_blocker_m, 0.0F, std::numeric_limits<float>::infinity());
 }

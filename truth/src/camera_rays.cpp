@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera_rays.h"
 
+#include "smooth_surface.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -78,6 +80,9 @@ std::optional<CameraRays::Seen> CameraRays::surfaceAt(const Ray& ray, const RTCH
     }
     seen.point = ray.direction * distance_m;
     seen.normal = facing < 0.0 ? triangle->front : -triangle->front;
+    seen.smooth_normal =
+        smoothPoint(*triangle, geometry_.vertexNormals(seen.object, seen.triangle), eye_rel_ + seen.point, seen.normal)
+            .normal;
     return seen;
 }
 

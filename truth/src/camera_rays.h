@@ -16,8 +16,9 @@ public:
     struct Seen {
         std::uint32_t object = 0; // index into State::objects
         std::uint32_t triangle = 0;
-        glm::dvec3 point{0.0};  // relative to the eye
-        glm::dvec3 normal{0.0}; // unit, towards the eye
+        glm::dvec3 point{0.0};         // relative to the eye
+        glm::dvec3 normal{0.0};        // unit, towards the eye
+        glm::dvec3 smooth_normal{0.0}; // unit, SmoothPoint::normal
     };
 
     CameraRays(const SceneGeometry& geometry, const View& view);

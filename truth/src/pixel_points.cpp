@@ -5,6 +5,7 @@
 #include "pixel_points.h"
 
 #include "random_bits.h"
+#include "smooth_surface.h"
 
 #include <glm/geometric.hpp>
 
@@ -33,6 +34,11 @@ std::optional<Receiver> receiverOn(const SceneGeometry& geometry, const View& vi
     receiver.normal = glm::dot(seen.normal, triangle->front) < 0.0 ? -triangle->front : triangle->front;
     const glm::dvec3 rel = view.eye_ws + seen.point - geometry.originWs();
     receiver.rel = offSurface(rel, *triangle, receiver.normal);
+    const SmoothPoint smooth =
+        smoothPoint(*triangle, geometry.vertexNormals(seen.object, seen.triangle), rel, receiver.normal);
+    receiver.smooth_normal = smooth.normal;
+    receiver.lifted_rel = receiver.rel + smooth.normal * smooth.lift_m;
+    receiver.lifts = smooth.lift_m > 0.0;
     return receiver;
 }
 

@@ -119,6 +119,7 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         part.primitive = &primitive;
         part.positions =
             object.deformed == scene::kNone ? &primitive.positions : &state.deformed[object.deformed].positions;
+        part.normals = object.deformed == scene::kNone ? &primitive.normals : &state.deformed[object.deformed].normals;
         if (material.alpha_mode == scene::AlphaMode::mask) {
             part.alpha.emplace(scene, primitive, material);
         }
@@ -295,6 +296,26 @@ std::optional<Triangle> SceneGeometry::triangle(std::uint32_t object, std::uint3
     }
     triangle.front = across * ((part.mirrored ? -1.0 : 1.0) / length);
     return triangle;
+}
+
+std::array<glm::dvec3, 3> SceneGeometry::vertexNormals(std::uint32_t object, std::uint32_t index) const
+{
+    const Part& part = parts_[object];
+    // The cofactors take normals along whatever the transform is.
+    const glm::dmat3 to_rel(part.rel_from_object);
+    const glm::dmat3 cofactors(glm::cross(to_rel[1], to_rel[2]), glm::cross(to_rel[2], to_rel[0]),
+                               glm::cross(to_rel[0], to_rel[1]));
+    std::array<glm::dvec3, 3> normals{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = part.primitive->indices[std::size_t{index} * 3 + k];
+        if (part.primitive->creased[vertex] != 0) {
+            return {};
+        }
+        const glm::dvec3 along = cofactors * glm::dvec3((*part.normals)[vertex]);
+        const double length = glm::length(along);
+        normals[k] = length > 0.0 && std::isfinite(length) ? along / length : glm::dvec3(0.0);
+    }
+    return normals;
 }
 
 } // namespace gnomon::truth

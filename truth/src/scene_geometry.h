@@ -48,8 +48,9 @@ struct RayContext {
 struct Part {
     const scene::Primitive* primitive = nullptr;
     const std::vector<glm::vec3>* positions = nullptr;
-    glm::dmat4 rel_from_object{1.0}; // relative to SceneGeometry::originWs()
-    std::optional<AlphaTest> alpha;  // masked materials
+    const std::vector<glm::vec3>* normals = nullptr; // of the vertices
+    glm::dmat4 rel_from_object{1.0};                 // relative to SceneGeometry::originWs()
+    std::optional<AlphaTest> alpha;                  // masked materials
     bool mirrored = false;
     bool double_sided = false;
     bool casts = true;
@@ -81,6 +82,9 @@ public:
     [[nodiscard]] const Part& part(std::uint32_t object) const { return parts_[object]; }
     /// Nothing where there is no such triangle, or where it has no area.
     [[nodiscard]] std::optional<Triangle> triangle(std::uint32_t object, std::uint32_t index) const;
+    /// Unit normals of the vertices of a triangle that triangle() gives; 0 where a vertex has none, and all of them
+    /// where one rounds off an edge (scene::Primitive::creased).
+    [[nodiscard]] std::array<glm::dvec3, 3> vertexNormals(std::uint32_t object, std::uint32_t index) const;
 
 private:
     void describe(const scene::Scene& scene, const scene::State& state);

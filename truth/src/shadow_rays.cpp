@@ -43,6 +43,7 @@ struct ShadowRays::Packet {
 
 private:
     glm::vec3 normal_;
+    glm::vec3 smooth_normal_;
     glm::vec3 centre_;
     glm::vec3 right_;
     glm::vec3 up_;
@@ -60,7 +61,7 @@ private:
 };
 
 ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
-    : normal_(receiver.normal), centre_(light.direction)
+    : normal_(receiver.normal), smooth_normal_(receiver.smooth_normal), centre_(light.direction)
 {
     context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.own_object = receiver.object;
@@ -83,7 +84,8 @@ ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
     above_plane_ = static_cast<float>(light.above_plane_m * kEndShare);
 }
 
-/// Rays `first` and on of `set`, as many as there are; those below the horizon are not valid.
+/// Rays `first` and on of `set`, as many as there are; those below the horizon, the triangle's or the smooth surface's,
+/// are not valid.
 void ShadowRays::Packet::aim(std::span<const DiscPoint> set, std::uint32_t first, const DiscShift& shift)
 {
     const auto count = static_cast<std::uint32_t>(set.size());
@@ -101,7 +103,9 @@ void ShadowRays::Packet::aim(std::span<const DiscPoint> set, std::uint32_t first
         ends[k] = std::min(sphere_end, above_plane_ / std::max(sinks, kLeastSink));
         rays.tfar[k] = ends[k];
         const float height = rays.dir_x[k] * normal_.x + rays.dir_y[k] * normal_.y + rays.dir_z[k] * normal_.z;
-        valid[k] = height > 0.0F && first + k < count ? -1 : 0;
+        const float smooth_height =
+            rays.dir_x[k] * smooth_normal_.x + rays.dir_y[k] * smooth_normal_.y + rays.dir_z[k] * smooth_normal_.z;
+        valid[k] = std::min(height, smooth_height) > 0.0F && first + k < count ? -1 : 0;
     }
 }
 
@@ -149,15 +153,37 @@ double ShadowRays::Seen::centreEnd_m() const
     return std::min(distance_m - end_radius_m, above_plane_m / std::max(sinks, double{kLeastSink})) * kEndShare;
 }
 
+double ShadowRays::Seen::sine() const
+{
+    return tangent / std::sqrt(1.0 + tangent * tangent);
+}
+
 ShadowRays::Result ShadowRays::trace(const Receiver& receiver) const
 {
     const Seen light = see(receiver.rel);
+    const double facing = glm::dot(receiver.normal, light.direction);
+    // Where the triangle faces all of the light, no other part of a smooth body stands in the way of it.
+    if (light.inside || !receiver.lifts || facing > (area_ ? light.sine() : 0.0)) {
+        return traceFrom(receiver, light);
+    }
+    Receiver lifted = receiver;
+    lifted.rel = receiver.lifted_rel;
+    lifted.normal = receiver.smooth_normal;
+    // The ray may come down on the triangle that it starts over: that is in its way then.
+    lifted.object = RTC_INVALID_GEOMETRY_ID;
+    lifted.triangle = RTC_INVALID_GEOMETRY_ID;
+    return traceFrom(lifted, see(lifted.rel));
+}
+
+ShadowRays::Result ShadowRays::traceFrom(const Receiver& receiver, const Seen& light) const
+{
     Result result;
     result.first_blocker_m = kInfinity;
     if (light.inside) {
         return result;
     }
-    if (!(glm::dot(receiver.normal, light.direction) > 0.0)) {
+    if (!(glm::dot(receiver.normal, light.direction) > 0.0 &&
+          glm::dot(receiver.smooth_normal, light.direction) > 0.0)) {
         result.visibility = 0.0;
         return result;
     }

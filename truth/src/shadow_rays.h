@@ -21,6 +21,10 @@ namespace gnomon::truth {
 struct Receiver {
     glm::dvec3 rel{0.0};              // relative to SceneGeometry::originWs(), off the surface already
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit
+    /// Of the smooth surface over the point; `normal` where there is none.
+    glm::dvec3 smooth_normal{0.0, 1.0, 0.0};
+    glm::dvec3 lifted_rel{0.0}; // `rel`, moved to it
+    bool lifts = false;         // `lifted_rel` is over the triangle
     std::uint32_t object = 0;
     std::uint32_t triangle = 0;
     std::uint64_t pixel = 0; // number of the pixel, which chooses its random shifts
@@ -42,6 +46,7 @@ public:
 
     ShadowRays(const SceneGeometry& geometry, const Light& light, const Options& options);
 
+    /// From the triangle, or where that does not face all of the light from the smooth surface over it.
     [[nodiscard]] Result trace(const Receiver& receiver) const;
 
 private:
@@ -58,6 +63,8 @@ private:
 
         /// Along the ray to the centre.
         [[nodiscard]] double centreEnd_m() const;
+        /// Of half the angle that it fills.
+        [[nodiscard]] double sine() const;
     };
     struct Packet;
     static constexpr std::uint32_t kBlockedKept = 4;
@@ -68,6 +75,7 @@ private:
     };
 
     [[nodiscard]] Seen see(const glm::dvec3& rel) const;
+    [[nodiscard]] Result traceFrom(const Receiver& receiver, const Seen& light) const;
     [[nodiscard]] Result traceCentre(const Receiver& receiver, const Seen& light) const;
     [[nodiscard]] Result traceDisc(const Receiver& receiver, const Seen& light) const;
     void findBlocker(const Receiver& receiver, const Seen& light, const Blocked& blocked, Result& result) const;

@@ -114,7 +114,7 @@ std::optional<Surfaces> Tracer::see(const View& view, const Options& options) co
     const glm::uvec2 size = view.size_px;
     Surfaces surfaces{ImageOf<std::uint32_t>(size.x, size.y, 1, 0),
                       ImageOf<std::uint32_t>(size.x, size.y, 1, scene::kNone), ImageF(size.x, size.y, 3, 0.0F),
-                      ImageF(size.x, size.y, 3, 0.0F)};
+                      ImageF(size.x, size.y, 3, 0.0F), ImageF(size.x, size.y, 3, 0.0F)};
     const CameraRays rays(*impl_->geometry, view);
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
         forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
@@ -123,6 +123,7 @@ std::optional<Surfaces> Tracer::see(const View& view, const Options& options) co
                 *surfaces.triangle_ids.pixel(x, y) = seen->triangle;
                 write3(surfaces.points.pixel(x, y), seen->point);
                 write3(surfaces.normals.pixel(x, y), seen->normal);
+                write3(surfaces.smooth_normals.pixel(x, y), seen->smooth_normal);
             }
         });
     });

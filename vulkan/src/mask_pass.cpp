@@ -60,6 +60,7 @@ enum Binding : std::uint32_t {
     kObjectId,
     kFewViews,
     kBlocks,
+    kSmooth,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -67,7 +68,8 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 VkFormat maskFormat(bool several_lights)
 {
@@ -279,7 +281,8 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         orDepth(kObjectId, inputs.object_id),
         DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at),
         blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
-                          : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead)};
+                          : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead),
+        orDepth(kSmooth, inputs.smooth)};
     sets_.write(slot.sets[options], writes);
 }
 
@@ -365,7 +368,8 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
-    shape_ = MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE};
+    shape_ =
+        MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
     Slot& slot = slots_[slot_index];
     pack::listMaskDraws(plan, inputs.extent.width, draws_);
     fill(slot, frame, plan, inputs, maps);

@@ -66,7 +66,8 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
                      moments.layers,
                      pack::depthHolding(options),
                      0,
-                     VK_FALSE};
+                     VK_FALSE,
+                     shape.smooth ? VK_TRUE : VK_FALSE};
     key.ids = shape.ids;
     return key;
 }

@@ -20,6 +20,7 @@ struct MaskConstants {
     std::int32_t depth_holding = 0;
     std::uint32_t few_views = 0;   // pack::MaskDraw::few_views
     VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
+    VkBool32 has_smooth = VK_FALSE;
 
     bool operator==(const MaskConstants&) const = default;
 };

@@ -69,4 +69,14 @@ Counted countAll(std::uint32_t width, std::uint32_t height)
     return Counted(width, height, 1, 1);
 }
 
+Counted without(const Counted& counted, const Counted& other)
+{
+    assert(areMasksOfOneSize(counted, other));
+    Counted rest = counted;
+    for (std::size_t i = 0; i < rest.values.size(); ++i) {
+        rest.values[i] = counted.values[i] != 0 && other.values[i] == 0 ? 1 : 0;
+    }
+    return rest;
+}
+
 } // namespace gnomon::lab

@@ -83,9 +83,10 @@ Marks dilate(const Marks& marks)
     return square;
 }
 
-/// Of a counted pixel. Where its truth is neither 0 nor 1 it is near an edge, so beyond that there are lit and unlit
-/// pixels only. A mask in [0, 1] can err to one side only at either; what errs to the other, and what is not a number,
-/// goes by the place it is at, so that the classes' squares add up to the whole whatever the masks hold.
+/// Of a counted pixel that is not at the terminator. Where its truth is neither 0 nor 1 it is near an edge, so beyond
+/// that there are lit and unlit pixels only. A mask in [0, 1] can err to one side only at either; what errs to the
+/// other, and what is not a number, goes by the place it is at, so that the classes' squares add up to the whole
+/// whatever the masks hold.
 ErrorClass classOf(double e, double truth, bool near_edge, bool blocker_is_near)
 {
     if (near_edge) {
@@ -112,6 +113,8 @@ double* sumOf(ClassErrors& errors, ErrorClass kind)
         return &errors.detached;
     case ErrorClass::bleeding:
         return &errors.bleeding;
+    case ErrorClass::terminator:
+        return &errors.terminator;
     case ErrorClass::left_out:
     case ErrorClass::correct:
         break;
@@ -122,10 +125,12 @@ double* sumOf(ClassErrors& errors, ErrorClass kind)
 } // namespace
 
 std::optional<Classification> classifyErrors(const ImageF& test, const ImageF& truth, const Counted& counted,
-                                             const ImageF& first_blocker_m, double scene_diagonal_m)
+                                             const Counted& terminator, const ImageF& first_blocker_m,
+                                             double scene_diagonal_m)
 {
     assert(areMasksOfOneSize(test, truth));
     assert(areMasksOfOneSize(test, counted));
+    assert(areMasksOfOneSize(test, terminator));
     assert(areMasksOfOneSize(test, first_blocker_m));
     const auto count = counted.values.size() - std::count(counted.values.begin(), counted.values.end(), 0);
     if (count == 0) {
@@ -133,21 +138,23 @@ std::optional<Classification> classifyErrors(const ImageF& test, const ImageF& t
     }
     assert(scene_diagonal_m > 0.0); // where nothing is seen there may be no scene
     const double contact_m = kContactShareOfDiagonal * scene_diagonal_m;
-    const Marks near_edge = dilate(findEdges(truth, counted));
+    const Marks near_edge = dilate(findEdges(truth, without(counted, terminator)));
     Classification result{ImageOf<ErrorClass>(test.width, test.height, 1, ErrorClass::left_out), {}};
     for (std::size_t i = 0; i < counted.values.size(); ++i) {
         if (counted.values[i] == 0) {
             continue;
         }
         const double e = static_cast<double>(test.values[i]) - static_cast<double>(truth.values[i]);
-        const ErrorClass kind =
-            classOf(e, truth.values[i], near_edge.values[i] != 0, first_blocker_m.values[i] < contact_m);
+        const ErrorClass kind = terminator.values[i] != 0 ? ErrorClass::terminator
+                                                          : classOf(e, truth.values[i], near_edge.values[i] != 0,
+                                                                    first_blocker_m.values[i] < contact_m);
         result.classes.values[i] = kind;
         if (double* sum = sumOf(result.errors, kind)) {
             *sum += e * e;
         }
     }
-    for (double* sum : {&result.errors.edge, &result.errors.acne, &result.errors.detached, &result.errors.bleeding}) {
+    ClassErrors& errors = result.errors;
+    for (double* sum : {&errors.edge, &errors.acne, &errors.detached, &errors.bleeding, &errors.terminator}) {
         *sum /= static_cast<double>(count);
     }
     return result;

@@ -49,8 +49,7 @@ public:
             return &PixelCounts::background;
         }
         const glm::dvec3 point_ws = judged_.camera.eye_ws + vectorAt(surfaces_.points, x, y);
-        const glm::dvec3 normal_ws = vectorAt(surfaces_.normals, x, y);
-        if (!(glm::dot(normal_ws, towardsLight(judged_.light, point_ws)) > kFacing)) {
+        if (!faces(surfaces_.smooth_normals, x, y)) {
             return &PixelCounts::facing_away;
         }
         if (!shinesOn(judged_.light, point_ws)) {
@@ -59,7 +58,16 @@ public:
         return judged_.state.objects[id - 1].receives ? &PixelCounts::counted : &PixelCounts::no_receiver;
     }
 
+    /// Of a pixel that counts.
+    [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const { return !faces(surfaces_.normals, x, y); }
+
 private:
+    [[nodiscard]] bool faces(const ImageF& normals_ws, std::uint32_t x, std::uint32_t y) const
+    {
+        const glm::dvec3 point_ws = judged_.camera.eye_ws + vectorAt(surfaces_.points, x, y);
+        return glm::dot(vectorAt(normals_ws, x, y), towardsLight(judged_.light, point_ws)) > kFacing;
+    }
+
     const Judged& judged_;
     const truth::Surfaces& surfaces_;
     const ImageOf<std::uint32_t>& object_ids_;
@@ -74,11 +82,16 @@ CountedPixels countPixels(const Judged& judged, const truth::Surfaces& surfaces,
     const PixelJudge judge(judged, surfaces, object_ids);
     CountedPixels result;
     result.counted = Counted(object_ids.width, object_ids.height, 1);
+    result.terminator = Counted(object_ids.width, object_ids.height, 1);
     for (std::uint32_t y = 0; y < object_ids.height; ++y) {
         for (std::uint32_t x = 0; x < object_ids.width; ++x) {
             std::uint64_t PixelCounts::*tally = judge.tallyOf(x, y);
             ++(result.counts.*tally);
             *result.counted.pixel(x, y) = tally == &PixelCounts::counted ? 1 : 0;
+            if (tally == &PixelCounts::counted && judge.isTerminator(x, y)) {
+                *result.terminator.pixel(x, y) = 1;
+                ++result.counts.terminator;
+            }
         }
     }
     return result;

@@ -30,10 +30,12 @@ void PathScore::add(const Score& frame)
         errors_.acne.add(classes.acne);
         errors_.detached.add(classes.detached);
         errors_.bleeding.add(classes.bleeding);
+        errors_.terminator.add(classes.terminator);
     }
     PixelCounts& pixels = sums_.pixels.counts;
     const PixelCounts& counts = frame.pixels.counts;
     pixels.counted += counts.counted;
+    pixels.terminator += counts.terminator;
     pixels.background += counts.background;
     pixels.other_object += counts.other_object;
     pixels.facing_away += counts.facing_away;
@@ -62,7 +64,7 @@ Score PathScore::mean() const
     if (errors_.edge.count != 0) {
         score.classification.emplace();
         score.classification->errors = {errors_.edge.of(), errors_.acne.of(), errors_.detached.of(),
-                                        errors_.bleeding.of()};
+                                        errors_.bleeding.of(), errors_.terminator.of()};
     }
     score.density.p01 = density_.p01.of();
     score.density.p50 = density_.p50.of();

@@ -51,8 +51,9 @@ Score scoreMask(const Judged& judged, const truth::Traced& truth, const ImageOf<
     score.density.map = ImageF(mask.width, mask.height, 1);
     const Counted& counted = score.pixels.counted;
     score.error = errorNumbers(mask, exact, counted);
-    score.classification = classifyErrors(mask, exact, counted, truth.visibility.first_blocker_m,
-                                          glm::length(glm::dvec3(judged.state.bounds_ws.extent())));
+    score.classification =
+        classifyErrors(mask, exact, counted, score.pixels.terminator, truth.visibility.first_blocker_m,
+                       glm::length(glm::dvec3(judged.state.bounds_ws.extent())));
     if (with_perception) {
         score.ssim = ssim(mask, exact, counted);
         score.flip = flip(mask, exact, counted);

@@ -12,6 +12,7 @@
 #define GpuScreen gnomon_GpuScreen
 #define GpuView gnomon_GpuView
 #define Hankel gnomon_Hankel
+#define LightPoint gnomon_LightPoint
 #define MapPoint gnomon_MapPoint
 #define MapRows gnomon_MapRows
 #define MomentRule gnomon_MomentRule
@@ -20,6 +21,7 @@
 #define RayRegion gnomon_RayRegion
 #define Receiver gnomon_Receiver
 #define Search gnomon_Search
+#define SmoothSurface gnomon_SmoothSurface
 #define Surroundings gnomon_Surroundings
 #define applyFilter gnomon_applyFilter
 #define beginsBefore gnomon_beginsBefore
@@ -69,7 +71,6 @@
 #define evsmPositive gnomon_evsmPositive
 #define evsmVisibility gnomon_evsmVisibility
 #define facesDirection gnomon_facesDirection
-#define facesLight gnomon_facesLight
 #define factorise gnomon_factorise
 #define fadedVisibility gnomon_fadedVisibility
 #define filterEsm gnomon_filterEsm
@@ -82,6 +83,7 @@
 #define filterPcss gnomon_filterPcss
 #define filterRaymarch gnomon_filterRaymarch
 #define filterVsm gnomon_filterVsm
+#define flatSurface gnomon_flatSurface
 #define footprintLevel gnomon_footprintLevel
 #define footprintOf gnomon_footprintOf
 #define footprintReads gnomon_footprintReads
@@ -122,11 +124,13 @@
 #define kFilterPcss gnomon_kFilterPcss
 #define kFilterRaymarch gnomon_kFilterRaymarch
 #define kFilterVsm gnomon_kFilterVsm
+#define kFlat gnomon_kFlat
 #define kGrazing gnomon_kGrazing
 #define kHeldShare gnomon_kHeldShare
 #define kLeastLastPivot gnomon_kLeastLastPivot
 #define kLeastLastPivot16 gnomon_kLeastLastPivot16
 #define kLeastLayerWidth gnomon_kLeastLayerWidth
+#define kLeastLift gnomon_kLeastLift
 #define kLeastPivot gnomon_kLeastPivot
 #define kLightsPerLayer gnomon_kLightsPerLayer
 #define kLongestFootprint gnomon_kLongestFootprint
@@ -141,6 +145,7 @@
 #define kMomentZOverW gnomon_kMomentZOverW
 #define kMoreThanPlane gnomon_kMoreThanPlane
 #define kMostExponent gnomon_kMostExponent
+#define kMostLift gnomon_kMostLift
 #define kMostLog gnomon_kMostLog
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
@@ -183,6 +188,7 @@
 #define leastLastPivot gnomon_leastLastPivot
 #define leastVariance gnomon_leastVariance
 #define levelOf gnomon_levelOf
+#define lightPoint gnomon_lightPoint
 #define lightSpread gnomon_lightSpread
 #define lightVisibility gnomon_lightVisibility
 #define lloydMean gnomon_lloydMean
@@ -209,6 +215,8 @@
 #define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
 #define noneRises gnomon_noneRises
+#define octahedralDecode gnomon_octahedralDecode
+#define octahedralEncode gnomon_octahedralEncode
 #define pairedDepth gnomon_pairedDepth
 #define pairedTexel gnomon_pairedTexel
 #define passesBeneath gnomon_passesBeneath
@@ -242,7 +250,12 @@
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
+#define signNotZero gnomon_signNotZero
 #define slicesAt gnomon_slicesAt
+#define smoothDecode gnomon_smoothDecode
+#define smoothEncode gnomon_smoothEncode
+#define smoothPlane gnomon_smoothPlane
+#define smoothSurface gnomon_smoothSurface
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
 #define tapBlocks gnomon_tapBlocks

@@ -12,6 +12,7 @@
 #undef GpuScreen
 #undef GpuView
 #undef Hankel
+#undef LightPoint
 #undef MapPoint
 #undef MapRows
 #undef MomentRule
@@ -20,6 +21,7 @@
 #undef RayRegion
 #undef Receiver
 #undef Search
+#undef SmoothSurface
 #undef Surroundings
 #undef applyFilter
 #undef beginsBefore
@@ -69,7 +71,6 @@
 #undef evsmPositive
 #undef evsmVisibility
 #undef facesDirection
-#undef facesLight
 #undef factorise
 #undef fadedVisibility
 #undef filterEsm
@@ -82,6 +83,7 @@
 #undef filterPcss
 #undef filterRaymarch
 #undef filterVsm
+#undef flatSurface
 #undef footprintLevel
 #undef footprintOf
 #undef footprintReads
@@ -122,11 +124,13 @@
 #undef kFilterPcss
 #undef kFilterRaymarch
 #undef kFilterVsm
+#undef kFlat
 #undef kGrazing
 #undef kHeldShare
 #undef kLeastLastPivot
 #undef kLeastLastPivot16
 #undef kLeastLayerWidth
+#undef kLeastLift
 #undef kLeastPivot
 #undef kLightsPerLayer
 #undef kLongestFootprint
@@ -141,6 +145,7 @@
 #undef kMomentZOverW
 #undef kMoreThanPlane
 #undef kMostExponent
+#undef kMostLift
 #undef kMostLog
 #undef kMostReads
 #undef kMostWarpOfTexel
@@ -183,6 +188,7 @@
 #undef leastLastPivot
 #undef leastVariance
 #undef levelOf
+#undef lightPoint
 #undef lightSpread
 #undef lightVisibility
 #undef lloydMean
@@ -209,6 +215,8 @@
 #undef nextShare
 #undef noLayer
 #undef noneRises
+#undef octahedralDecode
+#undef octahedralEncode
 #undef pairedDepth
 #undef pairedTexel
 #undef passesBeneath
@@ -242,7 +250,12 @@
 #undef shapeVisibility
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
+#undef signNotZero
 #undef slicesAt
+#undef smoothDecode
+#undef smoothEncode
+#undef smoothPlane
+#undef smoothSurface
 #undef stepWeight
 #undef steppedVisibility
 #undef tapBlocks

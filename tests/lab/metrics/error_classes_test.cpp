@@ -23,6 +23,7 @@ struct Drawing {
     ImageF truth{64, 48, 1, 1.0F};
     ImageF test;
     Counted counted = countAll(64, 48);
+    Counted terminator{64, 48, 1};
     ImageF first_blocker_m{64, 48, 1, kNowhere};
 
     Drawing()
@@ -35,7 +36,7 @@ struct Drawing {
     }
     [[nodiscard]] Classification classify() const
     {
-        return classifyErrors(test, truth, counted, first_blocker_m, kDiagonal_m).value();
+        return classifyErrors(test, truth, counted, terminator, first_blocker_m, kDiagonal_m).value();
     }
     [[nodiscard]] double meanSquare() const
     {
@@ -46,7 +47,7 @@ struct Drawing {
 
 double sumOf(const ClassErrors& errors)
 {
-    return errors.edge + errors.acne + errors.detached + errors.bleeding;
+    return errors.edge + errors.acne + errors.detached + errors.bleeding + errors.terminator;
 }
 
 std::ptrdiff_t countOf(const Classification& result, ErrorClass kind)
@@ -140,7 +141,7 @@ TEST(ErrorClasses, OnePixelOfPenumbraReachesThreePixels)
     for (const float value : {0.999F, 0.75F}) {
         ImageF truth = constantMask(31, 21, 1.0F);
         *truth.pixel(12, 9) = value;
-        const auto result = classifyErrors(truth, truth, countAll(31, 21), blockers, kDiagonal_m);
+        const auto result = classifyErrors(truth, truth, countAll(31, 21), Counted(31, 21, 1), blockers, kDiagonal_m);
         ASSERT_TRUE(result);
         for (int y = 0; y < 21; ++y) {
             for (int x = 0; x < 31; ++x) {
@@ -162,7 +163,7 @@ TEST(ErrorClasses, EdgesRunToEveryNeighbourAndStopAtTheBorder)
     for (const Place& p : {Place{15, 10}, Place{0, 0}, Place{30, 0}, Place{0, 20}, Place{30, 20}, Place{29, 5}}) {
         ImageF truth = constantMask(31, 21, 1.0F);
         *truth.pixel(p.x, p.y) = 0.0F;
-        const auto result = classifyErrors(truth, truth, countAll(31, 21), blockers, kDiagonal_m);
+        const auto result = classifyErrors(truth, truth, countAll(31, 21), Counted(31, 21, 1), blockers, kDiagonal_m);
         ASSERT_TRUE(result);
         for (int y = 0; y < 21; ++y) {
             for (int x = 0; x < 31; ++x) {
@@ -186,7 +187,8 @@ TEST(ErrorClasses, DiagonalNeighboursMakeAnEdge)
         Counted counted(11, 11, 1);
         *counted.pixel(5, 5) = 1;
         *counted.pixel(p.x, p.y) = 1;
-        const auto result = classifyErrors(truth, truth, counted, constantMask(11, 11, kNowhere), kDiagonal_m);
+        const auto result =
+            classifyErrors(truth, truth, counted, Counted(11, 11, 1), constantMask(11, 11, kNowhere), kDiagonal_m);
         ASSERT_TRUE(result);
         EXPECT_EQ(countOf(*result, ErrorClass::edge), 2);
         EXPECT_EQ(countOf(*result, ErrorClass::left_out), 119);
@@ -228,11 +230,17 @@ TEST(ErrorClasses, AStepOfAHalfIsNoEdge)
     ImageF truth(9, 9, 1, 1.5F);
     std::fill_n(truth.values.begin(), 36, 1.0F);
     const ImageF blockers = constantMask(9, 9, kNowhere);
-    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), blockers, kDiagonal_m), ErrorClass::edge), 0);
+    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), Counted(9, 9, 1), blockers,
+                                      kDiagonal_m),
+                      ErrorClass::edge),
+              0);
     for (float& value : truth.values) {
         value = value > 1.0F ? std::nextafter(1.5F, 2.0F) : value;
     }
-    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), blockers, kDiagonal_m), ErrorClass::edge), 8 * 9);
+    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), Counted(9, 9, 1), blockers,
+                                      kDiagonal_m),
+                      ErrorClass::edge),
+              8 * 9);
 }
 
 TEST(ErrorClasses, NanGoesByItsPlaceAndIsNotHidden)
@@ -278,10 +286,11 @@ TEST(ErrorClasses, NanInTruthOrBlockersHasAClassToo)
 TEST(ErrorClasses, NothingWhenNoPixelCounts)
 {
     const ImageF mask = constantMask(9, 9, 0.5F);
-    EXPECT_FALSE(classifyErrors(mask, mask, Counted(9, 9, 1), mask, kDiagonal_m));
+    EXPECT_FALSE(classifyErrors(mask, mask, Counted(9, 9, 1), Counted(9, 9, 1), mask, kDiagonal_m));
     const ImageF empty(0, 0, 1);
-    EXPECT_FALSE(classifyErrors(empty, empty, countAll(0, 0), empty, kDiagonal_m));
-    EXPECT_FALSE(classifyErrors(mask, mask, Counted(9, 9, 1), mask, 0.0)); // a scene of nothing has no size
+    EXPECT_FALSE(classifyErrors(empty, empty, countAll(0, 0), Counted(0, 0, 1), empty, kDiagonal_m));
+    EXPECT_FALSE(
+        classifyErrors(mask, mask, Counted(9, 9, 1), Counted(9, 9, 1), mask, 0.0)); // a scene of nothing has no size
 }
 
 /// Blobs of umbra and penumbra with errors of every size, some beyond [0, 1], some pixels left out.
@@ -308,14 +317,36 @@ Drawing randomDrawing(std::uint64_t seed)
         const auto other = static_cast<float>(1.2 * random.uniform() - 0.1);
         drawing.test.values[i] = errs ? other : drawing.truth.values[i];
         drawing.counted.values[i] = random.below(10) != 0 ? 1 : 0;
+        drawing.terminator.values[i] = drawing.counted.values[i] != 0 && random.below(10) == 0 ? 1 : 0;
         drawing.first_blocker_m.values[i] = static_cast<float>(4.0 * random.uniform());
     }
     return drawing;
 }
 
+TEST(ErrorClasses, TheTerminatorIsAClassOfItsOwnAndMakesNoEdge)
+{
+    // A column of it between umbra and light, and one on the lit side, where the truth is dark once.
+    Drawing drawing;
+    for (std::uint32_t y = 0; y < 48; ++y) {
+        for (const std::uint32_t x : {31U, 32U, 60U}) {
+            *drawing.terminator.pixel(x, y) = 1;
+        }
+        *drawing.truth.pixel(60, y) = 0.0F;
+        *drawing.test.pixel(60, y) = 1.0F;
+        *drawing.test.pixel(61, y) = 0.0F;
+    }
+    const Classification result = drawing.classify();
+    EXPECT_EQ(countOf(result, ErrorClass::terminator), 3 * 48);
+    EXPECT_EQ(countOf(result, ErrorClass::edge), 0);
+    EXPECT_EQ(countOf(result, ErrorClass::acne), 48);
+    EXPECT_NEAR(result.errors.terminator, 1.0 / 64.0, 1e-12);
+    EXPECT_NEAR(result.errors.acne, 1.0 / 64.0, 1e-12);
+    EXPECT_NEAR(sumOf(result.errors), drawing.meanSquare(), 1e-12);
+}
+
 TEST(ErrorClasses, RandomMasksAddUpAndEveryCountedPixelHasAClass)
 {
-    std::ptrdiff_t seen[6] = {};
+    std::ptrdiff_t seen[7] = {};
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         const Drawing drawing = randomDrawing(seed);
         const Classification result = drawing.classify();
@@ -323,6 +354,7 @@ TEST(ErrorClasses, RandomMasksAddUpAndEveryCountedPixelHasAClass)
         for (std::size_t i = 0; i < drawing.counted.values.size(); ++i) {
             const ErrorClass kind = result.classes.values[i];
             ASSERT_EQ(kind == ErrorClass::left_out, drawing.counted.values[i] == 0) << seed << " " << i;
+            ASSERT_EQ(kind == ErrorClass::terminator, drawing.terminator.values[i] != 0) << seed << " " << i;
             ASSERT_TRUE(kind != ErrorClass::correct || drawing.test.values[i] == drawing.truth.values[i]);
             ++seen[static_cast<int>(kind)];
         }

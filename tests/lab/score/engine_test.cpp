@@ -81,8 +81,8 @@ TEST(EngineScore, OfAMaskOfItsOwn)
     const Score score = engine.score(wrong);
     EXPECT_NEAR(score.error.value().rmse, std::sqrt(100.0 / static_cast<double>(counted)), 1e-12);
     const ClassErrors& errors = score.classification.value().errors;
-    EXPECT_NEAR(errors.edge + errors.acne + errors.detached + errors.bleeding, 100.0 / static_cast<double>(counted),
-                1e-12);
+    EXPECT_NEAR(errors.edge + errors.acne + errors.detached + errors.bleeding + errors.terminator,
+                100.0 / static_cast<double>(counted), 1e-12);
     EXPECT_LT(score.ssim.value(), 1.0);
     EXPECT_GT(score.flip.value(), 0.0);
     EXPECT_EQ(truthNoise(engine.traced.visibility, score.pixels.counted), 0.0);

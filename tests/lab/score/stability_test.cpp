@@ -318,9 +318,10 @@ TEST(PathScore, MeansAddUp)
     Score frame;
     frame.error = ErrorNumbers{0.1, 0.05, -0.01, 0.3};
     frame.classification.emplace();
-    frame.classification->errors = {0.006, 0.004, 0.0, 0.0};
+    frame.classification->errors = {0.006, 0.003, 0.0, 0.0, 0.001};
     frame.ssim = 0.9;
     frame.pixels.counts.counted = 100;
+    frame.pixels.counts.terminator = 7;
     frame.density.counted = 100;
     frame.density.p50 = 1.0;
     path.add(frame);
@@ -336,8 +337,10 @@ TEST(PathScore, MeansAddUp)
     const Score mean = path.mean();
     const ClassErrors& classes = mean.classification.value().errors;
     EXPECT_NEAR(mean.error.value().rmse, std::sqrt((0.01 + 0.09) / 2.0), 1e-15);
-    EXPECT_NEAR(classes.edge + classes.acne + classes.detached + classes.bleeding, mean.error->rmse * mean.error->rmse,
-                1e-15);
+    EXPECT_NEAR(classes.edge + classes.acne + classes.detached + classes.bleeding + classes.terminator,
+                mean.error->rmse * mean.error->rmse, 1e-15);
+    EXPECT_NEAR(classes.terminator, 0.0005, 1e-15);
+    EXPECT_EQ(mean.pixels.counts.terminator, 14U);
     EXPECT_NEAR(mean.error->mae, 0.1, 1e-15);
     EXPECT_NEAR(mean.error->bias, 0.01, 1e-15);
     EXPECT_NEAR(mean.error->p99, 0.4, 1e-15);

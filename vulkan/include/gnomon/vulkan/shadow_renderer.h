@@ -26,6 +26,7 @@ namespace gnomon::vulkan {
 struct MaskShape {
     bool normals = false;
     bool ids = false; // of objects
+    bool smooth = false;
 };
 
 inline constexpr std::uint32_t kMostFrames = 64; // in flight
@@ -47,6 +48,10 @@ struct MaskInputs {
     /// Geometric world-space normals, octahedral in RG (snorm or float; shaders/shared/octahedral.h), or
     /// VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
+    /// Of smooth-shaded meshes, in RGB of 16 bits (snorm or float): what gnomonSmoothEncode() gives
+    /// (shaders/include/gnomon/smooth_surface.glsl). Then the interpolated normal says whether a surface faces a light,
+    /// and its terminator has no steps. VK_NULL_HANDLE: the geometric one says it.
+    VkImageView smooth = VK_NULL_HANDLE;
     /// Object id + 1 in R32_UINT, 0 where a receiver wants no shadow at all; VK_NULL_HANDLE: everything receives.
     VkImageView object_id = VK_NULL_HANDLE;
 };
