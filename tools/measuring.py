@@ -8,8 +8,9 @@ from pathlib import Path
 
 
 def run(gnomon, command, arguments):
-    """The JSON of a run of the program; a run that fails ends the tool with what the program said."""
-    line = [gnomon, command, *arguments, "--json", "-"]
+    """The JSON of a run of the program, where what a technique leaves open is plain; a run that fails ends the tool with
+    what the program said."""
+    line = [gnomon, command, "--preset", "plain", *arguments, "--json", "-"]
     print(" ".join(line), file=sys.stderr)
     done = subprocess.run(line, capture_output=True, text=True)
     if done.returncode != 0:

@@ -60,8 +60,8 @@ bool hasManyTechniques(const Settings& settings)
 std::vector<std::string> techniqueList(const Settings& settings)
 {
     if (settings.techniques.empty() && namesOneTechnique(settings)) {
-        std::string text(nameOf(settings.shadow.technique.filter)); // the options say the rest
-        if (settings.shadow.technique.filter == Filter::pcf) {
+        std::string text(nameOf(filterOf(settings.shadow))); // the options say the rest
+        if (filterOf(settings.shadow) == Filter::pcf) {
             text += fmt::format("+pcf.kernel={}", nameOf(settings.shadow.pcf.kernel));
         }
         return {text};

@@ -44,7 +44,7 @@ Settings plainPcf(const Settings& base)
     if (plain.shadow.format && refusal(Filter::pcf, *plain.shadow.format)) {
         plain.shadow.format.reset();
     }
-    const Technique usual;
+    const Technique usual = kPlainTechnique;
     applySetting(plain, "filter", nameOf(Filter::pcf));
     applySetting(plain, "partition", nameOf(usual.partition));
     applySetting(plain, "fit", nameOf(usual.fit));
@@ -83,7 +83,7 @@ std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side)
 bool isPlainPcf(const Settings& settings)
 {
     const Technique& technique = settings.shadow.technique;
-    const Technique usual;
+    const Technique usual = kPlainTechnique;
     return technique.filter == Filter::pcf && technique.partition == usual.partition && technique.fit == usual.fit &&
            technique.soften == usual.soften && technique.motion == usual.motion;
 }

@@ -29,8 +29,9 @@ std::vector<Filter> availableFilters()
 {
     std::vector<Filter> filters;
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice == "filter" && row.available) {
-            filters.push_back(static_cast<Filter>(row.value));
+        const auto filter = static_cast<Filter>(row.value);
+        if (row.choice == "filter" && filterTraits(filter) != nullptr) {
+            filters.push_back(filter);
         }
     }
     return filters;

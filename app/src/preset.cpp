@@ -20,29 +20,33 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array kPresets{
     Preset{"demo", "the built-in rts world at its best: what `make demo` draws", R"({
-  "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa",
-  "filter": "pcf", "pcf.kernel": "5x5", "map-size": 4096, "bias": "auto"
+  "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa", "quality": "best", "map-size": 4096
 })"},
     Preset{"fast", "the least work that still looks right", R"({
-  "filter": "pcf", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
+  "quality": "fast", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
+})"},
+    Preset{"plain", "one uniform map and 3x3 PCF: what everybody has, and techniques are held against", R"({
+  "partition": "single", "fit": "uniform", "filter": "pcf"
 })"},
     // The document's first part: a floating-point map, one constant bias for the scene, nine comparisons. Its blur in
     // screen space is soften=blur and not part of this preset.
     Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF on a 1024 R32F map, bias 0.1", R"({
-  "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1"
+  "partition": "single", "fit": "uniform", "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024,
+  "map-format": "r32f", "bias": "constant=0.1"
 })"},
     // A layer for the ground and one for what floats above it, four samples, a Gaussian of 1.25 texels, unsigned
     // normalised moments; the figures for variance, contrast and the lightened shadow are the paper's shader's.
     Preset{"rts-2011", "A. Marinescu, soft shadows of a real-time strategy game, 2011: two layers of variance", R"({
-  "scene": "rts", "camera": "camp", "filter": "lvsm", "map-size": 1024, "map-format": "rgba16", "lvsm.layers": 2,
-  "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "bilinear", "min-variance": 0.01,
-  "bleeding.power": 1.3, "lighten": 0.65, "bloom": true
+  "scene": "rts", "camera": "camp", "partition": "single", "fit": "uniform", "filter": "lvsm",
+  "map-size": 1024, "map-format": "rgba16", "lvsm.layers": 2, "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
+  "map-sampling": "bilinear", "min-variance": 0.01, "bleeding.power": 1.3, "lighten": 0.65, "bloom": true
 })"},
     // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
     // world's clock is the document's: one minute a second.
     Preset{"icefall-2010", "P. Fortier, shadows of a moving sun, 2010: two positions blended, two maps a texel", R"({
-  "scene": "sundial", "camera": "meadow", "size": "1280x720", "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024,
-  "map-format": "rgba8", "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth"
+  "scene": "sundial", "camera": "meadow", "size": "1280x720", "partition": "single", "fit": "uniform",
+  "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "rgba8",
+  "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth"
 })"},
 };
 

@@ -25,7 +25,7 @@ constexpr std::array kSubcommands{
     Subcommand{"metrics", kMetrics, "TEST TRUTH [options]", "Says how far one image is from another, PNG or EXR.",
                runMetrics},
     Subcommand{"plan", kPlan, "[SCENE] [options]",
-               "Prints a frame's plan as JSON or draws it; layers that are found need a GPU.", runPlan},
+               "Prints a frame's plan as JSON, or draws it; found layers need a GPU.", runPlan},
     Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
                runBench},
     Subcommand{"list", kList, "[options]", "Prints every choice and setting, and what is refused and why.", runList},

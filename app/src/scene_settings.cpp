@@ -81,6 +81,9 @@ bool glows(const Settings& s)
 /// Does anybody look at how large a light is?
 bool lightHasSize(const Settings& s)
 {
+    if (s.subcommand == kRender && s.truth) { // no map is drawn
+        return s.truth == truth::Kind::area;
+    }
     const auto follows = [](Filter filter) {
         const FilterTraits* const traits = filterTraits(filter);
         return traits != nullptr && traits->integrates_light;
@@ -90,7 +93,7 @@ bool lightHasSize(const Settings& s)
         return filter != nullptr && follows(static_cast<Filter>(filter->value));
     };
     return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge ||
-           follows(s.shadow.technique.filter) || std::ranges::any_of(s.techniques, names);
+           follows(filterOf(s.shadow)) || std::ranges::any_of(s.techniques, names);
 }
 
 const std::vector<Setting>& rows()

@@ -41,20 +41,6 @@ void validateCamera(const Settings& s)
 
 constexpr std::string_view kAuto = "auto";
 
-/// What is joined by + in a technique; `auto` alone stands for that of each choice that has it.
-std::vector<std::string_view> piecesOf(std::string_view text)
-{
-    std::vector<std::string_view> pieces;
-    for (const std::string_view piece : split(text, '+')) {
-        if (piece == kAuto) {
-            pieces.insert(pieces.end(), {"partition=auto", "fit=auto"});
-        } else {
-            pieces.push_back(piece);
-        }
-    }
-    return pieces;
-}
-
 const ChoiceValue* findTechniqueValue(std::string_view name)
 {
     for (const ChoiceValue& row : choiceValues()) {
@@ -63,6 +49,29 @@ const ChoiceValue* findTechniqueValue(std::string_view name)
         }
     }
     return nullptr;
+}
+
+/// What is joined by + in a technique. `auto` alone stands for that of partition and fit, and of the filter where no
+/// other one is named.
+std::vector<std::string_view> piecesOf(std::string_view text)
+{
+    const std::vector<std::string_view> written = split(text, '+');
+    const bool names_filter = std::any_of(written.begin(), written.end(), [](std::string_view piece) {
+        const ChoiceValue* const row = piece == kAuto ? nullptr : findTechniqueValue(piece);
+        return piece.starts_with("filter=") || (row != nullptr && row->choice == "filter");
+    });
+    std::vector<std::string_view> pieces;
+    for (const std::string_view piece : written) {
+        if (piece != kAuto) {
+            pieces.push_back(piece);
+            continue;
+        }
+        pieces.insert(pieces.end(), {"partition=auto", "fit=auto"});
+        if (!names_filter) {
+            pieces.push_back("filter=auto");
+        }
+    }
+    return pieces;
 }
 
 bool isChoice(std::string_view key)
@@ -81,7 +90,7 @@ std::size_t splitCount(const MomentOptions& moments)
 /// What the options of a filterable map may not be together.
 void requireMoments(const Settings& settings)
 {
-    const Filter filter = settings.shadow.technique.filter;
+    const Filter filter = filterOf(settings.shadow);
     const MapFormat format = formatOf(settings.shadow);
     const MomentOptions& moments = settings.shadow.moments;
     if (filter == Filter::lvsm && moments.placement == LayerPlacement::by_hand &&
@@ -116,7 +125,7 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
         return false;
     }
     if (setting.key == "map-format") {
-        return formatOf(settings.shadow) == filterTraits(settings.shadow.technique.filter)->formats.front();
+        return formatOf(settings.shadow) == filterTraits(filterOf(settings.shadow))->formats.front();
     }
     if (setting.key == "border") {
         return !settings.shadow.border_texels || *settings.shadow.border_texels == usualBorder(settings.shadow);
@@ -308,9 +317,9 @@ void completeTechnique(Settings& settings)
         throw UsageError(std::string(*reason));
     }
     const MapFormat format = formatOf(shadow);
-    if (const auto reason = refusal(shadow.technique.filter, format)) {
-        const std::string refused = fmt::format("{} cannot be had with filter {}: {}", nameOf(format),
-                                                nameOf(shadow.technique.filter), *reason);
+    if (const auto reason = refusal(filterOf(shadow), format)) {
+        const std::string refused =
+            fmt::format("{} cannot be had with filter {}: {}", nameOf(format), nameOf(filterOf(shadow)), *reason);
         throw UsageError(settings.format_preset.empty() ? fmt::format("--map-format: {}", refused)
                                                         : fmt::format("preset {}: map-format {}; add --map-format",
                                                                       settings.format_preset, refused));
@@ -378,7 +387,7 @@ Settings parseTechnique(const Settings& base, std::string_view text)
 
 std::string describeTechnique(const Settings& settings)
 {
-    std::string text(nameOf(settings.shadow.technique.filter));
+    std::string text(nameOf(filterOf(settings.shadow)));
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
         if (setting.group != SettingGroup::technique || setting.key == "filter" || value == settings.values.end() ||

@@ -371,7 +371,7 @@ host::RenderOptions renderOptions(const Settings& settings)
     options.width = settings.size_px.x;
     options.height = settings.size_px.y;
     options.shadow = settings.shadow;
-    const FilterTraits* const traits = filterTraits(settings.shadow.technique.filter);
+    const FilterTraits* const traits = filterTraits(filterOf(settings.shadow));
     if (traits != nullptr && traits->filterable) { // made one by one, whatever others in a list do
         options.shadow.cascades.pass = CascadePass::automatic;
     }

@@ -93,7 +93,7 @@ void addMemory(Json& json, const MemoryByPurpose& memory)
 
 Json mapJson(const MapPages& atlas, const ShadowOptions& options)
 {
-    const std::uint32_t image_layers = imageLayersPerMap(options.technique.filter, options.moments);
+    const std::uint32_t image_layers = imageLayersPerMap(filterOf(options), options.moments);
     const std::uint32_t levels = pack::mipLevels(resolvedOrThrow(options), atlas.width, atlas.height);
     std::uint64_t stored = 0; // texels of one layer
     for (std::uint32_t level = 0; level < levels; ++level) {

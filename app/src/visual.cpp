@@ -23,7 +23,7 @@ void noteLevels(const Settings& technique)
     const std::uint32_t side = technique.shadow.map_size;
     const MapSampling sampling = technique.shadow.moments.sampling;
     const std::uint32_t levels = pack::mipLevels(resolvedOrThrow(technique.shadow), side, side);
-    const FilterTraits* traits = filterTraits(technique.shadow.technique.filter);
+    const FilterTraits* traits = filterTraits(filterOf(technique.shadow));
     if (levels < kFew && traits->filterable &&
         (sampling == MapSampling::trilinear || sampling == MapSampling::anisotropic)) {
         notice(

@@ -29,6 +29,9 @@ constexpr std::string_view kWilliams = "L. Williams, Casting Curved Shadows on C
 constexpr std::string_view kDense =
     "D. B. Lloyd, D. Tuft, S. Yoon, D. Manocha, Warping and partitioning for low error shadow maps, 2006";
 
+constexpr std::string_view kRays =
+    "S. Xie, E. Tabellion, A. Pearce, Soft shadows by ray tracing multilayer transparent shadow maps, 2007";
+
 constexpr std::string_view kLight = "light";
 constexpr std::string_view kPartition = "partition";
 constexpr std::string_view kFit = "fit";
@@ -73,9 +76,8 @@ constexpr std::array kValues{
                 "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
     ChoiceValue{kFilter, "pcss", number(Filter::pcss), true, "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
-    ChoiceValue{
-        kFilter, "raymarch", number(Filter::raymarch), true, "rays to points of the light, through the map",
-        "S. Xie, E. Tabellion, A. Pearce, Soft shadows by ray tracing multilayer transparent shadow maps, 2007"},
+    ChoiceValue{kFilter, "raymarch", number(Filter::raymarch), true, "rays to points of the light, through the map",
+                kRays},
     ChoiceValue{kFilter, "vsm", number(Filter::vsm), true, "two moments and Chebyshev's bound", kKiteLightning},
     ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), true, "variance maps in layers of depth", kMarinescu},
     ChoiceValue{kFilter, "esm", number(Filter::esm), true, "an exponential of depth", kKiteLightning},
@@ -86,6 +88,7 @@ constexpr std::array kValues{
     ChoiceValue{kFilter, "id", number(Filter::id), false, "object ids instead of depth", kForsyth},
     ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), false, "object id, then depth inside the object",
                 kForsyth},
+    ChoiceValue{kFilter, "auto", number(Filter::automatic), true, "raymarch, or pcf of quality fast", kRays},
 
     ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
     ChoiceValue{kSoften, "blur", number(Soften::blur), false, "separable Gaussian in screen space", kShastry},

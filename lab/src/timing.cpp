@@ -41,9 +41,9 @@ std::vector<Turn> makeTurns(const host::SceneOnGpu& scene, std::span<const Conte
 /// from.
 std::uint64_t weightOf(const ShadowOptions& options)
 {
-    const FilterTraits* traits = filterTraits(options.technique.filter);
+    const FilterTraits* traits = filterTraits(filterOf(options));
     const std::uint64_t map =
-        std::uint64_t{texelBytes(formatOf(options))} * imageLayersPerMap(options.technique.filter, options.moments);
+        std::uint64_t{texelBytes(formatOf(options))} * imageLayersPerMap(filterOf(options), options.moments);
     const bool filterable = traits != nullptr && traits->filterable;
     const std::uint64_t made_from = filterable ? map + 4 * options.moments.samples : 0; // scratch and depth
     return std::max<std::uint64_t>(1, (map + made_from + 3) / 4);

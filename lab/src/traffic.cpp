@@ -12,7 +12,7 @@ namespace {
 /// a texel for each pixel, so that one of the finest level stands for what a pixel reads.
 double leastReach(const ShadowOptions& options)
 {
-    const FilterTraits* traits = filterTraits(options.technique.filter);
+    const FilterTraits* traits = filterTraits(filterOf(options));
     if (traits == nullptr || !traits->filterable) {
         return reachTexels(options);
     }
@@ -35,7 +35,7 @@ std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject, 
     TrafficOptions traffic;
     traffic.format = formatOf(options.shadow);
     traffic.reach_texels = leastReach(options.shadow);
-    traffic.image_layers = imageLayersPerMap(options.shadow.technique.filter, options.shadow.moments);
+    traffic.image_layers = imageLayersPerMap(filterOf(options.shadow), options.shadow.moments);
     const MapPages& atlas = renderer.plan().pages[0];
     traffic.mip_levels = pack::mipLevels(resolvedOrThrow(options.shadow), atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;

@@ -149,11 +149,11 @@ GN_FN real2 joined(real2 a, real2 b)
     return real2(min(a.x, b.x), max(a.y, b.y));
 }
 
-GN_FN RayRegion regionAround(RayCone cone, FilterInput f, real nearest)
+GN_FN RayRegion regionAround(RayCone cone, FilterInput f, real within, real nearest)
 {
     RayRegion r;
-    // Rays start up to half a texel off.
-    r.texels = coneTexels(cone, coneReach(cone, nearest)) + real4(real(-0.51), real(-0.51), real(0.51), real(0.51));
+    real pad = real(0.5) * within + real(0.01);
+    r.texels = coneTexels(cone, coneReach(cone, nearest)) + real4(-pad, -pad, pad, pad);
     r.texels = real4(max(f.tile.x, r.texels.x), max(f.tile.y, r.texels.y), min(f.tile.z - real(0.01), r.texels.z),
                      min(f.tile.w - real(0.01), r.texels.w));
     real side = max(real(2.0), max(r.texels.z - r.texels.x, r.texels.w - r.texels.y));
@@ -203,15 +203,16 @@ struct Surroundings {
     real4 texels;    // where it may be, as RayRegion has it
 };
 
-GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone)
+// Rays start within a square of `within` texels around the receiver, on its plane.
+GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone, real within)
 {
     // The nearest surface bounds how far rays have to go, and so where they may lead, and so what surfaces there are.
-    RayRegion region = regionAround(cone, f, real(0.0));
+    RayRegion region = regionAround(cone, f, within, real(0.0));
     int left = kNarrowings;
     real before = real(0.0);
     do {
         before = region.nearest;
-        region = regionAround(cone, f, before);
+        region = regionAround(cone, f, within, before);
         --left;
     } while (left > 0 && region.nearest > before);
     Surroundings around;
@@ -252,8 +253,8 @@ GN_FN real2 pointOfLight(ConeNoise noise, int i, int count)
     return real2(at.x * noise.turn.x - at.y * noise.turn.y, at.x * noise.turn.y + at.y * noise.turn.x);
 }
 
-// How far from its receiver ray i starts, within half a texel, so that no texel's edge is seen: the plastic number's
-// sequence, M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+// Where ray i starts, as a share of the square around its receiver, so that no texel's edge is seen: the plastic
+// number's sequence, M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 GN_FN real2 pointOfTexel(ConeNoise noise, int i)
 {
     return fract(noise.shift + real(i) * real2(real(0.7548776662), real(0.5698402910))) - real2(real(0.5));

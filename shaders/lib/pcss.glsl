@@ -54,7 +54,7 @@ GN_FN real meanBlocker(MapPoint point, FilterInput f, RayCone cone, ConeNoise no
 GN_FN real filterPcss(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
-    Surroundings around = lookAround(point, f, cone);
+    Surroundings around = lookAround(point, f, cone, real(1.0));
     if (around.visibility >= real(0.0)) {
         return around.visibility;
     }

@@ -57,10 +57,15 @@ struct LightPoint {
     bool faces; // the light; else its visibility is 0
 };
 
+// Below this cosine between a triangle and the light, some three degrees, its neighbours on a smooth body rise over its
+// plane by as much as the map errs; and of a wide sun they hide a part.
+GN_CONST real kHardlyFaces = real(0.05);
+
 // Of the point `p` of a triangle with unit normal `n`, for a light in direction `to_light` (any length). Whether it
 // faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
-// light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all but grazes, the plane is leant back to where filters can
-// follow it: the bias of a steeper one would let light through whatever shades the body.
+// or hardly, light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all
+// but grazes, the plane is leant back to where filters can follow it: the bias of a steeper one would let light through
+// whatever shades the body.
 GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
 {
     LightPoint at;
@@ -68,9 +73,9 @@ GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
     at.n = n;
     at.faces = facesDirection(n, to_light);
     if (s.lift > real(0.0)) {
-        bool lifts = !at.faces;
-        at.p = lifts ? p + s.n * s.lift : p;
         real3 l = normalize(to_light);
+        bool lifts = dot(n, l) < kHardlyFaces;
+        at.p = lifts ? p + s.n * s.lift : p;
         at.n = lifts ? normalize(s.n + l * max(real(1.0) / kSteepest - dot(s.n, l), real(0.0))) : n;
         at.faces = facesDirection(s.n, to_light);
     }

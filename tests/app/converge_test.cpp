@@ -28,7 +28,7 @@ nlohmann::json comparedWith(const std::vector<std::string>& more)
 TEST(Converge, comesNearerToTheTruthWithEachDoubling)
 {
     const nlohmann::json json =
-        comparedWith({"rts", "--camera", "unit", "--techniques",
+        comparedWith({"rts", "--preset", "plain", "--camera", "unit", "--techniques",
                       "hard+converge+lispsm,hard+converge+cascades,pcf+pcf.kernel=2x2+converge+lispsm", "--map-size",
                       "1024", "--sweep", "converge=1:32:6:log"});
     ASSERT_EQ(json["sweep"]["values"], (std::vector<double>{1, 2, 4, 8, 16, 32}));

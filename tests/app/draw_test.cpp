@@ -30,13 +30,16 @@ TEST(PlanDraw, WritesAPictureWithoutADriver)
 {
     const test::Folder folder;
     const test::Ran ran = inFolder(
-        folder, {"plan", "sundial", "--camera", "long", "--partition", "cascades", "--draw", "maps.svg"}, false);
+        folder,
+        {"plan", "sundial", "--preset", "plain", "--camera", "long", "--partition", "cascades", "--draw", "maps.svg"},
+        false);
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.out.find("maps.svg: the maps of light sun of sundial, pcf+cascades"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("maps.svg: the maps of light sun of sundial, pcf+uniform+cascades"), std::string::npos)
+        << ran.out;
     const std::string svg = test::slurp(folder / "maps.svg");
     EXPECT_TRUE(svg.starts_with("<svg "));
     EXPECT_TRUE(svg.ends_with("</svg>\n"));
-    EXPECT_NE(svg.find("Light sun of sundial: pcf+cascades"), std::string::npos);
+    EXPECT_NE(svg.find("Light sun of sundial: pcf+uniform+cascades"), std::string::npos);
     EXPECT_NE(svg.find("Map 3: 2048 x 2048 texels"), std::string::npos);
 }
 

@@ -33,8 +33,8 @@ TEST(PcfLadder, HoldsEveryKernelAndSizeCheapestFirst)
     EXPECT_EQ(names.size(), ladder.size());
     EXPECT_TRUE(std::is_sorted(ladder.begin(), ladder.end(),
                                [](const app::PcfSetting& a, const app::PcfSetting& b) { return a.work < b.work; }));
-    EXPECT_EQ(app::describeTechnique(ladder.front().settings), "pcf+map-size=16+pcf.kernel=2x2");
-    EXPECT_EQ(app::describeTechnique(ladder.back().settings), "pcf+map-size=8192+pcf.kernel=7x7");
+    EXPECT_EQ(app::describeTechnique(ladder.front().settings), "pcf+uniform+single+map-size=16+pcf.kernel=2x2");
+    EXPECT_EQ(app::describeTechnique(ladder.back().settings), "pcf+uniform+single+map-size=8192+pcf.kernel=7x7");
     EXPECT_EQ(ladder.front().work, 16.0 * 16.0 + 64.0 * 36.0 * 4.0);
 }
 
@@ -55,7 +55,7 @@ TEST(PcfLadder, IsPlainWhateverTheBaseAsksFor)
         EXPECT_FALSE(refusal(Filter::pcf, formatOf(rung.settings.shadow)).has_value());
     }
     EXPECT_FALSE(app::isPlainPcf(base("hard")));
-    EXPECT_TRUE(app::isPlainPcf(base("pcf+pcf.kernel=7x7")));
+    EXPECT_TRUE(app::isPlainPcf(base("pcf+single+uniform+pcf.kernel=7x7")));
 }
 
 TEST(FirstWithin, AsksInOrderAndNoFurtherThanNeeded)
@@ -90,7 +90,7 @@ nlohmann::json compared(const std::vector<std::string>& more)
 
 TEST(EqualError, FindsAPcfThatErrsNoMore)
 {
-    const auto result = compared({"--techniques", "hard+map-size=64,pcf+map-size=64"});
+    const auto result = compared({"--techniques", "hard+map-size=64,pcf+single+uniform+map-size=64"});
     ASSERT_EQ(result["results"].size(), 2U);
     for (const auto& one : result["results"]) {
         const auto& equal = one["equal_error"];

@@ -77,6 +77,7 @@ public:
         shot_ = app::makeShot(settings_);
         for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm}) {
             ShadowOptions options = settings_.shadow;
+            options.technique = kPlainTechnique;
             options.technique.fit = fit;
             planners_.emplace(fit, Planner(options));
         }

@@ -246,7 +246,7 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
 TEST(Bench, TimesWhatIsAskedFor)
 {
     const test::Folder folder;
-    test::spill(folder / "kernel.json", R"({"pcf.kernel": "5x5"})");
+    test::spill(folder / "kernel.json", R"({"filter": "pcf", "pcf.kernel": "5x5"})");
     test::spill(folder / "list.json", R"({"techniques": ["pcf", "hard"]})");
     struct Asked {
         std::vector<std::string> arguments;
@@ -254,7 +254,7 @@ TEST(Bench, TimesWhatIsAskedFor)
     };
     const std::vector<Asked> all{
         {{"--filter", "hard"}, {"hard"}},
-        {{"--set", "pcf.kernel=2x2"}, {"pcf+map-size=64+pcf.kernel=2x2"}},
+        {{"--filter", "pcf", "--set", "pcf.kernel=2x2"}, {"pcf+map-size=64+pcf.kernel=2x2"}},
         {{"--preset", "kernel.json"}, {"pcf+map-size=64+pcf.kernel=5x5"}},
         {{"--techniques", "hard", "--techniques", "pcf"}, {"hard", "pcf"}},
         {{"--preset", "list.json"}, {"pcf", "hard"}},

@@ -72,7 +72,10 @@ TEST(Repeat, EveryWayToChooseTechniques)
          "pcf+pcf.kernel=vogel,pcss,raymarch,vsm,lvsm,esm,evsm,msm",
          14,
          {"result.json"}}, // many take long, and which file it is has nothing to do with how many
-        {"one by its options", {"--set", "pcf.kernel=vogel", "--set", "pcf.radius=4"}, "pcf+pcf.kernel=vogel", 1},
+        {"one by its options",
+         {"--filter", "pcf", "--set", "pcf.kernel=vogel", "--set", "pcf.radius=4"},
+         "pcf+pcf.kernel=vogel",
+         1},
         {"one without options of its own", {"--filter", "hard", "--bias", "slope=1.5,constant=0.01"}, "hard", 1},
         {"a list", {"--techniques", "pcf+map-size=64,hard"}, "pcf+map-size=64,hard", 2}};
     for (const Case& one : cases) {

@@ -119,7 +119,7 @@ TEST(Settings, AutoInATechniqueIsThatOfEveryChoiceThatHasIt)
     EXPECT_EQ(warp.shadow.technique.partition, Partition::single);
     EXPECT_EQ(warp.shadow.technique.fit, Fit::automatic);
     EXPECT_THROW((void)app::parseTechnique(base, "pcf+auto+lispsm"), app::UsageError) << "the fit twice";
-    EXPECT_THROW((void)app::parseTechnique(base, "pcf+quality=best"), app::UsageError) << "with partition auto only";
+    EXPECT_THROW((void)app::parseTechnique(base, "pcf+single+quality=best"), app::UsageError) << "with an auto only";
 }
 
 // A preset is handed on; what is overwritten here is not for whoever wrote it to say.

@@ -70,7 +70,7 @@ void frameOf(benchmark::State& state, std::uint32_t moving_one_in, double eye_he
 {
     World world(state.range(0), moving_one_in);
     world.lookFrom(glm::dvec3(0.0, eye_height, 1.36 * eye_height) * world.half_m);
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     int step = 0;
     for (; step < kFrames; ++step) {
         world.move(step);
@@ -102,7 +102,7 @@ BENCHMARK(planPartOfTheWorld)->RangeMultiplier(10)->Range(1000, 100000)->Complex
 void planRtsSize(benchmark::State& state)
 {
     World world(state.range(0), 1);
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     int step = 0;
     for (auto _ : state) {
         const double turn = 6.283185307179586 * (++step % kFrames) / kFrames;
@@ -117,7 +117,7 @@ BENCHMARK(planRtsSize)->Arg(6000)->Unit(benchmark::kMicrosecond);
 void planNothingMoving(benchmark::State& state)
 {
     World world(state.range(0), 10);
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     for (auto _ : state)
         benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
     state.SetComplexityN(state.range(0));
@@ -128,7 +128,7 @@ BENCHMARK(planNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexi
 void planAutoNothingMoving(benchmark::State& state)
 {
     World world(state.range(0), 10);
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = Partition::automatic;
     options.technique.fit = Fit::automatic;
     Planner planner(options);

@@ -36,7 +36,7 @@ TEST(Allocation, SteadyStatePlansTakeNothingFromTheHeap)
     frame.lights = lights;
     frame.objects = &set;
     for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm}) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.fit = fit;
         Planner planner(options);
         const auto play = [&](int step) {
@@ -72,7 +72,7 @@ TEST(Allocation, SteadyStatePlansOfAutoTakeNothingFromTheHeap)
     frame.lights = lights;
     frame.objects = &set;
     for (const Quality quality : {Quality::fast, Quality::balanced, Quality::best}) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.partition = Partition::automatic;
         options.technique.fit = Fit::automatic;
         options.quality = quality;
@@ -110,7 +110,7 @@ TEST(Allocation, SteadyStatePlansOfSteppingSunsTakeNothingFromTheHeap)
     frame.objects = &set;
     frame.camera = test::perspectiveCamera({150, 60, 0}, {0, 0, 0}, 1.0);
     for (const Motion motion : {Motion::step_jump, Motion::step_band, Motion::step_blend, Motion::step_alternate}) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.motion = motion;
         options.keep_still = KeepStill::always;
         Planner planner(options);

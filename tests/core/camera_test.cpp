@@ -22,7 +22,7 @@ TEST(Camera, AWrongReversedZIsFoundOutFromTheMatrix)
         Frame frame;
         frame.objects = &set;
         frame.lights = lights;
-        Planner planner(ShadowOptions{});
+        Planner planner(ShadowOptions{.technique = kPlainTechnique});
         const glm::dvec3 away = i % 4 == 0 ? random.inBox(glm::dvec3(-5e4), glm::dvec3(5e4)) : glm::dvec3(0.0);
         const glm::dvec3 eye = away + random.inBox({-40, 5, -40}, {40, 60, 40});
         const double near_m = random.uniform(0.05, 2.0);

@@ -50,7 +50,7 @@ struct Ground {
 
 ShadowOptions cascades(std::uint32_t count)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = Partition::cascades;
     options.cascades.count = count;
     options.map_size = 1024;
@@ -91,7 +91,7 @@ TEST(Cascades, EndWhereTheyAreToldTo)
 TEST(Cascades, OneIsAsGoodAsNone)
 {
     const Ground ground;
-    ShadowOptions single;
+    ShadowOptions single{.technique = kPlainTechnique};
     single.map_size = 1024;
     const Plan one = ground.plan(cascades(1));
     const Plan none = ground.plan(single);

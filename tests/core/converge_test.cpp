@@ -98,7 +98,7 @@ TEST(ConvergeSample, gridAndPixelAreIndependentOfTheLight)
 
 ShadowOptions converging()
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.soften = Soften::converge;
     options.map_size = 256;
     return options;

@@ -21,7 +21,7 @@ struct Stage {
     ObjectSet set;
     Camera camera;
     Light light = sun({0, -1, 0});
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
 
     [[nodiscard]] Plan plan(Fit fit)
     {

@@ -50,7 +50,7 @@ TEST(HostileOptions, EveryRowBeyondItsRangeIsRefused)
         }
         for (const double value : illegalValues(row)) {
             const std::string said = saidOf(row, value);
-            ShadowOptions options;
+            ShadowOptions options{.technique = kPlainTechnique};
             row.set(options, valueOf(value));
             if (row.get(options).none) {
                 continue; // 0 may stand for no value
@@ -86,7 +86,7 @@ TEST(HostileOptions, EveryRowAtTheEndsOfItsRangeIsSound)
                 continue;
             }
             for (const double value : {row.min, row.max}) {
-                ShadowOptions options;
+                ShadowOptions options{.technique = kPlainTechnique};
                 options.map_size = 64;
                 OptionValue name;
                 name.text = choice.name;
@@ -139,7 +139,7 @@ TEST(HostileOptions, QuestionsAboutWhatIsRefusedHaveAnswers)
 {
     for (const float sigma :
          {std::numeric_limits<float>::quiet_NaN(), -1.0F, 0.0F, 1e38F, std::numeric_limits<float>::infinity()}) {
-        ShadowOptions options{.technique = {.filter = Filter::vsm}};
+        ShadowOptions options{.technique = {Partition::single, Fit::uniform, Filter::vsm}};
         options.moments.blur_sigma_texels = sigma;
         EXPECT_GE(blurRadius(options.moments), 1U);
         EXPECT_LE(blurRadius(options.moments), kMaxBlurRadius);

@@ -14,14 +14,14 @@ TEST(HostilePlanner, OfNoOptionsOrMovedFromRefusesEveryLight)
     Planner none{std::span<const ShadowOptions>()};
     expectSound(meadow.plan(none), 2);
     EXPECT_EQ(meadow.plan(none).lights[1].outcome.reason, "the planner was made of no options");
-    EXPECT_EQ(none.options(5).map_size, ShadowOptions{}.map_size);
+    EXPECT_EQ(none.options(5).map_size, ShadowOptions{.technique = kPlainTechnique}.map_size);
 
     Planner planner({.map_size = 64});
     const Planner taken = std::move(planner);
     EXPECT_EQ(taken.options().map_size, 64U);
     planner.lost({});
     planner.reset();
-    EXPECT_EQ(planner.options().map_size, ShadowOptions{}.map_size);
+    EXPECT_EQ(planner.options().map_size, ShadowOptions{.technique = kPlainTechnique}.map_size);
     const Plan& plan = meadow.plan(planner);
     expectSound(plan, 2);
     EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::refused);
@@ -61,7 +61,7 @@ TEST(HostileFrame, CamerasOfAnyNumbersAreDegenerateOrSound)
         for (const Motion motion : {Motion::free, Motion::snap}) {
             for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm, Fit::psm, Fit::automatic}) {
                 Planner planner(
-                    ShadowOptions{.technique = {.partition = partition, .fit = fit, .motion = motion}, .map_size = 64});
+                    ShadowOptions{.technique = {partition, fit, Filter::pcf, Soften::none, motion}, .map_size = 64});
                 for (int number = 0; number < 19; ++number) {
                     for (const double value : {kNotANumber, kWithoutEnd, -kWithoutEnd, 0.0, -0.0, kSmallest, 1e-200,
                                                -1.0, 1e9, 1e38, -1e150, 1e300}) {
@@ -127,7 +127,8 @@ std::vector<double*> numbersOf(Light& light)
 TEST(HostileLights, OfAnyNumbersAreDegenerateOrSoundAndLeaveTheOthersAlone)
 {
     for (const Motion motion : {Motion::free, Motion::snap, Motion::step_blend}) {
-        const ShadowOptions options{.technique = {.motion = motion}, .map_size = 64};
+        const ShadowOptions options{.technique = {Partition::single, Fit::uniform, Filter::pcf, Soften::none, motion},
+                                    .map_size = 64};
         for (const LightType type : {LightType::directional, LightType::spot, LightType::point, LightType{77}}) {
             Meadow calm;
             Planner calm_planner(options);
@@ -201,7 +202,8 @@ TEST(HostileLights, OfOneKeyEachHaveTheirOwnMaps)
         for (Light& light : meadow.lights) {
             light.key = 7;
         }
-        Planner planner({.technique = {.motion = motion}, .map_size = 64});
+        Planner planner(
+            {.technique = {Partition::single, Fit::uniform, Filter::pcf, Soften::none, motion}, .map_size = 64});
         for (int frame = 0; frame < 4; ++frame) {
             meadow.frame.time_s = frame;
             const Plan& plan = meadow.plan(planner);
@@ -244,7 +246,8 @@ TEST(HostileFrame, TimesOfAnyKindAreSound)
     for (const StepBy by : {StepBy::angle, StepBy::time}) {
         for (const Motion motion : {Motion::step_jump, Motion::step_band, Motion::step_alternate}) {
             Meadow meadow;
-            ShadowOptions options{.technique = {.motion = motion}, .map_size = 64};
+            ShadowOptions options{.technique = {Partition::single, Fit::uniform, Filter::pcf, Soften::none, motion},
+                                  .map_size = 64};
             options.steps.by = by;
             Planner planner(options);
             double turn = 0.0;
@@ -286,7 +289,7 @@ TEST(HostileFrame, RandomNumbersAreDegenerateOrSound)
             meadow.frame.camera.clip_from_world[static_cast<int>(random.below(4))][static_cast<int>(random.below(4))] =
                 anyNumber();
         }
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.map_size = 64;
         for (const std::string_view choice : {"partition", "fit", "filter", "motion"}) {
             const OptionRow& row = *findOption(choice);
@@ -294,7 +297,7 @@ TEST(HostileFrame, RandomNumbersAreDegenerateOrSound)
             OptionValue name;
             name.text = names[random.below(static_cast<std::uint32_t>(names.size()))];
             if (row.set(options, name); !resolve(options)) {
-                row.set(options, row.get(ShadowOptions{}));
+                row.set(options, row.get(ShadowOptions{.technique = kPlainTechnique}));
             }
         }
         Planner planner(options);

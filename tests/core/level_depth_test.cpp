@@ -57,7 +57,7 @@ double spreadOverGround(const View& view)
 TEST(LevelDepth, LevelGroundIsLevelInDepthUnderASlantedSun)
 {
     Ground ground;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     const View level = ground.plan(options).views.at(0);
     options.level_depth = false;
     const View along_axis = ground.plan(options).views.at(0);
@@ -130,7 +130,7 @@ TEST(LevelDepth, ReceiversAloneThrowNoShadow)
 {
     ObjectSet set;
     set.add({{-40, 0, -40}, {40, 0.01F, 40}}, {false, true, false});
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::vsm;
     Planner planner(options);
     Frame frame;

@@ -60,7 +60,7 @@ TEST(LightExtent, IsWhereThePlannersMapsBegin)
         frame.camera = test::perspectiveCamera({30, 20, 0}, {0, 5, 0}, 1.0);
         frame.lights = lights;
         frame.objects = &set;
-        Planner planner(ShadowOptions{});
+        Planner planner(ShadowOptions{.technique = kPlainTechnique});
         const Plan& plan = planner.plan(frame);
         ASSERT_EQ(plan.views.size(), 1U);
         EXPECT_EQ(plan.views[0].metric.near_m, extentOf(lights[0], set.bounds()).near_m);

@@ -64,7 +64,7 @@ TEST(LightMaps, ALightThatComesOrGoesLeavesTheOthersAlone)
 {
     for (const Partition partition : {Partition::single, Partition::cascades}) {
         World world;
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.partition = partition;
         options.technique.motion = Motion::snap;
         options.map_size = 64;
@@ -104,7 +104,7 @@ TEST(LightMaps, ALightThatComesOrGoesLeavesTheOthersAlone)
 TEST(LightMaps, ALightThatComesBackIntoSightHasItsMap)
 {
     World world;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::lvsm;
     options.technique.motion = Motion::snap;
     options.map_size = 64;
@@ -173,7 +173,7 @@ TEST(LightMaps, OptionsMayDifferFromLightToLight)
     world.lights[1].options = 1;
     world.lights[2].options = 2;
     world.lights[3].map_size = 64;
-    std::vector<ShadowOptions> options(2);
+    std::vector<ShadowOptions> options(2, ShadowOptions{.technique = kPlainTechnique});
     options[0].map_size = 128;
     options[1].map_size = 32;
     options[1].technique.filter = Filter::msm;
@@ -205,7 +205,7 @@ TEST(LightMaps, Of64LightsHave384Views)
             world.lights.back().map_size = map_size;
         }
         world.set.add({{-400, -1, -400}, {400, -0.6, 400}}); // so that each cascade sees something
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.map_size = 256;
         options.max_layers = 384;
         options.technique.partition = Partition::cascades;

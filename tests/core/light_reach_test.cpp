@@ -60,7 +60,7 @@ struct Posts {
 int raysThatLeave(Partition partition, Fit fit, Motion motion, Filter filter)
 {
     const Posts posts;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = partition;
     options.technique.fit = fit;
     options.technique.motion = motion;

@@ -122,7 +122,8 @@ struct Turmoil {
     double hour = 0.3;
     double speed = 0.002;
     Frame frame;
-    std::array<ShadowOptions, 2> options;
+    std::array<ShadowOptions, 2> options{ShadowOptions{.technique = kPlainTechnique},
+                                         ShadowOptions{.technique = kPlainTechnique}};
 };
 
 /// In 37,500 frames. A second draughtsman misses one frame in ten, and mends what it finds.

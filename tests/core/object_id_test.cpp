@@ -249,7 +249,7 @@ struct Field {
 TEST(Nowhere, LeavesTheMapsOfItsNeighboursAsTheyAre)
 {
     for (const Partition partition : {Partition::single, Partition::cascades}) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.partition = partition;
         options.technique.filter = Filter::msm; // measures level depth over all receivers
         options.technique.motion = Motion::snap;

@@ -41,7 +41,7 @@ TEST(Options, AFilterAloneIsEnough)
     for (const ChoiceValue& row : choiceValues()) {
         if (row.choice != "filter" || !row.available)
             continue;
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = static_cast<Filter>(row.value);
         const Resolution resolution = resolve(options);
         ASSERT_TRUE(resolution) << row.name << ": " << resolution.refusal;
@@ -57,7 +57,7 @@ TEST(Options, WhatCannotBePlannedIsRefused)
     EXPECT_EQ(resolve({.max_layers = 0}).refusal, "max_layers is 0; it can be 1 to 2048");
     EXPECT_FALSE(resolve({.technique = {.partition = Partition::cube}}));
     EXPECT_FALSE(resolve({.technique = {.filter = Filter::msm}, .format = MapFormat::d32f}));
-    ShadowOptions ends;
+    ShadowOptions ends{.technique = kPlainTechnique};
     ends.cascades.ends_m = {20.0, 10.0};
     EXPECT_FALSE(resolve(ends));
     EXPECT_THROW(static_cast<void>(resolvedOrThrow({.map_size = 0})), Error);
@@ -97,7 +97,7 @@ TEST(OptionTable, KeysAreUniqueAndSayWhenTheyCount)
 TEST(OptionTable, ReadsWhatItWrites)
 {
     for (const OptionRow& row : optionTable()) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         const OptionValue usual = row.get(options);
         if (!usual.none && row.type != OptionType::numbers) {
             row.set(options, usual);
@@ -121,11 +121,11 @@ TEST(OptionTable, NumbersEndWhereTheirRangesDo)
             continue;
         const double step = row.type == OptionType::integer ? 1.0 : 0.01 * (row.max - row.min);
         for (const double inside : {row.min, row.max}) {
-            ShadowOptions options;
+            ShadowOptions options{.technique = kPlainTechnique};
             row.set(options, numberOf(inside));
             EXPECT_EQ(firstOutOfRange(options), std::nullopt) << row.key << " " << inside;
         }
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         row.set(options, numberOf(row.max + step));
         EXPECT_EQ(firstOutOfRange(options).value_or("").substr(0, row.key.size()), row.key);
         if (row.type == OptionType::real) {
@@ -140,7 +140,7 @@ TEST(OptionTable, EndsAndCountOfCascadesAgree)
 {
     const OptionRow& count = *findOption("cascades.count");
     const OptionRow& ends = *findOption("cascades.ends");
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     OptionValue two;
     two.numbers = {10.0, 40.0};
     ends.set(options, two);

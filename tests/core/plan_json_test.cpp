@@ -60,7 +60,7 @@ Plan tinyPlan()
 
 constexpr const char* kGolden = R"({
   "frame": 7,
-  "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
+  "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
     {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2}
   ],
@@ -134,7 +134,7 @@ TEST(PlanJson, EmptyPlan)
 {
     EXPECT_EQ(toJson(Plan{}), R"({
   "frame": 0,
-  "technique": {"partition": "single", "fit": "uniform", "filter": "pcf", "soften": "none", "motion": "free"},
+  "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
     {"width": 0, "height": 0, "layers": 0, "kept_layers": 0}
   ],

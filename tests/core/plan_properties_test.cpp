@@ -35,7 +35,8 @@ TEST(PlanPropertiesOfSteps, HoldForEachPosition)
     int pairs = 0;
     for (std::uint64_t seed = 1; seed <= 600; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        RandomScene scene = randomScene(seed, {.motion = static_cast<Motion>(2 + seed % 4)});
+        RandomScene scene = randomScene(
+            seed, {Partition::single, Fit::uniform, Filter::pcf, Soften::none, static_cast<Motion>(2 + seed % 4)});
         if (seed % 3 == 0)
             scene.options.format = MapFormat::rg16; // two maps a texel
         Planner planner(scene.options);
@@ -140,7 +141,8 @@ TEST(PlanPropertiesOfAuto, HoldForRandomScenes)
     for (const Motion motion : {Motion::free, Motion::snap})
         for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
             SCOPED_TRACE("seed " + std::to_string(seed));
-            const Technique technique{.partition = Partition::automatic, .fit = Fit::automatic, .motion = motion};
+            const Technique technique{
+                .partition = Partition::automatic, .fit = Fit::automatic, .filter = Filter::pcf, .motion = motion};
             const RandomScene scene = randomScene(seed, technique);
             Planner planner(scene.options);
             const Plan& plan = planner.plan(scene.frame());
@@ -188,18 +190,19 @@ INSTANTIATE_TEST_SUITE_P(FitsOfCascades, PlanProperties, testing::ValuesIn(allFi
                          fitOf);
 INSTANTIATE_TEST_SUITE_P(FitsOfSdsm, PlanProperties, testing::ValuesIn(allFits(Partition::sdsm, Filter::hard)), fitOf);
 // Maps of filterable texels are not clamped at the near plane, hold receivers too and measure depth otherwise.
-INSTANTIATE_TEST_SUITE_P(FitsOfFilterable, PlanProperties,
-                         testing::Values(Technique{.fit = Fit::uniform, .filter = Filter::evsm},
-                                         Technique{.fit = Fit::lispsm_simple, .filter = Filter::evsm}),
-                         fitOf);
-INSTANTIATE_TEST_SUITE_P(Snap, PlanProperties,
-                         testing::Values(Technique{.filter = Filter::hard, .motion = Motion::snap},
-                                         Technique{.filter = Filter::evsm, .motion = Motion::snap},
-                                         Technique{.partition = Partition::cascades, .motion = Motion::snap}),
-                         [](const auto& technique) {
-                             return std::string(nameOf(technique.param.partition)) + "_" +
-                                    std::string(nameOf(technique.param.filter));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    FitsOfFilterable, PlanProperties,
+    testing::Values(Technique{.partition = Partition::single, .fit = Fit::uniform, .filter = Filter::evsm},
+                    Technique{.partition = Partition::single, .fit = Fit::lispsm_simple, .filter = Filter::evsm}),
+    fitOf);
+INSTANTIATE_TEST_SUITE_P(
+    Snap, PlanProperties,
+    testing::Values(Technique{Partition::single, Fit::uniform, Filter::hard, Soften::none, Motion::snap},
+                    Technique{Partition::single, Fit::uniform, Filter::evsm, Soften::none, Motion::snap},
+                    Technique{Partition::cascades, Fit::uniform, Filter::pcf, Soften::none, Motion::snap}),
+    [](const auto& technique) {
+        return std::string(nameOf(technique.param.partition)) + "_" + std::string(nameOf(technique.param.filter));
+    });
 
 } // namespace
 } // namespace gnomon

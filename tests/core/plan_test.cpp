@@ -54,7 +54,7 @@ glm::dvec3 project(const View& view, const glm::dvec3& p_ws)
 TEST(UniformFit, RectangleOfAKnownFloorUnderAVerticalSun)
 {
     World world;
-    Planner planner({.map_size = 1008, .border_texels = 4.0});
+    Planner planner({.technique = kPlainTechnique, .map_size = 1008, .border_texels = 4.0});
     const Plan& plan = world.plan(planner);
     ASSERT_EQ(plan.views.size(), 1U);
     const View& view = plan.views[0];
@@ -75,7 +75,7 @@ TEST(UniformFit, RectangleOfAKnownFloorUnderAVerticalSun)
 TEST(UniformFit, DepthsAreMetresAlongTheLight)
 {
     World world;
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     const View& view = world.plan(planner).views.at(0);
     // The particle at 100 m is clamped: what can be told apart starts three times the receivers' own range (the box's
     // top is at 3 m) above the highest of them.
@@ -95,7 +95,7 @@ TEST(UniformFit, AFlatFloorLeavesRoomForTheBiasOfWhatIsClamped)
 {
     World world;
     world.set.remove(world.set.idAt(1)); // the floor is all that receives, and has no depth range of its own
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     const View& view = world.plan(planner).views.at(0);
     const double floor = glm::dot(view.metric.metric_ws, glm::dvec4(0, 0, 0, 1));
     EXPECT_GE(floor * (view.metric.far_m - view.metric.near_m), 60.0 * view.texel_m);
@@ -106,7 +106,7 @@ TEST(UniformFit, Equation6PutsTheLightBeforeEverythingThatCasts)
 {
     World world;
     world.lights[0] = test::sun({0.5, -1, 0.25});
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.level_depth = false; // distances from the light's plane
     Planner planner(options);
     const Plan& plan = world.plan(planner);
@@ -133,7 +133,7 @@ TEST(UniformFit, FloatingCasterOutsideTheViewCounts)
     const ObjectId shading = world.set.add({{-61, 60, -1}, {-59, 61, 1}}, {true, false, true});
     const ObjectId beside = world.set.add({{-61, 60, 30}, {-59, 61, 32}}, {true, false, true});
     const ObjectId below = world.set.add({{20, -22, -1}, {22, -20, 1}}, {true, false, true});
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     const Plan& plan = world.plan(planner);
     EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), shading.index));
     EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beside.index));
@@ -145,7 +145,9 @@ TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)
     World world;
     const ObjectId in_border = world.set.add({{10.2F, 1, 0}, {10.5F, 2, 1}}, {true, false, false});
     const ObjectId beyond = world.set.add({{13, 1, 0}, {14, 2, 1}}, {true, false, false});
-    Planner planner({.map_size = 108, .border_texels = 4.0}); // texels of 0.2 m, four of them around the floor
+    Planner planner({.technique = kPlainTechnique,
+                     .map_size = 108,
+                     .border_texels = 4.0}); // texels of 0.2 m, four of them around the floor
     const Plan& plan = world.plan(planner);
     EXPECT_TRUE(std::binary_search(plan.casters.begin(), plan.casters.end(), in_border.index));
     EXPECT_FALSE(std::binary_search(plan.casters.begin(), plan.casters.end(), beyond.index));
@@ -154,7 +156,7 @@ TEST(UniformFit, CastersThatOnlyAFilterSeesAreDrawnToo)
 TEST(UniformFit, AxesDoNotTurnWithTheCameraNorJumpAtNoon)
 {
     World world;
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     glm::dvec3 last(0.0);
     for (int step = -20; step <= 20; ++step) {
         world.lights[0] = test::sun({1e-4 * step, -1, 5e-5 * step});
@@ -174,7 +176,7 @@ TEST(UniformFit, SpotOverAFloor)
 {
     World world;
     world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(30.0));
-    Planner planner({.map_size = 1008, .border_texels = 4.0});
+    Planner planner({.technique = kPlainTechnique, .map_size = 1008, .border_texels = 4.0});
     const Plan& plan = world.plan(planner);
     const View& view = plan.views.at(0);
     EXPECT_FALSE(view.orthographic);
@@ -196,7 +198,7 @@ TEST(UniformFit, WallThatPassesASpotCountsWhereTheConeMeetsIt)
     world.set.remove(world.set.idAt(1));
     world.set.add({{2, 0, -10}, {2.5F, 30, 10}}); // beside the light, from under it to far above
     world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(30.0));
-    Planner planner(ShadowOptions{});
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
     const Plan& plan = world.plan(planner);
     const View& view = plan.views.at(0);
     EXPECT_EQ(plan.casters, (std::vector<std::uint32_t>{1}));
@@ -210,7 +212,7 @@ TEST(UniformFit, SpotMapHoldsOnlyWhatIsSeen)
     world.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, glm::radians(60.0));
     world.frame.camera = test::orthographicCamera({5, 500, 5}, {5, 0, 5}, 1.0);
     world.set.add({{2, 4, 2}, {3, 5, 3}}); // on the way there, and not seen
-    Planner planner({.map_size = 1008, .border_texels = 4.0});
+    Planner planner({.technique = kPlainTechnique, .map_size = 1008, .border_texels = 4.0});
     const View& view = world.plan(planner).views.at(0);
     // The floor from 4 to 6 m: tangents 0.4 to 0.6 (the body is 3 m high above it, which widens them to 6/7).
     EXPECT_LT(view.texel_m, 0.0005);
@@ -225,13 +227,13 @@ TEST(UniformFit, MaxDistanceCutsTheReceivers)
     World world;
     world.frame.camera = test::perspectiveCamera({0, 2, 30}, {0, 1, 0}, 1.0);
     world.set.add({{0, 8, 7}, {1, 9, 8}}, {true, false, false});
-    Planner all(ShadowOptions{});
-    Planner near({.max_distance_m = 25.0});
+    Planner all(ShadowOptions{.technique = kPlainTechnique});
+    Planner near({.technique = kPlainTechnique, .max_distance_m = 25.0});
     const double whole = world.plan(all).views.at(0).texel_xy_m.y;
     const Plan& cut = world.plan(near);
     EXPECT_LT(cut.views.at(0).texel_xy_m.y, 0.5 * whole); // 5 of the 20 metres of floor are left
     EXPECT_EQ(cut.receivers, (std::vector<std::uint32_t>{0}));
-    Planner nearest({.max_distance_m = 5.0});
+    Planner nearest({.technique = kPlainTechnique, .max_distance_m = 5.0});
     EXPECT_EQ(world.plan(nearest).lights[0].outcome.kind, OutcomeKind::no_receiver);
 }
 
@@ -261,7 +263,7 @@ TEST(Outcome, EachCanBeProvoked)
     EXPECT_EQ(refused.outcome(), OutcomeKind::refused);
     World full;
     full.lights.insert(full.lights.begin(), 2, test::sun({0, -1, 0}));
-    Planner planner({.max_layers = 2});
+    Planner planner({.technique = kPlainTechnique, .max_layers = 2});
     EXPECT_EQ(full.plan(planner).lights[2].outcome.kind, OutcomeKind::atlas_full);
     EXPECT_EQ(full.plan(planner).pages[0].layers, 2U);
 }
@@ -299,7 +301,7 @@ TEST(Plan, FourLightsShareAMaskLayer)
     World world;
     world.lights.resize(6, world.lights[0]);
     world.lights[1].casts_shadow = false;
-    Planner planner({.map_size = 64});
+    Planner planner({.technique = kPlainTechnique, .map_size = 64});
     const Plan& plan = world.plan(planner);
     EXPECT_EQ(plan.mask_layers, 2U);
     ASSERT_EQ(plan.lights.size(), 6U);
@@ -322,7 +324,7 @@ TEST(Plan, LightOutOfSightKeepsItsLayer)
 {
     World world;
     world.lights.insert(world.lights.begin(), test::spot({0, 10, 0}, {0, -1, 0}, 0.5));
-    Planner planner({.map_size = 64});
+    Planner planner({.technique = kPlainTechnique, .map_size = 64});
     (void)world.plan(planner);
     world.lights[0].position_ws.x = 900.0;
     const Plan& plan = world.plan(planner);
@@ -335,7 +337,7 @@ TEST(Plan, LightOutOfSightKeepsItsLayer)
 TEST(Redraw, OnlyWhenSomethingInTheMapChanged)
 {
     World world;
-    Planner planner({.map_size = 64});
+    Planner planner({.technique = kPlainTechnique, .map_size = 64});
     const auto redraw = [&] {
         return world.plan(planner).views.at(0).redraw;
     };

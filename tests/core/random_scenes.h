@@ -35,7 +35,7 @@ struct RandomScene {
     ObjectSet set;
     Camera camera;
     std::vector<Light> lights; // the sun, a lamp among the objects, a lamp away from them
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     double size_m = 1.0;
     std::uint32_t awkward = 0; // bit i: Awkward i
 

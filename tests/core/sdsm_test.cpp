@@ -31,7 +31,7 @@ struct Meadow {
 
 ShadowOptions optionsOf(Partition partition, Fit fit, std::uint32_t count = 3)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = partition;
     options.technique.fit = fit;
     options.cascades.count = count;
@@ -83,7 +83,7 @@ TEST(Sdsm, IsDrawnAgainEveryFrame)
 TEST(Sdsm, CannotBeHeldStill)
 {
     for (const Motion motion : {Motion::snap, Motion::step_jump, Motion::step_blend}) {
-        const Technique technique{.partition = Partition::sdsm, .motion = motion};
+        const Technique technique{Partition::sdsm, Fit::uniform, Filter::pcf, Soften::none, motion};
         EXPECT_TRUE(refusal(LightType::directional, technique).has_value());
     }
     EXPECT_FALSE(refusal(LightType::spot, {.partition = Partition::sdsm}).has_value());

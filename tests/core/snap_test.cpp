@@ -37,7 +37,7 @@ struct Meadow {
 
 ShadowOptions snapped(Partition partition = Partition::single)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.motion = Motion::snap;
     options.technique.partition = partition;
     options.map_size = 512;

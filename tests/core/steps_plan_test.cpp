@@ -48,7 +48,7 @@ struct Village {
 
 ShadowOptions stepped(Motion motion, std::uint32_t map_size = 256)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.motion = motion;
     options.map_size = map_size;
     return options;

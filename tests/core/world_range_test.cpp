@@ -60,7 +60,7 @@ struct Slab {
 TEST(WorldRange, PlansTheSameAtEverySizeWithin)
 {
     for (const Partition partition : {Partition::single, Partition::cascades, Partition::sdsm}) {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.partition = partition;
         options.technique.motion = partition == Partition::cascades ? Motion::snap : Motion::free;
         Planner first(options);
@@ -84,7 +84,7 @@ TEST(WorldRange, PlansTheSameAtEverySizeWithin)
 
 void expectDegenerate(const Slab& slab, std::string_view part)
 {
-    Planner planner{ShadowOptions{}};
+    Planner planner{ShadowOptions{.technique = kPlainTechnique}};
     for (const LightPlan& light : planner.plan(slab.frame).lights) {
         EXPECT_EQ(light.outcome.kind, OutcomeKind::degenerate);
         EXPECT_NE(light.outcome.reason.find(part), std::string_view::npos) << light.outcome.reason;
@@ -104,7 +104,7 @@ TEST(WorldRange, SaysWhatIsBeyond)
 TEST(WorldRange, HoldsForLightsToo)
 {
     Slab slab(1.0);
-    Planner planner{ShadowOptions{}};
+    Planner planner{ShadowOptions{.technique = kPlainTechnique}};
     const auto reasonOf = [&](const Light& light) {
         slab.lights[1] = light;
         slab.frame.lights = slab.lights;

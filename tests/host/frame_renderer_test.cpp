@@ -145,6 +145,7 @@ TEST_F(FrameRenderers, ChangeTheirTechniqueWithFramesInFlight)
 TEST_F(FrameRenderers, ChangeTheirSizeWithFramesInFlight)
 {
     RenderOptions options = optionsOf(Filter::pcf, MapFormat::d32f, Partition::cascades);
+    options.shadow.technique.fit = Fit::uniform; // an automatic one remembers the frames before
     options.anti_aliasing = AntiAliasing::fxaa;
     options.bloom.on = true;
     const SceneOnGpu uploaded(gpu_, scene_, at(0.0));

@@ -183,9 +183,10 @@ constexpr Technique of(Fit fit, Partition partition = Partition::single, Motion 
 
 INSTANTIATE_TEST_SUITE_P(
     All, PlanesEdge,
-    testing::Values(EdgeCase{"map_128", 128, {}, 1}, EdgeCase{"map_256", 256, {}, 1}, EdgeCase{"map_1024", 1024, {}, 1},
-                    EdgeCase{"lispsm", 256, of(Fit::lispsm), 1}, EdgeCase{"tsm", 256, of(Fit::tsm), 1},
-                    EdgeCase{"lispsm_simple", 256, of(Fit::lispsm_simple), 1}, EdgeCase{"psm", 256, of(Fit::psm), 1},
+    testing::Values(EdgeCase{"map_128", 128, kPlainTechnique, 1}, EdgeCase{"map_256", 256, kPlainTechnique, 1},
+                    EdgeCase{"map_1024", 1024, kPlainTechnique, 1}, EdgeCase{"lispsm", 256, of(Fit::lispsm), 1},
+                    EdgeCase{"tsm", 256, of(Fit::tsm), 1}, EdgeCase{"lispsm_simple", 256, of(Fit::lispsm_simple), 1},
+                    EdgeCase{"psm", 256, of(Fit::psm), 1},
                     EdgeCase{"cascades", 128, of(Fit::uniform, Partition::cascades), 4},
                     EdgeCase{"cascades_tsm", 128, of(Fit::tsm, Partition::cascades), 4},
                     EdgeCase{"sdsm", 128, of(Fit::uniform, Partition::sdsm), 4},

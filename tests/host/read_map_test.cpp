@@ -56,7 +56,7 @@ TEST(ReadMap, GivesTheSameDepthsFromEveryFormat)
         }
         const ImageF map = mapIn(gpu, Filter::pcf, format);
         ASSERT_EQ(map.values.size(), depth.values.size() * map.channels) << int{i};
-        ShadowOptions filter;
+        ShadowOptions filter{.technique = kPlainTechnique};
         filter.technique.filter = Filter::pcf;
         filter.format = format; // some have two depths a texel, and one of them in two channels
         for (std::size_t t = 0; t < depth.values.size(); ++t) {

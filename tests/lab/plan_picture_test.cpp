@@ -48,7 +48,7 @@ struct Row {
     ObjectSet objects;
     Light light;
     Frame frame;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     std::unique_ptr<Planner> planner;
 };
 

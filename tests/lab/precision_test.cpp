@@ -182,7 +182,8 @@ TEST_P(Precision, OfHeightsIsLostByAHundredOverAHundredfoldRange)
     // of depth that is taken off whatever the range.
     EXPECT_LT(far_m / near_m, 125.0);
     if (GetParam().rounding_is_most) {
-        EXPECT_GT(far_m / near_m, 75.0);
+        // What a layer knows by the mean of its depths alone (Markov's bound) keeps shadows that rounding would lose.
+        EXPECT_GT(far_m / near_m, GetParam().filter == Filter::lvsm ? 60.0 : 75.0);
         return;
     }
     // A format that rounds so little loses less than a hundred, because what is left of the step is as long as a share

@@ -233,7 +233,7 @@ TEST(FitEfficiency, OfTwoPositionsTakesThoseThatAreRead)
 
 TEST(FitEfficiency, OfAFilterFollowsItsReach)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = Filter::hard;
     EXPECT_EQ(reachTexels(filter), 0.5F);
     filter.technique.filter = Filter::pcf;

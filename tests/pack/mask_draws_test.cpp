@@ -38,15 +38,15 @@ TEST(MaskDraws, EveryFilterHasItsOwnWithItsLightsChannels)
 
 TEST(MaskDraws, ThereAreNoneWhereNothingHasAMap)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 0);
     EXPECT_TRUE(drawsOf(by_hand.plan).empty());
-    EXPECT_TRUE(drawsOf(PlanByHand({ShadowOptions{}}).plan).empty());
+    EXPECT_TRUE(drawsOf(PlanByHand({ShadowOptions{.technique = kPlainTechnique}}).plan).empty());
 }
 
 TEST(MaskDraws, OneWarpedViewIsEnoughForAPerspectiveShader)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 1);
     by_hand.add(0, 2);
     EXPECT_TRUE(drawsOf(by_hand.plan)[0].orthographic);
@@ -56,7 +56,7 @@ TEST(MaskDraws, OneWarpedViewIsEnoughForAPerspectiveShader)
 
 TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
 {
-    ShadowOptions cascades;
+    ShadowOptions cascades{.technique = kPlainTechnique};
     cascades.technique.partition = Partition::cascades;
     for (std::uint32_t count = 1; count <= kMaxCascades; ++count) {
         PlanByHand by_hand({cascades});
@@ -65,7 +65,7 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
         by_hand.add(0, 0);
         EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "another light may come to have a map";
     }
-    ShadowOptions stepping;
+    ShadowOptions stepping{.technique = kPlainTechnique};
     stepping.technique.motion = Motion::step_blend;
     PlanByHand by_hand({stepping});
     by_hand.add(0, 1);
@@ -74,9 +74,9 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
 
 TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
 {
-    ShadowOptions stepping;
+    ShadowOptions stepping{.technique = kPlainTechnique};
     stepping.technique.motion = Motion::step_band;
-    PlanByHand by_hand({stepping, ShadowOptions{}});
+    PlanByHand by_hand({stepping, ShadowOptions{.technique = kPlainTechnique}});
     for (std::uint32_t i = 0; i < 4; ++i) {
         LightPlan& light = by_hand.add(i % 2, 2);
         by_hand.plan.views.back().sun = SunPosition::later;

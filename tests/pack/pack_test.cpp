@@ -26,7 +26,8 @@ std::vector<pack::FramePass> passesOf(const Plan& plan)
 
 TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
 {
-    PlanByHand by_hand({ShadowOptions{}, filteredBy(Filter::msm), filteredBy(Filter::hard)});
+    PlanByHand by_hand(
+        {ShadowOptions{.technique = kPlainTechnique}, filteredBy(Filter::msm), filteredBy(Filter::hard)});
     by_hand.add(2, 1);
     by_hand.add(0, 1);
     by_hand.add(0, 0);
@@ -45,9 +46,12 @@ TEST(FramePasses, ComeInTheOrderInWhichTheyNeedEachOther)
 
 TEST(FramePasses, GiveAHostSomethingToBindBeforeThereIsAMap)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 0);
-    for (const auto& passes : {passesOf(by_hand.plan), passesOf(PlanByHand({ShadowOptions{}, ShadowOptions{}}).plan)}) {
+    for (const auto& passes :
+         {passesOf(by_hand.plan), passesOf(PlanByHand({ShadowOptions{.technique = kPlainTechnique},
+                                                       ShadowOptions{.technique = kPlainTechnique}})
+                                               .plan)}) {
         ASSERT_EQ(passes.size(), 2U);
         EXPECT_TRUE(pack::has(passes, Kind::mask));
         EXPECT_EQ(passes[0].options, 0U);
@@ -101,11 +105,11 @@ TEST(DepthLayers, KeepTheirPlaceAsLongAsTheirMapHasItsName)
 
 TEST(CascadeLights, AreOnlyThoseThatTheGpuFits)
 {
-    ShadowOptions sdsm;
+    ShadowOptions sdsm{.technique = kPlainTechnique};
     sdsm.technique.partition = Partition::sdsm;
     sdsm.cascades.count = 3;
     sdsm.max_distance_m = 80.0;
-    PlanByHand by_hand({ShadowOptions{}, sdsm});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, sdsm});
     by_hand.frame.camera = {{0.0, 2.0, 0.0}, glm::perspectiveRH_ZO(0.9, 1.6, 500.0, 0.1)};
     by_hand.add(0, 1);
     by_hand.add(1, 3);

@@ -13,7 +13,7 @@ namespace gnomon::test {
 
 inline ShadowOptions filteredBy(Filter filter)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = filter;
     return options;
 }

@@ -22,7 +22,7 @@ Camera cameraAt(const glm::dvec3& eye)
 
 TEST(ShadingBuffers, TakeAPointToItsTexelHoweverFarFromTheOrigin)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 1);
     by_hand.frame.camera = cameraAt(kFarAway);
     View& view = by_hand.plan.views[0];
@@ -44,7 +44,7 @@ TEST(ShadingBuffers, TakeAPointToItsTexelHoweverFarFromTheOrigin)
 
 TEST(ShadingBuffers, WhatIsBeyondThePlansViewsServesNoDepth)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 2);
     std::vector<shared::GpuView> views(shared::kFewViews + 2);
     views.back().slice = glm::vec4(7.0F);
@@ -61,7 +61,7 @@ TEST(ShadingBuffers, ConstantsAreThoseOfTheOptionsAskedFor)
     ShadowOptions fading = filteredBy(Filter::esm);
     fading.max_distance_m = 50.0;
     fading.fade = 0.2;
-    PlanByHand by_hand({ShadowOptions{}, fading});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, fading});
     by_hand.frame.camera = cameraAt({0.0, 2.0, 0.0});
     shared::GpuConstants first{};
     shared::GpuConstants second{};
@@ -79,7 +79,7 @@ TEST(ShadingBuffers, ConstantsAreThoseOfTheOptionsAskedFor)
 
 TEST(ShadingBuffers, LightsWithoutAMapHaveNoViews)
 {
-    PlanByHand by_hand({ShadowOptions{}, filteredBy(Filter::vsm)});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, filteredBy(Filter::vsm)});
     by_hand.add(0, 1);
     by_hand.add(1, 0);
     by_hand.add(1, 3);
@@ -97,7 +97,7 @@ TEST(ShadingBuffers, LightsWithoutAMapHaveNoViews)
 // The views of the other position have moved on; what their maps hold has not.
 TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     LightPlan& light = by_hand.add(0, 2);
     by_hand.plan.views[0].sun = SunPosition::earlier;
     by_hand.plan.views[1].sun = SunPosition::later;
@@ -113,7 +113,7 @@ TEST(ShadingBuffers, ByTurnsTheMapsThatAreDrawnAreReadAlone)
 
 TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
 {
-    PlanByHand by_hand({ShadowOptions{}});
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
     by_hand.add(0, 2);
     const Frame& frame = by_hand.frame;
     const Plan& plan = by_hand.plan;

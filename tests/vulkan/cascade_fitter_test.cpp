@@ -66,7 +66,7 @@ struct FittedHost {
                 plan.views.back().tile.layer = light * kCascades + i;
             }
         }
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.partition = Partition::sdsm;
         options.cascades.count = kCascades;
         options.border_texels = 0.0;

@@ -264,7 +264,7 @@ public:
     }
 
     NullDriver& driver;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     Scene scene = makeScene();
     std::vector<Light> lights = lightsOf(false);
     Plan plan;

@@ -15,7 +15,7 @@ constexpr VkExtent2D kScreen{96, 60};
 
 ShadowOptions optionsOf(Soften soften, Partition partition = Partition::single)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::hard;
     options.technique.soften = soften;
     options.technique.partition = partition;

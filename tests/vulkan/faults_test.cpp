@@ -139,7 +139,7 @@ private:
         return setup;
     }
 
-    ShadowOptions options_;
+    ShadowOptions options_{.technique = kPlainTechnique};
     NullDriver* driver_ = nullptr;
     std::optional<ChangingHost> host_;
     std::optional<vulkan::Profiler> profiler_;

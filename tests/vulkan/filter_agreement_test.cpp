@@ -55,7 +55,7 @@ private:
         return plan;
     }
 
-    ShadowOptions filter_;
+    ShadowOptions filter_{.technique = kPlainTechnique};
     vulkan::ShadowRenderer renderer_;
     vulkan::CasterDrawer drawer_;
     SceneMesh mesh_;
@@ -170,7 +170,7 @@ class BlurPaths : public testing::TestWithParam<PathCase> {};
 // Merged taps round otherwise than single ones, and the mask by half a step more.
 TEST_P(BlurPaths, giveTheSameMask)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = GetParam().filter;
     filter.format = GetParam().format;
     filter.moments.log_space = GetParam().log_space;

@@ -76,7 +76,7 @@ vulkan::DeviceView viewWith(const vulkan::MemoryHooks& memory)
 } // namespace
 
 Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
-    : Bench(screen, ShadowOptions{.format = format}, reversed_z, cull)
+    : Bench(screen, ShadowOptions{.technique = kPlainTechnique, .format = format}, reversed_z, cull)
 {
 }
 

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::vector<float> readMap(std::uint32_t layer);
     [[nodiscard]] std::vector<std::byte> readMask(std::uint32_t light);
 
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     Scene scene = makeScene();
     SceneMesh mesh;
     std::vector<Light> lights;

@@ -140,7 +140,7 @@ protected:
     }
 
     Scene scene_ = makeScene();
-    ShadowOptions options_;
+    ShadowOptions options_{.technique = kPlainTechnique};
     std::vector<Light> lights_;
     Plan plan_;
     Frame frame_;

@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
 
 ShadowOptions optionsOf(const Case& c)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = c.filter;
     options.format = c.format;
     options.moments.samples = c.samples;

@@ -132,7 +132,7 @@ protected:
     }
     static ShadowOptions optionsOf()
     {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = Filter::lvsm;
         options.technique.motion = Motion::snap;
         options.format = MapFormat::rgba16;

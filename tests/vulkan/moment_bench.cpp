@@ -73,7 +73,7 @@ DrawnMaps drawMaps(const Scene& scene, const Plan& given, const ShadowOptions& f
 
 CpuMap drawDepths(const Scene& scene, const Plan& plan)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = Filter::hard;
     filter.format = MapFormat::d32f;
     // A filterable map's depths are drawn at the working image's first texel, wherever its tile is; elsewhere an edge
@@ -98,7 +98,7 @@ CpuMap drawDepths(const Scene& scene, const Plan& plan)
 
 ShadowOptions momentFilter(Filter filter, MapFormat format)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = filter;
     options.format = format;
     options.moments.samples = 1;

@@ -30,7 +30,7 @@ std::ostream& operator<<(std::ostream& out, const MomentCase& c)
 
 ShadowOptions optionsOf(const MomentCase& c)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = c.filter;
     options.format = c.format;
     c.change(options.moments);
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(Msm, MomentParity, testing::ValuesIn(kMsm), nameOfCase)
 // The reference must be able to tell: what is not the GPU's rule gives other masks.
 TEST(MomentParityItself, tellsAnotherRuleApart)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::vsm;
     options.format = MapFormat::rg32f;
     const Rendered r = renderParity(options, ParityLights::sun_alone);

@@ -9,7 +9,7 @@ namespace {
 
 ShadowOptions evsm(MapFormat format, bool log_space)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = Filter::evsm;
     filter.format = format;
     filter.moments.log_space = log_space;
@@ -24,7 +24,7 @@ double varianceOf(double step)
 
 TEST(MomentRule, leastVarianceIsWhatRoundingTakes)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = Filter::vsm;
     for (const auto& [format, step] :
          {std::pair{MapFormat::rg16, 1.0 / 65535.0}, {MapFormat::rg16f, 0x1p-11}, {MapFormat::rg32f, 0x1p-24}}) {

@@ -33,7 +33,8 @@ public:
             lights.push_back(i == 0 ? makeSun({0.5, -1.0, 0.2}) : makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5));
             tiles.push_back({i, 0, 0, 256, 256});
         }
-        plan = makePlan(scene, lights, tiles, {256, 256, light_count}, {.format = format});
+        plan =
+            makePlan(scene, lights, tiles, {256, 256, light_count}, {.technique = kPlainTechnique, .format = format});
         frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
         frame.lights = lights;
         inputs.extent = kScreen;
@@ -170,7 +171,7 @@ TEST(NullRecording, filterableMapsThatHoldAreNeitherDrawnNorFiltered)
         const NullHost host(driver);
         ShadowRenderer renderer(driver.view(), {});
         Plan plan = host.plan;
-        ShadowOptions options{.format = MapFormat::rg16f};
+        ShadowOptions options{.technique = kPlainTechnique, .format = MapFormat::rg16f};
         options.technique.filter = Filter::vsm;
         options.moments.blur_path = path;
         plan.options = planOptions(options);
@@ -303,14 +304,15 @@ TEST(NullRecording, aFormatThatTheFilterCannotUseIsRefused)
     NullDriver driver;
     {
         NullHost host(driver);
-        EXPECT_THROW(host.plan.options = planOptions({.format = MapFormat::rgba16f}), Error);
+        EXPECT_THROW(host.plan.options = planOptions({.technique = kPlainTechnique, .format = MapFormat::rgba16f}),
+                     Error);
     }
     EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
 }
 
 TEST(NullRecording, aFormatThatTheDeviceCannotFilterIsRefusedWithWhatItLacks)
 {
-    ShadowOptions options{.format = MapFormat::rg32f};
+    ShadowOptions options{.technique = kPlainTechnique, .format = MapFormat::rg32f};
     options.technique.filter = Filter::vsm;
     struct Lack {
         VkFormatFeatureFlags feature;

@@ -79,7 +79,7 @@ OptionSteps stepsFrom(const ShadowOptions& base)
 
 ShadowOptions optionsFrom(std::string_view line)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     std::istringstream words{std::string(line)};
     for (std::string word; words >> word;) {
         const std::size_t equals = word.find('=');

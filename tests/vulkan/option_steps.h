@@ -13,7 +13,7 @@
 namespace gnomon::test {
 
 struct OptionStep {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     std::string what; // "pcf.taps=64"
 };
 

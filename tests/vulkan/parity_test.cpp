@@ -27,7 +27,7 @@ class Parity : public testing::TestWithParam<Case> {};
 
 TEST_P(Parity, maskIsThatOfTheCpu)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = GetParam().filter;
     options.pcf.kernel = GetParam().kernel;
     options.format = GetParam().format;
@@ -64,7 +64,7 @@ class ParityOfSteps : public testing::TestWithParam<Case> {};
 
 TEST_P(ParityOfSteps, maskIsThatOfTheCpu)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = GetParam().filter;
     options.pcf.kernel = GetParam().kernel;
     options.format = GetParam().format;
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, ParityOfSteps,
 // The reference must be able to tell: a weight that is off by a tenth, and positions the wrong way round.
 TEST(ParityOfStepsItself, tellsAnotherBlendApart)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::pcf;
     options.format = MapFormat::rgba8;
     const Rendered r = renderParity(options, ParityLights::stepping_sun);
@@ -109,7 +109,7 @@ TEST(ParityOfStepsItself, tellsAnotherBlendApart)
 
 TEST(ParityOfBias, manualRulesAreThoseOfTheCpu)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.bias = {false, 0.02F, 1.5F, 0.0F, false};
     expectParity(renderParity(options), options, "bias_slope");
     options.bias = {false, 0.0F, 0.0F, 2.0F, false};
@@ -141,7 +141,7 @@ class MapNotes : public testing::TestWithParam<MapFormat> {};
 
 TEST_P(MapNotes, areTheDepthMetric)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = Filter::hard;
     options.format = GetParam();
     const Rendered r = renderParity(options);

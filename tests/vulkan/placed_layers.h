@@ -22,7 +22,7 @@ protected:
 
 inline ShadowOptions lvsm(LayerPlacement placement, std::uint32_t layers)
 {
-    ShadowOptions filter;
+    ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = Filter::lvsm;
     filter.format = MapFormat::rgba16;
     filter.moments.placement = placement;
@@ -73,7 +73,7 @@ public:
 
 private:
     vulkan::Device device_;
-    ShadowOptions filter_;
+    ShadowOptions filter_{.technique = kPlainTechnique};
     vulkan::LayerPlacer placer_;
 };
 

@@ -57,7 +57,7 @@ protected:
     }
     static ShadowOptions filterOf()
     {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = GetParam().filter;
         options.format = GetParam().format;
         options.moments.samples = 1;
@@ -146,7 +146,7 @@ protected:
 
 TEST_P(RandomFrames, holdWhatADrawingFromScratchGives)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = GetParam().filter;
     options.technique.motion = GetParam().motion;
     options.format = GetParam().format;

@@ -26,7 +26,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
 
 ShadowOptions optionsOf(const Case& c)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = c.filter;
     options.format = c.format;
     return options;
@@ -76,7 +76,7 @@ public:
     }
 
     NullDriver& driver;
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     Scene scene = makeScene();
     ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;

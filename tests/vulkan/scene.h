@@ -70,7 +70,7 @@ struct Picture {
 [[nodiscard]] std::shared_ptr<const std::vector<ResolvedOptions>> planOptions(const ShadowOptions& options);
 /// One view a light; casters: everything.
 [[nodiscard]] Plan makePlan(const Scene& scene, std::span<const Light> lights, std::span<const Tile> tiles,
-                            MapPages atlas, const ShadowOptions& options = {});
+                            MapPages atlas, const ShadowOptions& options = {.technique = kPlainTechnique});
 
 /// Names the maps of plans that are made by hand, by their place among the views, and numbers their contents by what
 /// the views' flags say of them: `redraw` makes something new of the map, `redraw_kept` of the kept one.

@@ -16,7 +16,7 @@ using Mask = std::vector<std::byte>;
 enum class Slices : std::uint8_t { one, two };
 
 struct Setting {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     Slices slices = Slices::one;
     bool paired_texels = false;
 };

@@ -75,7 +75,7 @@ public:
 
     static ShadowOptions optionsOf(Filter filter, MapFormat format)
     {
-        ShadowOptions options;
+        ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = filter;
         options.format = format;
         return options;

@@ -11,10 +11,11 @@
 namespace gnomon {
 
 enum class LightType : std::uint8_t { directional, spot, point };
-/// automatic: the planner chooses, for each light and frame (docs/techniques/auto.md).
+/// automatic: of partition and fit the planner chooses, for each light and frame; of the filter resolve(), by quality
+/// (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, multi, automatic };
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, automatic };
-enum class Filter : std::uint8_t { hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm, id, depth_id };
+enum class Filter : std::uint8_t { hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm, id, depth_id, automatic };
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
@@ -26,14 +27,16 @@ enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba1
 
 /// One value each of the choices that a user makes (the light brings its own).
 struct Technique {
-    Partition partition = Partition::single;
-    Fit fit = Fit::uniform;
-    Filter filter = Filter::pcf;
+    Partition partition = Partition::automatic;
+    Fit fit = Fit::automatic;
+    Filter filter = Filter::automatic;
     Soften soften = Soften::none;
     Motion motion = Motion::free;
 
     bool operator==(const Technique&) const = default;
 };
+/// One uniform map and its four nearest texels or a small kernel: what other techniques are held against.
+inline constexpr Technique kPlainTechnique{Partition::single, Fit::uniform, Filter::pcf, Soften::none, Motion::free};
 
 /// One row of the table of all values: what `gnomon list` prints and every parser reads.
 struct ChoiceValue {
@@ -69,7 +72,7 @@ struct FilterTraits {
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
     bool integrates_light; // one frame takes all of the light's size: it reads as far from a receiver as that leads
 };
-/// Null for a filter that is not available.
+/// Null for a filter that is not available, and for automatic, which stands for another (filterOf()).
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);
 
 /// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.

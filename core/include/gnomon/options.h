@@ -81,18 +81,18 @@ struct PcfOptions {
 /// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
-/// What Partition::automatic may spend, for the texels of one map of map_size.
+/// What `automatic` may spend, for the texels of one map of map_size.
 enum class Quality : std::uint8_t {
-    fast,     // one map
-    balanced, // one map, or cascades that share its texels, whichever is predicted to err less
+    fast,     // one map; filter pcf
+    balanced, // one map, or cascades that share its texels, whichever is predicted to err less; filter raymarch
     best, // one map, fitted on the GPU to what the camera sees, as sdsm has it: the host gives the camera's depth to
-          // ShadowRenderer::recordBounds() before its maps. With a motion other than free: balanced
+          // ShadowRenderer::recordBounds() before its maps. With a motion other than free: balanced. Filter raymarch
 };
 [[nodiscard]] std::string_view nameOf(Quality value);
 
 struct ShadowOptions {
     Technique technique;
-    Quality quality = Quality::balanced; // partition auto
+    Quality quality = Quality::balanced; // what is auto
     std::optional<MapFormat> format;     // what a texel is stored as; nothing: the filter's first format
     /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share so many: four have half.
     std::uint32_t map_size = 2048;
@@ -122,6 +122,7 @@ struct ShadowOptions {
 /// Options that were checked, with everything that follows from them. resolve() alone makes one.
 class ResolvedOptions {
 public:
+    /// What was asked for, with the filter that is used instead of automatic.
     [[nodiscard]] const ShadowOptions& asked() const { return asked_; }
     [[nodiscard]] const Technique& technique() const { return asked_.technique; }
     [[nodiscard]] Filter filter() const { return asked_.technique.filter; }
@@ -178,6 +179,8 @@ struct Resolution {
 
 /// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
 [[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
+/// The filter that is used: the one asked for, or what automatic stands for.
+[[nodiscard]] Filter filterOf(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);

@@ -13,7 +13,7 @@ using enum OptionType;
 constexpr std::string_view kFilterable = "filter vsm, lvsm, esm, evsm or msm";
 bool isFilterable(const ShadowOptions& o)
 {
-    const FilterTraits* const traits = filterTraits(o.technique.filter);
+    const FilterTraits* const traits = filterTraits(filterOf(o));
     return traits != nullptr && traits->filterable;
 }
 bool isBlurred(const ShadowOptions& o)
@@ -30,23 +30,23 @@ bool isAnisotropic(const ShadowOptions& o)
 }
 bool isLvsm(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::lvsm;
+    return filterOf(o) == Filter::lvsm;
 }
 bool isEsm(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::esm;
+    return filterOf(o) == Filter::esm;
 }
 bool isEvsm(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::evsm;
+    return filterOf(o) == Filter::evsm;
 }
 bool isMsm(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::msm;
+    return filterOf(o) == Filter::msm;
 }
 bool hasVariance(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::vsm || isLvsm(o) || isEvsm(o);
+    return filterOf(o) == Filter::vsm || isLvsm(o) || isEvsm(o);
 }
 /// Where it is not so always.
 bool canRemap(const ShadowOptions& o)

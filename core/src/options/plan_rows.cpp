@@ -27,7 +27,7 @@ bool hasDistance(const ShadowOptions& o)
 /// Filterable maps are made one by one.
 bool canDrawTogether(const ShadowOptions& o)
 {
-    const FilterTraits* const traits = filterTraits(o.technique.filter);
+    const FilterTraits* const traits = filterTraits(filterOf(o));
     return hasCascades(o) && traits != nullptr && !traits->filterable;
 }
 

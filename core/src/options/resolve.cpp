@@ -47,10 +47,10 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (options.technique.soften == Soften::converge && options.keep_still == KeepStill::always) {
         return "keep-still always: soften converge moves its maps in each frame, so nothing of them can be kept";
     }
-    if (options.cascades.pass == CascadePass::layered && filterTraits(options.technique.filter)->filterable) {
+    if (options.cascades.pass == CascadePass::layered && filterTraits(filterOf(options))->filterable) {
         return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
     }
-    return refusal(options.technique.filter, formatOf(options), options.moments);
+    return refusal(filterOf(options), formatOf(options), options.moments);
 }
 
 /// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
@@ -96,22 +96,30 @@ int kernelWidth(PcfKernel kernel)
     return 0;
 }
 
+Filter filterOf(const ShadowOptions& options)
+{
+    if (options.technique.filter != Filter::automatic) {
+        return options.technique.filter;
+    }
+    return options.quality == Quality::fast ? Filter::pcf : Filter::raymarch;
+}
+
 MapFormat formatOf(const ShadowOptions& options)
 {
-    const FilterTraits* const traits = filterTraits(options.technique.filter);
+    const FilterTraits* const traits = filterTraits(filterOf(options));
     return options.format ? *options.format : traits != nullptr ? traits->formats.front() : MapFormat::d32f;
 }
 
 float reachTexels(const ShadowOptions& options)
 {
-    const FilterTraits* const traits = filterTraits(options.technique.filter);
+    const FilterTraits* const traits = filterTraits(filterOf(options));
     if (traits != nullptr && traits->filterable) {
         return static_cast<float>(blurRadius(options.moments)) + 1.0F; // and a bilinear read of what was blurred
     }
     if (traits != nullptr && traits->integrates_light) {
         return 2.0F; // from where a ray may start; the way to the light has room of its own
     }
-    if (options.technique.filter != Filter::pcf) {
+    if (filterOf(options) != Filter::pcf) {
         return 0.5F;
     }
     const int width = kernelWidth(options.pcf.kernel);
@@ -142,7 +150,8 @@ Resolution resolve(const ShadowOptions& options)
                                  (options.technique.soften == Soften::converge ? kMostGridMove_texels : 0.0);
     ResolvedOptions made;
     made.asked_ = options;
-    made.traits_ = filterTraits(options.technique.filter);
+    made.asked_.technique.filter = filterOf(options);
+    made.traits_ = filterTraits(filterOf(options));
     made.format_ = formatOf(options);
     made.reach_texels_ = reachTexels(options);
     made.border_texels_ = options.border_texels.value_or(std::max(kLeastBorder_texels, std::ceil(needed_texels)));

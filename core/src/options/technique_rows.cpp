@@ -10,11 +10,11 @@ using enum OptionType;
 
 bool isPcf(const ShadowOptions& o)
 {
-    return o.technique.filter == Filter::pcf;
+    return filterOf(o) == Filter::pcf;
 }
-bool choosesPartition(const ShadowOptions& o)
+bool choosesByQuality(const ShadowOptions& o)
 {
-    return o.technique.partition == Partition::automatic;
+    return o.technique.partition == Partition::automatic || o.technique.filter == Filter::automatic;
 }
 bool isDisc(const ShadowOptions& o)
 {
@@ -64,7 +64,7 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "partition", .type = choice, .form = "NAME", .choices = namesOf<Partition>, .doc = "how a light's receivers are divided among frustums", .own_option = true, GNOMON_MEMBER(technique.partition)},
         {.key = "soften", .type = choice, .form = "NAME", .choices = namesOf<Soften>, .doc = "what happens to the visibility in screen space", .own_option = true, GNOMON_MEMBER(technique.soften)},
         {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
-        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: one map, or cascades too, or one fitted to the camera's depth", .own_option = true, .used = choosesPartition, .used_when = "partition auto", GNOMON_MEMBER(quality)},
+        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: pcf and one map, or rays and cascades too, or one map fitted to the camera's depth", .own_option = true, .used = choosesByQuality, .used_when = "partition or filter auto", GNOMON_MEMBER(quality)},
         {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .doc = "side of one map", .own_option = true, GNOMON_MEMBER(map_size)},
         {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, GNOMON_MEMBER(format)},
         {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", GNOMON_BIAS(constant_m)},

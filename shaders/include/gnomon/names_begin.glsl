@@ -19,6 +19,7 @@
 #define PixelSteps gnomon_PixelSteps
 #define RayCone gnomon_RayCone
 #define RayRegion gnomon_RayRegion
+#define RaysFound gnomon_RaysFound
 #define Receiver gnomon_Receiver
 #define Search gnomon_Search
 #define SmoothSurface gnomon_SmoothSurface
@@ -73,6 +74,7 @@
 #define facesDirection gnomon_facesDirection
 #define factorise gnomon_factorise
 #define fadedVisibility gnomon_fadedVisibility
+#define fallToBlocker gnomon_fallToBlocker
 #define filterEsm gnomon_filterEsm
 #define filterEvsm gnomon_filterEvsm
 #define filterHard gnomon_filterHard
@@ -126,6 +128,7 @@
 #define kFilterVsm gnomon_kFilterVsm
 #define kFlat gnomon_kFlat
 #define kGrazing gnomon_kGrazing
+#define kHardlyFaces gnomon_kHardlyFaces
 #define kHeldShare gnomon_kHeldShare
 #define kLeastLastPivot gnomon_kLeastLastPivot
 #define kLeastLastPivot16 gnomon_kLeastLastPivot16
@@ -149,6 +152,7 @@
 #define kMostLog gnomon_kMostLog
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
+#define kNarrowest gnomon_kNarrowest
 #define kNarrowings gnomon_kNarrowings
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
@@ -175,9 +179,14 @@
 #define kSamplingTrilinear gnomon_kSamplingTrilinear
 #define kSearchTaps gnomon_kSearchTaps
 #define kSnap gnomon_kSnap
+#define kStartsWithin gnomon_kStartsWithin
 #define kSteepest gnomon_kSteepest
+#define kStraightFrom gnomon_kStraightFrom
+#define kStraightTo gnomon_kStraightTo
 #define kTinyVariance gnomon_kTinyVariance
 #define kVarianceOfRead gnomon_kVarianceOfRead
+#define kWideFrom gnomon_kWideFrom
+#define kWideTo gnomon_kWideTo
 #define keepInside gnomon_keepInside
 #define kernelAbout gnomon_kernelAbout
 #define kernelOf gnomon_kernelOf
@@ -212,6 +221,7 @@
 #define momentsOfQuantised gnomon_momentsOfQuantised
 #define msmAllowance gnomon_msmAllowance
 #define msmVisibility gnomon_msmVisibility
+#define narrowed gnomon_narrowed
 #define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
 #define noneRises gnomon_noneRises
@@ -232,9 +242,7 @@
 #define quantisedMoments gnomon_quantisedMoments
 #define rayCone gnomon_rayCone
 #define rayCount gnomon_rayCount
-#define rayIsBlocked gnomon_rayIsBlocked
 #define rayLength gnomon_rayLength
-#define raysUnblocked gnomon_raysUnblocked
 #define readMoments gnomon_readMoments
 #define receiverDepth gnomon_receiverDepth
 #define receiverPlane gnomon_receiverPlane
@@ -265,6 +273,7 @@
 #define texelWeight gnomon_texelWeight
 #define towardLight gnomon_towardLight
 #define towardsPlane gnomon_towardsPlane
+#define traceRays gnomon_traceRays
 #define twoMoments gnomon_twoMoments
 #define uniformBegin gnomon_uniformBegin
 #define uniformLayer gnomon_uniformLayer

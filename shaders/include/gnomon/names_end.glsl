@@ -19,6 +19,7 @@
 #undef PixelSteps
 #undef RayCone
 #undef RayRegion
+#undef RaysFound
 #undef Receiver
 #undef Search
 #undef SmoothSurface
@@ -73,6 +74,7 @@
 #undef facesDirection
 #undef factorise
 #undef fadedVisibility
+#undef fallToBlocker
 #undef filterEsm
 #undef filterEvsm
 #undef filterHard
@@ -126,6 +128,7 @@
 #undef kFilterVsm
 #undef kFlat
 #undef kGrazing
+#undef kHardlyFaces
 #undef kHeldShare
 #undef kLeastLastPivot
 #undef kLeastLastPivot16
@@ -149,6 +152,7 @@
 #undef kMostLog
 #undef kMostReads
 #undef kMostWarpOfTexel
+#undef kNarrowest
 #undef kNarrowings
 #undef kNearlyOne
 #undef kNoLayerBegins
@@ -175,9 +179,14 @@
 #undef kSamplingTrilinear
 #undef kSearchTaps
 #undef kSnap
+#undef kStartsWithin
 #undef kSteepest
+#undef kStraightFrom
+#undef kStraightTo
 #undef kTinyVariance
 #undef kVarianceOfRead
+#undef kWideFrom
+#undef kWideTo
 #undef keepInside
 #undef kernelAbout
 #undef kernelOf
@@ -212,6 +221,7 @@
 #undef momentsOfQuantised
 #undef msmAllowance
 #undef msmVisibility
+#undef narrowed
 #undef nextShare
 #undef noLayer
 #undef noneRises
@@ -232,9 +242,7 @@
 #undef quantisedMoments
 #undef rayCone
 #undef rayCount
-#undef rayIsBlocked
 #undef rayLength
-#undef raysUnblocked
 #undef readMoments
 #undef receiverDepth
 #undef receiverPlane
@@ -265,6 +273,7 @@
 #undef texelWeight
 #undef towardLight
 #undef towardsPlane
+#undef traceRays
 #undef twoMoments
 #undef uniformBegin
 #undef uniformLayer

@@ -230,15 +230,13 @@ TEST(ErrorClasses, AStepOfAHalfIsNoEdge)
     ImageF truth(9, 9, 1, 1.5F);
     std::fill_n(truth.values.begin(), 36, 1.0F);
     const ImageF blockers = constantMask(9, 9, kNowhere);
-    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), Counted(9, 9, 1), blockers,
-                                      kDiagonal_m),
+    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), blockers, kDiagonal_m),
                       ErrorClass::edge),
               0);
     for (float& value : truth.values) {
         value = value > 1.0F ? std::nextafter(1.5F, 2.0F) : value;
     }
-    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), Counted(9, 9, 1), blockers,
-                                      kDiagonal_m),
+    EXPECT_EQ(countOf(*classifyErrors(truth, truth, countAll(9, 9), Counted(9, 9, 1), blockers, kDiagonal_m),
                       ErrorClass::edge),
               8 * 9);
 }

@@ -104,7 +104,7 @@ TEST(EngineScore, KnowsWhatItsMapsDeliver)
     const Counted counted = engine.score(engine.traced.visibility.visibility).pixels.counted;
     double density = 0.0;
     for (const std::uint32_t map_size : {256U, 512U}) {
-        Planner planner({.map_size = map_size});
+        Planner planner({.technique = kPlainTechnique, .map_size = map_size});
         const Plan& plan = planner.plan(frame);
         const TexelDensity delivered = texelDensity(seen, counted, plan, 0, 1.0);
         EXPECT_GT(delivered.counted, 1000U);

@@ -87,7 +87,7 @@ struct Ground {
 
 ShadowOptions cascades(double blend)
 {
-    ShadowOptions options;
+    ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = Partition::cascades;
     options.cascades.count = 3;
     options.cascades.ends_m = {12.0, 20.0};
