@@ -141,8 +141,8 @@ int run(const std::string& folder)
     const Buffer pixels(d, vk::DeviceSize{4} * kSize.width * kSize.height, vk::BufferUsageFlagBits::eTransferDst);
     Prepass prepass(d);
 
-    gnomon::Planner planner(gnomon::ShadowOptions{});
-    gnomon::vulkan::ShadowRenderer shadows(d.view(), {}); // pcf with a 3 x 3 kernel, automatic bias
+    gnomon::Planner planner(gnomon::ShadowOptions{}); // partition, fit, filter and bias are automatic
+    gnomon::vulkan::ShadowRenderer shadows(d.view(), {});
     gnomon::vulkan::CasterDrawer casters(d.view(), {});
     const gnomon::vulkan::DrawPart cube{{0, kIndices.size(), 0}, 0};
     const std::array<gnomon::vulkan::DrawObject, 4> objects{{{0, 1}, {0, 1}, {0, 1}, {0, 1}}};

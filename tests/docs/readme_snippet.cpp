@@ -35,10 +35,10 @@ int main()
     frame.size_px = {screen.width, screen.height};
     frame.lights = {&sun, 1};
     frame.objects = &objects;
-    gnomon::Planner planner({.map_size = 2048}); // which maps, with which matrices, who is drawn in them
+    gnomon::Planner planner({.map_size = 2048}); // which maps, with which matrices, who is drawn in them; all else auto
     const gnomon::Plan& plan = planner.plan(frame);
 
-    gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device; PCF, bias worked out by itself
+    gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device
     shadows.prepare(plan, screen);
     shadows.recordMaps(commands, 0, frame, plan, [&](const gnomon::vulkan::MapPass& pass) {
         for (const std::uint32_t object : pass.casters) { // all of them: filterable maps hold receivers, too
