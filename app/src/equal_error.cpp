@@ -44,12 +44,11 @@ Settings plainPcf(const Settings& base)
     if (plain.shadow.format && refusal(Filter::pcf, *plain.shadow.format)) {
         plain.shadow.format.reset();
     }
-    const Technique usual = kPlainTechnique;
-    applySetting(plain, "filter", nameOf(Filter::pcf));
-    applySetting(plain, "partition", nameOf(usual.partition));
-    applySetting(plain, "fit", nameOf(usual.fit));
-    applySetting(plain, "soften", nameOf(usual.soften));
-    applySetting(plain, "motion", nameOf(usual.motion));
+    applySetting(plain, "filter", nameOf(kPlainTechnique.filter));
+    applySetting(plain, "partition", nameOf(kPlainTechnique.partition));
+    applySetting(plain, "fit", nameOf(kPlainTechnique.fit));
+    applySetting(plain, "soften", nameOf(kPlainTechnique.soften));
+    applySetting(plain, "motion", nameOf(kPlainTechnique.motion));
     return plain;
 }
 
@@ -82,10 +81,7 @@ std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side)
 
 bool isPlainPcf(const Settings& settings)
 {
-    const Technique& technique = settings.shadow.technique;
-    const Technique usual = kPlainTechnique;
-    return technique.filter == Filter::pcf && technique.partition == usual.partition && technique.fit == usual.fit &&
-           technique.soften == usual.soften && technique.motion == usual.motion;
+    return settings.shadow.technique == kPlainTechnique;
 }
 
 std::optional<std::size_t> firstWithin(std::size_t count, double rmse,

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <array>
 
 namespace gnomon::app {
@@ -84,16 +83,9 @@ bool lightHasSize(const Settings& s)
     if (s.subcommand == kRender && s.truth) { // no map is drawn
         return s.truth == truth::Kind::area;
     }
-    const auto follows = [](Filter filter) {
-        const FilterTraits* const traits = filterTraits(filter);
-        return traits != nullptr && traits->integrates_light;
-    };
-    const auto names = [&](const std::string& technique) {
-        const ChoiceValue* const filter = findChoice("filter", technique.substr(0, technique.find('+')));
-        return filter != nullptr && follows(static_cast<Filter>(filter->value));
-    };
+    const FilterTraits* const filter = filterTraits(filterOf(s.shadow));
     return s.truth == truth::Kind::area || s.shadow.technique.soften == Soften::converge ||
-           follows(filterOf(s.shadow)) || std::ranges::any_of(s.techniques, names);
+           (filter != nullptr && filter->integrates_light);
 }
 
 const std::vector<Setting>& rows()

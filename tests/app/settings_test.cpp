@@ -122,6 +122,20 @@ TEST(Settings, AutoInATechniqueIsThatOfEveryChoiceThatHasIt)
     EXPECT_THROW((void)app::parseTechnique(base, "pcf+single+quality=best"), app::UsageError) << "with an auto only";
 }
 
+// The filter that nobody names looks at the light's size; those of a list count instead of it.
+TEST(Settings, TheLightsSizeIsForTechniquesThatLookAtIt)
+{
+    const std::vector<std::string> hard{"compare", "planes", "--truth", "hard", "--sun-angle", "2", "--techniques"};
+    const auto settingsOf = [&hard](const char* techniques) {
+        std::vector<std::string> arguments = hard;
+        arguments.emplace_back(techniques);
+        return app::parseCommandLine(arguments).settings;
+    };
+    EXPECT_THROW((void)settingsOf("hard,pcf"), app::UsageError);
+    EXPECT_NO_THROW((void)settingsOf("hard,auto"));
+    EXPECT_NO_THROW((void)settingsOf("hard,pcf+converge"));
+}
+
 // A preset is handed on; what is overwritten here is not for whoever wrote it to say.
 TEST(Settings, OfAPresetNameNothingThatIsWritten)
 {
