@@ -159,9 +159,11 @@ TEST(Raymarch, APlaneIsLitAtAnyIncidence)
     }
 }
 
-TEST(Raymarch, ASphereIsLitToItsRim)
+/// A lit sphere of radius 1 m, from its pole to near its rim.
+void expectASphereIsLit(int filter)
 {
     Stage stage;
+    stage.filter = filter;
     const auto height = [](glm::dvec2 q) {
         return std::sqrt(std::max(1.0 - glm::dot(q, q), 0.0));
     };
@@ -172,6 +174,11 @@ TEST(Raymarch, ASphereIsLitToItsRim)
         stage.n = glm::dvec3(q, height(q));
         EXPECT_EQ(stage.visibility({q, height(q)}, pixelOf(i)), 1.0) << radius;
     }
+}
+
+TEST(Raymarch, ASphereIsLitToItsRim)
+{
+    expectASphereIsLit(kFilterRaymarch);
 }
 
 // A wall that faces the light and the ground before it: both lit, and shadow from the wall's top begins at its foot.
@@ -219,20 +226,9 @@ TEST(Pcss, DoesNotFuseOccluders)
     EXPECT_GT(pcss, rays + 0.02);
 }
 
-TEST(Pcss, APlaneAndASphereAreLit)
+TEST(Pcss, ASphereIsLitToItsRim)
 {
-    Stage stage;
-    stage.filter = kFilterPcss;
-    const auto height = [](glm::dvec2 q) {
-        return std::sqrt(std::max(1.0 - glm::dot(q, q), 0.0));
-    };
-    stage.draw(height);
-    for (int i = 0; i < 400; ++i) {
-        const double radius = 0.97 * std::sqrt((i + 0.5) / 400.0);
-        const glm::dvec2 q = radius * glm::dvec2(std::cos(2.4 * i), std::sin(2.4 * i));
-        stage.n = glm::dvec3(q, height(q));
-        EXPECT_EQ(stage.visibility({q, height(q)}, pixelOf(i)), 1.0) << radius;
-    }
+    expectASphereIsLit(kFilterPcss);
 }
 
 // Where blocks decide a pixel, rays that know nothing of them find the same; other rays, so not to the last one.

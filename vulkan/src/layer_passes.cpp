@@ -77,27 +77,24 @@ void LayerPasses::record(VkCommandBuffer commands, const Job& job)
     const auto wait = [&](const MemoryBarrier& barrier) {
         recordBarrier(device_, commands, barrier);
     };
+    const auto run = [&](VkPipeline pipeline, VkPipelineLayout layout, const auto& push, std::uint32_t x,
+                         std::uint32_t y) {
+        device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set_, 0, nullptr);
+        device_.vk.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
+        device_.vk.CmdDispatch(commands, x, y, 1);
+    };
     // The view before is done with the histogram, and the last frame with this view's layers.
     wait({kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kClear | kCompute,
           VK_ACCESS_2_TRANSFER_WRITE_BIT | kReadWrite});
     device_.vk.CmdFillBuffer(commands, sums_.buffer(), 0, sum_bytes_, 0);
     wait({kClear, VK_ACCESS_2_TRANSFER_WRITE_BIT, kCompute, kReadWrite});
 
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, count_.get());
-    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, count_layout_.get(), 0, 1, &set_, 0,
-                                     nullptr);
-    device_.vk.CmdPushConstants(commands, count_layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job.histogram,
-                                &job.histogram);
-    device_.vk.CmdDispatch(commands, groupsFor(job.histogram.tile.z, job.histogram.more.x),
-                           groupsFor(job.histogram.tile.w, job.histogram.more.x), 1);
+    run(count_.get(), count_layout_.get(), job.histogram, groupsFor(job.histogram.tile.z, job.histogram.more.x),
+        groupsFor(job.histogram.tile.w, job.histogram.more.x));
     wait({kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kCompute, kRead});
 
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, place_.get());
-    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, place_layout_.get(), 0, 1, &set_, 0,
-                                     nullptr);
-    device_.vk.CmdPushConstants(commands, place_layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job.place,
-                                &job.place);
-    device_.vk.CmdDispatch(commands, 1, 1, 1);
+    run(place_.get(), place_layout_.get(), job.place, 1, 1);
     wait({kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
           kCompute | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
           kRead | VK_ACCESS_2_HOST_READ_BIT});
