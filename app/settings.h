@@ -153,6 +153,7 @@ struct Setting {
     char between = ',';                                   // numbers: what stands between them
     std::uint32_t multiple_of = 1;                        // integer: only multiples of it
     std::vector<std::string_view> (*choices)() = nullptr; // choice: what is allowed
+    std::string_view none_text;                           // how one writes that there is no value; empty: one cannot
     std::string_view doc;                                 // one line
     std::uint32_t subcommands = kFrames;                  // which have it
     bool own_option = true;                               // false: only --set, presets and techniques

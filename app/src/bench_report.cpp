@@ -138,8 +138,8 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
     std::string text = fmt::format(
         "{}, camera {}, {}x{}, map {}, on {} ({})\nmedian milliseconds of {} frames{}; static: "
         "maps that still hold are kept\n\n{:<{}}",
-        settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, settings.shadow.map_size, result.device,
-        result.driver, result.techniques.front().redrawn.samples.size(), path, "technique", width);
+        settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, largestSide(settings.shadow),
+        result.device, result.driver, result.techniques.front().redrawn.samples.size(), path, "technique", width);
     for (const Stage& stage : stages()) {
         text += fmt::format("{:>9}", stage.name);
     }

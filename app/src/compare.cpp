@@ -68,7 +68,7 @@ void requireMapFits(const host::Gpu& gpu, const Settings& technique)
     const VkPhysicalDeviceLimits& limits = gpu.properties().limits;
     const std::uint32_t max_side =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
-    if (technique.shadow.map_size > max_side) {
+    if (largestSide(technique.shadow) > max_side) {
         throw Error("drawing " + describeTechnique(technique),
                     fmt::format("{} draws maps of at most {} texels on a side", gpu.properties().deviceName, max_side));
     }

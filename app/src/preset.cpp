@@ -26,7 +26,7 @@ constexpr std::array kPresets{
   "quality": "fast", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
 })"},
     Preset{"plain", "one uniform map and 3x3 PCF: what everybody has, and techniques are held against", R"({
-  "partition": "single", "fit": "uniform", "filter": "pcf"
+  "partition": "single", "fit": "uniform", "filter": "pcf", "map-size": 2048
 })"},
     // The document's first part: a floating-point map, one constant bias for the scene, nine comparisons. Its blur in
     // screen space is soften=blur and not part of this preset.

@@ -12,6 +12,9 @@ namespace {
 
 Json typed(const Setting& setting, const std::string& text)
 {
+    if (!setting.none_text.empty() && text == setting.none_text) {
+        return text;
+    }
     switch (setting.type) {
     case SettingType::flag:
         return text == "1" || text == "true" || text == "on" || text == "yes";

@@ -32,7 +32,8 @@ std::int64_t integerOf(const Setting& setting, std::string_view text)
 {
     const auto value = toInteger(text);
     if (!value) {
-        refuse(setting, text, "a whole number in the range " + rangeText(setting));
+        const std::string none = setting.none_text.empty() ? "" : fmt::format("{} or ", setting.none_text);
+        refuse(setting, text, none + "a whole number in the range " + rangeText(setting));
     }
     requireInRange(setting, text, static_cast<double>(*value));
     return *value;
@@ -154,6 +155,10 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 SettingValue parseValue(const Setting& setting, std::string_view text)
 {
     SettingValue value;
+    if (!setting.none_text.empty() && text == setting.none_text) {
+        value.none = true;
+        return value;
+    }
     switch (setting.type) {
     case SettingType::flag:
         value.flag = flagOf(setting, text);
@@ -194,6 +199,9 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
 
 std::string textOf(const Setting& setting, const SettingValue& value, std::string_view text)
 {
+    if (value.none) {
+        return std::string(setting.none_text);
+    }
     switch (setting.type) {
     case SettingType::flag:
         return value.flag ? "1" : "0";

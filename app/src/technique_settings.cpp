@@ -48,6 +48,7 @@ Setting settingOf(const OptionRow& row, std::string_view default_text)
         setting.between = '/';
     }
     setting.choices = row.choices;
+    setting.none_text = row.none_text;
     setting.doc = row.doc;
     setting.own_option = row.own_option;
     setting.used_when = row.used_when;

@@ -20,7 +20,7 @@ namespace {
 void noteLevels(const Settings& technique)
 {
     constexpr std::uint32_t kFew = 3;
-    const std::uint32_t side = technique.shadow.map_size;
+    const std::uint32_t side = largestSide(technique.shadow);
     const MapSampling sampling = technique.shadow.moments.sampling;
     const std::uint32_t levels = pack::mipLevels(resolvedOrThrow(technique.shadow), side, side);
     const FilterTraits* traits = filterTraits(filterOf(technique.shadow));
@@ -49,8 +49,8 @@ std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
                                 scale == 1 ? "" : ", each four times"),
                     fmt::format("{} draws at most {} on a side", gpu->properties().deviceName, max_side / scale));
     }
-    if (settings.shadow.map_size > max_side) {
-        throw Error(fmt::format("drawing a map of {} texels", settings.shadow.map_size),
+    if (largestSide(settings.shadow) > max_side) {
+        throw Error(fmt::format("drawing a map of {} texels", largestSide(settings.shadow)),
                     fmt::format("{} draws at most {} on a side", gpu->properties().deviceName, max_side));
     }
     if (gpu->software() && settings.gpu.empty()) {

@@ -71,7 +71,7 @@ MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, 
                                             input.map_size, lie.border_texels, lie.light_reach});
 }
 
-MapError FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
+Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
 {
     constexpr double kFeature_px = 300.0;
     const Lie lie = lieOf(input);
@@ -100,7 +100,7 @@ MapError FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, 
     const MapFrame frame = places_.empty()
                                ? frameOfWarp(drawn, lie, warp)
                                : frameOf(rectOf(warp, places_), lie.least_size, input.map_size, lie.border_texels);
-    return mapErrorOf(lit_, warp, frame, feature_m);
+    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_)};
 }
 
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)

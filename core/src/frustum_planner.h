@@ -25,6 +25,11 @@ struct FrustumInput {
     glm::dvec2 grid_move_texels{0.0};
 };
 
+struct Prediction {
+    MapError error;
+    double coarsest_px = 0.0; // coarsestTexel_px()
+};
+
 class FrustumPlanner {
 public:
     /// ok or fallback: fills in all of `view` but whose it is, where its map is and what of it is to be drawn, and
@@ -33,7 +38,7 @@ public:
 
     /// With what error the slice's map will be read, found before it is drawn. With fit auto `strength` is that of the
     /// frame before (0: there was none) and becomes the one to draw by. Keeps its memory.
-    [[nodiscard]] MapError predict(const FrustumInput& input, const Sight& sight, double& strength);
+    [[nodiscard]] Prediction predict(const FrustumInput& input, const Sight& sight, double& strength);
 
 private:
     /// How the slice's map lies across the light, before anybody is drawn.
@@ -55,6 +60,7 @@ private:
     std::vector<std::uint32_t> near_casters_;
     std::vector<LitPoint> lit_;
     std::vector<glm::dvec2> places_;
+    std::vector<double> texels_px_;
 };
 
 } // namespace gnomon

@@ -120,6 +120,7 @@ void writeChoice(JsonWriter& json, const AutoChoice& choice)
     json.value("texels_per_pixel", choice.texels_per_pixel);
     json.value("error", choice.error);
     json.value("other_error", choice.other_error);
+    json.value("halvings", choice.halvings);
     json.value("reason", choice.reason);
     json.closeLine('}');
 }

@@ -99,7 +99,7 @@ struct Planner::Impl {
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
-    const PartitionTraits& decide(const Frame& frame, std::uint32_t index);
+    MapWish decide(const Frame& frame, std::uint32_t index);
     void planLight(const Frame& frame, std::uint32_t index);
     Outcome prospect(std::uint32_t index, const Setup& setup) const;
     std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
@@ -186,7 +186,7 @@ const Plan& Planner::plan(const Frame& given)
 void Planner::Impl::addPages(MapStore& to) const
 {
     for (const Setup& setup : setups) {
-        to.addPages(setup.recipe.options.map_size, setup.recipe.options.max_layers);
+        to.addPages(setup.recipe.resolved.largest_side(), setup.recipe.options.max_layers);
     }
 }
 
@@ -262,27 +262,29 @@ void Planner::Impl::admit(const Frame& frame)
             continue;
         }
         look(frame, setup);
-        wishes.back() = setup.recipe.wishOf(light, light.options, decide(frame, index));
+        wishes.back() = decide(frame, index);
     }
 }
 
-/// How a light is divided, by its options or by what is predicted of it.
-const PartitionTraits& Planner::Impl::decide(const Frame& frame, std::uint32_t index)
+/// The maps of a light, by its options or by what is predicted of it.
+MapWish Planner::Impl::decide(const Frame& frame, std::uint32_t index)
 {
     const Light& light = frame.lights[index];
     const Setup& setup = setups[light.options];
     const Recipe& recipe = setup.recipe;
     if (!recipe.predicts()) {
-        return *recipe.partition;
+        return recipe.wishOf(light, light.options, *recipe.partition, 0);
     }
-    if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
-        return *chooser.decisionOf(recipe, index).partition;
+    if (setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty()) {
+        const Slice none;
+        plan.lights[index].choice =
+            chooser
+                .decide({frame, recipe, setup.camera, setup.receivers, setup.receivers, light, none}, setup.sight,
+                        index, frustums)
+                .told;
     }
-    const Slice none;
-    const AutoDecision& decision = chooser.decide(
-        {frame, recipe, setup.camera, setup.receivers, setup.receivers, light, none}, setup.sight, index, frustums);
-    plan.lights[index].choice = decision.told;
-    return *decision.partition;
+    const AutoDecision& decision = chooser.decisionOf(recipe, index);
+    return recipe.wishOf(light, light.options, *decision.partition, decision.told.halvings);
 }
 
 void Planner::Impl::look(const Frame& frame, Setup& setup)

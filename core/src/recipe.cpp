@@ -72,14 +72,19 @@ bool Recipe::pairs(const Light& light) const
     return steps(light) && paired(motion->stepping);
 }
 
-MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided) const
+MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided,
+                       std::uint32_t halvings) const
 {
+    const std::uint32_t largest = resolved.largest_side();
     MapWish wish;
     wish.options = index;
-    wish.side = light.map_size == 0 ? options.map_size : std::clamp(light.map_size, kSmallestMap, options.map_size);
+    wish.side = light.map_size == 0 ? largest : std::clamp(light.map_size, kSmallestMap, largest);
     wish.count = mapsOf(divided);
-    if (choosesPartition()) {
+    if (choosesPartition() || !options.map_size) {
         wish.side = sideOfShared(wish.side, wish.count);
+    }
+    if (light.map_size == 0) {
+        wish.side = std::max(wish.side >> halvings, std::min(wish.side, kSmallestMap));
     }
     wish.positions = pairs(light) ? 2 : 1;
     wish.shares_texels = resolved.paired_maps();

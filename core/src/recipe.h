@@ -33,9 +33,11 @@ struct Recipe {
     [[nodiscard]] bool steps(const Light& light) const;
     /// It is one with maps of two positions.
     [[nodiscard]] bool pairs(const Light& light) const;
-    /// It depends on the options, the light's own numbers and the partition alone, so that maps last. `divided`: the
-    /// recipe's own partition, or with partition auto the one that was chosen.
-    [[nodiscard]] MapWish wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided) const;
+    /// It depends on the options, the light's own numbers and what was chosen for it alone, so that maps last.
+    /// `divided`: the recipe's own partition, or with partition auto the one that was chosen. `halvings`: of a
+    /// side that is the planner's choice, as AutoDecision has it.
+    [[nodiscard]] MapWish wishOf(const Light& light, std::uint32_t index, const PartitionTraits& divided,
+                                 std::uint32_t halvings) const;
     /// How many maps a light has so.
     [[nodiscard]] std::uint32_t mapsOf(const PartitionTraits& divided) const;
 
@@ -50,7 +52,9 @@ struct Recipe {
     [[nodiscard]] bool choosesPartition() const { return options.technique.partition == Partition::automatic; }
     /// One map around what the camera's depth shows, found on the GPU: what best quality spends on it.
     [[nodiscard]] bool takesDepth() const { return choosesPartition() && resolved.fitsOnGpu(); }
-    [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition(); }
+    /// It also finds out how many texels are of use (map-size auto).
+    [[nodiscard]] bool sizesMap() const { return !options.map_size && !steady(); }
+    [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition() || sizesMap(); }
 };
 
 } // namespace gnomon

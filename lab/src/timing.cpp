@@ -203,7 +203,7 @@ std::vector<std::size_t> timingGroups(const std::vector<Contestant>& contestants
     std::vector<std::size_t> groups;
     std::uint64_t texels = 0;
     for (const Contestant& contestant : contestants) {
-        const std::uint64_t side = contestant.options.shadow.map_size;
+        const std::uint64_t side = largestSide(contestant.options.shadow);
         const std::uint64_t needs = side * side * lights * weightOf(contestant.options.shadow);
         if (groups.empty() || groups.back() == kMaxTogether || texels + needs > kMaxTexelsTogether) {
             groups.push_back(0);

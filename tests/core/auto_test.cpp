@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,7 +155,8 @@ TEST(AutoChoice, SaysWhatItTookAndWhy)
     EXPECT_GT(plan.views[0].fit.strength, 2.0);
     EXPECT_NE(toJson(plan).find("\"auto\": {"), std::string::npos);
     // Nobody asked: nothing is said.
-    EXPECT_EQ(toJson(Planner(ShadowOptions{.technique = kPlainTechnique}).plan(frameOf(stage))).find("\"auto\": {"),
+    EXPECT_EQ(toJson(Planner(ShadowOptions{.technique = kPlainTechnique, .map_size = kSide}).plan(frameOf(stage)))
+                  .find("\"auto\": {"),
               std::string::npos);
 }
 
@@ -185,6 +188,86 @@ TEST(AutoChoice, SpendsTheTexelsOfOneMapByEveryQuality)
     EXPECT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
     for (const View& view : plan.views)
         EXPECT_EQ(view.gpu_cascade, kNoIndex);
+}
+
+/// With map-size auto the texels of all partitions are counted, those that were asked for by name too.
+TEST(AutoChoice, SpendsNoMoreThanItsTexels)
+{
+    for (const std::uint32_t texels : {1024U, 65536U, 1000000U, 4194304U, 5000000U})
+        for (const Partition partition :
+             {Partition::automatic, Partition::single, Partition::cascades, Partition::sdsm})
+            for (const Motion motion : {Motion::free, Motion::snap}) {
+                if (partition == Partition::sdsm && motion == Motion::snap)
+                    continue; // refused
+                ShadowOptions options = automatic();
+                options.technique.partition = partition;
+                options.technique.motion = motion;
+                options.max_texels = texels;
+                const Stage stage = meadow(1.7, 0.1);
+                Planner planner(options);
+                const Plan& plan = planner.plan(frameOf(stage));
+                ASSERT_FALSE(plan.views.empty());
+                std::uint64_t spent = 0;
+                for (const View& view : plan.views)
+                    spent += std::uint64_t{view.tile.width} * view.tile.height;
+                EXPECT_LE(spent, texels);
+                EXPECT_GE(spent, texels * 4 / 10) << "or it would be left lying";
+            }
+}
+
+TEST(AutoSize, IsHalvedToAnEighthOfAPixelAndKeptToASixth)
+{
+    EXPECT_EQ(halvingsFor(0.2, std::nullopt), 0U);
+    EXPECT_EQ(halvingsFor(0.07, std::nullopt), 0U);
+    EXPECT_EQ(halvingsFor(0.06, std::nullopt), 1U);
+    EXPECT_EQ(halvingsFor(0.06, 0), 1U);
+    EXPECT_EQ(halvingsFor(0.08, 1), 1U) << "0.16 of a pixel";
+    EXPECT_EQ(halvingsFor(0.09, 1), 0U) << "0.18";
+    EXPECT_EQ(halvingsFor(0.001, std::nullopt), 3U);
+    EXPECT_EQ(halvingsFor(std::numeric_limits<double>::infinity(), 2), 0U) << "light along a wall";
+}
+
+/// A lamp over the ground, so far off that its light covers few pixels.
+Stage lampAt(double distance_m)
+{
+    Stage stage = test::levelGround();
+    stage.light = test::spot({0, 6, 0}, {0.0, -1, 0.0}, 1.0);
+    stage.camera = test::perspectiveCamera({0, 0.7 * distance_m, distance_m}, {0, 0, 0}, glm::radians(45.0), 16.0 / 9,
+                                           0.1, 1000.0);
+    return stage;
+}
+
+TEST(AutoSize, OfALampFarOffIsSmallAndDoesNotFlicker)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    const auto sideAt = [&](Planner& planner, const Stage& stage) {
+        Frame frame = frameOf(stage);
+        const Plan& plan = planner.plan(frame);
+        EXPECT_EQ(plan.views.size(), 1U);
+        EXPECT_EQ(plan.views.at(0).tile.width, kSide >> plan.lights[0].choice.halvings);
+        return plan.views.at(0).tile.width;
+    };
+    const auto freshSideAt = [&](double distance_m) {
+        Planner planner(options);
+        return sideAt(planner, lampAt(distance_m));
+    };
+    EXPECT_EQ(freshSideAt(8.0), kSide);
+    EXPECT_LT(freshSideAt(120.0), kSide);
+    ShadowOptions given = options;
+    given.map_size = kSide;
+    Planner fixed(given);
+    EXPECT_EQ(sideAt(fixed, lampAt(250.0)), kSide);
+    Planner kept(options);
+    std::uint32_t last = 0;
+    int changes = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+        test::Random random(static_cast<std::uint64_t>(frame));
+        const std::uint32_t side = sideAt(kept, lampAt((8.0 + 0.8 * frame) * random.uniform(0.98, 1.02)));
+        changes += side != last ? 1 : 0;
+        last = side;
+    }
+    EXPECT_LT(last, kSide) << "also where no ray meets its light any more";
+    EXPECT_LE(changes, 8);
 }
 
 TEST(AutoChoice, AFrameThatComesAgainDrawsNothing)

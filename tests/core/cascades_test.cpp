@@ -182,7 +182,7 @@ TEST(Cascades, HoldWhatTheyServe)
                         continue;
                     ++served;
                     const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
-                    const double edge = 1.0 - 2.0 * 4.0 / options.map_size + 1e-6;
+                    const double edge = 1.0 - 2.0 * 4.0 / largestSide(options) + 1e-6;
                     ASSERT_LE(std::max(std::abs(c.x), std::abs(c.y)), c.w * edge);
                     ASSERT_LE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
                     ASSERT_GE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 0.0);

@@ -39,7 +39,7 @@ std::vector<double> texelsPerPixel(Stage& stage, Fit fit)
             if (!(glm::distance(p, stage.camera.eye_ws) < 195.0) || p.z > 0.0)
                 continue;
             const glm::dvec2 here = test::mapPlace(view, p);
-            const double texels = 0.5 * stage.options.map_size;
+            const double texels = 0.5 * largestSide(stage.options);
             const double across = glm::length(test::mapPlace(view, groundAt({x + 0.1, y})) - here) * texels / 0.1;
             const double down = glm::length(test::mapPlace(view, groundAt({x, y + 0.1})) - here) * texels / 0.1;
             found.push_back(std::min(across, down));

@@ -17,7 +17,7 @@ TEST(FitTsm, TheFocusRegionHasFourFifthsOfTheMap)
     ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
     const double near = 1.7 / std::tan(glm::radians(30.0));
     const double focus = std::pow(near, 0.2) * std::pow(200.0, 0.8);
-    const double inner = 1.0 - 2.0 * resolvedOrThrow(stage.options).border_texels() / stage.options.map_size;
+    const double inner = 1.0 - 2.0 * resolvedOrThrow(stage.options).border_texels() / largestSide(stage.options);
     // Near is at y = 1, the end of what is seen at y = -1, both less the border.
     const auto yAt = [&](double z) {
         return test::mapPlace(plan.views[0], {0, 0, -z}).y / inner;

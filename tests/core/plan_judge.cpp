@@ -92,8 +92,8 @@ void checkInMap(const RandomScene& scene, const View& view, const glm::dvec3& p)
 {
     const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
     ASSERT_GT(c.w, 0.0);
-    const double border = std::min(resolvedOrThrow(scene.options).border_texels(), 0.25 * scene.options.map_size);
-    const double edge = 1.0 - 2.0 * border / scene.options.map_size + 1e-6;
+    const double border = std::min(resolvedOrThrow(scene.options).border_texels(), 0.25 * largestSide(scene.options));
+    const double edge = 1.0 - 2.0 * border / largestSide(scene.options) + 1e-6;
     ASSERT_LE(std::abs(c.x), c.w * edge);
     ASSERT_LE(std::abs(c.y), c.w * edge);
     ASSERT_LE(c.z, c.w);

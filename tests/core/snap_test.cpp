@@ -147,7 +147,7 @@ TEST(SnapOfWholeTexels, ChangesTheMapByNothingElse)
     const glm::dmat4 rows = glm::transpose(a.clip_from_world);
     const glm::dvec3 x = glm::dvec3(rows[0]);
     const glm::dvec3 y = glm::dvec3(rows[1]);
-    const double texel = 2.0 / options.map_size;
+    const double texel = 2.0 / largestSide(options);
     const glm::dvec3 step = x * (3.0 * texel / glm::dot(x, x)) - y * (2.0 * texel / glm::dot(y, y));
     meadow.look(glm::dvec3(0, 1.7, 0) + step, {0, -0.08, -1});
     const Plan after = Planner(options).plan(meadow.frame);

@@ -35,7 +35,7 @@ int main()
     frame.size_px = {screen.width, screen.height};
     frame.lights = {&sun, 1};
     frame.objects = &objects;
-    gnomon::Planner planner({.map_size = 2048}); // which maps, with which matrices, who is drawn in them; all else auto
+    gnomon::Planner planner({.max_texels = 2048 * 2048}); // which maps, by which matrices, who is drawn there; all auto
     const gnomon::Plan& plan = planner.plan(frame);
 
     gnomon::vulkan::ShadowRenderer shadows(engine.view(), {}); // your device

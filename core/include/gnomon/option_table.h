@@ -35,6 +35,7 @@ struct OptionRow {
     double max = 0.0;
     std::uint32_t count = 1;                              // numbers: how many, at most
     std::vector<std::string_view> (*choices)() = nullptr; // choice: what can be said
+    std::string_view none_text;                           // how one writes that there is no value; empty: one cannot
     std::string_view doc;                                 // one line
     bool own_option = false;                              // has a command line option of its own
     bool (*used)(const ShadowOptions&) = nullptr;         // null: always has an effect
@@ -49,7 +50,7 @@ struct OptionRow {
 [[nodiscard]] std::span<const OptionRow> optionTable();
 /// Null for an unknown key.
 [[nodiscard]] const OptionRow* findOption(std::string_view key);
-/// As one would write it, in every locale; empty for none.
+/// As one would write it, in every locale; none_text for none.
 [[nodiscard]] std::string textOf(const OptionRow& row, const OptionValue& value);
 /// The first member that is outside of its range, as a sentence; nothing when all are inside.
 [[nodiscard]] std::optional<std::string> firstOutOfRange(const ShadowOptions& options);

@@ -81,7 +81,7 @@ struct PcfOptions {
 /// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
-/// What `automatic` may spend, for the texels of one map of map_size.
+/// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
     fast,     // one map; filter pcf
     balanced, // one map, or cascades that share its texels, whichever is predicted to err less; filter raymarch
@@ -95,7 +95,12 @@ struct ShadowOptions {
     Quality quality = Quality::balanced; // what is auto
     std::optional<MapFormat> format;     // what a texel is stored as; nothing: the filter's first format
     /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share so many: four have half.
-    std::uint32_t map_size = 2048;
+    /// Nothing: the planner's choice. It is as large as max_texels lets it be; or a half, a quarter or an eighth of
+    /// that, where finer texels are predicted to gain nothing. Maps that a motion keeps are as large as they can be.
+    std::optional<std::uint32_t> map_size;
+    /// What all maps of a light may have together where map_size is nothing, 1024 .. 268435456 (16384 x 16384). The
+    /// maps of a stepping sun's two positions have so many each.
+    std::uint32_t max_texels = 2048 * 2048;
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
@@ -134,6 +139,8 @@ public:
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
     [[nodiscard]] double border_texels() const { return border_texels_; }
+    /// Texels on a side of the largest map that a light can have, and of a page.
+    [[nodiscard]] std::uint32_t largest_side() const { return largest_side_; }
     /// Of a map with this many texels on a side: at most a quarter of them.
     [[nodiscard]] double borderOf(std::uint32_t side) const { return std::min(border_texels_, 0.25 * side); }
     /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. End 0:
@@ -157,6 +164,7 @@ private:
     const FilterTraits* traits_ = nullptr;
     MapFormat format_ = MapFormat::d32f;
     double border_texels_ = 0.0;
+    std::uint32_t largest_side_ = 0;
     float reach_texels_ = 0.0F;
     bool paired_maps_ = false;
 };
@@ -184,6 +192,9 @@ struct Resolution {
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);
+/// Texels on a side of the largest map that a light with these options can have: map_size, or what max_texels has room
+/// for, in whole multiples of 8.
+[[nodiscard]] std::uint32_t largestSide(const ShadowOptions& options);
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. What the border has room for. Of a filterable map it is of reads at the finest
 /// level: those of coarser levels, of anisotropic sampling and esm's of the receiver's neighbourhood are moved inside

@@ -237,6 +237,8 @@ struct AutoChoice {
     /// that was not taken; 0: there was no other.
     double error = 0.0;
     double other_error = 0.0;
+    /// How many times the side of its maps was halved, because finer texels are predicted to gain nothing.
+    std::uint32_t halvings = 0;
     std::string_view reason; // a sentence with static lifetime
 };
 

@@ -18,6 +18,7 @@ constexpr std::uint32_t kFramesBetween = 8;
 constexpr double kNewView = 1.5;
 
 constexpr std::string_view kGiven = "the partition is as asked for; its warp is as strong as is predicted to err least";
+constexpr std::string_view kAllGiven = "partition and fit are as asked for; the maps are as large as is of use";
 constexpr std::string_view kOneMap = "one map: cascades are not predicted to err less by a fifth";
 constexpr std::string_view kStillOneMap = "one map, as before: cascades are predicted to err less, but not by a fifth";
 constexpr std::string_view kCascades = "cascades: they are predicted to err less than one map by more than a fifth";
@@ -76,7 +77,8 @@ void AutoChooser::begin(const Recipe& recipe, Memory& memory) const
     memory.decision.told.reason = recipe.takesDepth()         ? kDepth
                                   : chooses                   ? kNothing
                                   : recipe.choosesPartition() ? kFast
-                                                              : kGiven;
+                                  : recipe.searchesWarp()     ? kGiven
+                                                              : kAllGiven;
 }
 
 const AutoDecision& AutoChooser::decisionOf(const Recipe& recipe, std::size_t light)
@@ -97,12 +99,13 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     const std::size_t compared = memory.count == 2 && !placed ? 2 : 1;
     // What is not taken is looked at now and then, and at once where the view became another one.
     const double error_before = memory.candidates[before].error.mean();
-    predict(input, sight, frustums, memory.candidates[before]);
+    const std::uint32_t halvings = memory.decision.told.halvings;
+    predict(input, sight, halvings, frustums, memory.candidates[before]);
     const double error_now = memory.candidates[before].error.mean();
     const bool is_new = !had_choice || std::max(error_now, error_before) > kNewView * std::min(error_now, error_before);
     if (compared == 2 && (is_new || ++memory.frames >= kFramesBetween)) {
         memory.frames = 0;
-        predict(input, sight, frustums, memory.candidates[1 - before]);
+        predict(input, sight, halvings, frustums, memory.candidates[1 - before]);
     }
     std::size_t best = 0;
     AutoChoice& told = memory.decision.told;
@@ -119,6 +122,9 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     const Candidate& taken = memory.candidates[best];
     memory.decision.partition = taken.partition;
     memory.decision.strengths = taken.strengths;
+    if (input.recipe.sizesMap() && input.light.map_size == 0 && taken.coarsest_px > 0.0) {
+        told.halvings = halvingsFor(taken.coarsest_px, is_new ? std::nullopt : std::optional(halvings));
+    }
     told.partition = taken.partition->partition;
     told.error = taken.error.mean();
     told.texels_per_pixel =
@@ -126,16 +132,21 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     return memory.decision;
 }
 
-void AutoChooser::predict(const FrustumInput& input, const Sight& sight, FrustumPlanner& frustums, Candidate& candidate)
+void AutoChooser::predict(const FrustumInput& input, const Sight& sight, std::uint32_t halvings,
+                          FrustumPlanner& frustums, Candidate& candidate)
 {
     slices_.clear();
     candidate.partition->divide({input.light, input.camera, input.recipe.options.cascades}, slices_);
     candidate.error = {};
-    const std::uint32_t side = input.recipe.wishOf(input.light, 0, *candidate.partition).side;
+    candidate.coarsest_px = 0.0;
+    const std::uint32_t side = input.recipe.wishOf(input.light, 0, *candidate.partition, halvings).side;
     for (std::size_t i = 0; i < slices_.size(); ++i) {
-        candidate.error.add(frustums.predict(
+        const Prediction found = frustums.predict(
             {input.frame, input.recipe, input.camera, input.receivers, input.levellers, input.light, slices_[i], side},
-            sight, candidate.strengths[i]));
+            sight, candidate.strengths[i]);
+        candidate.error.add(found.error);
+        candidate.coarsest_px =
+            std::max(candidate.coarsest_px, std::ldexp(found.coarsest_px, -static_cast<int>(halvings)));
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What partition and fit `auto` come to for each light: the candidates' errors are predicted, and the best one is
-// taken, but not at once where it is hardly better than what the light has.
+// What partition, fit and map size `auto` come to for each light: the candidates' errors are predicted, and the best
+// one is taken, but not at once where it is hardly better than what the light has.
 #pragma once
 
 #include "frustum_planner.h"
@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// What a light that leaves its choice to the planner is planned by.
+/// What a light that leaves a choice to the planner is planned by.
 struct AutoDecision {
     const PartitionTraits* partition = nullptr;
     std::array<double, kMaxCascades> strengths{}; // of the warps of its slices; 0: none was looked for yet
@@ -39,6 +39,7 @@ private:
         const PartitionTraits* partition = nullptr;
         std::array<double, kMaxCascades> strengths{};
         MapError error;
+        double coarsest_px = 0.0; // of its maps at their largest side
     };
     struct Memory {
         std::array<Candidate, 2> candidates;
@@ -47,7 +48,8 @@ private:
         AutoDecision decision;
     };
     void begin(const Recipe& recipe, Memory& memory) const;
-    void predict(const FrustumInput& input, const Sight& sight, FrustumPlanner& frustums, Candidate& candidate);
+    void predict(const FrustumInput& input, const Sight& sight, std::uint32_t halvings, FrustumPlanner& frustums,
+                 Candidate& candidate);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row

@@ -5,12 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
 
-/// Finer texels gain nothing, pixels.
+/// Of texels, by which partitions and warps are ranked: finer ones gain next to nothing, pixels.
 constexpr double kFinestTexel_px = 0.5;
+/// Edges gain by still finer ones, if little. Finer than the first is more than is of use; coarser than the second is
+/// too coarse.
+constexpr double kFineEnough_px = 0.125;
+constexpr double kTooCoarse_px = 1.0 / 6.0;
+
+/// The mean of the squared sides of a texel, in pixels, as a length; infinite where the light grazes the receiver.
+double texelInPixels(const LitPoint& point, const Warp& warp, const MapFrame& frame)
+{
+    const glm::dmat2 m = texelFromPixel(point, warp, frame);
+    // The columns of the inverse are the texel's two sides in pixels.
+    const double squares = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]);
+    return std::sqrt(0.5 * squares) / std::abs(glm::determinant(m));
+}
 
 } // namespace
 
@@ -57,17 +71,41 @@ MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const Ma
 {
     MapError error;
     for (const LitPoint& point : points) {
-        const glm::dmat2 m = texelFromPixel(point, warp, frame);
-        // The columns of the inverse are the texel's two sides in pixels; their mean square.
-        const double squares = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]);
-        const double texel_px = std::sqrt(0.5 * squares) / std::abs(glm::determinant(m));
+        const double texel_px = texelInPixels(point, warp, frame);
         const double texel_m = std::max(texel_px, kFinestTexel_px) * point.pixel_m;
-        // Where the light grazes the receiver a texel has no end.
         error.sum += std::isfinite(texel_m) ? texel_m / (texel_m + feature_m) : 1.0;
         error.log_texels -= std::isfinite(texel_px) && texel_px > 0.0 ? std::log(texel_px) : 0.0;
     }
     error.count = points.size();
     return error;
+}
+
+double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                        std::vector<double>& scratch)
+{
+    if (points.empty()) {
+        return 0.0;
+    }
+    scratch.clear();
+    for (const LitPoint& point : points) {
+        const double texel_px = texelInPixels(point, warp, frame);
+        scratch.push_back(std::isnan(texel_px) ? std::numeric_limits<double>::infinity() : texel_px);
+    }
+    const auto coarsest = scratch.end() - 1 - static_cast<std::ptrdiff_t>(scratch.size() / 50);
+    std::nth_element(scratch.begin(), coarsest, scratch.end());
+    return *coarsest;
+}
+
+std::uint32_t halvingsFor(double coarsest_px, std::optional<std::uint32_t> before)
+{
+    constexpr std::uint32_t kMost = 3;
+    std::uint32_t halvings = 0;
+    while (halvings < kMost && std::ldexp(coarsest_px, static_cast<int>(halvings) + 1) <= kFineEnough_px) {
+        ++halvings;
+    }
+    const bool keeps =
+        before && *before > halvings && std::ldexp(coarsest_px, static_cast<int>(*before)) <= kTooCoarse_px;
+    return keeps ? *before : halvings;
 }
 
 } // namespace gnomon

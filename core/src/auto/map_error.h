@@ -7,6 +7,8 @@
 
 #include <glm/mat2x2.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,5 +49,14 @@ struct MapError {
 /// counting texels in pixels alone gives the near end too much of the map (docs/techniques/auto.md has figures).
 [[nodiscard]] MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                                   double feature_m);
+
+/// The size of a texel that all but a fiftieth of the points have at most, in pixels; 0: there are no points. Reorders
+/// `scratch`, which it fills.
+[[nodiscard]] double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                                      std::vector<double>& scratch);
+/// How many times to halve the side of a map whose coarsest texel is this many pixels (> 0): 0 .. 3, to an eighth of a
+/// pixel. `before`: of the frame before, which is kept up to a sixth, for each change draws the map anew; nothing:
+/// there was none.
+[[nodiscard]] std::uint32_t halvingsFor(double coarsest_px, std::optional<std::uint32_t> before);
 
 } // namespace gnomon

@@ -98,7 +98,7 @@ const OptionRow* findOption(std::string_view key)
 std::string textOf(const OptionRow& row, const OptionValue& value)
 {
     if (value.none) {
-        return {};
+        return std::string(row.none_text);
     }
     switch (row.type) {
     case OptionType::flag:

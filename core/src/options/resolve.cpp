@@ -110,6 +110,16 @@ MapFormat formatOf(const ShadowOptions& options)
     return options.format ? *options.format : traits != nullptr ? traits->formats.front() : MapFormat::d32f;
 }
 
+std::uint32_t largestSide(const ShadowOptions& options)
+{
+    constexpr std::uint32_t kMultiple = 8; // halved three times it is a whole number still
+    if (options.map_size) {
+        return *options.map_size;
+    }
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(options.max_texels)));
+    return std::max(side - side % kMultiple, kMultiple);
+}
+
 float reachTexels(const ShadowOptions& options)
 {
     const FilterTraits* const traits = filterTraits(filterOf(options));
@@ -153,6 +163,7 @@ Resolution resolve(const ShadowOptions& options)
     made.asked_.technique.filter = filterOf(options);
     made.traits_ = filterTraits(filterOf(options));
     made.format_ = formatOf(options);
+    made.largest_side_ = largestSide(options);
     made.reach_texels_ = reachTexels(options);
     made.border_texels_ = options.border_texels.value_or(std::max(kLeastBorder_texels, std::ceil(needed_texels)));
     made.paired_maps_ = holdsTwoMaps(*made.traits_, made.format_);

@@ -16,6 +16,10 @@ bool choosesByQuality(const ShadowOptions& o)
 {
     return o.technique.partition == Partition::automatic || o.technique.filter == Filter::automatic;
 }
+bool sizesItself(const ShadowOptions& o)
+{
+    return !o.map_size;
+}
 bool isDisc(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) == 0;
@@ -65,7 +69,8 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "soften", .type = choice, .form = "NAME", .choices = namesOf<Soften>, .doc = "what happens to the visibility in screen space", .own_option = true, GNOMON_MEMBER(technique.soften)},
         {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
         {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: pcf and one map, or rays and cascades too, or one map fitted to the camera's depth", .own_option = true, .used = choosesByQuality, .used_when = "partition or filter auto", GNOMON_MEMBER(quality)},
-        {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .doc = "side of one map", .own_option = true, GNOMON_MEMBER(map_size)},
+        {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .none_text = "auto", .doc = "side of one map; auto: as large as texels lets it be, or less where no more is of use", .own_option = true, GNOMON_MEMBER(map_size)},
+        {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .doc = "that a light's maps may have together", .own_option = true, .used = sizesItself, .used_when = "map-size auto", GNOMON_MEMBER(max_texels)},
         {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, GNOMON_MEMBER(format)},
         {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", GNOMON_BIAS(constant_m)},
         {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", GNOMON_BIAS(slope)},
