@@ -88,9 +88,10 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
     }
     wish.positions = pairs(light) ? 2 : 1;
     wish.shares_texels = resolved.paired_maps();
-    // What the GPU fits is another map in each frame.
-    wish.keeps_still = !divided.fits_on_gpu && (options.keep_still == KeepStill::always ||
-                                                (options.keep_still == KeepStill::automatic && steps(light)));
+    // What the GPU fits is another map in each frame. A midpoint is of all casters at once.
+    wish.keeps_still =
+        !divided.fits_on_gpu && options.faces != CasterFaces::midpoint &&
+        (options.keep_still == KeepStill::always || (options.keep_still == KeepStill::automatic && steps(light)));
     return wish;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "draw_table.h"
 
+#include "closed_meshes.h"
+
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -8,6 +10,14 @@
 #include <tuple>
 
 namespace gnomon::host {
+
+namespace {
+
+// Of caster_batches: what is opaque, and of that what may go without the triangles of one side.
+constexpr std::uint32_t kOpaque = 0;
+constexpr std::uint32_t kOpaqueClosed = 1;
+
+} // namespace
 
 vulkan::Rows3x4 rowsOf(const glm::mat4& m)
 {
@@ -35,6 +45,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         batches.push_back(batch);
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
+    const std::vector<bool> closed = closedMeshes(scene);
     std::map<Key, std::uint32_t> part_ids;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const Batch& batch = std::get<0>(keys[i]);
@@ -42,7 +53,9 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         if (fresh) {
             const vulkan::MeshRange range = geometry.range(state.objects[i]);
             parts.push_back({range, batch_ids[batch]});
-            caster_parts.push_back({range, caster_ids[batch.material]});
+            const bool one_sided =
+                caster_ids[batch.material] == kOpaque && closed[state.objects[i].mesh] && !batch.mirrored;
+            caster_parts.push_back({range, one_sided ? kOpaqueClosed : caster_ids[batch.material]});
         }
         objects.push_back({part->second, 1U});
         // What is blended lets light through; as a map holds all or nothing, it casts nothing.
@@ -51,11 +64,12 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     }
 }
 
-/// One for everything opaque, one for each masked material. Returns each material's.
+/// Two for everything opaque, one for each masked material. Returns each material's.
 std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materials, const scene::Scene& scene)
 {
-    std::vector<std::uint32_t> ids(materials.all().size(), 0);
-    caster_batches.emplace_back();
+    std::vector<std::uint32_t> ids(materials.all().size(), kOpaque);
+    caster_batches.resize(2);
+    caster_batches[kOpaqueClosed].two_sided = false;
     for (std::uint32_t i = 0; i < materials.all().size(); ++i) {
         if (materials.all()[i].caster_set != VK_NULL_HANDLE) {
             const scene::Material& material = scene.materials[i];

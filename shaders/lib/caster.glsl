@@ -36,5 +36,20 @@ GN_FN real4 casterTexel(int holding, real metric)
     return pairedTexel(holding, casterStored(metric));
 }
 
+// The midpoint of a caster's first two surfaces: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.
+// A stored depth is 1 where there is no surface. Departure: where there is no second one Woo's midpoint is far away; ours
+// is the first one, so that what is thin or open casts.
+GN_FN real casterMidpoint(real first, real second)
+{
+    return second < real(1.0) ? real(0.5) * (first + second) : first;
+}
+
+// Of a depth that was stored, rounded by at most `quantum`: does this one lie behind it? One that does not is of the
+// same surface.
+GN_FN bool casterBehind(real stored, real first, real quantum)
+{
+    return stored > first + quantum;
+}
+
 GN_END
 #endif

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // What a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where the
-// rasteriser's depth is not the metric; MASKED: with holes where its texture's alpha is low.
+// rasteriser's depth is not the metric; MASKED: with holes where its texture's alpha is low; BEHIND: only what lies behind the
+// first surface.
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/caster.glsl"
 
@@ -13,6 +14,10 @@
 #define AT
 #endif
 layout(location = 0) AT in float metric;
+#ifdef BEHIND
+layout(set = 2, binding = 0) uniform sampler2D first_surface;
+layout(constant_id = 1) const float kQuantum = 0.0;
+#endif
 #ifdef WRITE_COLOUR
 layout(location = 0) out vec4 stored;
 layout(constant_id = 0) const int kHolding = kDepthAlone;
@@ -34,6 +39,16 @@ void main()
     // The finest level, whatever the texel's size: coarser ones hold means, which for sparse leaves all fall below the cutoff,
     // and the shadow would vanish as texels grow. A texel in or out by one sample is right on average.
     if (textureLod(base_colour, uv, 0.0).a < cutoff) {
+        discard;
+    }
+#endif
+#ifdef BEHIND
+#ifdef WRITE_DEPTH
+    float depth = casterStored(metric);
+#else
+    float depth = casterStored(gl_FragCoord.z);
+#endif
+    if (!casterBehind(depth, texelFetch(first_surface, ivec2(gl_FragCoord.xy), 0).r, kQuantum)) {
         discard;
     }
 #endif

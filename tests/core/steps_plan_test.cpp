@@ -294,6 +294,15 @@ TEST(KeptLayers, AreThereWhenAskedFor)
         }
 }
 
+TEST(KeptLayers, AreNotThereForMidpoints)
+{
+    Village village;
+    ShadowOptions options = stepped(Motion::step_blend, 64);
+    options.faces = CasterFaces::midpoint;
+    Planner planner(options);
+    EXPECT_EQ(planner.plan(village.frame).pages[0].kept_layers, 0U);
+}
+
 TEST(KeptLayers, FollowWhatComesAndGoesAndStands)
 {
     Village village;

@@ -40,5 +40,20 @@ TEST(DepthMetric, interpolationOverATriangleIsExact)
     }
 }
 
+TEST(CasterMidpoint, LiesBetweenTwoSurfacesOrOnTheOnlyOne)
+{
+    EXPECT_EQ(casterMidpoint(0.25, 0.5), 0.375);
+    EXPECT_EQ(casterMidpoint(0.25, 1.0), 0.25) << "what is open casts";
+    EXPECT_EQ(casterMidpoint(1.0, 1.0), 1.0) << "nothing casts there";
+}
+
+TEST(CasterMidpoint, WhatIsWithinTheRoundingIsTheSameSurface)
+{
+    EXPECT_FALSE(casterBehind(0.5, 0.5, 0.0));
+    EXPECT_FALSE(casterBehind(0.5001, 0.5, 0.001));
+    EXPECT_TRUE(casterBehind(0.502, 0.5, 0.001));
+    EXPECT_FALSE(casterBehind(0.4, 0.5, 0.001));
+}
+
 } // namespace
 } // namespace gnomon::shared

@@ -53,6 +53,8 @@ struct CasterDrawer::Impl {
     void checkRoom(const MapPass& pass, std::uint32_t instances) const;
     void ensurePipelines(const Plan& plan);
     void ensureBatches(CasterPipelineKey key);
+    void ensureBothPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
+    [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const MapPassFormats& formats) const;
     void makePlaces(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
     void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
@@ -122,11 +124,12 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
         std::size_t listed_in_pass = 0;
         for (; i < end; ++i) {
             // What stands still and what moves may be drawn apart.
+            const std::uint32_t passes = isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1;
             for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
                 const auto list = castersOf(plan, plan.views[i], share);
                 const std::uint32_t count = batcher.instanceCount(list);
-                all_instances += count;
-                all_commands += std::min(count, batcher.maxCommands());
+                all_instances += VkDeviceSize{passes} * count;
+                all_commands += VkDeviceSize{passes} * std::min(count, batcher.maxCommands());
                 in_pass += count;
                 listed_in_pass += list.size();
             }
@@ -166,7 +169,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
         key.clamp = view.clamp_near;
         key.part = view.part;
         key.placed = view.gpu_cascade != kNoIndex;
-        ensureBatches(key);
+        ensureBothPasses(key, optionsOf(plan, view));
         if (i + 1 < end_of_group) { // with the next one at least
             key.layered = true;
             ensureBatches(key);
@@ -174,12 +177,32 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
     }
 }
 
+VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPassFormats& formats) const
+{
+    if (batch.two_sided) {
+        return VK_CULL_MODE_NONE;
+    }
+    return formats.back_faces        ? VK_CULL_MODE_FRONT_BIT
+           : options.cull_back_faces ? VK_CULL_MODE_BACK_BIT
+                                     : VK_CULL_MODE_NONE;
+}
+
 void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
 {
     for (const CasterBatch& batch : batches) {
         key.masked = batch.texture != VK_NULL_HANDLE;
-        key.cull = options.cull_back_faces && !batch.two_sided;
+        key.cull = cullOf(batch, key.formats);
         pipelines.ensure(key);
+    }
+}
+
+/// Of a midpoint's map there is a second one.
+void CasterDrawer::Impl::ensureBothPasses(CasterPipelineKey key, const ResolvedOptions& resolved)
+{
+    ensureBatches(key);
+    if (isDrawnTwice(resolved)) {
+        key.formats.behind_first = true;
+        ensureBatches(key);
     }
 }
 
@@ -201,7 +224,7 @@ void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
         if ((key.perspective && !perspective) || (key.placed && !placed) || (key.layered && !layered)) {
             continue;
         }
-        impl_->ensureBatches(key);
+        impl_->ensureBothPasses(key, options);
         if (paired && !key.layered) {
             for (const TexelPart part : {TexelPart::first, TexelPart::second}) {
                 key.part = part;
@@ -319,13 +342,17 @@ void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws,
 {
     const CasterBatch& batch = batches[draws.batch];
     key.masked = batch.texture != VK_NULL_HANDLE;
-    key.cull = options.cull_back_faces && !batch.two_sided;
+    key.cull = cullOf(batch, key.formats);
     if (const VkPipeline pipeline = pipelines.get(key); pipeline == VK_NULL_HANDLE) {
         refuseUse(kDrawing, "it has formats that the plan of beginFrame() has not", kAsGiven);
     } else if (pipeline != bound) {
         device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
             bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
+        }
+        if (bound == VK_NULL_HANDLE && key.formats.behind_first) {
+            device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(),
+                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.first_surface, 0, nullptr);
         }
         bound = pipeline;
     }

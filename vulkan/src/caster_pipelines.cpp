@@ -61,6 +61,12 @@ std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, const C
 // Empty where the rasteriser alone does the work.
 std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked)
 {
+    if (formats.behind_first && formats.write_frag_depth) {
+        return masked ? spirv::caster_behind_depth_masked_frag : spirv::caster_behind_depth_frag;
+    }
+    if (formats.behind_first) {
+        return masked ? spirv::caster_behind_masked_frag : spirv::caster_behind_frag;
+    }
     if (formats.colour != VK_FORMAT_UNDEFINED) {
         return masked ? spirv::caster_colour_masked_frag : spirv::caster_colour_frag;
     }
@@ -74,6 +80,12 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     // depth write else.
     return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
 }
+
+// The constants of caster.frag, by constant_id.
+struct FragmentConstants {
+    std::int32_t holding = 0;
+    float quantum = 0.0F;
+};
 
 void checkVertices(const CasterVertices& vertices)
 {
@@ -138,7 +150,8 @@ CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& opti
     constexpr std::array kPlaces{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     textures_ = DescriptorSets(device, kTexture, VK_SHADER_STAGE_FRAGMENT_BIT);
     places_ = DescriptorSets(device, kPlaces, VK_SHADER_STAGE_VERTEX_BIT);
-    const std::array set_layouts{textures_.layout(), places_.layout()};
+    first_surface_ = DescriptorSets(device, kTexture, VK_SHADER_STAGE_FRAGMENT_BIT);
+    const std::array set_layouts{textures_.layout(), places_.layout(), first_surface_.layout()};
     const VkPushConstantRange range{kMaterialStages, 0, sizeof(CasterMaterial)};
     const VkPipelineLayoutCreateInfo layout_info{
         VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, set_layouts.size(), set_layouts.data(), 1, &range};
@@ -166,10 +179,13 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
     ShaderModule fragment;
-    // The constant_id of caster.frag.
-    const std::int32_t holding = formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes : shared::kDepthAlone;
-    const VkSpecializationMapEntry entry{0, 0, sizeof holding};
-    const VkSpecializationInfo specialisation{1, &entry, sizeof holding, &holding};
+    const FragmentConstants constants{formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes
+                                                                                 : shared::kDepthAlone,
+                                      depthRounding(formats.depth)};
+    const std::array entries{
+        VkSpecializationMapEntry{0, offsetof(FragmentConstants, holding), sizeof constants.holding},
+        VkSpecializationMapEntry{1, offsetof(FragmentConstants, quantum), sizeof constants.quantum}};
+    const VkSpecializationInfo specialisation{entries.size(), entries.data(), sizeof constants, &constants};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     stages[0].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
@@ -180,7 +196,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
         stages[1] = stages[0];
         stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[1].module = fragment.get();
-        if (formats.colour != VK_FORMAT_UNDEFINED) {
+        if (formats.colour != VK_FORMAT_UNDEFINED || formats.behind_first) {
             stages[1].pSpecializationInfo = &specialisation;
         }
     }
@@ -197,7 +213,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     state.samples = formats.samples;
     // The shader's inputs say so already (caster.frag); Mesa 22.3 wants to hear it here.
     state.shade_samples = formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT;
-    state.cull = key.cull ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+    state.cull = key.cull;
     state.depth_clamp = key.clamp;
     state.cache = options_.pipeline_cache;
     state.name = key.masked ? "masked casters" : "casters";

@@ -16,7 +16,7 @@ struct CasterPipelineKey {
     bool perspective = false;
     bool masked = false;
     bool clamp = true; // casters before the near plane are clamped onto it
-    bool cull = false;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;
     TexelPart part = TexelPart::whole;
     bool placed = false;  // MapPass::placement
     bool layered = false; // MapPass::view_count above 1; then `part` is whole
@@ -46,6 +46,8 @@ public:
     [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const { return textures_.layout(); }
     /// Set 1 of passes of several views that the GPU has placed: GpuFittedView by view of the plan.
     [[nodiscard]] DescriptorSets& places() { return places_; }
+    /// Which set MapPass::first_surface is.
+    static constexpr std::uint32_t kFirstSurfaceSet = 2;
 
 private:
     struct Made {
@@ -59,6 +61,7 @@ private:
     CasterDrawerOptions options_;
     DescriptorSets textures_; // for its layout: the host makes the sets
     DescriptorSets places_;
+    DescriptorSets first_surface_; // for its layout likewise
     PipelineLayout layout_;
     std::vector<Made> made_;
 };

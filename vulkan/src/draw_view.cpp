@@ -78,6 +78,11 @@ VkRect2D redrawnArea(const View& view, bool all)
             {dirty.width, dirty.height}};
 }
 
+bool isDrawnTwice(const ResolvedOptions& options)
+{
+    return options.asked().faces == CasterFaces::midpoint;
+}
+
 bool isDrawnTogether(const Plan& plan, std::uint32_t view)
 {
     return optionsOf(plan, plan.views[view]).cascades().pass == CascadePass::layered;

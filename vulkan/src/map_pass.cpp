@@ -92,6 +92,10 @@ void DepthMaps::makeKept(std::uint32_t layers)
 
 void DepthMaps::warmUp(const ResolvedOptions& options)
 {
+    if (isDrawnTwice(options)) {
+        midpoints_.emplace(device_, storage_, cache_);
+        return; // and then keeps nothing, and shares no texels
+    }
     const bool shares_texels = options.paired_maps() && mayStep(options);
     if (!mayKeepStill(options) && !shares_texels) {
         return;
@@ -127,6 +131,12 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     if (pages.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, pages.kept_layers)) {
         makeKept(pages.kept_layers);
         prepared.changed = true;
+    }
+    if (isDrawnTwice((*plan.options)[options])) {
+        if (!midpoints_) {
+            midpoints_.emplace(device_, storage_, cache_);
+        }
+        midpoints_->cover(maps_.image().info().extent);
     }
     prepareTogether(plan, options);
     return prepared;
@@ -308,6 +318,14 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     assert(view.tile.x + view.tile.width <= maps_.image().info().extent.width &&
            view.tile.y + view.tile.height <= maps_.image().info().extent.height);
     beginViewLabel(device_, commands, job.plan, index);
+    if (isDrawnTwice(optionsOf(job.plan, view))) {
+        midpoints_->drawSurfaces(job, index);
+        beginRendering(commands, view.tile, mapTarget(view, job.of(index)));
+        midpoints_->drawMidpoint(commands);
+        device_.vk.CmdEndRendering(commands);
+        device_.endLabel(commands);
+        return;
+    }
     BarrierBatch barriers(device_, commands);
     if (!storage_.depthOnly()) {
         waitForDepth(barriers);

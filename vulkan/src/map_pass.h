@@ -10,6 +10,7 @@
 #include "map_recorder.h"
 #include "map_restore.h"
 #include "map_storage.h"
+#include "midpoint_maps.h"
 
 #include <optional>
 
@@ -69,7 +70,8 @@ private:
     std::vector<Layers> layers_; // views of maps_
     LayeredTarget kept_colours_;
     LayeredTarget kept_depths_;
-    std::optional<MapRestorer> restorer_; // made when first needed
+    std::optional<MapRestorer> restorer_;   // made when first needed
+    std::optional<MidpointMaps> midpoints_; // likewise
     std::optional<DepthBlocks> blocks_;
 };
 

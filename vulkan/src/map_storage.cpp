@@ -38,11 +38,17 @@ const MapStorage& mapStorage(MapFormat format)
 MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
 {
     const MapStorage& storage = mapStorage(options.format());
+    const bool back_faces = options.asked().faces == CasterFaces::back;
     if (options.filterable()) { // moments are made of the depths
         return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
-                !orthographic};
+                !orthographic, back_faces};
     }
-    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic};
+    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic, back_faces};
+}
+
+float depthRounding(VkFormat depth)
+{
+    return depth == VK_FORMAT_D16_UNORM ? 1.0F / 65535.0F : 1.0F / 8388608.0F; // a step; two steps of a float below 1
 }
 
 VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part)

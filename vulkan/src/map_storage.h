@@ -27,6 +27,8 @@ struct MapStorage {
 /// What is written of a colour attachment for one part of its texels; 0 for no attachment. Of a format that holds one
 /// map a texel there is no part but the whole.
 [[nodiscard]] VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part);
+/// What a depth of this format may be rounded by, of one that is less than 1.
+[[nodiscard]] float depthRounding(VkFormat depth);
 /// Throws Error, `what` being what was tried, when images with these features cannot hold the filter's averages: they
 /// are written by compute shaders, drawn to by a blur of fragment shaders, and read between texels.
 void requireAveraging(VkFormatFeatureFlags features, Filter filter, MapFormat format, const char* what);

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a receiver is kept from shadowing itself.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (depth aliasing); the arithmetic is in
-// shaders/shared/bias.h.
+// shaders/shared/bias.h. The midpoint: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.
 #pragma once
 
+#include <cstdint>
+#include <string_view>
+
 namespace gnomon {
+
+/// Which surface of the casters along a ray of light a map holds. A caster must have its thickness for `back` to be of
+/// use: a host says which casters are open or thin (CasterBatch::two_sided), and these are held by their nearest
+/// surface all the same, so that they cast.
+enum class CasterFaces : std::uint8_t {
+    nearest,
+    back, // the nearest that faces away from the light: a lit surface is not in the map and cannot shadow itself
+    /// Midway between the first surface and the second, or the first where there is no second. Draws casters twice.
+    /// Of maps in a depth format that are not averaged.
+    midpoint,
+};
+[[nodiscard]] std::string_view nameOf(CasterFaces value);
 
 /// `automatic` derives everything from the texel's footprint, the kernel's reach and the receiver's plane, so nothing
 /// needs tuning when the map's size, the fit or the kernel changes; the other fields are then ignored.

@@ -117,9 +117,10 @@ struct ShadowOptions {
     /// Pages that the maps of these options may take, and again those of still casters: 1 .. 2048. Lights that find no
     /// room get Outcome atlas_full: first come, first served, and a light that is in every frame keeps its place.
     std::uint32_t max_layers = 64;
-    PcfOptions pcf;        // filter pcf
-    BiasOptions bias;      // filters hard and pcf
-    MomentOptions moments; // filters vsm, lvsm, esm, evsm, msm
+    PcfOptions pcf; // filter pcf
+    BiasOptions bias;
+    CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
+    MomentOptions moments;                    // filters vsm, lvsm, esm, evsm, msm
 
     bool operator==(const ShadowOptions&) const = default;
 };

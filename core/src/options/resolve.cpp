@@ -30,6 +30,29 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
     return std::nullopt;
 }
 
+/// The midpoint is found in two images of depth, of all casters of one map.
+std::optional<std::string> facesRefusal(const ShadowOptions& options)
+{
+    if (options.faces != CasterFaces::midpoint) {
+        return std::nullopt;
+    }
+    if (filterTraits(filterOf(options))->filterable) {
+        return "caster-faces midpoint: an average needs the depth of the receiver itself, which a midpoint is not";
+    }
+    const MapFormat format = formatOf(options);
+    if (format != MapFormat::d32f && format != MapFormat::d16) {
+        return "caster-faces midpoint: the two surfaces are depths, so the map is d32f or d16";
+    }
+    if (options.cascades.pass == CascadePass::layered) {
+        return "caster-faces midpoint: a map's second surface needs its first; draw each map in a pass of its own";
+    }
+    if (options.keep_still == KeepStill::always) {
+        return "caster-faces midpoint: what moves may lie between two surfaces of what stands still, so nothing can be "
+               "kept apart";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> refusalOf(const ShadowOptions& options)
 {
     if (const auto reason = refusal(LightType::directional, options.technique)) {
@@ -50,6 +73,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (options.cascades.pass == CascadePass::layered && filterTraits(filterOf(options))->filterable) {
         return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
     }
+    if (auto reason = facesRefusal(options)) {
+        return reason;
+    }
     return refusal(filterOf(options), formatOf(options), options.moments);
 }
 
@@ -68,6 +94,10 @@ std::string_view nameOf(CascadePass value)
 std::string_view nameOf(Quality value)
 {
     return nameIn(std::array<std::string_view, 3>{"fast", "balanced", "best"}, value);
+}
+std::string_view nameOf(CasterFaces value)
+{
+    return nameIn(std::array<std::string_view, 3>{"nearest", "back", "midpoint"}, value);
 }
 std::string_view nameOf(StepBy value)
 {

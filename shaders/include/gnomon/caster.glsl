@@ -36,5 +36,13 @@ vec4 gnomonCasterTexel(int holding, float metric)
     return casterTexel(holding, metric);
 }
 
+// Of a pass with MapPassFormats::behind_first: discard the fragment where this is false. `stored`: gnomonCasterDepth()
+// of the metric, or of gl_FragCoord.z where nothing is written to gl_FragDepth; `first`: MapPass::first_surface at
+// gl_FragCoord.xy; `quantum`: MapPass::first_quantum.
+bool gnomonCasterBehind(float stored, float first, float quantum)
+{
+    return casterBehind(stored, first, quantum);
+}
+
 #include "names_end.glsl"
 #endif

@@ -36,7 +36,9 @@
 #define boundedTexels gnomon_boundedTexels
 #define boundedVisibility gnomon_boundedVisibility
 #define canBlock gnomon_canBlock
+#define casterBehind gnomon_casterBehind
 #define casterMetric gnomon_casterMetric
+#define casterMidpoint gnomon_casterMidpoint
 #define casterPlaced gnomon_casterPlaced
 #define casterStored gnomon_casterStored
 #define casterTexel gnomon_casterTexel

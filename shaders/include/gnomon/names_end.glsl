@@ -36,7 +36,9 @@
 #undef boundedTexels
 #undef boundedVisibility
 #undef canBlock
+#undef casterBehind
 #undef casterMetric
+#undef casterMidpoint
 #undef casterPlaced
 #undef casterStored
 #undef casterTexel

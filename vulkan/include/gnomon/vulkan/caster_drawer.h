@@ -20,7 +20,10 @@ using pack::Rows3x4;
 
 /// A batch of DrawParts, by DrawPart::batch.
 struct CasterBatch {
-    bool two_sided = true; // matters only with CasterDrawerOptions::cull_back_faces
+    /// All its triangles cast, whichever way they face. False, for closed meshes alone, where it matters that some are
+    /// left out: with CasterDrawerOptions::cull_back_faces those that face away from the light, with CasterFaces::back
+    /// those that face it. Of instances that are mirrored the wrong ones would be.
+    bool two_sided = true;
     /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
     /// VK_NULL_HANDLE: opaque.
     VkDescriptorSet texture = VK_NULL_HANDLE;
@@ -60,8 +63,8 @@ struct CasterGeometry {
 
 struct CasterDrawerOptions {
     std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
-    /// Leave out triangles that face away from the light (of batches that are not two-sided). Off, because thin and
-    /// open geometry casts too; counter-clockwise triangles face front.
+    /// Leave out triangles that face away from the light (of batches that are not two-sided), but with
+    /// CasterFaces::back. Off, because thin and open geometry casts too; counter-clockwise triangles face front.
     bool cull_back_faces = false;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     CasterVertices vertices;

@@ -66,6 +66,12 @@ struct MapPassFormats {
     /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
     /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
     bool write_frag_depth = false;
+    /// CasterFaces::back: leave out triangles that face the light, but not of casters that are open, thin or two-sided,
+    /// whose shadow would have holes.
+    bool back_faces = false;
+    /// CasterFaces::midpoint, the second pass of a map: discard fragments that do not lie behind MapPass::first_surface
+    /// (gnomonCasterBehind() in gnomon/caster.glsl). A callback that draws them all gets a map of the first surface.
+    bool behind_first = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
@@ -93,6 +99,10 @@ struct MapPass {
     /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0;
+    /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
+    /// texel at gl_FragCoord.xy is the depth of the first surface, and what that depth may be rounded by.
+    VkDescriptorSet first_surface = VK_NULL_HANDLE;
+    float first_quantum = 0.0F;
     /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
     /// view i of them, castersOf(i), is to be drawn to layer i (gl_Layer) with that view's own clip_from_world and
     /// metric from `plan`; casters, clip_from_world, metric_ws and `view` are those of the first. With
@@ -109,7 +119,8 @@ struct MapPass {
 inline constexpr VkDeviceSize kPlacementStride = 48;
 using DrawCasters = std::function<void(const MapPass&)>;
 
-/// What views of such options are drawn in: of View::orthographic or not.
+/// What views of such options are drawn in: of View::orthographic or not. Of CasterFaces::midpoint the first of a map's
+/// two passes; the second has behind_first, too.
 [[nodiscard]] MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 struct ImageRef {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which meshes have an inside, so that leaving out the triangles that face a light leaves no hole in their shadow.
+#pragma once
+
+#include "scene/model.h"
+
+#include <vector>
+
+namespace gnomon::host {
+
+/// Are all edges of the mesh, over all its primitives, shared by as many triangles one way as the other? Vertices in
+/// one place count as one, whatever their normals and texture coordinates. False without triangles.
+[[nodiscard]] bool isClosed(const scene::Mesh& mesh);
+/// By mesh of the scene.
+[[nodiscard]] std::vector<bool> closedMeshes(const scene::Scene& scene);
+
+} // namespace gnomon::host

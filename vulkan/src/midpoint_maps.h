@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps that hold the midpoint of the casters' first two surfaces. The surfaces are drawn one after the other, each into
+// an image of depths, the second one by leaving out what is not behind the first; then what lies midway is drawn to the
+// map. Based on: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992; the second surface by peeling: C.
+// Everitt, "Interactive Order-Independent Transparency", 2001.
+#pragma once
+
+#include "descriptors.h"
+#include "map_recorder.h"
+#include "map_storage.h"
+
+#include <array>
+
+namespace gnomon::vulkan {
+
+class MidpointMaps {
+public:
+    /// Of a storage that is depth alone.
+    MidpointMaps(Device& device, const MapStorage& storage, VkPipelineCache cache);
+
+    /// Room for the two surfaces of maps on a page of this size. What is too small is retired.
+    void cover(VkExtent2D page);
+    /// Draws both surfaces of all casters of a view, which the callback sees as two passes.
+    void drawSurfaces(const MapJob& job, std::uint32_t view);
+    /// Rendering to the map has begun, viewport and scissor are set: draws what lies midway.
+    void drawMidpoint(VkCommandBuffer commands) const;
+
+private:
+    void makeReadable(VkCommandBuffer commands, const Image& surface) const;
+    void beginSurface(VkCommandBuffer commands, const Image& surface, const Tile& tile) const;
+
+    Device& device_;
+    const MapStorage& storage_;
+    Sampler sampler_;
+    DescriptorSets first_sets_; // MapPass::first_surface
+    DescriptorSets both_sets_;
+    PipelineLayout layout_;
+    Pipeline pipeline_;
+    std::array<Image, 2> surfaces_;
+    VkDescriptorSet first_ = VK_NULL_HANDLE;
+    VkDescriptorSet both_ = VK_NULL_HANDLE;
+};
+
+} // namespace gnomon::vulkan
