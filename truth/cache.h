@@ -21,7 +21,7 @@ struct Traced {
 
 /// Part of every key. Count it up with any change after which the tracer gives other results for the same input, so
 /// that old truths are traced anew.
-inline constexpr std::uint32_t kTracerVersion = 3;
+inline constexpr std::uint32_t kTracerVersion = 4;
 
 /// Of scene, state, view, light, kind, samples, seed, the tracer's own version, and Embree's and the instructions that
 /// it uses here; not of threads or callbacks. Throws Error when Embree does not start.

@@ -45,12 +45,13 @@ std::uint32_t wrapTexel(int i, int size, scene::Wrap wrap)
     return static_cast<std::uint32_t>(i);
 }
 
-} // namespace
-
-float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv)
+/// What `read` gives of a texel's four bytes; `otherwise`, times 255, of what cannot be read.
+template <class Value, class Read>
+Value sample(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv, Value otherwise,
+             Read&& read)
 {
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y) || image.width == 0 || image.height == 0) {
-        return 1.0F;
+        return otherwise * 255.0F;
     }
     const int width = static_cast<int>(image.width);
     const int height = static_cast<int>(image.height);
@@ -59,10 +60,10 @@ float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, cons
     const auto texel = [&](int i, int j) {
         const std::size_t column = wrapTexel(i, width, sampler.wrap_u);
         const std::size_t row = wrapTexel(j, height, sampler.wrap_v);
-        return static_cast<float>(image.rgba[(row * image.width + column) * 4 + 3]);
+        return read(image.rgba.data() + (row * image.width + column) * 4);
     };
     if (!sampler.magnify_linear) {
-        return texel(static_cast<int>(x), static_cast<int>(y)) / 255.0F;
+        return texel(static_cast<int>(x), static_cast<int>(y));
     }
     const float left = std::floor(x - 0.5F);
     const float top = std::floor(y - 0.5F);
@@ -70,13 +71,39 @@ float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, cons
     const float lower_share = y - 0.5F - top;
     const int i = static_cast<int>(left);
     const int j = static_cast<int>(top);
-    const float upper = glm::mix(texel(i, j), texel(i + 1, j), right_share);
-    const float lower = glm::mix(texel(i, j + 1), texel(i + 1, j + 1), right_share);
-    return glm::mix(upper, lower, lower_share) / 255.0F;
+    const Value upper = glm::mix(texel(i, j), texel(i + 1, j), right_share);
+    const Value lower = glm::mix(texel(i, j + 1), texel(i + 1, j + 1), right_share);
+    return glm::mix(upper, lower, lower_share);
+}
+
+/// Of the sRGB transfer function; IEC 61966-2-1, 1999.
+float linearOf(std::uint8_t byte)
+{
+    const float c = static_cast<float>(byte) / 255.0F;
+    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+/// Linear colour and alpha, [0, 1], likewise.
+glm::vec4 sampleColour(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv)
+{
+    const auto read = [](const std::uint8_t* texel) {
+        return glm::vec4(linearOf(texel[0]), linearOf(texel[1]), linearOf(texel[2]),
+                         static_cast<float>(texel[3]) / 255.0F) *
+               255.0F;
+    };
+    return sample(image, sampler, uv, glm::vec4(1.0F), read) / 255.0F;
+}
+
+} // namespace
+
+float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, const glm::vec2& uv)
+{
+    return sample(image, sampler, uv, 1.0F, [](const std::uint8_t* texel) { return static_cast<float>(texel[3]); }) /
+           255.0F;
 }
 
 AlphaTest::AlphaTest(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Material& material)
-    : primitive_(primitive), factor_(material.base_colour.a), cutoff_(material.alpha_cutoff)
+    : primitive_(primitive), factor_(material.base_colour), cutoff_(material.alpha_cutoff)
 {
     const scene::TextureUse& use = material.base_colour_texture;
     if (use.texture == scene::kNone || use.texture >= scene.textures.size()) {
@@ -101,7 +128,7 @@ bool AlphaTest::isSolid(std::uint32_t triangle, float u, float v) const
 {
     const std::uint32_t* corners = primitive_.indices.data() + std::size_t{triangle} * 3;
     const std::array<float, 3> weights{1.0F - u - v, u, v};
-    float alpha = factor_;
+    float alpha = factor_.a;
     if (!primitive_.colours.empty()) {
         float of_vertices = 0.0F;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -110,13 +137,38 @@ bool AlphaTest::isSolid(std::uint32_t triangle, float u, float v) const
         alpha *= of_vertices;
     }
     if (image_ != nullptr) {
-        glm::vec2 uv(0.0F);
-        for (std::size_t k = 0; uvs_ != nullptr && k < 3; ++k) {
-            uv += (*uvs_)[corners[k]] * weights[k];
-        }
-        alpha *= sampleAlpha(*image_, sampler_, {glm::dot(u_axis_, uv) + offset_.x, glm::dot(v_axis_, uv) + offset_.y});
+        alpha *= sampleAlpha(*image_, sampler_, placeAt(corners, u, v));
     }
     return alpha >= cutoff_;
+}
+
+glm::vec2 AlphaTest::placeAt(const std::uint32_t* corners, float u, float v) const
+{
+    const std::array<float, 3> weights{1.0F - u - v, u, v};
+    glm::vec2 uv(0.0F);
+    for (std::size_t k = 0; uvs_ != nullptr && k < 3; ++k) {
+        uv += (*uvs_)[corners[k]] * weights[k];
+    }
+    return {glm::dot(u_axis_, uv) + offset_.x, glm::dot(v_axis_, uv) + offset_.y};
+}
+
+glm::vec3 AlphaTest::transmittance(std::uint32_t triangle, float u, float v) const
+{
+    const std::uint32_t* corners = primitive_.indices.data() + std::size_t{triangle} * 3;
+    const std::array<float, 3> weights{1.0F - u - v, u, v};
+    glm::vec4 colour = factor_;
+    if (!primitive_.colours.empty()) {
+        glm::vec4 of_vertices(0.0F);
+        for (std::size_t k = 0; k < 3; ++k) {
+            of_vertices += primitive_.colours[corners[k]] * weights[k];
+        }
+        colour *= of_vertices;
+    }
+    if (image_ != nullptr) {
+        colour *= sampleColour(*image_, sampler_, placeAt(corners, u, v));
+    }
+    colour = glm::clamp(colour, 0.0F, 1.0F);
+    return 1.0F - colour.a * (1.0F - glm::vec3(colour));
 }
 
 } // namespace gnomon::truth

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an alpha-masked surface is solid.
+// Where an alpha-masked surface is solid, and what a blended one lets through.
 #pragma once
 
 #include "scene/model.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 
 namespace gnomon::truth {
 
-/// The alpha test of one primitive with one masked material. What it is made from must outlive it.
+/// The alpha of one primitive with one masked or blended material. What it is made from must outlive it.
 class AlphaTest {
 public:
     AlphaTest(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Material& material);
 
     /// At the point of triangle `triangle` whose weights are 1 - u - v, u and v for its three vertices.
     [[nodiscard]] bool isSolid(std::uint32_t triangle, float u, float v) const;
+    /// There, of a blended surface: the share of red, green and blue light that goes on behind it, [0, 1]. It is
+    /// stained glass, which where its alpha covers it takes away what its colour does not have: 1 - alpha (1 - colour).
+    [[nodiscard]] glm::vec3 transmittance(std::uint32_t triangle, float u, float v) const;
 
 private:
+    [[nodiscard]] glm::vec2 placeAt(const std::uint32_t* corners, float u, float v) const;
+
     const scene::Primitive& primitive_;
     const std::vector<glm::vec2>* uvs_ = nullptr; // null: all (0, 0)
     const scene::Image* image_ = nullptr;         // null: alpha 1
@@ -26,7 +33,7 @@ private:
     glm::vec2 u_axis_{1.0F, 0.0F}; // texture u = dot(u_axis, uv) + offset.x
     glm::vec2 v_axis_{0.0F, 1.0F};
     glm::vec2 offset_{0.0F};
-    float factor_ = 1.0F;
+    glm::vec4 factor_{1.0F};
     float cutoff_ = 0.5F;
 };
 

@@ -3,6 +3,10 @@
 
 #include "scene_geometry.h"
 
+#include <algorithm>
+#include <span>
+#include <utility>
+
 namespace gnomon::truth {
 namespace {
 
@@ -35,8 +39,24 @@ bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane, const Part
 
 bool passes(const Part& part, const Hit& hit, const RayContext& context)
 {
-    return (hit.object == context.own_object && hit.triangle == context.own_triangle) ||
+    return part.blended || (hit.object == context.own_object && hit.triangle == context.own_triangle) ||
            (part.alpha && !part.alpha->isSolid(hit.triangle, hit.u, hit.v));
+}
+
+/// Takes away from the ray's light what a blended surface does not let through.
+void tint(const RTCFilterFunctionNArguments& args, unsigned lane, const Part& part, const Hit& hit)
+{
+    if (!part.blended) {
+        return;
+    }
+    auto& context = *reinterpret_cast<RayContext*>(args.context);
+    Tint& tint = context.tints[RTCRayN_id(args.ray, args.N, lane)];
+    const std::pair crossing(hit.object, hit.triangle);
+    const auto known = std::span(tint.crossed).first(std::min(tint.count, Tint::kMost));
+    if (std::ranges::find(known, crossing) == known.end()) {
+        tint.crossed[tint.count++ % Tint::kMost] = crossing;
+        tint.through *= part.alpha->transmittance(hit.triangle, hit.u, hit.v);
+    }
 }
 
 } // namespace
@@ -51,6 +71,7 @@ void filterNearest(const RTCFilterFunctionNArguments* args)
         }
         const Hit hit = hitOf(*args, lane);
         const Part& part = parts[hit.object];
+        tint(*args, lane, part, hit);
         const bool culled = context.from_camera && !part.double_sided && isBehind(*args, lane, part);
         if (culled || passes(part, hit, context)) {
             args->valid[lane] = 0;
@@ -67,7 +88,9 @@ void filterAny(const RTCFilterFunctionNArguments* args)
             continue;
         }
         const Hit hit = hitOf(*args, lane);
-        if (passes(parts[hit.object], hit, context)) {
+        const Part& part = parts[hit.object];
+        tint(*args, lane, part, hit);
+        if (passes(part, hit, context)) {
             args->valid[lane] = 0;
         }
     }

@@ -107,12 +107,14 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         part.casts = object.casts;
         part.receives = object.receives;
         part.double_sided = material.double_sided;
+        part.blended = material.alpha_mode == scene::AlphaMode::blend;
         part.rel_from_object = glm::dmat4(object.world_from_object);
         part.rel_from_object[3] -= glm::dvec4(origin_ws_, 0.0);
         if (triangleCount(primitive) == 0 || primitive.positions.empty() || !isFinite(part.rel_from_object) ||
-            material.alpha_mode == scene::AlphaMode::blend) {
+            (part.blended && !part.casts)) {
             continue;
         }
+        tints_ = tints_ || part.blended;
         // In single precision, as rasterisers have it: of a flattened object rounding chooses, and must choose alike.
         part.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0F;
         part.skewed = isSkewed(glm::dmat3(part.rel_from_object));
@@ -120,7 +122,7 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         part.positions =
             object.deformed == scene::kNone ? &primitive.positions : &state.deformed[object.deformed].positions;
         part.normals = object.deformed == scene::kNone ? &primitive.normals : &state.deformed[object.deformed].normals;
-        if (material.alpha_mode == scene::AlphaMode::mask) {
+        if (material.alpha_mode != scene::AlphaMode::opaque) {
             part.alpha.emplace(scene, primitive, material);
         }
     }
@@ -141,8 +143,11 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const scene::Object& object = state.objects[i];
-        parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone && !parts_[i].skewed &&
-                              uses[{object.mesh, object.primitive}] > 1 && hasSoundSize(parts_[i].primitive->bounds);
+        // Panes are few, so they are copied: with them as instances, packets of rays through a later scene did not come
+        // to an end in Embree 3.13, for a reason that is not known.
+        parts_[i].instanced = parts_[i].primitive != nullptr && !parts_[i].blended && object.deformed == scene::kNone &&
+                              !parts_[i].skewed && uses[{object.mesh, object.primitive}] > 1 &&
+                              hasSoundSize(parts_[i].primitive->bounds);
     }
 }
 
@@ -157,7 +162,7 @@ std::uint64_t SceneGeometry::trianglesToBuild(const scene::State& state, bool al
             continue;
         }
         if (!part.instanced) {
-            triangles += triangleCount(*part.primitive) * (all_cast || !part.casts ? 1 : 2);
+            triangles += triangleCount(*part.primitive) * (all_cast || !part.casts || part.blended ? 1 : 2);
         } else if (instanced.insert({state.objects[i].mesh, state.objects[i].primitive}).second) {
             triangles += triangleCount(*part.primitive);
         }
@@ -168,8 +173,9 @@ std::uint64_t SceneGeometry::trianglesToBuild(const scene::State& state, bool al
 void SceneGeometry::build(const scene::State& state, const Options& options)
 {
     seen_ = newScene();
-    const bool all_cast = std::all_of(parts_.begin(), parts_.end(),
-                                      [](const Part& part) { return part.casts || part.primitive == nullptr; });
+    const bool all_cast = std::all_of(parts_.begin(), parts_.end(), [](const Part& part) {
+        return (part.casts && !part.blended) || part.primitive == nullptr;
+    });
     if (!all_cast) {
         casters_ = newScene();
     }
@@ -185,10 +191,12 @@ void SceneGeometry::build(const scene::State& state, const Options& options)
         const GeometryPointer geometry =
             part.instanced ? instanceOf(state.objects[i], part, building) : trianglesOf(part, part.rel_from_object);
         if (!part.instanced) {
-            seen_triangles += triangleCount(*part.primitive);
+            seen_triangles += part.blended ? 0 : triangleCount(*part.primitive);
             caster_triangles += part.casts ? triangleCount(*part.primitive) : 0;
         }
-        rtcAttachGeometryByID(seen_.get(), geometry.get(), i);
+        if (!part.blended) {
+            rtcAttachGeometryByID(seen_.get(), geometry.get(), i);
+        }
         if (casters_ && part.casts) {
             rtcAttachGeometryByID(casters_.get(), geometry.get(), i);
         }

@@ -33,6 +33,19 @@ struct GeometryDeleter {
 using ScenePointer = std::unique_ptr<RTCScene, SceneDeleter>;
 using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
 
+inline constexpr std::uint32_t kLanes = 16; // of a packet of rays
+
+/// What blended surfaces make of the light along a ray. Of a ray that is blocked it means nothing.
+struct Tint {
+    static constexpr std::uint32_t kMost = 16;
+
+    glm::vec3 through;   // the share of red, green and blue that is left
+    std::uint32_t count; // of `crossed`
+    /// The triangles that count already: Embree may call a filter for one hit more than once. Of the last kMost of
+    /// them; behind more panes than that it is dark in any case.
+    std::array<std::pair<std::uint32_t, std::uint32_t>, kMost> crossed;
+};
+
 /// What a ray carries into the filters that Embree calls at every hit.
 struct RayContext {
     RTCIntersectContext base; // first: a filter is handed a pointer to it
@@ -40,8 +53,20 @@ struct RayContext {
     /// The triangle that the ray starts on, which it does not hit. Of a shadow ray.
     std::uint32_t own_object = RTC_INVALID_GEOMETRY_ID;
     std::uint32_t own_triangle = RTC_INVALID_GEOMETRY_ID;
+    std::array<Tint, kLanes> tints; // by the ray's id
 
-    RayContext() { rtcInitIntersectContext(&base); }
+    RayContext()
+    {
+        rtcInitIntersectContext(&base);
+        clearTints();
+    }
+    void clearTints()
+    {
+        for (Tint& tint : tints) {
+            tint.through = glm::vec3(1.0F);
+            tint.count = 0;
+        }
+    }
 };
 
 /// An object of the state as the rays know it; `primitive` is null where it takes no part at all.
@@ -50,7 +75,8 @@ struct Part {
     const std::vector<glm::vec3>* positions = nullptr;
     const std::vector<glm::vec3>* normals = nullptr; // of the vertices
     glm::dmat4 rel_from_object{1.0};                 // relative to SceneGeometry::originWs()
-    std::optional<AlphaTest> alpha;                  // masked materials
+    std::optional<AlphaTest> alpha;                  // masked and blended materials
+    bool blended = false;                            // not seen; shadow rays go through and are tinted
     bool mirrored = false;
     bool double_sided = false;
     bool casts = true;
@@ -76,6 +102,8 @@ public:
     /// All that a camera sees, and all that casts.
     [[nodiscard]] RTCScene seen() const { return seen_.get(); }
     [[nodiscard]] RTCScene casters() const { return casters_ ? casters_.get() : seen_.get(); }
+    /// Some surface is blended.
+    [[nodiscard]] bool tints() const { return tints_; }
     /// Rays are traced relative to this point, the middle of the scene, so that a scene far from the world's origin
     /// loses nothing.
     [[nodiscard]] const glm::dvec3& originWs() const { return origin_ws_; }
@@ -101,7 +129,8 @@ private:
     DevicePointer device_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, ScenePointer> instanced_; // by mesh and primitive
     ScenePointer seen_;
-    ScenePointer casters_; // null: all that is seen casts
+    ScenePointer casters_; // null: all that is seen casts, and nothing else
+    bool tints_ = false;
     std::vector<Part> parts_;
     glm::dvec3 origin_ws_{0.0};
 };

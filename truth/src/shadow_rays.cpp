@@ -13,11 +13,16 @@ namespace gnomon::truth {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kLanes = 16;
 constexpr float kLeastSink = std::numeric_limits<float>::min(); // a positive number instead of 0 or less
 
 /// A ray's own end is off by rounding, and a shell drawn around the emitter must not stand in its light.
 constexpr double kEndShare = 1.0 - 0x1p-18;
+
+/// What a mask of one channel makes of coloured light: ITU-R BT.709. White is 1, exactly.
+double luminance(const glm::vec3& light)
+{
+    return light.y + 0.2126 * (double{light.x} - light.y) + 0.0722 * (double{light.z} - light.y);
+}
 
 } // namespace
 
@@ -71,6 +76,7 @@ ShadowRays::Packet::Packet(const Receiver& receiver, const Seen& light)
         rays.org_y[k] = static_cast<float>(receiver.rel.y);
         rays.org_z[k] = static_cast<float>(receiver.rel.z);
         rays.mask[k] = 0xFFFFFFFFU;
+        rays.id[k] = k;
     }
     const glm::dvec3 other = std::abs(light.direction.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 right = glm::normalize(glm::cross(other, light.direction));
@@ -193,7 +199,7 @@ ShadowRays::Result ShadowRays::traceFrom(const Receiver& receiver, const Seen& l
     return area_ ? traceDisc(receiver, light) : traceCentre(receiver, light);
 }
 
-double ShadowRays::blockerAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const
+ShadowRays::Along ShadowRays::lookAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const
 {
     RayContext context;
     context.own_object = receiver.object;
@@ -210,15 +216,19 @@ double ShadowRays::blockerAlong(const Receiver& receiver, const glm::dvec3& dire
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(geometry_.casters(), &context.base, &query);
-    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kInfinity : query.ray.tfar * glm::length(direction);
+    if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+        return {query.ray.tfar * glm::length(direction), 0.0};
+    }
+    return {kInfinity, luminance(context.tints[0].through)};
 }
 
 ShadowRays::Result ShadowRays::traceCentre(const Receiver& receiver, const Seen& light) const
 {
     Result result;
     result.rays = 1;
-    result.first_blocker_m = blockerAlong(receiver, light.direction, light.centreEnd_m());
-    result.visibility = result.first_blocker_m == kInfinity ? 1.0 : 0.0;
+    const Along along = lookAlong(receiver, light.direction, light.centreEnd_m());
+    result.first_blocker_m = along.blocker_m;
+    result.visibility = along.visibility;
     return result;
 }
 
@@ -231,22 +241,25 @@ ShadowRays::Result ShadowRays::traceDisc(const Receiver& receiver, const Seen& l
     const auto count = static_cast<std::uint32_t>(set_.size());
     for (std::uint32_t set = 0; set < kSampleSets; ++set) {
         const DiscShift shift = shiftOf(seed_, receiver.pixel, set);
-        std::uint32_t unblocked = 0;
+        double unblocked = 0.0;
         for (std::uint32_t first = 0; first < count; first += kLanes) {
             packet.aim(set_, first, shift);
+            if (geometry_.tints()) {
+                packet.context.clearTints();
+            }
             rtcOccluded16(packet.valid.data(), geometry_.casters(), &packet.context.base, &packet.rays);
             for (std::uint32_t k = 0; k < kLanes; ++k) {
                 const bool traced = packet.valid[k] != 0;
                 const bool is_free = traced && packet.rays.tfar[k] >= 0.0F; // Embree leaves -infinity where it hits
                 result.rays += traced ? 1 : 0;
-                unblocked += is_free ? 1 : 0;
+                unblocked += is_free ? luminance(packet.context.tints[k].through) : 0.0;
                 if (traced && !is_free && blocked.count < kBlockedKept) {
                     blocked.rays[blocked.count++] = {packet.rays.dir_x[k], packet.rays.dir_y[k], packet.rays.dir_z[k],
                                                      packet.ends[k]};
                 }
             }
         }
-        lit[set] = static_cast<double>(unblocked) / count;
+        lit[set] = unblocked / count;
     }
     result.visibility = (lit[0] + lit[1] + lit[2] + lit[3]) / kSampleSets;
     result.standard_error = standardError(lit);
@@ -263,15 +276,15 @@ void ShadowRays::findBlocker(const Receiver& receiver, const Seen& light, const 
         return;
     }
     ++result.rays;
-    result.first_blocker_m = blockerAlong(receiver, light.direction, light.centreEnd_m());
+    result.first_blocker_m = lookAlong(receiver, light.direction, light.centreEnd_m()).blocker_m;
     if (result.first_blocker_m < kInfinity) {
         return;
     }
     for (std::uint32_t i = 0; i < blocked.count; ++i) {
         ++result.rays;
         const glm::vec4& ray = blocked.rays[i];
-        result.first_blocker_m =
-            std::min(result.first_blocker_m, blockerAlong(receiver, glm::dvec3(glm::vec3(ray)), double{ray.w}));
+        const Along along = lookAlong(receiver, glm::dvec3(glm::vec3(ray)), double{ray.w});
+        result.first_blocker_m = std::min(result.first_blocker_m, along.blocker_m);
     }
 }
 

@@ -79,8 +79,12 @@ private:
     [[nodiscard]] Result traceCentre(const Receiver& receiver, const Seen& light) const;
     [[nodiscard]] Result traceDisc(const Receiver& receiver, const Seen& light) const;
     void findBlocker(const Receiver& receiver, const Seen& light, const Blocked& blocked, Result& result) const;
-    /// Metres to the nearest caster; `end` is in lengths of `direction`. +infinity where there is none.
-    [[nodiscard]] double blockerAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const;
+    struct Along {
+        double blocker_m = 0.0;  // to the nearest caster; +infinity where there is none
+        double visibility = 0.0; // what arrives of light from there
+    };
+    /// `end` is in lengths of `direction`.
+    [[nodiscard]] Along lookAlong(const Receiver& receiver, const glm::dvec3& direction, double end) const;
 
     const SceneGeometry& geometry_;
     Light light_;
