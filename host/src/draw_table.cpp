@@ -58,13 +58,15 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
             caster_parts.push_back({range, one_sided ? kOpaqueClosed : caster_ids[batch.material]});
         }
         objects.push_back({part->second, 1U});
-        // What is blended lets light through; as a map holds all or nothing, it casts nothing.
-        caster_objects.push_back({part->second, materials.all()[batch.material].blended ? 0U : 1U});
+        // Maps of averages draw receivers, too, and what is blended is none.
+        const bool is_blended = materials.all()[batch.material].blended;
+        caster_objects.push_back({part->second, is_blended && !state.objects[i].casts ? 0U : 1U});
+        blended.push_back(is_blended && state.objects[i].casts ? 1 : 0);
         transforms.push_back(rowsOf(state.objects[i].world_from_object));
     }
 }
 
-/// Two for everything opaque, one for each masked material. Returns each material's.
+/// Two for everything opaque, one for each masked or blended material. Returns each material's.
 std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materials, const scene::Scene& scene)
 {
     std::vector<std::uint32_t> ids(materials.all().size(), kOpaque);
@@ -76,8 +78,8 @@ std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materia
             const scene::TextureUse& use = material.base_colour_texture;
             ids[i] = static_cast<std::uint32_t>(caster_batches.size());
             const float cutoff = material.alpha_cutoff / std::max(material.base_colour.a, 1e-6F);
-            caster_batches.push_back(
-                {true, materials.all()[i].caster_set, cutoff, use.scale, use.offset, use.rotation_rad});
+            caster_batches.push_back({true, materials.all()[i].caster_set, cutoff, use.scale, use.offset,
+                                      use.rotation_rad, materials.all()[i].blended, material.base_colour});
         }
     }
     return ids;

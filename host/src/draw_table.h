@@ -34,6 +34,7 @@ struct DrawTable {
     std::vector<vulkan::CasterBatch> caster_batches;
     std::vector<vulkan::DrawPart> caster_parts;
     std::vector<vulkan::DrawObject> caster_objects;
+    std::vector<std::uint8_t> blended; // per object: it tints the light instead of blocking it
 
 private:
     std::vector<std::uint32_t> makeCasterBatches(const Materials& materials, const scene::Scene& scene);

@@ -119,12 +119,12 @@ void Materials::makeLayouts(const DebugNames& names)
 
 void Materials::writeSet(const scene::Material& material, Textures& textures, VkDeviceSize offset, MaterialFacts& facts)
 {
-    const bool masked = material.alpha_mode == scene::AlphaMode::mask;
+    const bool sampled = material.alpha_mode != scene::AlphaMode::opaque;
     const std::array<VkDescriptorSetLayout, 2> layouts{layout_.get(), caster_layout_.get()};
     std::array<VkDescriptorSet, 2> sets{};
     VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     info.descriptorPool = pool_.get();
-    info.descriptorSetCount = masked ? 2 : 1;
+    info.descriptorSetCount = sampled ? 2 : 1;
     info.pSetLayouts = layouts.data();
     check(vkAllocateDescriptorSets(device_, &info, sets.data()), "making a descriptor set");
     facts.set = sets[0];
@@ -146,7 +146,7 @@ void Materials::writeSet(const scene::Material& material, Textures& textures, Vk
     writes[6] = writes[1];
     writes[6].dstSet = sets[1];
     writes[6].dstBinding = 0;
-    vkUpdateDescriptorSets(device_, masked ? 7 : 6, writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(device_, sampled ? 7 : 6, writes.data(), 0, nullptr);
 }
 
 } // namespace gnomon::host

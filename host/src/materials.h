@@ -33,7 +33,7 @@ struct MaterialFacts {
     bool emits = false;
     bool physical = true; // metallic-roughness
     VkDescriptorSet set = VK_NULL_HANDLE;
-    VkDescriptorSet caster_set = VK_NULL_HANDLE; // masked materials: the base colour texture alone
+    VkDescriptorSet caster_set = VK_NULL_HANDLE; // masked and blended materials: the base colour texture alone
 };
 
 class Materials {

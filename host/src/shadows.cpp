@@ -6,12 +6,17 @@
 namespace gnomon::host {
 namespace {
 
-vulkan::ShadowRendererOptions rendererOptions(const Gpu& gpu, const RenderOptions& options)
+vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const RenderOptions& options)
 {
     vulkan::ShadowRendererOptions wish;
+    if (std::ranges::find(scene.table.blended, 1) != scene.table.blended.end()) {
+        wish.is_blended = [&blended = scene.table.blended](std::uint32_t object) {
+            return blended[object] != 0;
+        };
+    }
     wish.mask_shape = vulkan::MaskShape{true, true, true}; // recordShadows() gives all
     wish.frames_in_flight = options.frames_in_flight;
-    wish.pipeline_cache = gpu.pipelineCache();
+    wish.pipeline_cache = scene.gpu.pipelineCache();
     return wish;
 }
 
@@ -31,7 +36,7 @@ bool isFitted(const View& view)
 } // namespace
 
 Shadows::Shadows(const SceneData& scene, const RenderOptions& options)
-    : planner(resolvedOrThrow(options.shadow).asked()), renderer(scene.gpu.view(), rendererOptions(scene.gpu, options)),
+    : planner(resolvedOrThrow(options.shadow).asked()), renderer(scene.gpu.view(), rendererOptions(scene, options)),
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);

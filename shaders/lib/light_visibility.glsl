@@ -65,6 +65,10 @@ vec2 discPoint(int i)
     return (i & 1) == 0 ? two.xy : two.zw;
 }
 #include "visibility.glsl"
+// A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
+#ifdef GNOMON_TINTS
+#include "tint.glsl"
+#endif
 
 // A surface's point as filters need it.
 struct Receiver {
@@ -164,6 +168,11 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
     if (share > 0.0) {
         do {
             float here = viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n);
+#ifdef GNOMON_TINTS
+            if (GNOMON_TINTS) {
+                here *= viewTint(viewAt(view), bias, r.p, r.n);
+            }
+#endif
             v = found ? mix(v, here, share) : here;
             found = true;
             share = 0.0;

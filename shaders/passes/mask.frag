@@ -20,6 +20,7 @@ layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_dept
 layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
 layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
 layout(constant_id = 10) const bool kHasSmooth = false;
+layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -27,6 +28,8 @@ GpuConstants numbers;
 #define GNOMON_FEW_VIEWS kViewCount
 #define GNOMON_FEW_BINDING 8
 #define GNOMON_BLOCKS_BINDING 9
+#define GNOMON_TINTS kTints
+#define GNOMON_TINTS_BINDING 11
 #define GNOMON_KERNEL_WIDTH kKernelWidth
 #define GNOMON_DISC_TAPS kDiscTaps
 #define GNOMON_AUTOMATIC_BIAS kAutomaticBias

@@ -38,7 +38,7 @@ struct GpuView {
     GN_VEC4 plane_w;
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
-                  // near / far
+                  // near / far, w: one past its layer of the maps of tints; 0: no blended caster is in it
     // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: only while the GPU
     // has yet to fit the view (cascade_constants.comp): one past its number in the plan
     GN_VEC4 slice;

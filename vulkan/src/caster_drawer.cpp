@@ -2,6 +2,7 @@
 #include "caster_instances.h"
 #include "caster_pipelines.h"
 #include "draw_view.h"
+#include "tint_maps.h"
 #include "usage.h"
 
 #include <gnomon/plan_views.h>
@@ -28,7 +29,10 @@ CasterMaterial material(const CasterBatch& batch)
     const float s = std::sin(batch.uv_rotation_rad);
     return {{c * batch.uv_scale.x, s * batch.uv_scale.y, batch.uv_offset.x, 0.0F},
             {-s * batch.uv_scale.x, c * batch.uv_scale.y, batch.uv_offset.y, 0.0F},
-            batch.cutoff};
+            batch.cutoff,
+            0,
+            {},
+            batch.tint};
 }
 
 } // namespace
@@ -52,15 +56,17 @@ struct CasterDrawer::Impl {
     void checkPass(const MapPass& pass) const;
     void checkRoom(const MapPass& pass, std::uint32_t instances) const;
     void ensurePipelines(const Plan& plan);
+    void ensureTints(CasterPipelineKey key);
     void ensureBatches(CasterPipelineKey key);
-    void ensureBothPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
+    void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
     [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const MapPassFormats& formats) const;
     void makePlaces(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
     void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
     void bindGeometry(const MapPass& pass) const;
     void bindPlaces(const MapPass& pass);
-    void drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key);
+    /// Returns the number of indirect draws.
+    std::uint32_t drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key);
 
     Device device;
     CasterDrawerOptions options;
@@ -72,6 +78,7 @@ struct CasterDrawer::Impl {
     std::vector<Slot> slots;
     std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
     std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
+    bool tints = false;                 // some batch is blended
     bool together = false;              // some of this plan's views may be drawn in passes of several
 
     // This frame's.
@@ -109,6 +116,7 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     impl_->batcher = std::move(batcher);
     impl_->batches = std::move(copied);
     impl_->materials = std::move(materials);
+    impl_->tints = std::ranges::any_of(impl_->batches, &CasterBatch::blended);
 }
 
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
@@ -124,7 +132,8 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
         std::size_t listed_in_pass = 0;
         for (; i < end; ++i) {
             // What stands still and what moves may be drawn apart.
-            const std::uint32_t passes = isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1;
+            const std::uint32_t for_tints = tints ? 2 : 0; // what blocks, and what is blended
+            const std::uint32_t passes = (isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1) + for_tints;
             for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
                 const auto list = castersOf(plan, plan.views[i], share);
                 const std::uint32_t count = batcher.instanceCount(list);
@@ -169,7 +178,7 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
         key.clamp = view.clamp_near;
         key.part = view.part;
         key.placed = view.gpu_cascade != kNoIndex;
-        ensureBothPasses(key, optionsOf(plan, view));
+        ensureAllPasses(key, optionsOf(plan, view));
         if (i + 1 < end_of_group) { // with the next one at least
             key.layered = true;
             ensureBatches(key);
@@ -187,19 +196,35 @@ VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPa
                                      : VK_CULL_MODE_NONE;
 }
 
+/// For its map of tints: what blocks light before the blended casters, and these.
+void CasterDrawer::Impl::ensureTints(CasterPipelineKey key)
+{
+    key.part = TexelPart::whole;
+    key.formats = blockerFormats(!key.perspective);
+    ensureBatches(key);
+    key.formats = tintFormats();
+    ensureBatches(key);
+}
+
 void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
 {
     for (const CasterBatch& batch : batches) {
+        if (batch.blended != key.formats.blended) {
+            continue;
+        }
         key.masked = batch.texture != VK_NULL_HANDLE;
         key.cull = cullOf(batch, key.formats);
         pipelines.ensure(key);
     }
 }
 
-/// Of a midpoint's map there is a second one.
-void CasterDrawer::Impl::ensureBothPasses(CasterPipelineKey key, const ResolvedOptions& resolved)
+/// Of a midpoint's map there is a second one, and beside any there may be a map of tints.
+void CasterDrawer::Impl::ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved)
 {
     ensureBatches(key);
+    if (tints && !key.layered) {
+        ensureTints(key);
+    }
     if (isDrawnTwice(resolved)) {
         key.formats.behind_first = true;
         ensureBatches(key);
@@ -224,7 +249,7 @@ void CasterDrawer::warmUp(const ResolvedOptions& options, bool perspective)
         if ((key.perspective && !perspective) || (key.placed && !placed) || (key.layered && !layered)) {
             continue;
         }
-        impl_->ensureBothPasses(key, options);
+        impl_->ensureAllPasses(key, options);
         if (paired && !key.layered) {
             for (const TexelPart part : {TexelPart::first, TexelPart::second}) {
                 key.part = part;
@@ -338,9 +363,12 @@ void CasterDrawer::Impl::bindPlaces(const MapPass& pass)
                                sizeof first, &first);
 }
 
-void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key)
+std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key)
 {
     const CasterBatch& batch = batches[draws.batch];
+    if (batch.blended != key.formats.blended) {
+        return 0;
+    }
     key.masked = batch.texture != VK_NULL_HANDLE;
     key.cull = cullOf(batch, key.formats);
     if (const VkPipeline pipeline = pipelines.get(key); pipeline == VK_NULL_HANDLE) {
@@ -360,11 +388,13 @@ void CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws,
         device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0, 1,
                                         &batch.texture, 0, nullptr);
         device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, 0,
-                                   offsetof(CasterMaterial, first_view), &materials[draws.batch]);
+                                   batch.blended ? sizeof(CasterMaterial) : offsetof(CasterMaterial, first_view),
+                                   &materials[draws.batch]);
     }
     device.vk.CmdDrawIndexedIndirect(pass.commands, slot->commands.buffer(),
                                      commands_used + draws.first_command * kCommandBytes, draws.command_count,
                                      static_cast<std::uint32_t>(kCommandBytes));
+    return draws.command_count;
 }
 
 void CasterDrawer::Impl::checkPass(const MapPass& pass) const
@@ -418,16 +448,17 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     key.formats = pass.formats;
     key.perspective = !view.orthographic;
     key.clamp = view.clamp_near;
-    key.part = view.part;
+    key.part = pass.formats.blended ? TexelPart::whole : view.part;
     key.placed = pass.placement != VK_NULL_HANDLE;
     key.layered = layered;
+    std::uint32_t drawn = 0;
     for (const BatchDraws& draws : lists.batches) {
-        self.drawBatch(pass, draws, key);
+        drawn += self.drawBatch(pass, draws, key);
     }
     self.commands_used += lists.command_count * kCommandBytes;
     self.instances_used += VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered);
     self.triangles += lists.index_count / 3;
-    return lists.command_count;
+    return drawn;
 }
 
 std::uint64_t CasterDrawer::triangles() const

@@ -61,6 +61,9 @@ std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, const C
 // Empty where the rasteriser alone does the work.
 std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked)
 {
+    if (formats.blended) {
+        return spirv::caster_tint_frag;
+    }
     if (formats.behind_first && formats.write_frag_depth) {
         return masked ? spirv::caster_behind_depth_masked_frag : spirv::caster_behind_depth_frag;
     }
@@ -196,7 +199,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
         stages[1] = stages[0];
         stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[1].module = fragment.get();
-        if (formats.colour != VK_FORMAT_UNDEFINED || formats.behind_first) {
+        if ((formats.colour != VK_FORMAT_UNDEFINED && !formats.blended) || formats.behind_first) {
             stages[1].pSpecializationInfo = &specialisation;
         }
     }
@@ -209,6 +212,7 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     state.attributes = std::span(input.attributes).first(input.attribute_count);
     state.colour_format = formats.colour;
     state.colour_mask = colourMaskOf(formats.colour, key.part);
+    state.tints = formats.blended;
     state.depth_format = formats.depth;
     state.samples = formats.samples;
     // The shader's inputs say so already (caster.frag); Mesa 22.3 wants to hear it here.

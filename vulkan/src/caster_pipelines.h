@@ -30,7 +30,10 @@ struct CasterMaterial {
     glm::vec4 uv_v{0.0F, 1.0F, 0.0F, 0.0F};
     float cutoff = 0.5F;
     std::int32_t first_view = 0; // of several that the GPU has placed; pushed apart from the rest
+    glm::vec2 unused{0.0F};
+    glm::vec4 tint{1.0F}; // caster_tint.frag
 };
+static_assert(sizeof(CasterMaterial) == 64);
 inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Vertex buffer of MapPass::placement.

@@ -36,7 +36,7 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
 } // namespace
 
 MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache)
-    : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)),
+    : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)), tints(device),
       filterable_(options.filterable()), filter_(options.filter()), format_(options.format()),
       moments_(options.moments())
 {

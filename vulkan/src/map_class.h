@@ -6,6 +6,7 @@
 #include "layer_placer.h"
 #include "map_recorder.h"
 #include "map_storage.h"
+#include "tint_maps.h"
 
 #include <memory>
 
@@ -23,6 +24,7 @@ public:
 
     LayerPlacer placer;
     std::unique_ptr<MapRecorder> recorder;
+    TintMaps tints;
 
 private:
     bool filterable_;

@@ -5,6 +5,7 @@
 #include "samplers.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/plan_views.h>
 
 #include <gpu_structs.h>
 
@@ -61,6 +62,7 @@ enum Binding : std::uint32_t {
     kFewViews,
     kBlocks,
     kSmooth,
+    kTints,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -69,7 +71,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 VkFormat maskFormat(bool several_lights)
 {
@@ -154,6 +156,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     key.orthographic = draw.orthographic;
     key.shares = draw.shares;
     key.constants.few_views = draw.few_views;
+    key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
     return pipelines_.get(key, layout_.get());
 }
 
@@ -222,9 +225,13 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     }
 }
 
-bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen)
+bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps)
 {
     makeBuffers(plan);
+    tinted_.assign(maps.size(), 0);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        tinted_[i] = maps[i] && maps[i]->tints.inUse() ? 1 : 0;
+    }
     const ImageInfo& have = mask_.info();
     const bool fits = mask_ && have.format == maskFormat(plan.lights.size() > 1) &&
                       have.layers >= std::max(plan.mask_layers, 1U) && have.extent.width == screen.width &&
@@ -282,7 +289,9 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at),
         blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
                           : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead),
-        orDepth(kSmooth, inputs.smooth)};
+        orDepth(kSmooth, inputs.smooth),
+        DescriptorSets::image(kTints, sampler, maps.tints.inUse() ? maps.tints.view() : maps.recorder->maps().view(),
+                              kRead)};
     sets_.write(slot.sets[options], writes);
 }
 
@@ -303,8 +312,11 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
     }
     pack::fillMaskLights(frame, plan, draws_,
                          {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights});
-    pack::fillViews(frame, plan, map_images_,
-                    {reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views});
+    const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
+    pack::fillViews(frame, plan, map_images_, views);
+    for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+        views[i].more.w = static_cast<float>(maps[optionsIndexOf(plan, plan.views[i])]->tints.placeOf(i));
+    }
 }
 
 void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot,

@@ -32,7 +32,7 @@ public:
     /// Makes the mask image if size, format or layers changed; true when it did. Makes the pipelines, too, that this
     /// plan needs for inputs of the options' shape; without one, for inputs as record() was given last. Only a first
     /// record() whose shape nobody told makes its own.
-    bool prepare(const Plan& plan, VkExtent2D screen);
+    bool prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps);
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
     [[nodiscard]] const Image& mask() const { return mask_; }
@@ -83,6 +83,7 @@ private:
     Room room_;
     std::vector<pack::MaskDraw> draws_;      // of the frame that is being recorded
     std::vector<pack::MapImage> map_images_; // likewise, by options
+    std::vector<std::uint8_t> tinted_;       // by options: some view has a map of tints
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
     std::optional<ConvergePass> converge_;   // likewise
     std::optional<MaskShape> shape_;         // of the inputs, as far as it is known

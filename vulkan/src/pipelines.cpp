@@ -43,13 +43,18 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     multisample.minSampleShading = state.shade_samples ? 1.0F : 0.0F;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
-    depth.depthWriteEnable = depth.depthTestEnable;
+    depth.depthWriteEnable = state.tints ? VK_FALSE : depth.depthTestEnable;
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     std::array<VkPipelineColorBlendAttachmentState, 3> attachments{};
     attachments[0].colorWriteMask = state.colour_mask;
     attachments[0].blendEnable = state.keeps_least ? VK_TRUE : VK_FALSE;
     attachments[0].colorBlendOp = state.keeps_least ? VK_BLEND_OP_MIN : VK_BLEND_OP_ADD;
     attachments[0].alphaBlendOp = attachments[0].colorBlendOp;
+    if (state.tints) {
+        attachments[0].blendEnable = VK_TRUE;
+        attachments[0].dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
+        attachments[0].alphaBlendOp = VK_BLEND_OP_MIN;
+    }
     attachments[1].colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     attachments[2].colorWriteMask = attachments[1].colorWriteMask;

@@ -156,6 +156,7 @@ bool Parts::prepare(const Plan& plan, VkExtent2D screen)
         if (pass.kind == pack::FramePassKind::maps) {
             check((*plan.options)[pass.options]);
             const MapRecorder::Prepared maps = classes[pass.options]->recorder->prepare(plan, pass.options);
+            classes[pass.options]->tints.prepare(plan, pass.options, options.is_blended);
             changed = changed || maps.changed;
             if (maps.lost) {
                 notes.lose(pass.options);
@@ -164,7 +165,7 @@ bool Parts::prepare(const Plan& plan, VkExtent2D screen)
     }
     fitter.prepare(plan);
     const bool wants_mask = screen.width > 0 && screen.height > 0;
-    const bool mask_changed = wants_mask && mask.prepare(plan, screen);
+    const bool mask_changed = wants_mask && mask.prepare(plan, screen, classes);
     has_mask = wants_mask;
     prepared.take(plan);
     return changed || mask_changed;
@@ -286,8 +287,9 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
         };
         for (const pack::FramePass& pass : parts.passes) {
             if (pass.kind == pack::FramePassKind::maps) {
-                parts.classes[pass.options]->recorder->record(
-                    {commands, slot, plan, pass.options, work, placed, profiler});
+                const MapJob job{commands, slot, plan, pass.options, work, placed, profiler};
+                parts.classes[pass.options]->recorder->record(job);
+                parts.classes[pass.options]->tints.record(job);
             }
         }
         parts.notes.done(plan);

@@ -31,6 +31,10 @@ struct CasterBatch {
     glm::vec2 uv_scale{1.0F};
     glm::vec2 uv_offset{0.0F};
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
+    /// Blended: it tints light by 1 - alpha (1 - colour), and is drawn to maps of tints alone. `texture` is its colour,
+    /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
+    bool blended = false;
+    glm::vec4 tint{1.0F};
 };
 
 /// One attribute of the host's vertices.

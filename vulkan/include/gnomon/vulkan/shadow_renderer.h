@@ -37,6 +37,10 @@ struct ShadowRendererOptions {
     std::optional<MaskShape> mask_shape;
     std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    /// Does the object with this index of the plan's lists draw blended casters, which tint light instead of blocking
+    /// it? Then views that have such casters get a map of tints beside their map, and the mask holds the luminance of
+    /// what arrives. prepare() asks for each caster of a plan. Null: nothing is blended, and nothing is spent on it.
+    std::function<bool(std::uint32_t object)> is_blended;
 };
 
 /// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
@@ -72,11 +76,15 @@ struct MapPassFormats {
     /// CasterFaces::midpoint, the second pass of a map: discard fragments that do not lie behind MapPass::first_surface
     /// (gnomonCasterBehind() in gnomon/caster.glsl). A callback that draws them all gets a map of the first surface.
     bool behind_first = false;
+    /// A map of tints: blended casters alone, and no others. Red, green and blue multiply what is there, and of
+    /// alpha, which is the metric, the lesser one stays. Depth is tested and not written; gl_FragDepth = metric.
+    bool blended = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
 
-/// One map to draw, given to the host's callback. Rendering has begun, viewport and scissor are set. The callback binds
+/// One map to draw, given to the host's callback. With MapPassFormats::blended those of `casters` are to be drawn that
+/// are blended, else those that are not. Rendering has begun, viewport and scissor are set. The callback binds
 /// its pipelines (made for `formats`) and draws the casters; it must not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: what blended casters leave of a light. A map of tints has beside each map the product of what they let
+// through, and the depth of the nearest of them: a receiver before that is not tinted. Define GNOMON_TINTS_BINDING.
+// Based on: T. Lokovic, E. Veach, "Deep Shadow Maps", SIGGRAPH 2000, of whose functions of depth this is the one with a
+// single step. So a receiver between two panes is tinted by both, unless it casts itself.
+#ifndef GNOMON_TINT_GLSL
+#define GNOMON_TINT_GLSL
+#include "visibility.glsl"
+
+layout(set = GNOMON_SET, binding = GNOMON_TINTS_BINDING) uniform sampler2DArray gnomon_tints;
+
+vec3 tintTexel(vec2 texel, float layer, float depth)
+{
+    vec4 tint = texelFetch(gnomon_tints, ivec3(texel, layer), 0);
+    return depth > tint.a ? tint.rgb : vec3(1.0);
+}
+
+// The luminance (ITU-R BT.709) of what arrives of white light at the point `p`, whose surface has the normal `n`. Bilinear,
+// each texel being compared on its own.
+float viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
+{
+    float layer = view.more.w - 1.0;
+    if (layer < 0.0) {
+        return 1.0;
+    }
+    MapPoint point = projectReceiver(rowsOf(view), rule, p, n);
+    vec2 first = floor(point.texel - 0.5);
+    vec2 share = point.texel - 0.5 - first;
+    vec2 low = max(first, view.whole.xy);
+    vec2 high = min(first + 1.0, view.whole.zw - 1.0);
+    vec3 above = mix(tintTexel(low, layer, point.depth), tintTexel(vec2(high.x, low.y), layer, point.depth), share.x);
+    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point.depth), tintTexel(high, layer, point.depth), share.x);
+    return dot(mix(above, below, share.y), vec3(0.2126, 0.7152, 0.0722));
+}
+
+#endif

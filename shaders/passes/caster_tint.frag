@@ -1,0 +1,27 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// What a blended caster writes to a map of tints: the colour that it multiplies the light behind it by, and its depth, of
+// which the nearest stays.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/caster.glsl"
+
+layout(location = 0) in float metric;
+layout(location = 1) in vec2 uv;
+layout(set = 0, binding = 0) uniform sampler2D base_colour;
+layout(push_constant) uniform Material
+{
+    vec4 uv_u;
+    vec4 uv_v;
+    float cutoff;
+    int first_view;
+    layout(offset = 48) vec4 tint;
+};
+layout(location = 0) out vec4 stored;
+
+void main()
+{
+    vec4 colour = clamp(texture(base_colour, uv) * tint, 0.0, 1.0);
+    float depth = casterStored(metric);
+    stored = vec4(1.0 - colour.a * (1.0 - colour.rgb), depth);
+    gl_FragDepth = depth;
+}

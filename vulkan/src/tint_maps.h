@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of what blended casters leave of the light, beside the maps of one of a plan's options: of the same squares, and
+// only for views that have such casters. Red, green and blue are what all of a texel's casters let through together,
+// and alpha is the depth of the nearest one. What lies behind the first thing that blocks is not in it, so that a pane
+// under a floor does not tint the floor: what blocks is drawn first, to a depth image of its own, since the map itself
+// may be averaged, of several samples or not a depth image at all. Based on: T. Lokovic, E. Veach, "Deep Shadow Maps",
+// SIGGRAPH 2000: a transmittance by depth, here with one step. Not taken: M. McGuire, E. Enderton, "Colored Stochastic
+// Shadow Maps", I3D 2011, which keeps the order of panes and receivers, because it trades that for noise, which filters
+// of a few taps leave in the picture.
+#pragma once
+
+#include "layered_target.h"
+#include "map_recorder.h"
+
+#include <functional>
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// What blocks light, in the depth image that blended casters are tested against.
+[[nodiscard]] MapPassFormats blockerFormats(bool orthographic);
+[[nodiscard]] MapPassFormats tintFormats();
+
+class TintMaps {
+public:
+    explicit TintMaps(Device& device) : device_(device) {}
+
+    /// Finds the views with blended casters, and makes what images they need. Throws Error where the device cannot
+    /// blend in the format of tints.
+    void prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended);
+    /// After the maps: draws those that do not hold what their views want.
+    void record(const MapJob& job);
+    /// Some view of the prepared plan has one.
+    [[nodiscard]] bool inUse() const { return in_use_; }
+    [[nodiscard]] VkImageView view() const { return tints_.image().view(); }
+    /// Of a view of that plan: one past its layer; 0: it has none.
+    [[nodiscard]] std::uint32_t placeOf(std::uint32_t view) const { return in_use_ ? places_[view] : 0; }
+
+private:
+    void makeImages(const MapPages& pages, std::uint32_t layers);
+    void draw(const MapJob& job, std::uint32_t view);
+    void beginRendering(VkCommandBuffer commands, const Tile& tile, VkImageView colour);
+
+    Device& device_;
+    LayeredTarget tints_;
+    Image depth_;                       // of what blocks; forgotten after each view
+    std::vector<std::uint32_t> places_; // by view
+    std::vector<ContentNumber> held_;   // by MapId::index
+    bool in_use_ = false;
+};
+
+} // namespace gnomon::vulkan
