@@ -214,7 +214,7 @@ GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone, real 
         before = region.nearest;
         region = regionAround(cone, f, within, before);
         --left;
-    } while (left > 0 && region.nearest > before);
+    } while (left > 0 && region.nearest > before && region.nearest < point.depth);
     Surroundings around;
     around.visibility = real(-1.0);
     around.nearest = region.nearest;
