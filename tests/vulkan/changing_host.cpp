@@ -110,7 +110,7 @@ Frame ChangingHost::nextFrame(const FrameSetup& setup)
     Frame frame;
     frame.index = ++frames_;
     frame.time_s = 0.7 * frames_;
-    frame.camera = makeCamera({9.0, 6.0, 11.0 - 0.01 * (frames_ % 100)}, {0.0, 0.5, 0.0}, 1.6);
+    frame.camera = makeCamera(eye_ws - glm::dvec3(0.0, 0.0, 0.01 * (frames_ % 100)), {0.0, 0.5, 0.0}, 1.6);
     frame.size_px = {setup.screen.width, setup.screen.height};
     frame.lights = lights_;
     frame.objects = &objects_;
@@ -122,6 +122,7 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     const Frame frame = nextFrame(setup);
     at = At::plan;
     const Plan& plan = planner.plan(frame);
+    chosen = plan.lights[0].choice.partition;
     const std::uint64_t pipelines = driver.counts().pipelines;
     at = At::prepare;
     (void)renderer.prepare(plan, setup.screen);

@@ -64,6 +64,9 @@ public:
     std::uint64_t prepared_now = 0; // pipelines that the last frame made before it was recorded
     /// Of light 0, for tests that want a spot.
     LightType first_light = LightType::directional;
+    /// Of the camera, which looks at the middle of the scene and comes a little nearer in each frame.
+    glm::dvec3 eye_ws{9.0, 6.0, 11.0};
+    Partition chosen = Partition::automatic; // for light 0 in the last frame, by a planner that chooses
 
 private:
     struct Views {

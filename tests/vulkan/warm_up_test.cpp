@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 namespace gnomon::test {
 namespace {
 
@@ -65,6 +68,33 @@ TEST_P(WarmUp, ofTwoOptionsLeavesNoPipelineToMakeForBoth)
         warm.drawer.warmUp(resolvedOrThrow(one), true);
     }
     EXPECT_EQ(made(warm, options, 9, LightType::directional), 0U);
+}
+
+// The camera rises from the ground and sinks back to it, and the planner changes its mind on the way.
+TEST(WarmUpOfAuto, leavesNoPipelineToMakeWhenThePartitionChanges)
+{
+    for (const char* line : {"filter=pcf partition=auto fit=auto map-size=64",
+                             "filter=raymarch partition=auto fit=auto map-size=64",
+                             "filter=pcf partition=auto fit=auto quality=best map-size=64"}) {
+        const ShadowOptions options = optionsFrom(line);
+        ChangingHost host({.mask_shape = vulkan::MaskShape{.normals = true}});
+        host.renderer.warmUp(resolvedOrThrow(options), {.inputs = {.normals = true}, .several_lights = false});
+        host.drawer.warmUp(resolvedOrThrow(options), true);
+        Planner planner(options);
+        FrameSetup setup;
+        setup.inputs.normals = true;
+        std::set<Partition> seen;
+        std::uint64_t pipelines = 0;
+        for (int i = 0; i < 60; ++i) {
+            const double t = std::abs(i - 30) / 30.0;
+            host.eye_ws = {0.0, 0.4 * std::pow(100.0, 1.0 - t), 29.0 * t + 1.0};
+            pipelines += host.frame(planner, setup).pipelines + host.prepared_now;
+            seen.insert(host.chosen);
+        }
+        EXPECT_EQ(pipelines, 0U) << line;
+        EXPECT_EQ(seen.size(), options.quality == Quality::best ? 1U : 2U) << line;
+        host.expectNoMistakes(line);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
