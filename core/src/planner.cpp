@@ -1,55 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame's way to its plan: what the camera sees, what each light wants, who has which maps; then one light after the
-// other: where it stands, how it is divided, and for each slice a view and what of its map has to be drawn.
-#include "auto/auto_choice.h"
-#include "camera_view.h"
-#include "frustum_planner.h"
-#include "motion/sun_steps.h"
-#include "recipe.h"
-#include "soften/light_sample.h"
-#include "soften/moved_boxes.h"
-#include "store/map_store.h"
+// other (planner_light.cpp).
+#include "planner_impl.h"
 
-#include <gnomon/converge.h>
-#include <gnomon/planner.h>
 #include <gnomon/world_range.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace gnomon {
 namespace {
-
-/// One of a planner's options, and what the camera sees that they count for.
-struct Setup {
-    explicit Setup(const ShadowOptions& options) : recipe(options) {}
-
-    Recipe recipe;
-    bool looked = false; // in this frame
-    CameraView camera;
-    std::vector<std::uint32_t> receivers;
-    Sight sight; // where the recipe predicts
-};
-
-/// One position that a light shines from.
-struct Stand {
-    std::uint32_t light = 0; // index into Frame::lights
-    Light at;                // the light, shining from there
-    SunPosition sun = SunPosition::only;
-    std::uint32_t slot = 0; // which of its light's maps it has
-    bool read = true;       // in this frame
-};
-
-/// Of what becomes of a light's slices, the highest is what is said of the light.
-int rank(OutcomeKind kind)
-{
-    constexpr OutcomeKind kUpwards[] = {OutcomeKind::no_receiver, OutcomeKind::no_caster, OutcomeKind::degenerate,
-                                        OutcomeKind::ok, OutcomeKind::fallback};
-    return static_cast<int>(std::find(std::begin(kUpwards), std::end(kUpwards), kind) - std::begin(kUpwards));
-}
 
 Outcome noOptions(std::span<const ShadowOptions> options)
 {
@@ -64,51 +26,6 @@ Outcome checkRange(const ObjectSet& objects)
 }
 
 } // namespace
-
-struct Planner::Impl {
-    /// Without any options it has the default ones, and `unusable` says why nobody plans by them.
-    explicit Impl(std::span<const ShadowOptions> options, Outcome why_unusable = {});
-
-    std::vector<Setup> setups; // at least one
-    Outcome unusable;          // not ok: no light has a map, in any frame
-    Outcome fault;             // not ok: no light has a map in this frame
-    bool some_nowhere = false; // objects of this frame
-    MapStore store;
-    SunCourses suns;
-    SunCourses suns_before; // as they were before this frame
-    AutoChooser chooser;
-    std::uint64_t frames = 0; // planned so far: whose turn it is
-    bool spoilt = false;      // a plan ended half way, because something threw
-    MovedBoxes moved;
-    std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
-
-    Plan plan;
-
-    // Scratch.
-    FrustumPlanner frustums;
-    std::vector<Slice> slices;
-    std::vector<std::uint32_t> keys; // of the frame's lights
-    std::vector<MapWish> wishes;
-    std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
-    std::vector<std::uint32_t> merged;
-
-    void addPages(MapStore& to) const;
-    void makePlan(const Frame& frame);
-    void begin(const Frame& frame);
-    void noteMovement(const Frame& frame);
-    void look(const Frame& frame, Setup& setup);
-    void listReceivers(const Frame& frame);
-    void admit(const Frame& frame);
-    MapWish decide(const Frame& frame, std::uint32_t index);
-    void planLight(const Frame& frame, std::uint32_t index);
-    Outcome prospect(std::uint32_t index, const Setup& setup) const;
-    std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
-    Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
-    void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
-    const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
-    Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice);
-    void addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned);
-};
 
 Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
 
@@ -232,8 +149,6 @@ void Planner::Impl::noteMovement(const Frame& frame)
     converging = plan.cut ? 0 : converging;
 }
 
-// ---- All lights: what each wants, and what the camera sees for it
-
 void Planner::Impl::admit(const Frame& frame)
 {
     keys.clear();
@@ -335,161 +250,6 @@ void Planner::Impl::listReceivers(const Frame& frame)
     }
     if (levels) {
         frame.objects->query({}, ObjectSet::Want::receivers, all_receivers);
-    }
-}
-
-// ---- One light
-
-void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
-{
-    const Light& light = frame.lights[index];
-    LightPlan& planned = plan.lights[index];
-    const Setup& setup = setups[planned.options];
-    planned.first_view = static_cast<std::uint32_t>(plan.views.size());
-    const std::uint32_t earlier_slot = followSun(frame, setup.recipe, light, planned.steps);
-    if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = prospect(index, setup);
-    }
-    if (planned.outcome.kind == OutcomeKind::ok) {
-        planned.outcome = planStands(frame, index, earlier_slot);
-    }
-    planned.view_count = static_cast<std::uint32_t>(plan.views.size()) - planned.first_view;
-}
-
-/// Can a light that may have maps have any in this frame?
-Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
-{
-    if (!store.hasRoom(index)) {
-        return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
-    }
-    if (setup.camera.outcome.kind != OutcomeKind::ok) {
-        return setup.camera.outcome;
-    }
-    if (setup.receivers.empty()) {
-        return {
-            OutcomeKind::no_receiver,
-            some_nowhere
-                ? "the camera sees nothing that receives shadow, and some objects are nowhere (ObjectSet::nowhere())"
-                : "the camera sees nothing that receives shadow"};
-    }
-    return {};
-}
-
-/// Where a sun stands for its maps; returns the slot of its earlier position.
-std::uint32_t Planner::Impl::followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps)
-{
-    if (!recipe.steps(light) || checkLight(light).kind != OutcomeKind::ok) {
-        return 0;
-    }
-    const SunCourse& course = suns.follow(light, frame.time_s, recipe.motion->stepping, recipe.options.steps);
-    steps = course.steps();
-    // By turns of the slots, not of the positions: then after a step too the frame before has read the other one, or
-    // the one whose weight was next to nothing.
-    steps.read = (frames & 1) == course.earlierSlot() ? SunPosition::earlier : SunPosition::later;
-    return course.earlierSlot();
-}
-
-/// A position keeps its slot, that is its maps, for as long as the sun has it.
-Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot)
-{
-    const SunSteps steps = plan.lights[index].steps;
-    const Recipe& recipe = setups[plan.lights[index].options].recipe;
-    const bool has_slots = recipe.pairs(frame.lights[index]);
-    if (recipe.converges()) {
-        plan.lights[index].sample =
-            sampleOf(frame.lights[index], convergeSample(recipe.filter->integrates_light ? 0 : converging));
-        plan.lights[index].sample.number = static_cast<std::uint32_t>(converging % 1024);
-    }
-    std::optional<Outcome> best;
-    for (const bool later : {false, true}) {
-        if (later && !steps.paired) {
-            break;
-        }
-        Stand stand;
-        stand.light = index;
-        stand.at = frame.lights[index];
-        if (steps.stepping) {
-            stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
-        }
-        if (const LightSample& sample = plan.lights[index].sample; sample.joined) {
-            stand.at.position_ws = sample.position_ws;
-            stand.at.direction_ws = sample.direction_ws;
-        }
-        if (steps.paired) {
-            stand.sun = later ? SunPosition::later : SunPosition::earlier;
-        }
-        stand.read = !steps.alternate || stand.sun == steps.read;
-        if (has_slots) {
-            stand.slot = later ? 1 - earlier_slot : earlier_slot;
-        }
-        planStand(frame, stand, best);
-    }
-    return *best;
-}
-
-/// A slice without receivers or casters needs no map; the light has one when any slice does.
-void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best)
-{
-    const Setup& setup = setups[stand.at.options];
-    slices.clear();
-    partitionOf(setup, stand).divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
-    for (std::uint32_t i = 0; i < slices.size(); ++i) {
-        const Outcome outcome = planSlice(frame, stand, setup, i);
-        if (!best || rank(outcome.kind) > rank(best->kind)) {
-            best = outcome;
-        }
-    }
-}
-
-const PartitionTraits& Planner::Impl::partitionOf(const Setup& setup, const Stand& stand)
-{
-    return setup.recipe.predicts() ? *chooser.decisionOf(setup.recipe, stand.light).partition : *setup.recipe.partition;
-}
-
-Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice)
-{
-    const Recipe& recipe = setup.recipe;
-    View planned;
-    planned.light = stand.light;
-    planned.sun = stand.sun;
-    const glm::dvec2 grid_move = recipe.converges() ? convergeSample(converging).grid_texels : glm::dvec2(0.0);
-    const bool on_gpu = partitionOf(setup, stand).fits_on_gpu; // whose views have a grid of their own
-    planned.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
-    const Outcome outcome =
-        frustums.plan({frame, recipe, setup.camera, setup.receivers, recipe.steady() ? all_receivers : setup.receivers,
-                       stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width,
-                       recipe.predicts() ? chooser.decisionOf(recipe, stand.light).strengths[slice] : 1.0,
-                       on_gpu ? glm::dvec2(0.0) : grid_move},
-                      planned, plan.casters);
-    if (!outcome.hasMap()) {
-        return outcome;
-    }
-    if (!on_gpu) {
-        addView(frame, stand, slice, planned);
-        return outcome;
-    }
-    // A base map: one view for each cascade that the GPU will fit to a part of it.
-    for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.mapsOf(partitionOf(setup, stand));
-         ++planned.gpu_cascade) {
-        addView(frame, stand, planned.gpu_cascade, planned);
-    }
-    return outcome;
-}
-
-/// Says where a view's map is, and what of it has to be drawn.
-void Planner::Impl::addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned)
-{
-    View& view = plan.views.emplace_back(planned);
-    const MapPlace& place = store.placeOf(stand.light, stand.slot, frustum);
-    view.map = place.map;
-    view.tile = place.tile;
-    view.part = place.part;
-    if (view.gpu_cascade != kNoIndex) {
-        store.drawAnew(view);
-    } else if (stand.read) {
-        store.draw(view, place, std::span(plan.casters).subspan(view.first_caster, view.caster_count), *frame.objects);
-    } else {
-        view.redraw = false;
     }
 }
 

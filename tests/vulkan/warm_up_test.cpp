@@ -73,9 +73,9 @@ TEST_P(WarmUp, ofTwoOptionsLeavesNoPipelineToMakeForBoth)
 // The camera rises from the ground and sinks back to it, and the planner changes its mind on the way.
 TEST(WarmUpOfAuto, leavesNoPipelineToMakeWhenThePartitionChanges)
 {
-    for (const char* line : {"filter=pcf partition=auto fit=auto map-size=64",
-                             "filter=raymarch partition=auto fit=auto map-size=64",
-                             "filter=pcf partition=auto fit=auto quality=best map-size=64"}) {
+    for (const char* line :
+         {"filter=pcf partition=auto fit=auto map-size=64", "filter=raymarch partition=auto fit=auto map-size=64",
+          "filter=pcf partition=auto fit=auto quality=best map-size=64"}) {
         const ShadowOptions options = optionsFrom(line);
         ChangingHost host({.mask_shape = vulkan::MaskShape{.normals = true}});
         host.renderer.warmUp(resolvedOrThrow(options), {.inputs = {.normals = true}, .several_lights = false});

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a planner keeps, and its steps: those of all lights together are in planner.cpp, those of one light in
+// planner_light.cpp.
+#pragma once
+
+#include "auto/auto_choice.h"
+#include "camera_view.h"
+#include "frustum_planner.h"
+#include "motion/sun_steps.h"
+#include "recipe.h"
+#include "soften/moved_boxes.h"
+#include "store/map_store.h"
+
+#include <gnomon/planner.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// One of a planner's options, and what the camera sees that they count for.
+struct Setup {
+    explicit Setup(const ShadowOptions& options) : recipe(options) {}
+
+    Recipe recipe;
+    bool looked = false; // in this frame
+    CameraView camera;
+    std::vector<std::uint32_t> receivers;
+    Sight sight; // where the recipe predicts
+};
+
+/// One position that a light shines from.
+struct Stand {
+    std::uint32_t light = 0; // index into Frame::lights
+    Light at;                // the light, shining from there
+    SunPosition sun = SunPosition::only;
+    std::uint32_t slot = 0; // which of its light's maps it has
+    bool read = true;       // in this frame
+};
+
+struct Planner::Impl {
+    /// Without any options it has the default ones, and `unusable` says why nobody plans by them.
+    explicit Impl(std::span<const ShadowOptions> options, Outcome why_unusable = {});
+
+    std::vector<Setup> setups; // at least one
+    Outcome unusable;          // not ok: no light has a map, in any frame
+    Outcome fault;             // not ok: no light has a map in this frame
+    bool some_nowhere = false; // objects of this frame
+    MapStore store;
+    SunCourses suns;
+    SunCourses suns_before; // as they were before this frame
+    AutoChooser chooser;
+    std::uint64_t frames = 0; // planned so far: whose turn it is
+    bool spoilt = false;      // a plan ended half way, because something threw
+    MovedBoxes moved;
+    std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
+
+    Plan plan;
+
+    // Scratch.
+    FrustumPlanner frustums;
+    std::vector<Slice> slices;
+    std::vector<std::uint32_t> keys; // of the frame's lights
+    std::vector<MapWish> wishes;
+    std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
+    std::vector<std::uint32_t> merged;
+
+    void addPages(MapStore& to) const;
+    void makePlan(const Frame& frame);
+    void begin(const Frame& frame);
+    void noteMovement(const Frame& frame);
+    void look(const Frame& frame, Setup& setup);
+    void listReceivers(const Frame& frame);
+    void admit(const Frame& frame);
+    MapWish decide(const Frame& frame, std::uint32_t index);
+    void planLight(const Frame& frame, std::uint32_t index);
+    Outcome prospect(std::uint32_t index, const Setup& setup) const;
+    std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
+    Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
+    void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
+    const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
+    Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice);
+    void addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned);
+};
+
+} // namespace gnomon
