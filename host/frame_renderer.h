@@ -48,6 +48,7 @@ struct RenderOptions {
     /// Each frame looks at another point of its pixels (convergeSample()), so that what is averaged over frames is
     /// averaged over pixels too. The first looks at their middles.
     bool average_pixels = false;
+    bool shows_rays = false; // vulkan::ShadowRendererOptions::shows_rays
 };
 
 /// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.

@@ -5,12 +5,14 @@
 #include "lab/score/view_shares.h"
 #include "lab/texel_density.h"
 #include "lab/tint.h"
+#include "streams.h"
 
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -116,6 +118,35 @@ Image8 viewsView(const Drawn& drawn)
         }
     }
     return lab::tintedPicture(drawn.picture.colour, joined, legend);
+}
+
+Image8 raysView(const Drawn& drawn)
+{
+    requireMap(drawn, "rays");
+    const auto& mask = drawn.picture.masks[drawn.light];
+    ImageOf<std::uint8_t> kinds(mask.width, mask.height, 1);
+    std::array<std::size_t, 4> pixels{};
+    for (std::uint32_t y = 0; y < mask.height; ++y) {
+        for (std::uint32_t x = 0; x < mask.width; ++x) {
+            // The nearest of them, for two cascades may have been read; 0 and 1 say nothing of rays.
+            const auto quarters = static_cast<std::uint8_t>(std::lround(*mask.pixel(x, y) * 4.0F));
+            const bool asked = *drawn.picture.object_ids.pixel(x, y) != 0 && quarters >= 1 && quarters <= 3;
+            *kinds.pixel(x, y) = asked ? quarters : 0;
+            ++pixels[*kinds.pixel(x, y)];
+        }
+    }
+    const double all = std::max<double>(1.0, static_cast<double>(pixels[1] + pixels[2] + pixels[3]));
+    const auto share = [&](std::size_t kind) {
+        return 100.0 * static_cast<double>(pixels[kind]) / all;
+    };
+    notice(
+        fmt::format("light {}: {:.1f} % of the pixels that face it take rays, {:.1f} % come to the ceiling of raymarch",
+                    drawn.shot.lights[drawn.light].name, share(2) + share(3), share(3)));
+    lab::TintLegend legend;
+    legend.title = "Rays of raymarch";
+    legend.subtitle = "grey: faces away from the light, or is in no map";
+    legend.kinds = {"none: decided by blocks", "as many as wanted", "ceiling: fewer, or ended early"};
+    return lab::tintedPicture(drawn.picture.colour, kinds, legend);
 }
 
 Image8 stepsView(const Drawn& drawn)

@@ -153,6 +153,11 @@ constexpr std::array kViews{
     DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"map", always, "a technique that has a map", mapPicture},
+    DebugView{"rays",
+              [](const Settings& s) {
+                  return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none;
+              },
+              "filter raymarch and soften none", raysView},
     DebugView{"steps", steps, "a motion that steps", stepsView},
     DebugView{"views", always, "a technique that has a map", viewsView},
 };
@@ -195,7 +200,7 @@ void requireDebugView(const Settings& settings)
 
 Image8 debugPicture(host::FrameRenderer& renderer, const Shot& shot, const Settings& settings, std::size_t light)
 {
-    const host::Picture picture = renderer.read({.colour = true, .linear = false, .masks = false, .geometry = true});
+    const host::Picture picture = renderer.read({.colour = true, .linear = false, .masks = true, .geometry = true});
     return findView(settings.debug)->paint({picture, renderer.plan(), renderer, shot, settings, light});
 }
 

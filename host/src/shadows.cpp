@@ -17,6 +17,7 @@ vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const Rend
     wish.mask_shape = vulkan::MaskShape{true, true, true}; // recordShadows() gives all
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = scene.gpu.pipelineCache();
+    wish.shows_rays = options.shows_rays;
     return wish;
 }
 

@@ -13,7 +13,7 @@ GN_BEGIN
 GN_CONST int kSearchTaps = 16;
 GN_CONST int kPcssTaps = 32;
 // As many that agree are enough of them.
-GN_CONST int kPcssAgree = 12;
+GN_CONST int kPcssAgree = 16;
 // From one to the next, so that the first ones lie over all of the disc. Odd: each comes once.
 GN_CONST int kPcssStride = 11;
 

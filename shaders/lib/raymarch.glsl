@@ -17,13 +17,14 @@
 #include "light_cone.glsl"
 GN_BEGIN
 
-// Rays of a pixel, and how many texels they shall visit together: where they would visit more, there are fewer rays.
+// Rays of a pixel.
 GN_CONST int kRaysMost = 48;
 GN_CONST int kRaysLeast = 24;
 GN_CONST int kRaysFewest = 8;
 GN_CONST real kRaysPerTexel = real(3.5); // that the light's disc is wide on the map
-GN_CONST real kRayTexels = real(1024.0);
-// Texels that one ray may visit. What lies beyond does not block.
+// Texels and squares of them that the rays of a pixel may visit together, after which there are no further rays, and
+// that one ray may. What lies beyond does not block.
+GN_CONST int kPixelSteps = 1024;
 GN_CONST int kRaySteps = 256;
 // The square around the receiver that rays start in, texels. In it an edge's place is found to less than a texel. In a
 // penumbra so wide that nothing is to be narrowed it is one texel, which blurs less.
@@ -38,27 +39,107 @@ GN_CONST real kWideTo = real(6.0);
 // No edge is narrowed further, texels: the map does not say where it is within less.
 GN_CONST real kNarrowest = real(0.8);
 
-// How far the metric has fallen where the ray is blocked that leads from `start` to `end` (homogeneous), over which it
-// falls from `from` to `to`. Negative: nothing blocks it. `steps`: texels that it may visit.
-GN_FN real fallToBlocker(MapPoint point, FilterInput f, real3 start, real3 end, real from, real to, int steps)
+// A pass that shows how rays fared has one of these instead of visibility: what blocks decided without a ray; as many
+// rays as wanted; fewer, or some that ended after kRaySteps.
+#ifndef GNOMON_SHOWS_RAYS
+#define GNOMON_SHOWS_RAYS false
+#endif
+GN_CONST real kShowsDecided = real(0.25);
+GN_CONST real kShowsRays = real(0.5);
+GN_CONST real kShowsCeiling = real(0.75);
+// Where a ray is on the map: between two places it runs straight from texel to texel.
+struct RayRun {
+    real2 first;    // texels, where it begins
+    real2 run;      // to where it ends
+    real2 per_cell; // share of the run over one texel along x and along y
+    real2 sense;    // 1 or -1
+};
+
+GN_FN RayRun rayRun(real3 start, real3 end)
 {
-    real2 first = real2(start.x, start.y) / start.z;
-    real2 last = real2(end.x, end.y) / end.z;
-    real2 run = last - first;
-    real2 cell = floor(first);
-    real2 sense = real2(run.x < real(0.0) ? real(-1.0) : real(1.0), run.y < real(0.0) ? real(-1.0) : real(1.0));
-    real2 per_cell = real2(real(1.0) / max(abs(run.x), real(1e-9)), real(1.0) / max(abs(run.y), real(1e-9)));
-    // Where along the run, from 0 to 1, the next border across x and across y is.
-    real2 next = (max(sense, real2(real(0.0))) + sense * (cell - first)) * per_cell;
-    real enters = from;
-    real before = real(2.0); // depth of the texel before
-    bool before_rises = false;
+    RayRun r;
+    r.first = real2(start.x, start.y) / start.z;
+    r.run = real2(end.x, end.y) / end.z - r.first;
+    r.sense = real2(r.run.x < real(0.0) ? real(-1.0) : real(1.0), r.run.y < real(0.0) ? real(-1.0) : real(1.0));
+    r.per_cell = real2(real(1.0) / max(abs(r.run.x), real(1e-9)), real(1.0) / max(abs(r.run.y), real(1e-9)));
+    return r;
+}
+
+// Where the ray leaves the square of `size` texels around a cell, as a share of the run, and the cell that it comes to.
+struct RayStep {
+    real t;
+    real2 cell;
+    real2 back; // from that cell to the one that it came from
+};
+
+GN_FN RayStep leaveSquare(RayRun r, real2 cell, real size)
+{
+    real2 low = floor(cell / size) * size;
+    real2 border = low + max(r.sense, real2(real(0.0))) * size;
+    real2 next = r.sense * (border - r.first) * r.per_cell;
+    bool along_x = next.x <= next.y;
+    RayStep step;
+    step.t = min(next.x, next.y);
+    // Rounding must not lead out of the square along the other axis.
+    real2 at = clamp(floor(r.first + r.run * step.t), low, low + real2(size - real(1.0)));
+    real2 beyond = border - max(-r.sense, real2(real(0.0)));
+    step.cell = real2(along_x ? beyond.x : at.x, along_x ? at.y : beyond.y);
+    step.back = real2(along_x ? -r.sense.x : real(0.0), along_x ? real(0.0) : -r.sense.y);
+    return step;
+}
+
+// What a ray knows of a texel.
+struct RayTexel {
+    real depth;
+    bool rises; // over the receiver's plane
+};
+
+GN_FN RayTexel rayTexel(MapPoint point, FilterInput f, real2 cell)
+{
+    RayTexel texel;
+    texel.depth = mapTexel(cell, f.layer, f.part);
+    texel.rises = canBlock(point, f, cell, cell + real2(real(0.5)) - point.texel, texel.depth);
+    return texel;
+}
+
+// Does a texel block a ray whose metric falls in it from `enters` to `leaves`, the texel before it being `before`?
+GN_FN bool texelBlocks(RayTexel before, RayTexel here, real enters, real leaves, real surface)
+{
+    real low = min(before.depth, here.depth);
+    real high = max(before.depth, here.depth);
+    bool low_rises = before.depth < here.depth ? before.rises : here.rises;
+    bool one_body = (before.rises && here.rises) || high - low <= surface;
+    bool between = low_rises && enters > low && enters < high && one_body;
+    bool crosses = here.rises && enters > here.depth && leaves <= here.depth;
+    return between || crosses;
+}
+
+// What became of a ray.
+struct RayEnd {
+    real fall; // of the metric, to where it leaves the texel that blocks it; negative: nothing does
+    int steps; // squares and texels that it visited
+};
+
+// The ray that leads from `start` to `end` (homogeneous), over which the metric falls from `from` to `to`. Squares of
+// texels none of which comes up to the ray are passed over in one step, larger ones the farther it goes.
+GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, real from, real to)
+{
+    RayRun r = rayRun(start, end);
+    real2 cell = floor(r.first);
+    RayTexel before;
+    before.depth = real(2.0);
+    before.rises = false;
+    real2 back = real2(real(0.0));
+    bool passed = false; // over the square before: its last texel was not read
     real surface = kOneSurface * point.texel_depth;
+    real enters = from;
+    real level = real(0.0);
     bool blocked = false;
     bool more = true;
-    int left = steps;
+    int steps = 0;
     do {
-        real t = min(min(next.x, next.y), real(1.0));
+        RayStep step = leaveSquare(r, cell, exp2(level));
+        real t = min(step.t, real(1.0));
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
         real s = t;
 #else
@@ -66,27 +147,39 @@ GN_FN real fallToBlocker(MapPoint point, FilterInput f, real3 start, real3 end, 
         real s = t * start.z / (t * start.z + (real(1.0) - t) * end.z);
 #endif
         real leaves = from + (to - from) * s;
-        real stored = mapTexel(cell, f.layer, f.part);
-        real2 at = cell + real2(real(0.5)) - point.texel;
-        bool rises = canBlock(point, f, cell, at, stored);
-        real low = min(before, stored);
-        real high = max(before, stored);
-        bool low_rises = before < stored ? before_rises : rises;
-        bool one_body = (before_rises && rises) || high - low <= surface;
-        bool between = low_rises && enters > low && enters < high && one_body;
-        bool crosses = rises && enters > stored && leaves <= stored;
-        blocked = between || crosses;
-        --left;
-        more = !blocked && t < real(1.0) && left > 0;
-        bool along_x = next.x <= next.y;
-        cell = cell + real2(along_x ? sense.x : real(0.0), along_x ? real(0.0) : sense.y);
-        next = next + real2(along_x ? per_cell.x : real(0.0), along_x ? real(0.0) : per_cell.y);
+        bool advances = true;
+        real here_depth = real(2.0);
+        if (level > real(0.0)) {
+            real2 square = floor(cell * exp2(-level));
+            advances = mapBlock(square, int(level), f.layer).x > enters;
+            passed = passed || advances;
+        } else {
+            if (passed) {
+                before = rayTexel(point, f, cell + back);
+                passed = false;
+            }
+            RayTexel here = rayTexel(point, f, cell);
+            blocked = texelBlocks(before, here, enters, leaves, surface);
+            before = here;
+            here_depth = here.depth;
+        }
+        // Out from under a texel's surface a ray may come through its side, which is found between two texels alone.
+        bool beneath = level == real(0.0) && here_depth < leaves;
+        level = beneath ? real(0.0) : clamp(level + (advances ? real(1.0) : real(-1.0)), real(0.0), f.coarsest);
+        if (advances) {
+            cell = step.cell;
+            back = step.back;
+            enters = leaves;
+        }
+        ++steps;
+        bool ended = advances && t >= real(1.0);
+        more = !blocked && !ended && steps < kRaySteps;
         more = more && cell.x >= f.tile.x && cell.y >= f.tile.y && cell.x < f.tile.z && cell.y < f.tile.w;
-        before = stored;
-        before_rises = rises;
-        enters = leaves;
     } while (more);
-    return blocked ? from - enters : real(-1.0);
+    RayEnd found;
+    found.fall = blocked ? from - enters : real(-1.0);
+    found.steps = steps;
+    return found;
 }
 
 // What the rays of a pixel found.
@@ -94,6 +187,7 @@ struct RaysFound {
     real lit;      // share of them that reach the light
     real straight; // 1: those that are blocked start on one side of a straight edge; 0: all around
     real fall;     // of the metric, from the receiver to what blocks: mean
+    bool cut;      // kRaySteps or kPixelSteps were too few
 };
 
 // `count` rays, or `enough` if these agree, as far as depth `nearest`, above which nothing casts.
@@ -102,6 +196,8 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
 {
     ConeNoise noise = coneNoise(f.pixel);
     bool agree = true;
+    bool cut = false;
+    int steps = 0;
     real lit = real(0.0);
     real falls = real(0.0);
     real2 starts = real2(real(0.0));
@@ -117,8 +213,13 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
         real rise = cone.rise + cone.rise_x * at.x + cone.rise_y * at.y;
         real s = rayLength(kRayBeyond * (metric - nearest), max(rise, real(0.05) * cone.rise), start.z, way.z);
         real3 end = start + way * s;
-        bool faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
-        real fall = faces ? fallToBlocker(point, f, start, end, metric, metric - rise * s, kRaySteps) : real(0.0);
+        real fall = real(0.0);
+        if (dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0)) {
+            RayEnd ray = followRay(point, f, start, end, metric, metric - rise * s);
+            fall = ray.fall;
+            steps += ray.steps;
+            cut = cut || ray.steps >= kRaySteps;
+        }
         bool reaches = fall < real(0.0);
         lit += reaches ? real(1.0) : real(0.0);
         falls += max(fall, real(0.0));
@@ -126,10 +227,12 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
         starts_lit = starts_lit + (reaches ? from : real2(real(0.0)));
         ++i;
         agree = lit == real(0.0) || lit == real(i);
-    } while (i < count && !(agree && i >= enough));
+        cut = cut || (steps >= kPixelSteps && i < count && i >= kRaysFewest);
+    } while (i < count && !(agree && i >= enough) && !(steps >= kPixelSteps && i >= kRaysFewest));
     real n = real(i);
     RaysFound found;
     found.lit = lit / n;
+    found.cut = cut;
     found.fall = falls / max(n - lit, real(1.0));
     // An edge along the map's axes leaves a slab of starts in light, whose middle is that far from the middle of all.
     real apart = real(0.5) * within * (real(1.0) - found.lit);
@@ -152,10 +255,8 @@ GN_FN real narrowed(RaysFound found, real across, real within)
 // `across`: texels that the rays may lead over.
 GN_FN int rayCount(real across)
 {
-    // A ray leads from the middle to somewhere between there and the rim.
-    real affordable = kRayTexels / (real(0.7) * across);
     real wanted = clamp(kRaysPerTexel * across, real(kRaysLeast), real(kRaysMost));
-    return int(clamp(affordable, real(kRaysFewest), wanted));
+    return int(wanted);
 }
 
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
@@ -163,13 +264,16 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     RayCone cone = rayCone(point, f);
     Surroundings around = lookAround(point, f, cone, kStartsWithin);
     if (around.visibility >= real(0.0)) {
-        return around.visibility;
+        return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
     }
     real across = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = across - kStartsWithin; // of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across),
                                 across < kWideFrom ? kRaysFewest : kRaysMost, within);
+    if (GNOMON_SHOWS_RAYS) {
+        return found.cut ? kShowsCeiling : kShowsRays;
+    }
     return narrowed(found, widest * found.fall / max(point.depth - around.nearest, real(1e-9)), within);
 }
 

@@ -21,6 +21,7 @@ layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
 layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
 layout(constant_id = 10) const bool kHasSmooth = false;
 layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
+layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -37,6 +38,7 @@ GpuConstants numbers;
 #define GNOMON_MOMENT_SAMPLING kMomentSampling
 #define GNOMON_MOMENT_LAYERS kMomentLayers
 #define GNOMON_DEPTH_HOLDING kDepthHolding
+#define GNOMON_SHOWS_RAYS kRaysAsMask
 #include "../lib/light_visibility.glsl"
 
 layout(push_constant) uniform Lights

@@ -137,6 +137,29 @@ TEST(DebugViews, DensityGrowsWithTheMap)
     EXPECT_GT(brightness("512"), 1.5 * coarse);
 }
 
+TEST(DebugViews, RaysSaysHowManyThereAreAndWhereTheyCameToTheirCeiling)
+{
+    const test::Folder folder;
+    const auto shares = [&](const char* sun_deg) {
+        const test::Ran ran = inFolder(folder, {"render", "planes", "--camera", "top", "--debug", "rays", "--size",
+                                                "160x90", "--sun-angle", sun_deg});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        double rays = -1.0;
+        double ceiling = -1.0;
+        const std::size_t at = ran.err.find("light ");
+        EXPECT_NE(at, std::string::npos) << ran.err;
+        const std::string said = ran.err.substr(ran.err.find(": ", at) + 2);
+        EXPECT_EQ(
+            std::sscanf(said.c_str(), "%lf %% of the pixels that face it take rays, %lf %% come", &rays, &ceiling), 2)
+            << ran.err;
+        EXPECT_LE(ceiling, rays);
+        return rays;
+    };
+    const double narrow = shares("0.5");
+    EXPECT_GT(narrow, 0.0);
+    EXPECT_GT(shares("8"), narrow) << "a wider light has wider penumbrae";
+}
+
 TEST(DebugViews, AreRefusedWhereThereIsNothingToShow)
 {
     const test::Folder folder;

@@ -217,6 +217,8 @@ TEST(DebugLayers, IsRefusedWhereThereIsNothingToShow)
         EXPECT_FALSE(exists(folder / "gnomon.png"));
     };
     refuses({"render", "planes", "--debug", "layers"}, "filter lvsm");
+    refuses({"render", "planes", "--debug", "rays", "--filter", "pcss"}, "filter raymarch");
+    refuses({"render", "planes", "--debug", "rays", "--soften", "converge"}, "soften none");
     refuses({"render", "planes", "--debug", "layers", "--filter", "vsm"}, "filter lvsm");
     refuses({"render", "planes", "--debug", "layers", "--filter", "lvsm", "--mask"}, "--mask");
     refuses({"render", "planes", "--debug", "layers", "--truth", "hard"}, "--truth");

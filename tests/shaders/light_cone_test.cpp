@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -255,6 +259,50 @@ TEST(Raymarch, BlocksOnlySaveWork)
         }
     }
     EXPECT_GT(decided, 1000);
+}
+
+// Towers of all heights. Passing over squares of texels at once, a ray finds what it finds texel by texel, in fewer
+// steps.
+TEST(Raymarch, SquaresThatArePassedOverChangeNoRay)
+{
+    std::mt19937 rng(11);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    int blocked = 0;
+    int compared = 0;
+    std::int64_t steps = 0;
+    std::int64_t texels = 0;
+    for (int round = 0; round < 20; ++round) {
+        Stage stage;
+        stage.side = 256.0;
+        const double fewest = 0.8 + 0.2 * uniform(rng);
+        std::vector<double> heights(64 * 64);
+        for (double& height : heights)
+            height = uniform(rng) > fewest ? 6.0 * uniform(rng) : 0.0;
+        stage.draw([&](glm::dvec2 q) {
+            const glm::dvec2 cell = glm::clamp(glm::floor((q / stage.texel + 128.0) / 4.0), 0.0, 63.0);
+            return heights[static_cast<std::size_t>(cell.y * 64.0 + cell.x)];
+        });
+        for (int i = 0; i < 300; ++i) {
+            auto [point, f] = stage.receiver({4.0 * uniform(rng) - 2.0, 4.0 * uniform(rng) - 2.0, 0.0}, pixelOf(i));
+            const glm::dvec3 start(point.texel, 1.0);
+            const glm::dvec3 end(256.0 * uniform(rng), 256.0 * uniform(rng), 1.0);
+            const RayEnd over = followRay(point, f, start, end, point.depth, 0.1);
+            f.coarsest = 0.0;
+            const RayEnd through = followRay(point, f, start, end, point.depth, 0.1);
+            if (through.steps >= kRaySteps)
+                continue;
+            ASSERT_NEAR(over.fall, through.fall, 1e-12) << round << ", " << i;
+            blocked += through.fall >= 0.0 ? 1 : 0;
+            ++compared;
+            steps += over.steps;
+            texels += through.steps;
+        }
+    }
+    EXPECT_GT(compared, 4000);
+    EXPECT_GT(blocked, 1000);
+    EXPECT_LT(blocked, 5 * compared / 6);
+    EXPECT_LT(3 * steps, 2 * texels);
+    RecordProperty("share of steps", std::to_string(static_cast<double>(steps) / static_cast<double>(texels)));
 }
 
 TEST(Raymarch, TheSizeOfTheWorldDoesNotMatter)

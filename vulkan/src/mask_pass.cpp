@@ -82,7 +82,7 @@ VkFormat maskFormat(bool several_lights)
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
     : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
-      pipelines_(device, options.pipeline_cache), slots_(options.frames_in_flight), shape_(options.mask_shape)
+      pipelines_(device, options), slots_(options.frames_in_flight), shape_(options.mask_shape)
 {
     makeLayouts();
 }

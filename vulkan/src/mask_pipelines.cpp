@@ -72,8 +72,9 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
     return key;
 }
 
-MaskPipelines::MaskPipelines(Device& device, VkPipelineCache cache)
-    : device_(device), cache_(cache), vertex_(makeShader(device, spirv::mask_numbers_vert))
+MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& options)
+    : device_(device), cache_(options.pipeline_cache), shows_rays_(options.shows_rays),
+      vertex_(makeShader(device, spirv::mask_numbers_vert))
 {
 }
 
@@ -90,6 +91,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
 {
     MaskConstants constants = key.constants;
     constants.by_vertex = device_.software() ? VK_TRUE : VK_FALSE;
+    constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
     const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.ids));
     const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());

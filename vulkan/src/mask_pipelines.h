@@ -22,6 +22,7 @@ struct MaskConstants {
     VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
     VkBool32 has_smooth = VK_FALSE;
     VkBool32 tints = VK_FALSE; // views of the draw's options have maps of tints
+    VkBool32 shows_rays = VK_FALSE; // ShadowRendererOptions::shows_rays
 
     bool operator==(const MaskConstants&) const = default;
 };
@@ -41,7 +42,7 @@ struct MaskPipelineKey {
 
 class MaskPipelines {
 public:
-    MaskPipelines(Device& device, VkPipelineCache cache);
+    MaskPipelines(Device& device, const ShadowRendererOptions& options);
 
     /// Makes it where it is not there.
     [[nodiscard]] VkPipeline get(const MaskPipelineKey& key, VkPipelineLayout layout);
@@ -56,6 +57,7 @@ private:
 
     Device& device_;
     VkPipelineCache cache_;
+    bool shows_rays_;
     ShaderModule vertex_;
     std::vector<Made> made_;
 };

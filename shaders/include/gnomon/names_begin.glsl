@@ -18,7 +18,11 @@
 #define MomentRule gnomon_MomentRule
 #define PixelSteps gnomon_PixelSteps
 #define RayCone gnomon_RayCone
+#define RayEnd gnomon_RayEnd
 #define RayRegion gnomon_RayRegion
+#define RayRun gnomon_RayRun
+#define RayStep gnomon_RayStep
+#define RayTexel gnomon_RayTexel
 #define RaysFound gnomon_RaysFound
 #define Receiver gnomon_Receiver
 #define Search gnomon_Search
@@ -76,7 +80,6 @@
 #define facesDirection gnomon_facesDirection
 #define factorise gnomon_factorise
 #define fadedVisibility gnomon_fadedVisibility
-#define fallToBlocker gnomon_fallToBlocker
 #define filterEsm gnomon_filterEsm
 #define filterEvsm gnomon_filterEvsm
 #define filterHard gnomon_filterHard
@@ -88,6 +91,7 @@
 #define filterRaymarch gnomon_filterRaymarch
 #define filterVsm gnomon_filterVsm
 #define flatSurface gnomon_flatSurface
+#define followRay gnomon_followRay
 #define footprintLevel gnomon_footprintLevel
 #define footprintOf gnomon_footprintOf
 #define footprintReads gnomon_footprintReads
@@ -160,12 +164,14 @@
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNormalError gnomon_kNormalError
 #define kOneSurface gnomon_kOneSurface
+#define kPcssAgree gnomon_kPcssAgree
+#define kPcssStride gnomon_kPcssStride
 #define kPcssTaps gnomon_kPcssTaps
+#define kPixelSteps gnomon_kPixelSteps
 #define kPlaneAlone gnomon_kPlaneAlone
 #define kRayBeyond gnomon_kRayBeyond
 #define kRayEnd gnomon_kRayEnd
 #define kRaySteps gnomon_kRaySteps
-#define kRayTexels gnomon_kRayTexels
 #define kRaysFewest gnomon_kRaysFewest
 #define kRaysLeast gnomon_kRaysLeast
 #define kRaysMost gnomon_kRaysMost
@@ -180,6 +186,9 @@
 #define kSamplingNearest gnomon_kSamplingNearest
 #define kSamplingTrilinear gnomon_kSamplingTrilinear
 #define kSearchTaps gnomon_kSearchTaps
+#define kShowsCeiling gnomon_kShowsCeiling
+#define kShowsDecided gnomon_kShowsDecided
+#define kShowsRays gnomon_kShowsRays
 #define kSnap gnomon_kSnap
 #define kStartsWithin gnomon_kStartsWithin
 #define kSteepest gnomon_kSteepest
@@ -198,6 +207,7 @@
 #define layerMetric gnomon_layerMetric
 #define leastLastPivot gnomon_leastLastPivot
 #define leastVariance gnomon_leastVariance
+#define leaveSquare gnomon_leaveSquare
 #define levelOf gnomon_levelOf
 #define lightPoint gnomon_lightPoint
 #define lightSpread gnomon_lightSpread
@@ -245,6 +255,8 @@
 #define rayCone gnomon_rayCone
 #define rayCount gnomon_rayCount
 #define rayLength gnomon_rayLength
+#define rayRun gnomon_rayRun
+#define rayTexel gnomon_rayTexel
 #define readMoments gnomon_readMoments
 #define receiverDepth gnomon_receiverDepth
 #define receiverPlane gnomon_receiverPlane
@@ -271,6 +283,7 @@
 #define tapBlocks gnomon_tapBlocks
 #define tapWeight gnomon_tapWeight
 #define texelAt gnomon_texelAt
+#define texelBlocks gnomon_texelBlocks
 #define texelExtent gnomon_texelExtent
 #define texelWeight gnomon_texelWeight
 #define towardLight gnomon_towardLight

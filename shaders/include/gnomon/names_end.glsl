@@ -18,7 +18,11 @@
 #undef MomentRule
 #undef PixelSteps
 #undef RayCone
+#undef RayEnd
 #undef RayRegion
+#undef RayRun
+#undef RayStep
+#undef RayTexel
 #undef RaysFound
 #undef Receiver
 #undef Search
@@ -76,7 +80,6 @@
 #undef facesDirection
 #undef factorise
 #undef fadedVisibility
-#undef fallToBlocker
 #undef filterEsm
 #undef filterEvsm
 #undef filterHard
@@ -88,6 +91,7 @@
 #undef filterRaymarch
 #undef filterVsm
 #undef flatSurface
+#undef followRay
 #undef footprintLevel
 #undef footprintOf
 #undef footprintReads
@@ -160,12 +164,14 @@
 #undef kNoLayerBegins
 #undef kNormalError
 #undef kOneSurface
+#undef kPcssAgree
+#undef kPcssStride
 #undef kPcssTaps
+#undef kPixelSteps
 #undef kPlaneAlone
 #undef kRayBeyond
 #undef kRayEnd
 #undef kRaySteps
-#undef kRayTexels
 #undef kRaysFewest
 #undef kRaysLeast
 #undef kRaysMost
@@ -180,6 +186,9 @@
 #undef kSamplingNearest
 #undef kSamplingTrilinear
 #undef kSearchTaps
+#undef kShowsCeiling
+#undef kShowsDecided
+#undef kShowsRays
 #undef kSnap
 #undef kStartsWithin
 #undef kSteepest
@@ -198,6 +207,7 @@
 #undef layerMetric
 #undef leastLastPivot
 #undef leastVariance
+#undef leaveSquare
 #undef levelOf
 #undef lightPoint
 #undef lightSpread
@@ -245,6 +255,8 @@
 #undef rayCone
 #undef rayCount
 #undef rayLength
+#undef rayRun
+#undef rayTexel
 #undef readMoments
 #undef receiverDepth
 #undef receiverPlane
@@ -271,6 +283,7 @@
 #undef tapBlocks
 #undef tapWeight
 #undef texelAt
+#undef texelBlocks
 #undef texelExtent
 #undef texelWeight
 #undef towardLight
