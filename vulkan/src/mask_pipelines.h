@@ -21,7 +21,7 @@ struct MaskConstants {
     std::uint32_t few_views = 0;   // pack::MaskDraw::few_views
     VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
     VkBool32 has_smooth = VK_FALSE;
-    VkBool32 tints = VK_FALSE; // views of the draw's options have maps of tints
+    VkBool32 tints = VK_FALSE;      // views of the draw's options have maps of tints
     VkBool32 shows_rays = VK_FALSE; // ShadowRendererOptions::shows_rays
 
     bool operator==(const MaskConstants&) const = default;

@@ -286,6 +286,7 @@
 #define texelBlocks gnomon_texelBlocks
 #define texelExtent gnomon_texelExtent
 #define texelWeight gnomon_texelWeight
+#define tintTexel gnomon_tintTexel
 #define towardLight gnomon_towardLight
 #define towardsPlane gnomon_towardsPlane
 #define traceRays gnomon_traceRays
@@ -297,6 +298,7 @@
 #define viewAt gnomon_viewAt
 #define viewContains gnomon_viewContains
 #define viewShare gnomon_viewShare
+#define viewTint gnomon_viewTint
 #define viewVisibility gnomon_viewVisibility
 #define viewsVisibility gnomon_viewsVisibility
 #define vogelPoint gnomon_vogelPoint

@@ -286,6 +286,7 @@
 #undef texelBlocks
 #undef texelExtent
 #undef texelWeight
+#undef tintTexel
 #undef towardLight
 #undef towardsPlane
 #undef traceRays
@@ -297,6 +298,7 @@
 #undef viewAt
 #undef viewContains
 #undef viewShare
+#undef viewTint
 #undef viewVisibility
 #undef viewsVisibility
 #undef vogelPoint

@@ -42,9 +42,9 @@ struct ShadowRendererOptions {
     /// what arrives. prepare() asks for each caster of a plan. Null: nothing is blended, and nothing is spent on it.
     std::function<bool(std::uint32_t object)> is_blended;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
-    /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were fewer
-    /// or some ended early (lib/raymarch.glsl); between them where a pixel reads two cascades. Pixels that face away from
-    /// the light or are in no map have 0 and 1 as ever.
+    /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were
+    /// fewer or some ended early (lib/raymarch.glsl); between them where a pixel reads two cascades. Pixels that face
+    /// away from the light or are in no map have 0 and 1 as ever.
     bool shows_rays = false;
 };
 
