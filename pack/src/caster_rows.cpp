@@ -15,7 +15,8 @@ glm::vec4 composed(const glm::dvec4& row, const Rows3x4& t)
 
 } // namespace
 
-CasterRows::CasterRows(const View& view) : count_(casterRowCount(view.orthographic))
+CasterRows::CasterRows(const View& view)
+    : count_(casterRowCount(view.orthographic)), per_metre_(1.0 / (view.metric.far_m - view.metric.near_m))
 {
     const auto row = [&](int i) {
         return glm::row(view.clip_from_world, i);
@@ -28,10 +29,12 @@ CasterRows::CasterRows(const View& view) : count_(casterRowCount(view.orthograph
     }
 }
 
-glm::vec4* CasterRows::write(const Rows3x4& world_from_object, glm::vec4* out) const
+glm::vec4* CasterRows::write(const Rows3x4& world_from_object, glm::vec4* out, double bias_m) const
 {
     for (std::uint32_t i = 0; i < count_; ++i) {
-        *out++ = composed(rows_[i], world_from_object);
+        glm::dvec4 row = rows_[i];
+        row.w += i + 1 == count_ ? bias_m * per_metre_ : 0.0; // the metric is the last
+        *out++ = composed(row, world_from_object);
     }
     return out;
 }

@@ -74,6 +74,13 @@ TEST(CasterRows, ComposeInDoublePrecision)
     std::array<glm::vec4, pack::casterRowCount(false)> more{};
     EXPECT_EQ(pack::CasterRows(view).write(transform, more.data()), more.data() + more.size());
     EXPECT_EQ(more[3], glm::vec4(0, 0, 0, 1)) << "w comes before the metric";
+    view.metric.near_m = 20.0;
+    view.metric.far_m = 120.0;
+    std::array<glm::vec4, pack::casterRowCount(false)> biased{};
+    (void)pack::CasterRows(view).write(transform, biased.data(), 2.0);
+    EXPECT_NEAR(biased[4].w, more[4].w + 0.02F, 1e-6F) << "two metres of a hundred";
+    biased[4].w = more[4].w;
+    EXPECT_EQ(biased, more);
 }
 
 TEST(FilterRule, HoldsWhatTheFormatDoes)

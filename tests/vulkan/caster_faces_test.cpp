@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 namespace gnomon::test {
 namespace {
@@ -89,6 +90,20 @@ TEST_P(CasterFacesOnGpu, theMidpointGoesThroughTheHolesOfMaskedCasters)
     const std::array sides{map[kMiddle - kTexel], map[kMiddle + kTexel]};
     EXPECT_NEAR(std::min(sides[0], sides[1]), sunDepth(5.0), tolerance()) << "the half that is there";
     EXPECT_NEAR(std::max(sides[0], sides[1]), sunDepth(0.0), tolerance()) << "the half that is clear";
+}
+
+// The box alone is pushed away from the light, by as many metres under a sun and along a spot's axis.
+TEST_P(CasterFacesOnGpu, anObjectsOwnBiasMovesItAlone)
+{
+    Bench bench = makeBench(CasterFaces::nearest);
+    setScene(bench);
+    bench.prepare();
+    const std::array biases{0.0F, 1.5F};
+    bench.drawer.setBiases(biases);
+    bench.record(1);
+    expectHeights(bench, 4.5, 0.0);
+    const std::array wrong{0.0F, std::numeric_limits<float>::quiet_NaN()};
+    EXPECT_THROW(bench.drawer.setBiases(wrong), Error);
 }
 
 TEST_P(CasterFacesOnGpu, pagesGrowUnderTheMidpoint)

@@ -78,6 +78,7 @@ struct CasterDrawer::Impl {
     std::vector<Slot> slots;
     std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
     std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
+    std::vector<float> biases_m;        // by object index
     bool tints = false;                 // some batch is blended
     bool together = false;              // some of this plan's views may be drawn in passes of several
 
@@ -117,6 +118,14 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     impl_->batches = std::move(copied);
     impl_->materials = std::move(materials);
     impl_->tints = std::ranges::any_of(impl_->batches, &CasterBatch::blended);
+}
+
+void CasterDrawer::setBiases(std::span<const float> bias_m)
+{
+    if (!std::ranges::all_of(bias_m, [](float bias) { return std::isfinite(bias); })) {
+        refuseUse("take biases of objects", "one is no finite number", "give metres");
+    }
+    impl_->biases_m.assign(bias_m.begin(), bias_m.end());
 }
 
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
@@ -327,11 +336,12 @@ std::span<const std::uint32_t> CasterDrawer::Impl::listOf(const MapPass& pass)
 
 void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uint32_t> instances)
 {
+    const CasterPlaces casters{transforms, biases_m};
     auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
     if (pass.view_count > 1) {
-        writeLayeredInstances(pass, instances, transforms, out);
+        writeLayeredInstances(pass, instances, casters, out);
     } else {
-        writeInstances(*pass.view, instances, transforms, out);
+        writeInstances(*pass.view, instances, casters, out);
     }
 }
 

@@ -8,17 +8,16 @@
 
 namespace gnomon::vulkan {
 
-void writeInstances(const View& view, std::span<const std::uint32_t> list, std::span<const Rows3x4> transforms,
-                    glm::vec4* out)
+void writeInstances(const View& view, std::span<const std::uint32_t> list, const CasterPlaces& casters, glm::vec4* out)
 {
     const pack::CasterRows rows(view);
-    for (const std::uint32_t handle : list) {
-        out = rows.write(transforms[handle], out);
+    for (const std::uint32_t object : list) {
+        out = rows.write(casters.world_from_object[object], out, casters.bias_m(object));
     }
 }
 
-void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places,
-                           std::span<const Rows3x4> transforms, glm::vec4* out)
+void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places, const CasterPlaces& casters,
+                           glm::vec4* out)
 {
     assert(pass.view_count <= kMaxCascades);
     std::array<pack::CasterRows, kMaxCascades> maps;
@@ -32,7 +31,8 @@ void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> p
         while (place >= begins[layer + 1]) {
             ++layer;
         }
-        out = maps[layer].write(transforms[pass.castersOf(layer)[place - begins[layer]]], out);
+        const std::uint32_t object = pass.castersOf(layer)[place - begins[layer]];
+        out = maps[layer].write(casters.world_from_object[object], out, casters.bias_m(object));
         *out = glm::vec4(0.0F);
         std::memcpy(out++, &layer, sizeof layer);
     }

@@ -19,12 +19,22 @@ namespace gnomon::vulkan {
     return (pack::casterRowCount(!perspective) + (layered ? 1U : 0U)) * static_cast<std::uint32_t>(sizeof(glm::vec4));
 }
 
-/// For each handle of `list`, an index into `transforms`.
-void writeInstances(const View& view, std::span<const std::uint32_t> list, std::span<const Rows3x4> transforms,
-                    glm::vec4* out);
+/// Of the objects, by index.
+struct CasterPlaces {
+    std::span<const Rows3x4> world_from_object;
+    std::span<const float> biases_m; // beyond its end: 0
+
+    [[nodiscard]] double bias_m(std::uint32_t object) const
+    {
+        return object < biases_m.size() ? static_cast<double>(biases_m[object]) : 0.0;
+    }
+};
+
+/// For each object of `list`.
+void writeInstances(const View& view, std::span<const std::uint32_t> list, const CasterPlaces& casters, glm::vec4* out);
 
 /// Of a pass of several views: `places` are those of casters in all their lists, one list after the other.
-void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places,
-                           std::span<const Rows3x4> transforms, glm::vec4* out);
+void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places, const CasterPlaces& casters,
+                           glm::vec4* out);
 
 } // namespace gnomon::vulkan

@@ -30,12 +30,14 @@ public:
     CasterRows() = default;
     explicit CasterRows(const View& view);
     /// Writes casterRowCount() rows, each the view's times the object's transform, composed in double precision:
-    /// objects may be as far from the world's origin as they like. Returns one past the last.
-    glm::vec4* write(const Rows3x4& world_from_object, glm::vec4* out) const;
+    /// objects may be as far from the world's origin as they like. Depth is `bias_m` metres, as DepthMetric has them,
+    /// farther from the light. Returns one past the last.
+    glm::vec4* write(const Rows3x4& world_from_object, glm::vec4* out, double bias_m = 0.0) const;
 
 private:
     std::array<glm::dvec4, casterRowCount(false)> rows_{};
     std::uint32_t count_ = 0;
+    double per_metre_ = 0.0; // of the metric
 };
 
 } // namespace gnomon::pack

@@ -100,6 +100,12 @@ public:
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects,
                   std::span<const CasterBatch> batches);
 
+    /// Biases of single casters, for the one that nothing else serves: in maps they are so many metres (DepthMetric's)
+    /// farther from the light than they are, or nearer. By object index; beyond the end 0, and so is all before the
+    /// first call. What is drawn from now on has them: ObjectSet::touch() those that changed, and maps that are kept
+    /// are drawn anew. May allocate. Throws Error where one is not finite.
+    void setBiases(std::span<const float> bias_m);
+
     /// Makes the pipelines for maps by these options, so that no beginFrame() has to: for the batches of setScene().
     /// `perspective`: there may be spots, or warps.
     void warmUp(const ResolvedOptions& options, bool perspective);
