@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// The scene, and what a frame needs before its passes are drawn (caster_draws.cpp).
+#include "caster_drawer_impl.h"
 #include "caster_instances.h"
-#include "caster_pipelines.h"
 #include "draw_view.h"
 #include "tint_maps.h"
 #include "usage.h"
 
 #include <gnomon/plan_views.h>
-#include <gnomon/vulkan/caster_drawer.h>
 
 #include <algorithm>
 #include <array>
@@ -18,9 +18,6 @@ namespace gnomon::vulkan {
 namespace {
 
 constexpr const char* kBeginning = "begin a frame of casters";
-constexpr const char* kDrawing = "draw a pass of casters";
-constexpr const char* kAsGiven = "hand in passes as recordMaps() gives them, of the plan that beginFrame() was given";
-constexpr VkDeviceSize kCommandBytes = sizeof(VkDrawIndexedIndirectCommand);
 
 CasterMaterial material(const CasterBatch& batch)
 {
@@ -36,61 +33,6 @@ CasterMaterial material(const CasterBatch& batch)
 }
 
 } // namespace
-
-struct CasterDrawer::Impl {
-    // Written by beginFrame() and draw(), read by the GPU until the slot comes round again.
-    struct Slot {
-        HostBuffer commands;
-        HostBuffer instances;
-        VkDescriptorSet places = VK_NULL_HANDLE; // CasterPipelines::places()
-        bool places_written = false;             // in this frame
-    };
-
-    Impl(const DeviceView& view, const CasterDrawerOptions& options_in)
-        : device(view), options(options_in), pipelines(device, options_in),
-          slots(checkedFrames(options_in.frames_in_flight))
-    {
-    }
-
-    void reserve(const Plan& plan, Slot& begun);
-    void checkPass(const MapPass& pass) const;
-    void checkRoom(const MapPass& pass, std::uint32_t instances) const;
-    void ensurePipelines(const Plan& plan);
-    void ensureTints(CasterPipelineKey key);
-    void ensureBatches(CasterPipelineKey key);
-    void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
-    [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const MapPassFormats& formats) const;
-    void makePlaces(const Plan& plan);
-    [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);
-    void writeRows(const MapPass& pass, std::span<const std::uint32_t> instances);
-    void bindGeometry(const MapPass& pass) const;
-    void bindPlaces(const MapPass& pass);
-    /// Returns the number of indirect draws.
-    std::uint32_t drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key);
-
-    Device device;
-    CasterDrawerOptions options;
-    CasterPipelines pipelines;
-    DrawBatcher batcher;
-    std::size_t object_count = 0;
-    std::vector<CasterBatch> batches;
-    std::vector<CasterMaterial> materials;
-    std::vector<Slot> slots;
-    std::vector<std::uint32_t> handles; // of the instances of one pass; or of several views places in `listed`
-    std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
-    std::vector<float> biases_m;        // by object index
-    bool tints = false;                 // some batch is blended
-    bool together = false;              // some of this plan's views may be drawn in passes of several
-
-    // This frame's.
-    Slot* slot = nullptr;
-    CasterGeometry geometry;
-    std::span<const Rows3x4> transforms;
-    VkDeviceSize commands_used = 0;
-    VkDeviceSize instances_used = 0;
-    std::uint64_t triangles = 0;
-    VkPipeline bound = VK_NULL_HANDLE;
-};
 
 CasterDrawer::CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options)
     : impl_(std::make_unique<Impl>(device, options))
@@ -318,157 +260,6 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     impl_->reserve(plan, *begun);
     impl_->ensurePipelines(plan);
     impl_->slot = begun;
-}
-
-/// The casters of all its views.
-std::span<const std::uint32_t> CasterDrawer::Impl::listOf(const MapPass& pass)
-{
-    if (pass.view_count == 1) {
-        return pass.casters;
-    }
-    listed.clear();
-    for (std::uint32_t i = 0; i < pass.view_count; ++i) {
-        const auto list = pass.castersOf(i);
-        listed.insert(listed.end(), list.begin(), list.end());
-    }
-    return listed;
-}
-
-void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uint32_t> instances)
-{
-    const CasterPlaces casters{transforms, biases_m};
-    auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
-    if (pass.view_count > 1) {
-        writeLayeredInstances(pass, instances, casters, out);
-    } else {
-        writeInstances(*pass.view, instances, casters, out);
-    }
-}
-
-void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
-{
-    device.vk.CmdBindIndexBuffer(pass.commands, geometry.indices, geometry.indices_offset, options.vertices.index);
-    device.vk.CmdBindVertexBuffers(pass.commands, 0, 1, &geometry.positions, &geometry.positions_offset);
-    if (geometry.uvs != VK_NULL_HANDLE) {
-        device.vk.CmdBindVertexBuffers(pass.commands, 2, 1, &geometry.uvs, &geometry.uvs_offset);
-    }
-    const VkBuffer instances = slot->instances.buffer();
-    device.vk.CmdBindVertexBuffers(pass.commands, 1, 1, &instances, &instances_used);
-    if (pass.placement != VK_NULL_HANDLE && pass.view_count == 1) {
-        device.vk.CmdBindVertexBuffers(pass.commands, kPlacementBinding, 1, &pass.placement, &pass.placement_offset);
-    }
-}
-
-void CasterDrawer::Impl::bindPlaces(const MapPass& pass)
-{
-    if (!slot->places_written) { // no command of this frame names the set yet
-        const DescriptorSets::Write places = DescriptorSets::buffer(0, pass.placement);
-        pipelines.places().write(slot->places, {&places, 1});
-        slot->places_written = true;
-    }
-    device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 1, 1,
-                                    &slot->places, 0, nullptr);
-    const auto first = static_cast<std::int32_t>(pass.placement_offset / kPlacementStride);
-    device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, offsetof(CasterMaterial, first_view),
-                               sizeof first, &first);
-}
-
-std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key)
-{
-    const CasterBatch& batch = batches[draws.batch];
-    if (batch.blended != key.formats.blended) {
-        return 0;
-    }
-    key.masked = batch.texture != VK_NULL_HANDLE;
-    key.cull = cullOf(batch, key.formats);
-    if (const VkPipeline pipeline = pipelines.get(key); pipeline == VK_NULL_HANDLE) {
-        refuseUse(kDrawing, "it has formats that the plan of beginFrame() has not", kAsGiven);
-    } else if (pipeline != bound) {
-        device.vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        if (bound == VK_NULL_HANDLE && key.layered && key.placed) {
-            bindPlaces(pass); // not before the pipeline: llvmpipe 22.3 crashes on a set that none was ever bound for
-        }
-        if (bound == VK_NULL_HANDLE && key.formats.behind_first) {
-            device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(),
-                                            CasterPipelines::kFirstSurfaceSet, 1, &pass.first_surface, 0, nullptr);
-        }
-        bound = pipeline;
-    }
-    if (key.masked) {
-        device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0, 1,
-                                        &batch.texture, 0, nullptr);
-        device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, 0,
-                                   batch.blended ? sizeof(CasterMaterial) : offsetof(CasterMaterial, first_view),
-                                   &materials[draws.batch]);
-    }
-    device.vk.CmdDrawIndexedIndirect(pass.commands, slot->commands.buffer(),
-                                     commands_used + draws.first_command * kCommandBytes, draws.command_count,
-                                     static_cast<std::uint32_t>(kCommandBytes));
-    return draws.command_count;
-}
-
-void CasterDrawer::Impl::checkPass(const MapPass& pass) const
-{
-    if (slot == nullptr) {
-        refuseUse(kDrawing, "no frame has begun", "call beginFrame() first");
-    }
-    checkCommands(kDrawing, pass.commands);
-    if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
-        refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
-    }
-    if (pass.view_count > 1 && (!together || pass.plan == nullptr || pass.view_index >= pass.plan->views.size() ||
-                                pass.view_count > pass.plan->views.size() - pass.view_index)) {
-        refuseUse(kDrawing, "the pass has views that the plan of beginFrame() has not", kAsGiven);
-    }
-}
-
-/// What beginFrame() made room for is enough for every pass of its plan once.
-void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
-{
-    const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->orthographic, pass.view_count > 1)};
-    const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
-    if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
-        commands_used + commands > slot->commands.size()) {
-        refuseUse(kDrawing, "it has more casters than the plan of beginFrame()", kAsGiven);
-    }
-}
-
-std::uint32_t CasterDrawer::draw(const MapPass& pass)
-{
-    Impl& self = *impl_;
-    self.checkPass(pass);
-    const View& view = *pass.view;
-    const std::span<const std::uint32_t> list = self.listOf(pass);
-    const std::uint32_t instances = self.batcher.instanceCount(list);
-    if (instances == 0) {
-        return 0;
-    }
-    self.checkRoom(pass, instances);
-    Impl::Slot& slot = *self.slot;
-    const bool layered = pass.view_count > 1;
-    auto* commands_out = reinterpret_cast<VkDrawIndexedIndirectCommand*>(static_cast<std::byte*>(slot.commands.data()) +
-                                                                         self.commands_used);
-    const std::size_t commands_left = (slot.commands.size() - self.commands_used) / kCommandBytes;
-    const DrawLists lists = self.batcher.build(list, 0, {commands_out, commands_left}, self.handles, layered);
-    self.writeRows(pass, std::span(self.handles).first(lists.instance_count));
-
-    self.bound = VK_NULL_HANDLE;
-    self.bindGeometry(pass);
-    CasterPipelineKey key;
-    key.formats = pass.formats;
-    key.perspective = !view.orthographic;
-    key.clamp = view.clamp_near;
-    key.part = pass.formats.blended ? TexelPart::whole : view.part;
-    key.placed = pass.placement != VK_NULL_HANDLE;
-    key.layered = layered;
-    std::uint32_t drawn = 0;
-    for (const BatchDraws& draws : lists.batches) {
-        drawn += self.drawBatch(pass, draws, key);
-    }
-    self.commands_used += lists.command_count * kCommandBytes;
-    self.instances_used += VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered);
-    self.triangles += lists.index_count / 3;
-    return drawn;
 }
 
 std::uint64_t CasterDrawer::triangles() const
