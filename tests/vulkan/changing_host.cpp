@@ -122,7 +122,7 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     const Frame frame = nextFrame(setup);
     at = At::plan;
     const Plan& plan = planner.plan(frame);
-    chosen = plan.lights[0].choice.partition;
+    chosen = plan.lights.empty() ? Partition::automatic : plan.lights[0].choice.partition;
     const std::uint64_t pipelines = driver.counts().pipelines;
     at = At::prepare;
     (void)renderer.prepare(plan, setup.screen);
