@@ -96,8 +96,8 @@ protected:
     void fillWith(std::uint32_t view, float value)
     {
         fillTile(view, [&](std::span<std::byte> texel) {
-            const std::uint16_t small =
-                isUnorm() ? static_cast<std::uint16_t>(std::clamp(value, 0.0F, 1.0F) * 65535.0F) : halfOf(value);
+            const float shown = std::isnan(value) ? 0.0F : std::clamp(value, 0.0F, 1.0F);
+            const std::uint16_t small = isUnorm() ? static_cast<std::uint16_t>(shown * 65535.0F) : halfOf(value);
             for (std::size_t i = 0; i < texel.size(); i += isHalf() || isUnorm() ? 2 : 4) {
                 if (isHalf() || isUnorm()) {
                     std::memcpy(&texel[i], &small, 2);
