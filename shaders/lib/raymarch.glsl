@@ -148,7 +148,6 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
 #endif
         real leaves = from + (to - from) * s;
         bool advances = true;
-        real here_depth = real(2.0);
         if (level > real(0.0)) {
             real2 square = floor(cell * exp2(-level));
             advances = mapBlock(square, int(level), f.layer).x > enters;
@@ -161,10 +160,9 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
             RayTexel here = rayTexel(point, f, cell);
             blocked = texelBlocks(before, here, enters, leaves, surface);
             before = here;
-            here_depth = here.depth;
         }
         // Out from under a texel's surface a ray may come through its side, which is found between two texels alone.
-        bool beneath = level == real(0.0) && here_depth < leaves;
+        bool beneath = level == real(0.0) && before.depth < leaves;
         level = beneath ? real(0.0) : clamp(level + (advances ? real(1.0) : real(-1.0)), real(0.0), f.coarsest);
         if (advances) {
             cell = step.cell;

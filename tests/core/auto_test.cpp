@@ -253,6 +253,11 @@ TEST(AutoSize, OfALampFarOffIsSmallAndDoesNotFlicker)
     };
     EXPECT_EQ(freshSideAt(8.0), kSide);
     EXPECT_LT(freshSideAt(120.0), kSide);
+    Planner told(options);
+    EXPECT_LT(sideAt(told, lampAt(120.0)), kSide);
+    Stage own = lampAt(120.0);
+    own.light.map_size = kSide;
+    EXPECT_EQ(sideAt(told, own), kSide) << "a light's own side is no choice";
     ShadowOptions given = options;
     given.map_size = kSide;
     Planner fixed(given);

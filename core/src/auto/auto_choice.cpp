@@ -122,7 +122,9 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
     const Candidate& taken = memory.candidates[best];
     memory.decision.partition = taken.partition;
     memory.decision.strengths = taken.strengths;
-    if (input.recipe.sizesMap() && input.light.map_size == 0 && taken.coarsest_px > 0.0) {
+    if (input.light.map_size != 0) {
+        told.halvings = 0; // its side is given
+    } else if (input.recipe.sizesMap() && taken.coarsest_px > 0.0) {
         told.halvings = halvingsFor(taken.coarsest_px, is_new ? std::nullopt : std::optional(halvings));
     }
     told.partition = taken.partition->partition;
