@@ -12,10 +12,6 @@ GN_BEGIN
 
 GN_CONST int kSearchTaps = 16;
 GN_CONST int kPcssTaps = 32;
-// As many that agree are enough of them.
-GN_CONST int kPcssAgree = 16;
-// From one to the next, so that the first ones lie over all of the disc. Odd: each comes once.
-GN_CONST int kPcssStride = 11;
 
 // Where the cone's cross-section at `s` has its point `at`, on the map.
 GN_FN real2 coneTexel(RayCone cone, real s, real2 at)
@@ -66,18 +62,16 @@ GN_FN real filterPcss(MapPoint point, FilterInput f)
     real blocker = meanBlocker(point, f, cone, noise, around.nearest);
     real s = coneReach(cone, blocker);
     real lit = real(0.0);
-    bool agree = true;
     int i = 0;
     do {
-        real2 at = pointOfLight(noise, (i * kPcssStride) % kPcssTaps, kPcssTaps);
+        real2 at = pointOfLight(noise, i, kPcssTaps);
         real stored = real(1.0);
         bool blocks = tapBlocks(point, f, coneTexel(cone, s, at) + pointOfTexel(noise, i), stored);
         bool faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
         lit += faces && !blocks ? real(1.0) : real(0.0);
         ++i;
-        agree = lit == real(0.0) || lit == real(i);
-    } while (i < kPcssTaps && !(agree && i >= kPcssAgree));
-    return lit / real(i);
+    } while (i < kPcssTaps);
+    return lit / real(kPcssTaps);
 }
 
 GN_END

@@ -164,8 +164,6 @@
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNormalError gnomon_kNormalError
 #define kOneSurface gnomon_kOneSurface
-#define kPcssAgree gnomon_kPcssAgree
-#define kPcssStride gnomon_kPcssStride
 #define kPcssTaps gnomon_kPcssTaps
 #define kPixelSteps gnomon_kPixelSteps
 #define kPlaneAlone gnomon_kPlaneAlone

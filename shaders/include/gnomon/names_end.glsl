@@ -164,8 +164,6 @@
 #undef kNoLayerBegins
 #undef kNormalError
 #undef kOneSurface
-#undef kPcssAgree
-#undef kPcssStride
 #undef kPcssTaps
 #undef kPixelSteps
 #undef kPlaneAlone
