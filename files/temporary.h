@@ -36,6 +36,10 @@ private:
     int descriptor_ = -1;
 };
 
+/// What killed processes left while they made `target`. For who found that another has made it, and makes none. Throws
+/// std::bad_alloc alone.
+void removeLeftBehind(const std::filesystem::path& target, Temporary::Kind kind);
+
 /// Keeps others that ask likewise from a folder's contents while it lives. Waits some seconds at most: a lock that
 /// somebody forgot is not to stop us.
 class FolderLock {

@@ -89,20 +89,30 @@ bool lockedOurs(const fs::path& path, Temporary::Kind kind, int descriptor)
     return (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && isThere(path, kind, descriptor);
 }
 
+/// From the nth name on.
+void removeLeftBehindFrom(int n, const fs::path& target, Temporary::Kind kind)
+{
+    for (int free = 0; n < kNames && free < kGap; ++n) {
+        const fs::path path = nameOf(target, n);
+        struct stat there {};
+        const bool is_free = ::lstat(path.c_str(), &there) != 0 || removedStale(path, kind);
+        free = is_free ? free + 1 : 0;
+    }
+}
+
 } // namespace
+
+void removeLeftBehind(const fs::path& target, Temporary::Kind kind)
+{
+    removeLeftBehindFrom(0, target, kind);
+}
 
 // Once the other constructor is done there is a destructor, which removes what was made when something throws here.
 Temporary::Temporary(const fs::path& target, Kind kind) : Temporary(kind)
 {
-    int free = 0;
-    for (int n = 0; n < kNames && (descriptor_ < 0 || free < kGap); ++n) {
+    int n = 0;
+    for (; n < kNames && descriptor_ < 0; ++n) {
         fs::path path = nameOf(target, n);
-        if (descriptor_ >= 0) {
-            struct stat there {};
-            const bool is_free = ::lstat(path.c_str(), &there) != 0 || removedStale(path, kind);
-            free = is_free ? free + 1 : 0;
-            continue;
-        }
         int made = create(path, kind);
         const int error = made < 0 ? errno : 0;
         if (error == EEXIST && removedStale(path, kind)) {
@@ -120,6 +130,7 @@ Temporary::Temporary(const fs::path& target, Kind kind) : Temporary(kind)
     if (descriptor_ < 0) {
         failWriting(target, EEXIST);
     }
+    removeLeftBehindFrom(n, target, kind);
 }
 
 Temporary::~Temporary()

@@ -126,6 +126,16 @@ TEST_F(CacheTest, OnlyTemporariesOfKilledProcessesAreSwept)
     EXPECT_EQ(found, expected);
 }
 
+TEST_F(CacheTest, WhoeverReadsAnEntryRemovesWhatAKilledProcessLeftOfIt)
+{
+    const fs::path entry = entryOf(folder_, kKey);
+    ASSERT_TRUE(cache_.store(kKey, sample(4, 4)));
+    const std::string left = "." + entry.filename().string() + ".0.tmp";
+    gnomon::test::spill(folder_ / left, "half");
+    ASSERT_TRUE(load(cache_, {4, 4}).has_value());
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{entry.filename().string()});
+}
+
 // Side by side
 
 constexpr glm::uvec2 kSharedSize{24, 16};

@@ -3,6 +3,7 @@
 
 #include "cache_entry.h"
 #include "files/files.h"
+#include "files/temporary.h"
 
 #include <gnomon/error.h>
 
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".truth";
 constexpr std::size_t kKeyDigits = 32;
-/// No store takes so long: whoever wrote the file was killed, and nobody has stored that entry again.
+/// No store takes so long: whoever wrote the file was killed, and nobody has stored or read that entry again.
 constexpr std::chrono::hours kTemporaryLifetime{1};
 
 bool isEntryName(std::string_view name)
@@ -238,6 +239,8 @@ std::optional<Traced> Cache::load(const scene::Hash128& key, const glm::uvec2& s
         if (loaded.bad) {
             std::error_code ignored;
             fs::remove(file, ignored);
+        } else if (loaded.traced) {
+            removeLeftBehind(file, Temporary::Kind::file);
         }
         return std::move(loaded.traced);
     } catch (const std::exception&) {
