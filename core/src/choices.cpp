@@ -139,15 +139,15 @@ constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
-    FilterTraits{Filter::hard, kDepthFormats, true, true, false, false},
-    FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false},
-    FilterTraits{Filter::pcss, kRayFormats, true, false, false, true},
-    FilterTraits{Filter::raymarch, kRayFormats, true, false, false, true},
-    FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false},
-    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false},
-    FilterTraits{Filter::esm, kEsmFormats, false, true, true, false},
-    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true, false},
-    FilterTraits{Filter::msm, kMsmFormats, false, true, true, false},
+    FilterTraits{Filter::hard, kDepthFormats, true, true, false, false, true},
+    FilterTraits{Filter::pcf, kDepthFormats, true, true, false, false, true},
+    FilterTraits{Filter::pcss, kRayFormats, true, false, false, true, true},
+    FilterTraits{Filter::raymarch, kRayFormats, true, false, false, true, true},
+    FilterTraits{Filter::vsm, kVsmFormats, false, true, true, false, false},
+    FilterTraits{Filter::lvsm, kLvsmFormats, false, true, true, false, false},
+    FilterTraits{Filter::esm, kEsmFormats, false, true, true, false, false},
+    FilterTraits{Filter::evsm, kEvsmFormats, false, true, true, false, false},
+    FilterTraits{Filter::msm, kMsmFormats, false, true, true, false, false},
 };
 
 /// What a user reads who asks a filter for a format that it cannot use.

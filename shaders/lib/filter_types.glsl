@@ -36,6 +36,7 @@ struct FilterInput {
     real3 n;            // the receiver's unit geometric normal
     real3 toward;       // from the receiver to the light's centre; of unit length for a parallel light
     real spread;        // radius, at the end of `toward`, of the disc that the light is seen as
+    int stood;          // so many frames before this one, which are averaged with it, saw the same; 0: none are
     // Of filterable maps:
     MomentRule moments;
     int slot;           // lvsm: of the view's depth layers

@@ -70,6 +70,12 @@ vec2 discPoint(int i)
 #include "tint.glsl"
 #endif
 
+// A pass may define GNOMON_CONFIDENCE, whether it wants to know how far the last lightVisibility() is to be trusted.
+#ifdef GNOMON_CONFIDENCE
+#include "../shared/converge.h"
+float lookup_confidence; // less than 0: no map was asked
+#endif
+
 // A surface's point as filters need it.
 struct Receiver {
     vec3 p; // eye-relative
@@ -87,6 +93,7 @@ FilterInput filterInput(vec2 pixel)
     f.disc_taps = GNOMON_DISC_TAPS;
     f.disc_radius = GNOMON_NUMBERS.rule.disc.x;
     f.kernel = GNOMON_NUMBERS.rule.kernel;
+    f.stood = gnomon.rule.moments.w;
     // So far from frame to frame, the noise of discs.h is another one everywhere: J. Jimenez, as there.
     f.pixel = pixel + 5.588238 * GNOMON_NUMBERS.rule.disc.y;
     f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, GNOMON_NUMBERS.rule.moment_warp,
@@ -174,6 +181,12 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
             }
 #endif
             v = found ? mix(v, here, share) : here;
+#ifdef GNOMON_CONFIDENCE
+            if (GNOMON_CONFIDENCE) {
+                float confidence = texelConfidence(projectReceiver(rowsOf(viewAt(view)), bias, r.p, r.n).texel);
+                lookup_confidence = found ? mix(lookup_confidence, confidence, share) : confidence;
+            }
+#endif
             found = true;
             share = 0.0;
             if (isLeft(s)) {
@@ -188,6 +201,9 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
 // point by GpuScreen's eye_w: one over clip space's w.
 float lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, float w)
 {
+#ifdef GNOMON_CONFIDENCE
+    lookup_confidence = -1.0;
+#endif
     GpuLight light;
     if (GNOMON_FEW_VIEWS > 0) {
         light.place = GNOMON_FEW_PLACE;

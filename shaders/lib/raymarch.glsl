@@ -29,6 +29,8 @@ GN_CONST int kRaySteps = 256;
 // The square around the receiver that rays start in, texels. In it an edge's place is found to less than a texel. In a
 // penumbra so wide that nothing is to be narrowed it is one texel, which blurs less.
 GN_CONST real kStartsWithin = real(1.5);
+// The same where frames are averaged whose maps lie a part of a texel apart: these are what finds the edge's place.
+GN_CONST real kStartsAtRest = real(0.5);
 // Rays that are blocked on one side tell an edge from leaves and wires (RaysFound::straight): none of the edge's ramp is
 // narrowed below the first value, all above the second.
 GN_CONST real kStraightFrom = real(0.5);
@@ -267,6 +269,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     real across = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = across - kStartsWithin; // of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
+    within = f.stood > 0 ? kStartsAtRest : within;
     RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across),
                                 across < kWideFrom ? kRaysFewest : kRaysMost, within);
     if (GNOMON_SHOWS_RAYS) {

@@ -32,7 +32,7 @@ layout(push_constant) uniform Push
 };
 layout(location = 0) out vec4 visibility;
 layout(location = 1) out vec4 mean;
-layout(location = 2) out uvec2 surface; // x: packSurface(); y: by light, how many frames the mean counts for: 8 bits each
+layout(location = 2) out uvec2 surface; // x: packSurface(); y: by light, what the mean weighs: packCount(), 8 bits each
 
 // A distance's upper 16 bits, which tell surfaces apart at any scale, and its normal.
 uint packSurface(float distance_m, vec2 normal)
@@ -50,12 +50,13 @@ vec3 normalOf(uint packed)
 
 uint packCounts(vec4 counts)
 {
-    uvec4 c = uvec4(counts + 0.5);
+    uvec4 c = uvec4(packCount(counts.x), packCount(counts.y), packCount(counts.z), packCount(counts.w));
     return c.x | (c.y << 8) | (c.z << 16) | (c.w << 24);
 }
 vec4 countsOf(uint packed)
 {
-    return vec4((uvec4(packed) >> uvec4(0, 8, 16, 24)) & 255u);
+    vec4 c = vec4((uvec4(packed) >> uvec4(0, 8, 16, 24)) & 255u);
+    return vec4(unpackCount(c.x), unpackCount(c.y), unpackCount(c.z), unpackCount(c.w));
 }
 
 // What the frames before made of a point.
@@ -63,6 +64,23 @@ struct Known {
     vec4 mean;
     vec4 counts;
 };
+
+// This frame's visibilities, and what each weighs.
+struct Seen {
+    vec4 visibility;
+    vec4 weights;
+};
+
+Seen seenAt(ivec3 at)
+{
+    vec4 seen = texelFetch(visibility_now, at, 0);
+    float power = confidencePower(float(layers[layer].state.z));
+    vec2 x = unpackSeen(seen.x, power);
+    vec2 y = unpackSeen(seen.y, power);
+    vec2 z = unpackSeen(seen.z, power);
+    vec2 w = unpackSeen(seen.w, power);
+    return Seen(vec4(x.x, y.x, z.x, w.x), vec4(x.y, y.y, z.y, w.y));
+}
 
 // Of the pass, read once: lavapipe 22.3 loads a uniform again for each lane and each use.
 vec2 size_px;
@@ -137,7 +155,7 @@ Known knownOf(vec3 p, vec3 normal)
         return none;
     }
     vec4 known = found.shares > 0.999 ? cubicMean(first, part, found) : found.sum / found.shares;
-    vec4 counts = floor(found.counts / found.shares + 1e-3);
+    vec4 counts = found.counts / found.shares;
     if (layers[layer].state.y == 0u) {
         vec4 spread = max(found.most - found.least, vec4(0.0));
         counts = min(counts, vec4(mostInMotion(spread.x), mostInMotion(spread.y), mostInMotion(spread.z), mostInMotion(spread.w)));
@@ -161,36 +179,38 @@ vec4 unmoved(vec3 p)
     return kept;
 }
 
-vec4 joined(vec4 before, vec4 counts, vec4 now)
+vec4 joined(vec4 before, vec4 counts, Seen now)
 {
-    vec4 all = vec4(joinedMean(before.x, counts.x, now.x), joinedMean(before.y, counts.y, now.y),
-                    joinedMean(before.z, counts.z, now.z), joinedMean(before.w, counts.w, now.w));
-    return mix(now, all, notEqual(counts, vec4(0.0)));
+    vec4 v = now.visibility;
+    vec4 w = now.weights;
+    vec4 all = vec4(joinedMean(before.x, counts.x, v.x, w.x), joinedMean(before.y, counts.y, v.y, w.y),
+                    joinedMean(before.z, counts.z, v.z, w.z), joinedMean(before.w, counts.w, v.w, w.w));
+    return mix(v, all, notEqual(counts, vec4(0.0)));
 }
 
 // Joins the pixel with itself. Where this frame looks past a surface's edge it says nothing of it.
-void joinAtRest(ivec3 at, vec4 now, bool sees)
+void joinAtRest(ivec3 at, Seen now, bool sees)
 {
     uvec2 before = texelFetch(surface_before, at, 0).xy;
     vec4 mean_there = texelFetch(mean_before, at, 0);
     vec4 counts = min(countsOf(before.y), layers[layer].most);
-    mean = sees ? joined(mean_there, counts, now) : mix(now, mean_there, notEqual(counts, vec4(0.0)));
+    mean = sees ? joined(mean_there, counts, now) : mix(now.visibility, mean_there, notEqual(counts, vec4(0.0)));
     visibility = mean;
-    surface = uvec2(before.x, sees ? packCounts(counts + 1.0) : before.y);
+    surface = uvec2(before.x, sees ? packCounts(counts + now.weights) : before.y);
 }
 
 void main()
 {
     ivec3 at = ivec3(ivec2(gl_FragCoord.xy), layer);
-    vec4 now = texelFetch(visibility_now, at, 0);
+    Seen now = seenAt(at);
     float depth = texelFetch(depths, at.xy, 0).r;
     bool sees = depth != gnomon.screen.view_axis.w;
     if (kAtRest) {
         joinAtRest(at, now, sees);
         return;
     }
-    visibility = now;
-    mean = now;
+    visibility = now.visibility;
+    mean = visibility;
     surface = uvec2(0u); // none
     if (!sees) {
         return;
@@ -201,6 +221,9 @@ void main()
     vec4 h = vec4(dot(gnomon.screen.eye_x, ndc), dot(gnomon.screen.eye_y, ndc), dot(gnomon.screen.eye_z, ndc), dot(gnomon.screen.eye_w, ndc));
     vec3 p = h.xyz / h.w;
     vec2 packed_normal = texelFetch(normals, at.xy, 0).rg;
+    if (layers[layer].state.y == 0u) {
+        now.weights = vec4(1.0); // the few frames that count in motion all do
+    }
     vec4 counts = layers[layer].most;
     Known known = Known(vec4(1.0), vec4(0.0));
     if (counts != vec4(0.0)) {
@@ -209,5 +232,5 @@ void main()
     counts = min(known.counts, counts) * unmoved(p);
     mean = joined(known.mean, counts, now);
     visibility = mean;
-    surface = uvec2(packSurface(length(p), packed_normal), packCounts(counts + 1.0));
+    surface = uvec2(packSurface(length(p), packed_normal), packCounts(counts + now.weights));
 }

@@ -22,6 +22,7 @@ layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl;
 layout(constant_id = 10) const bool kHasSmooth = false;
 layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
 layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
+layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: packSeen()
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -39,6 +40,7 @@ GpuConstants numbers;
 #define GNOMON_MOMENT_LAYERS kMomentLayers
 #define GNOMON_DEPTH_HOLDING kDepthHolding
 #define GNOMON_SHOWS_RAYS kRaysAsMask
+#define GNOMON_CONFIDENCE kConfidence
 #include "../lib/light_visibility.glsl"
 
 layout(push_constant) uniform Lights
@@ -124,6 +126,9 @@ void main()
     do {
         int channel = findLSB(left);
         float v = lightVisibility(first + channel, p, n, s, gl_FragCoord.xy, h.w);
+        if (kConfidence && lookup_confidence >= 0.0) {
+            v = packSeen(v, lookup_confidence);
+        }
         visibility = mix(visibility, vec4(v), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
         left &= left - 1u;
     } while (left != 0u);

@@ -1,18 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mask that is a mean over frames: how a frame joins those before it, and where they no longer count.
 // Based on: D. Scherzer, M. Schwaerzler, O. Mattausch, M. Wimmer, "Real-Time Soft Shadows Using Temporal Coherence",
-// ISVC 2009 (means of shadow tests over frames, each frame by another point of the light).
-// Departure: what moved objects can have changed is given up by their boxes, not found out from the shadows.
+// ISVC 2009 (means of shadow tests over frames, each frame by another point of the light); D. Scherzer, S. Jeschke,
+// M. Wimmer, "Pixel-Correct Shadow Maps with Temporal Reprojection and Shadow Test Confidence", EGSR 2007, section 4.3
+// (a test counts for the more the nearer it is to its texel's centre).
+// Departures: what moved objects can have changed is given up by their boxes, not found out from the shadows.
 #ifndef GNOMON_CONVERGE_H
 #define GNOMON_CONVERGE_H
 #include "portability.h"
 GN_BEGIN
 
-// `before`: the mean of `count` frames, or of what counts as so many; `now`: one more. Where the count grows with the
-// frames this is their arithmetic mean; where it is held at n, an exponential one by 1 / (n + 1).
-GN_FN real joinedMean(real before, real count, real now)
+// `before`: the mean of frames that weigh `count` together; `now`: one more, of this weight. Of weights of 1 where the
+// count grows with the frames, this is their arithmetic mean; where it is held at n, an exponential one by 1 / (n + 1).
+GN_FN real joinedMean(real before, real count, real now, real weight)
 {
-    return before + (now - before) / (count + real(1.0));
+    return before + (now - before) * weight / (count + weight);
+}
+
+// How much a map's texel says of a place in it, 0 .. 1: 1 at the texel's centre, which is what was drawn, 0 at its rim.
+// `place`: texel coordinates.
+GN_FN real texelConfidence(real2 place)
+{
+    real2 off = abs(place - floor(place) - real(0.5));
+    return real(1.0) - real(2.0) * max(off.x, off.y);
+}
+
+// By which power of that a frame counts, `stood` frames of the same before it: the higher, the less of a texel's blur
+// is left, and the fewer frames count. Chosen, see docs/techniques/converge.md.
+GN_FN real confidencePower(real stood)
+{
+    return min(real(1.0) + stood / real(6.0), real(6.0));
+}
+
+// What it counts for then. Its mean over a texel is 1.
+GN_FN real frameWeight(real confidence, real power)
+{
+    return real(0.5) * (power + real(1.0)) * (power + real(2.0)) * pow(confidence, power);
+}
+
+// A visibility and how far it is to be trusted in one number: v - 2 k, by the kth of these shares of confidence. What
+// goes without is v itself. No k makes it larger, so that the least of what is drawn to a channel is the one.
+GN_CONST real kConfidences = real(8.0);
+
+GN_FN real packSeen(real v, real confidence)
+{
+    return v -
+           real(2.0) * (kConfidences - clamp(floor(confidence * kConfidences), real(0.0), kConfidences - real(1.0)));
+}
+
+// x: the visibility, y: what the frame weighs.
+GN_FN real2 unpackSeen(real seen, real power)
+{
+    real k = floor((real(1.0) - seen) * real(0.5));
+    real confidence = (kConfidences + real(0.5) - k) / kConfidences;
+    return real2(seen + real(2.0) * k, k > real(0.0) ? frameWeight(confidence, power) : real(1.0));
+}
+
+// Weights of up to 64 in eight bits: by their square roots, so that small ones are told apart.
+GN_FN real packCount(real count)
+{
+    return floor(sqrt(clamp(count, real(0.0), real(64.0)) / real(64.0)) * real(255.0) + real(0.5));
+}
+GN_FN real unpackCount(real packed)
+{
+    return packed * packed * (real(64.0) / (real(255.0) * real(255.0)));
 }
 
 // As how many frames those before count at most, under a camera that moves: the mean is then read between pixels in

@@ -29,15 +29,18 @@ TEST(Converge, comesNearerToTheTruthWithEachDoubling)
 {
     const nlohmann::json json =
         comparedWith({"rts", "--preset", "plain", "--camera", "unit", "--techniques",
-                      "hard+converge+lispsm,hard+converge+cascades,pcf+pcf.kernel=2x2+converge+lispsm", "--map-size",
-                      "1024", "--sweep", "converge=1:32:6:log"});
+                      "hard+converge+lispsm,hard+converge+cascades,pcf+pcf.kernel=2x2+converge+lispsm,"
+                      "raymarch+converge+lispsm",
+                      "--map-size", "1024", "--sweep", "converge=1:32:6:log"});
     ASSERT_EQ(json["sweep"]["values"], (std::vector<double>{1, 2, 4, 8, 16, 32}));
     for (const nlohmann::json& line : json["sweep"]["results"]) {
         const std::vector<double> rmse = line["rmse"];
         for (std::size_t i = 1; i < rmse.size(); ++i) {
             EXPECT_LE(rmse[i], rmse[i - 1]) << line["technique"] << " at " << i;
         }
-        EXPECT_LT(rmse.back(), 0.8 * rmse.front()) << line["technique"];
+        // Of frames that all count as much, raymarch's mean has 0.77 of the first one's error here.
+        const bool is_soft = line["technique"].get<std::string>().starts_with("raymarch");
+        EXPECT_LT(rmse.back(), (is_soft ? 0.65 : 0.8) * rmse.front()) << line["technique"];
     }
 }
 

@@ -26,7 +26,7 @@ TEST(JoinedMean, growingIsTheArithmeticMean)
     for (int frame = 0; frame < 64; ++frame) {
         const double now = hashed(static_cast<std::uint64_t>(frame));
         sum += now;
-        mean = joinedMean(mean, double(frame), now);
+        mean = joinedMean(mean, double(frame), now, 1.0);
         EXPECT_NEAR(mean, sum / (frame + 1), 1e-14);
     }
 }
@@ -36,10 +36,79 @@ TEST(JoinedMean, heldForgetsByEqualShares)
     constexpr double kHeld = 3.0;
     double mean = 1.0;
     for (int frame = 1; frame < 30; ++frame) {
-        mean = joinedMean(mean, kHeld, 0.0);
+        mean = joinedMean(mean, kHeld, 0.0, 1.0);
         EXPECT_NEAR(mean, std::pow(kHeld / (kHeld + 1.0), frame), 1e-14);
     }
-    EXPECT_EQ(joinedMean(0.7, 0.0, 0.25), 0.25) << "of no frames this one is left";
+    EXPECT_EQ(joinedMean(0.7, 0.0, 0.25, 1.0), 0.25) << "of no frames this one is left";
+}
+
+TEST(JoinedMean, weighsWhatItJoins)
+{
+    double mean = 0.0;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int frame = 0; frame < 64; ++frame) {
+        const double now = hashed(static_cast<std::uint64_t>(frame));
+        const double weight = 0.01 + 9.0 * hashed(static_cast<std::uint64_t>(1000 + frame));
+        mean = joinedMean(mean, weights, now, weight);
+        sum += weight * now;
+        weights += weight;
+        EXPECT_NEAR(mean, sum / weights, 1e-13);
+    }
+}
+
+TEST(FrameWeight, isOneOnTheMeanOverATexel)
+{
+    constexpr int kSteps = 400;
+    for (const double stood : {0.0, 1.0, 7.0, 30.0, 1000.0}) {
+        double sum = 0.0;
+        for (int i = 0; i < kSteps * kSteps; ++i) {
+            const real2 place(-3.0 + (i % kSteps + 0.5) / kSteps, 5.0 + (i / kSteps + 0.5) / kSteps);
+            sum += frameWeight(texelConfidence(place), confidencePower(stood));
+        }
+        EXPECT_NEAR(sum / (kSteps * kSteps), 1.0, 1e-3) << stood;
+    }
+    EXPECT_LE(confidencePower(1000.0), 6.0);
+    EXPECT_EQ(texelConfidence(real2(-3.5, 7.5)), 1.0);
+    EXPECT_EQ(texelConfidence(real2(-3.5, 7.0)), 0.0);
+    EXPECT_NEAR(texelConfidence(real2(2.75, 7.4)), 0.5, 1e-12);
+}
+
+// Half floats have eleven bits.
+TEST(PackSeen, keepsVisibilityAndWeightInAHalfFloat)
+{
+    const auto half = [](double value) {
+        const double step = std::exp2(std::floor(std::log2(std::max(std::abs(value), 1e-4))) - 10.0);
+        return std::round(value / step) * step;
+    };
+    for (int v = 0; v <= 255; ++v) {
+        for (int c = 0; c <= 32; ++c) {
+            const double seen = half(packSeen(v / 255.0, c / 32.0));
+            const real2 found = unpackSeen(seen, 3.0);
+            EXPECT_LE(seen, 1.0) << "the least of a channel's draws is kept";
+            EXPECT_NEAR(found.x, v / 255.0, std::abs(seen) / 1024.0 + 1e-12);
+            const double from = frameWeight(std::max(c / 32.0 - 1.0 / 8.0, 0.0), 3.0);
+            const double to = frameWeight(std::min(c / 32.0 + 1.0 / 8.0, 1.0), 3.0);
+            EXPECT_TRUE(found.y > 0.0 && found.y >= from && found.y <= to) << c;
+        }
+    }
+    EXPECT_EQ(unpackSeen(0.3, 3.0), real2(0.3, 1.0)) << "what is not packed";
+    EXPECT_EQ(unpackSeen(0.0, 3.0), real2(0.0, 1.0));
+    EXPECT_EQ(unpackSeen(1.0, 3.0), real2(1.0, 1.0));
+}
+
+TEST(PackCount, tellsSmallWeightsApart)
+{
+    double before = -1.0;
+    for (int packed = 0; packed < 256; ++packed) {
+        const double count = unpackCount(double(packed));
+        EXPECT_EQ(packCount(count), double(packed));
+        EXPECT_GT(count, before);
+        before = count;
+    }
+    EXPECT_EQ(before, 64.0);
+    EXPECT_EQ(packCount(1e9), 255.0);
+    EXPECT_GT(packCount(frameWeight(1.0 / 16.0, 3.0)), 0.0) << "a frame that hardly counts is not none";
 }
 
 TEST(MostInMotion, isLittleAtSharpEdgesAlone)

@@ -117,6 +117,7 @@ void ConvergePass::prepare(const ImageInfo& mask, std::size_t lights)
     }
     device_.retire(std::move(target_));
     ImageInfo info = mask;
+    info.format = targetFormat(mask.format);
     info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     info.purpose = "mask of one frame";
     target_ = Image(device_, info);
@@ -126,6 +127,11 @@ void ConvergePass::prepare(const ImageInfo& mask, std::size_t lights)
                                  "what converges");
     }
     planner_ = 0;
+}
+
+VkFormat ConvergePass::targetFormat(VkFormat mask_format)
+{
+    return MaskHistory::visibilityFormat(kHistory, mask_format);
 }
 
 void ConvergePass::writeSet(const Slot& slot, const ConvergeInputs& inputs)
@@ -149,6 +155,15 @@ void ConvergePass::writeSet(const Slot& slot, const ConvergeInputs& inputs)
 bool ConvergePass::goesOn(const Plan& plan) const
 {
     return isAgain(plan) || (!plan.cut && planner_ == plan.planner && number_ + 1 == plan.number);
+}
+
+std::uint32_t ConvergePass::stood(const Frame& frame, const Plan& plan) const
+{
+    bool stands = goesOn(plan) && history_.stands(frame) && plan.moved_ws.empty();
+    for (std::size_t i = 0; stands && i < plan.lights.size(); ++i) {
+        stands = !lights_[i].known || moveOf(lights_[i].light, frame.lights[i]) == 0.0;
+    }
+    return stands ? stood_ + 1 : 0;
 }
 
 /// A frame's moment once more, seen from elsewhere: it shows the mean that the frame is part of, and adds nothing.
@@ -191,7 +206,8 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
         layer.before_y = before.y;
         layer.before_w = before.w;
         layer.before_eye = before.eye;
-        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, 0U, has_normals && had_normals_ ? 1U : 0U};
+        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, stood(frame, plan),
+                       has_normals && had_normals_ ? 1U : 0U};
         for (std::size_t i = 0; i < plan.moved_ws.size(); ++i) {
             const Aabb& box = plan.moved_ws[i];
             layer.box[2 * i] = glm::dvec4((glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5 - frame.camera.eye_ws, 0.0);
@@ -206,6 +222,7 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
 
 void ConvergePass::remember(const Frame& frame, const Plan& plan, bool has_normals)
 {
+    stood_ = stood(frame, plan);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         lights_[i].known = i < plan.lights.size() && pack::joinsFrames(plan.lights[i]);
         if (lights_[i].known) {

@@ -28,6 +28,10 @@ public:
     void warmUp(VkFormat mask_format);
     /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
     void prepare(const ImageInfo& mask, std::size_t lights);
+    /// Of target(), by the mask's: floats, which have room for what shared/converge.h packs.
+    [[nodiscard]] static VkFormat targetFormat(VkFormat mask_format);
+    /// Over how many frames in a row, up to this one, neither the camera nor a light nor an object has moved.
+    [[nodiscard]] std::uint32_t stood(const Frame& frame, const Plan& plan) const;
     /// Where this frame's visibility alone is to be drawn; afterwards it is to be readable by fragment shaders.
     [[nodiscard]] const Image& target() const { return target_; }
     /// All layers. The mask is in COLOR_ATTACHMENT_OPTIMAL.
@@ -73,6 +77,7 @@ private:
     std::uint64_t planner_ = 0; // 0: there is none
     std::uint64_t number_ = 0;
     bool had_normals_ = false;
+    std::uint32_t stood_ = 0;
 };
 
 } // namespace gnomon::vulkan

@@ -78,6 +78,17 @@ VkFormat maskFormat(bool several_lights)
     return several_lights ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8_UNORM;
 }
 
+/// Whether what is drawn goes to ConvergePass::target(), and not to another pass before it.
+bool drawsToConverge(const Plan& plan)
+{
+    return std::ranges::any_of(plan.lights, pack::joinsFrames) && std::ranges::none_of(plan.lights, pack::takesTurns);
+}
+
+bool weighsFrames(const ResolvedOptions& options)
+{
+    return options.technique().soften == Soften::converge && options.traits().weighs_frames;
+}
+
 } // namespace
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
@@ -151,8 +162,13 @@ void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
 
 VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape)
 {
-    MaskPipelineKey key = maskPipelineKey((*plan.options)[draw.options], shape);
+    const ResolvedOptions& options = (*plan.options)[draw.options];
+    MaskPipelineKey key = maskPipelineKey(options, shape);
     key.format = mask_.info().format;
+    if (drawsToConverge(plan)) {
+        key.format = ConvergePass::targetFormat(key.format);
+        key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
+    }
     key.orthographic = draw.orthographic;
     key.shares = draw.shares;
     key.constants.few_views = draw.few_views;
@@ -182,9 +198,13 @@ void MaskPassRecorder::makeConverge()
     }
 }
 
-void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
+void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
+    const auto formatOf = [&](bool several_lights) {
+        const VkFormat format = maskFormat(several_lights);
+        return to_converge ? ConvergePass::targetFormat(format) : format;
+    };
     const auto make = [&] {
         for (const bool orthographic : {true, false}) {
             key.orthographic = orthographic;
@@ -193,7 +213,8 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
             }
         }
     };
-    key.format = maskFormat(false);
+    key.constants.confidence = to_converge && weighsFrames(options) ? VK_TRUE : VK_FALSE;
+    key.format = formatOf(false);
     key.constants.few_views = pack::fewViews(options);
     make();
     if (key.constants.few_views > 1) { // a spot has one map
@@ -201,7 +222,7 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
         make();
     }
     key.constants.few_views = 0;
-    key.format = maskFormat(true);
+    key.format = formatOf(true);
     if (what.several_lights) {
         make();
     }
@@ -209,11 +230,25 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     if (what.several_lights && what.several_options) {
         make();
     }
+}
+
+void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
+{
+    const bool converges = options.technique().soften == Soften::converge;
+    if (converges || what.several_options) {
+        warmUpDraws(options, what, true);
+    }
+    if (!converges || what.several_options) {
+        warmUpDraws(options, what, false);
+    }
     if (options.technique().motion == Motion::step_alternate) {
         makeAlternate();
         alternate_->warmUp(maskFormat(false));
         if (what.several_lights) {
             alternate_->warmUp(maskFormat(true));
+        }
+        if (what.several_lights && what.several_options) {
+            alternate_->warmUp(ConvergePass::targetFormat(maskFormat(true)));
         }
     }
     if (options.technique().soften == Soften::converge) {
@@ -261,6 +296,9 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
         std::ranges::any_of(plan.lights, pack::joinsFrames)) {
         makeConverge();
         converge_->prepare(mask_.info(), plan.lights.size());
+        if (alternate_) {
+            alternate_->warmUp(converge_->target().info().format);
+        }
     }
 }
 
@@ -307,8 +345,11 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
             map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
             writeSet(slot, i, inputs, *maps[i]);
         }
-        pack::fillConstants(frame, plan, i, screen_px, map_images_[i],
-                            *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride));
+        auto& constants = *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride);
+        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], constants);
+        if (drawsToConverge(plan) && weighsFrames((*plan.options)[i])) {
+            constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
+        }
     }
     pack::fillMaskLights(frame, plan, draws_,
                          {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights});

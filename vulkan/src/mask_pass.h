@@ -61,6 +61,7 @@ private:
     void prepareHistories(const Plan& plan);
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
+    void warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
     // destroyed may have the same handle.
     void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
