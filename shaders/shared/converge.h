@@ -29,7 +29,7 @@ GN_FN real texelConfidence(real2 place)
 // is left, and the fewer frames count. Chosen, see docs/techniques/converge.md.
 GN_FN real confidencePower(real stood)
 {
-    return min(real(1.0) + stood / real(6.0), real(6.0));
+    return min(real(1.0) + stood / real(4.0), real(8.0));
 }
 
 // What it counts for then. Its mean over a texel is 1.

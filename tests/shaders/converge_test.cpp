@@ -68,7 +68,7 @@ TEST(FrameWeight, isOneOnTheMeanOverATexel)
         }
         EXPECT_NEAR(sum / (kSteps * kSteps), 1.0, 1e-3) << stood;
     }
-    EXPECT_LE(confidencePower(1000.0), 6.0);
+    EXPECT_EQ(confidencePower(1000.0), 8.0);
     EXPECT_EQ(texelConfidence(real2(-3.5, 7.5)), 1.0);
     EXPECT_EQ(texelConfidence(real2(-3.5, 7.0)), 0.0);
     EXPECT_NEAR(texelConfidence(real2(2.75, 7.4)), 0.5, 1e-12);
