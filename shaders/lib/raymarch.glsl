@@ -22,6 +22,12 @@ GN_CONST int kRaysMost = 48;
 GN_CONST int kRaysLeast = 24;
 GN_CONST int kRaysFewest = 8;
 GN_CONST real kRaysPerTexel = real(3.5); // that the light's disc is wide on the map
+// Vogel's points begin in the light's middle. In a wide penumbra, where rays may end early by kPixelSteps, the first few
+// of them are to be all over the light, or it would look smaller: in steps of a power of two, modulo an odd count, each
+// comes once. In a narrow one the first few decide whether further ones are needed: those near the middle, whose edge is
+// sharper than the map's.
+GN_CONST int kRayStride = 16;
+GN_CONST int kRayOffset = 14;
 // Texels and squares of them that the rays of a pixel may visit together, after which there are no further rays, and
 // that one ray may. What lies beyond does not block.
 GN_CONST int kPixelSteps = 1024;
@@ -190,11 +196,11 @@ struct RaysFound {
     bool cut;      // kRaySteps or kPixelSteps were too few
 };
 
-// `count` rays, or `enough` if these agree, as far as depth `nearest`, above which nothing casts.
-GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, int enough,
-                         real within)
+// `count` rays, or in a narrow penumbra kRaysFewest if these agree, as far as depth `nearest`, above which nothing casts.
+GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, bool wide, real within)
 {
     ConeNoise noise = coneNoise(f.pixel);
+    int enough = wide ? count : kRaysFewest;
     bool agree = true;
     bool cut = false;
     int steps = 0;
@@ -204,7 +210,7 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
     real2 starts_lit = real2(real(0.0));
     int i = 0;
     do {
-        real2 at = pointOfLight(noise, i, count);
+        real2 at = pointOfLight(noise, wide ? (i * kRayStride + kRayOffset) % count : i, count);
         real2 from = pointOfTexel(noise, i) * within;
         real w = max(real(1.0) + dot(point.w_slope, from), real(0.25));
         real metric = (point.depth + dot(point.depth_slope, from)) / w;
@@ -256,7 +262,7 @@ GN_FN real narrowed(RaysFound found, real across, real within)
 GN_FN int rayCount(real across)
 {
     real wanted = clamp(kRaysPerTexel * across, real(kRaysLeast), real(kRaysMost));
-    return int(wanted);
+    return int(wanted) / 2 * 2 + 1; // odd, see kRayStride
 }
 
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
@@ -271,7 +277,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     within = f.stood > 0 ? kStartsAtRest : within;
     RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across),
-                                across < kWideFrom ? kRaysFewest : kRaysMost, within);
+                                across >= kWideFrom, within);
     if (GNOMON_SHOWS_RAYS) {
         return found.cut ? kShowsCeiling : kShowsRays;
     }
