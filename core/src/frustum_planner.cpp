@@ -47,7 +47,7 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     const RegionInput around{
         lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.filter->filterable};
     lie.outcome = region_.gatherReceivers(around);
-    if (lie.outcome.kind == OutcomeKind::ok && recipe.filter->integrates_light) {
+    if (lie.outcome.kind == OutcomeKind::ok && recipe.resolved.integratesLight()) {
         lie.outcome = widenForLight(input, around, lie);
     }
     return lie;
@@ -134,7 +134,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.parallel = !space.perspective;
     view.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
-    view.clamp_near = recipe.filter->clamps_near && !space.perspective;
+    view.clamp_near = recipe.filter->clamps_near && !recipe.resolved.integratesLight() && !space.perspective;
     view.fit = fit;
     view.texel_xy_m = fit.coarsest_texel;
     view.texel_m = std::max(view.texel_xy_m.x, view.texel_xy_m.y);

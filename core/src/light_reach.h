@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far beside a receiver's own ray of light its rays to the rest of the light lead: what a map has room for when its
-// filter follows them (FilterTraits::integrates_light).
+// filter follows them (integratesLight()).
 #pragma once
 
 #include "light_space.h"

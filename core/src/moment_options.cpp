@@ -15,6 +15,7 @@ constexpr std::array<std::string_view, 3> kBlurs{"none", "gaussian", "box"};
 constexpr std::array<std::string_view, 3> kPaths{"auto", "compute", "fragment"};
 constexpr std::array<std::string_view, 4> kSamplings{"nearest", "bilinear", "trilinear", "anisotropic"};
 constexpr std::array<std::string_view, 4> kPlacements{"uniform", "hand", "lloyd", "gaps"};
+constexpr std::array<std::string_view, 2> kPenumbrae{"fixed", "light"};
 constexpr std::array<std::string_view, 2> kSolvers{"hamburger", "hausdorff"};
 
 template <class Enum, std::size_t n>
@@ -95,6 +96,15 @@ std::string_view nameOf(MomentSolver value)
 {
     return nameIn(kSolvers, value);
 }
+std::string_view nameOf(MomentPenumbra value)
+{
+    return nameIn(kPenumbrae, value);
+}
+
+bool followsLight(Filter filter, const MomentOptions& options)
+{
+    return (filter == Filter::vsm || filter == Filter::msm) && options.penumbra == MomentPenumbra::light;
+}
 
 bool followsDepths(LayerPlacement placement)
 {
@@ -157,6 +167,9 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     }
     if (options.remap && isUnorm(format) && filter != Filter::msm) { // which has it in any case
         return std::string(nameOf(format)) + " holds 0 to 1 only, so depth cannot be remapped to -1 to 1; floats can";
+    }
+    if (followsLight(filter, options) && options.metric == DepthMetricKind::z_over_w) {
+        return "penumbra light takes the distance to an occluder from depths along the light: depth-metric linear";
     }
     ShadowOptions checked;
     checked.moments = options;

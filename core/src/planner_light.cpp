@@ -79,7 +79,7 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
     const bool has_slots = recipe.pairs(frame.lights[index]);
     if (recipe.converges()) {
         plan.lights[index].sample =
-            sampleOf(frame.lights[index], convergeSample(recipe.filter->integrates_light ? 0 : converging));
+            sampleOf(frame.lights[index], convergeSample(recipe.resolved.integratesLight() ? 0 : converging));
         plan.lights[index].sample.number = static_cast<std::uint32_t>(converging % 1024);
     }
     std::optional<Outcome> best;

@@ -75,6 +75,7 @@ int flagsOf(const ResolvedOptions& options)
     set(o.solver == MomentSolver::hausdorff, shared::kMomentHausdorff);
     set(options.format() == MapFormat::rgba16, shared::kMomentQuantised);
     set(o.derivative_variance, shared::kMomentDerivatives);
+    set(followsLight(options.filter(), o), shared::kMomentPenumbra);
     return flags;
 }
 

@@ -17,8 +17,8 @@
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
 #include "raymarch.glsl"
 #endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_VSM
-#include "vsm.glsl"
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_VSM || GNOMON_FILTER == GNOMON_FILTER_MSM
+#include "moment_penumbra.glsl"
 #endif
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_LVSM
 #include "lvsm.glsl"
@@ -28,9 +28,6 @@
 #endif
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_EVSM
 #include "evsm.glsl"
-#endif
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_MSM
-#include "msm.glsl"
 #endif
 GN_BEGIN
 
@@ -47,7 +44,7 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 #elif GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
     return filterRaymarch(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_VSM
-    return filterVsm(point, f);
+    return applyMoments(kFilterVsm, point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_LVSM
     return filterLvsm(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_ESM
@@ -55,7 +52,7 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 #elif GNOMON_FILTER == GNOMON_FILTER_EVSM
     return filterEvsm(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_MSM
-    return filterMsm(point, f);
+    return applyMoments(kFilterMsm, point, f);
 #endif
 #else
     switch (filter_number) {
@@ -68,7 +65,7 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
     case GNOMON_FILTER_RAYMARCH:
         return filterRaymarch(point, f);
     case GNOMON_FILTER_VSM:
-        return filterVsm(point, f);
+        return applyMoments(kFilterVsm, point, f);
     case GNOMON_FILTER_LVSM:
         return filterLvsm(point, f);
     case GNOMON_FILTER_ESM:
@@ -76,7 +73,7 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
     case GNOMON_FILTER_EVSM:
         return filterEvsm(point, f);
     case GNOMON_FILTER_MSM:
-        return filterMsm(point, f);
+        return applyMoments(kFilterMsm, point, f);
     default:
         return real(1.0);
     }

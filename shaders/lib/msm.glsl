@@ -49,15 +49,28 @@ GN_FN real msmAllowance(real4 b, real t, real deviation)
     return deviation * (share < real(1.0) ? max(share, real(0.0)) : real(1.0));
 }
 
-GN_FN real filterMsm(MapPoint point, FilterInput f)
+// The coordinate that a receiver is tested at, with the moments that were read.
+GN_FN real msmCoordinate(MapPoint point, FilterInput f, real4 stored)
 {
     int flags = f.moments.flags;
     real t = momentCoordinate(receiverDepth(point.depth, flags, f.near_over_far), flags);
     real before = point.depth - planeDeviation(point, f);
     real deviation = t - momentCoordinate(receiverDepth(before, flags, f.near_over_far), flags);
-    real4 stored = sampleMoments(point, f, f.layer);
     real4 b = hasFlag(flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
-    return shapeVisibility(msmVisibility(stored, t - msmAllowance(b, t, deviation), f.moments), f.moments);
+    return t - msmAllowance(b, t, deviation);
+}
+
+GN_FN Occluders msmOccluders(MapPoint point, FilterInput f)
+{
+    real4 stored = sampleMoments(point, f, f.layer);
+    Hankel h = factorise(usableMoments(stored, f.moments), leastLastPivot(f.moments.flags));
+    return hamburgerOccluders(h, msmCoordinate(point, f, stored), momentScale(f.moments.flags));
+}
+
+GN_FN real filterMsm(MapPoint point, FilterInput f)
+{
+    real4 stored = sampleMoments(point, f, f.layer);
+    return shapeVisibility(msmVisibility(stored, msmCoordinate(point, f, stored), f.moments), f.moments);
 }
 
 GN_END

@@ -7,18 +7,11 @@
 // can decide is not searched.
 #ifndef GNOMON_PCSS_GLSL
 #define GNOMON_PCSS_GLSL
-#include "light_cone.glsl"
+#include "cone_texels.glsl"
 GN_BEGIN
 
 GN_CONST int kSearchTaps = 16;
 GN_CONST int kPcssTaps = 32;
-
-// Where the cone's cross-section at `s` has its point `at`, on the map.
-GN_FN real2 coneTexel(RayCone cone, real s, real2 at)
-{
-    real3 h = cone.start + (cone.axis + cone.side_x * at.x + cone.side_y * at.y) * s;
-    return real2(h.x, h.y) / max(h.z, real(0.5) * kRayEnd * cone.start.z);
-}
 
 // Depth of the texel at a place within the tile, and whether it can block.
 GN_FN bool tapBlocks(MapPoint point, FilterInput f, real2 texel, GN_OUT(real) stored)

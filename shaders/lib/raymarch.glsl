@@ -14,7 +14,7 @@
 // What the map does not hold, no ray can find: what lies behind its first surface, and what is thinner than a texel.
 #ifndef GNOMON_RAYMARCH_GLSL
 #define GNOMON_RAYMARCH_GLSL
-#include "light_cone.glsl"
+#include "cone_texels.glsl"
 GN_BEGIN
 
 // Rays of a pixel.

@@ -13,6 +13,7 @@ GN_CONST int kMomentFourChannels = 8; // evsm: both warps
 GN_CONST int kMomentHausdorff = 16;   // msm
 GN_CONST int kMomentQuantised = 32;   // msm: in the basis that is made for unorm
 GN_CONST int kMomentDerivatives = 64; // derivative-based variance
+GN_CONST int kMomentPenumbra = 128;   // vsm, msm: penumbrae follow from the light's size
 
 struct MomentRule {
     int flags;
@@ -30,6 +31,12 @@ struct MomentRule {
     real power;
     real lighten;
     real anisotropy;
+};
+
+// What moments say of the depths before a receiver.
+struct Occluders {
+    real share;  // of what was averaged that lies before it
+    real height; // mean of that over the receiver, in the metric
 };
 
 // What encoders are given.

@@ -119,6 +119,19 @@ GN_FN real chebyshevBound(real m1, real m2, real t, real least)
     return beyond > real(0.0) ? variance / (variance + beyond * beyond) : real(1.0);
 }
 
+// What (2) takes for occluders. Of mean M1 and visibility p of t, their mean lies (t - M1) / (1 - p) before t: B. Yang
+// et al., "Variance Soft Shadow Mapping", 2010, eq. 4. Written out with (2), nothing small is divided by. `scale`: of
+// the stored coordinate against the metric.
+GN_FN Occluders chebyshevOccluders(real m1, real m2, real t, real least, real scale)
+{
+    real variance = max(m2 - m1 * m1, least);
+    real beyond = t - m1;
+    Occluders o;
+    o.share = beyond > real(0.0) ? beyond * beyond / (variance + beyond * beyond) : real(0.0);
+    o.height = beyond > real(0.0) ? (variance / beyond + beyond) / scale : real(0.0);
+    return o;
+}
+
 // Markov's bound: depths are never before 0, so no more than M1 / t of them is at t or beyond. `slack`: by how much
 // rounding may have lowered M1.
 GN_FN real markovBound(real m1, real t, real slack)

@@ -128,6 +128,27 @@ GN_FN real hamburgerVisibility(Hankel h, real z0)
     return k.y > real(0.0) ? real(1.0) / k.x : real(1.0);
 }
 
+// What it takes for occluders: the roots below z0. Of two of them, the mean, which mean and weights of all leave.
+// `scale`: of the coordinate against the metric.
+// Source: C. Peters et al., "Beyond Hard Shadows: Moment Shadow Maps for Single Scattering, Soft Shadows and
+// Translucent Occluders", I3D 2016.
+GN_FN Occluders hamburgerOccluders(Hankel h, real z0, real scale)
+{
+    real3 k = kernelAbout(h, z0);
+    Occluders o;
+    o.share = real(0.0);
+    o.height = real(0.0);
+    if (k.z < real(0.0)) {
+        real root = rootBelow(k);
+        o.share = weightAt(h, z0 + root);
+        o.height = -root / scale;
+    } else if (k.y > real(0.0)) {
+        o.share = max(real(1.0) - real(1.0) / k.x, real(1e-6));
+        o.height = max(z0 - h.b1, real(0.0)) / (o.share * scale);
+    }
+    return o;
+}
+
 // Do both roots of K(z0, .) lie in [-1, 1]?
 GN_FN bool rootsInside(Hankel h, real z0, real3 k)
 {
@@ -176,11 +197,17 @@ GN_FN real4 biasedMoments(real4 b, MomentRule rule)
     return mix(b, real4(real(0.0), second, real(0.0), fourth), rule.moment_bias);
 }
 
-// What is read from a map, in either basis. What is not a number counts as lit.
-GN_FN real msmVisibility(real4 stored, real t, MomentRule rule)
+// Of what is read from a map, in either basis.
+GN_FN real4 usableMoments(real4 stored, MomentRule rule)
 {
     real4 b = hasFlag(rule.flags, kMomentQuantised) ? momentsOfQuantised(stored) : stored;
-    b = biasedMoments(clamp(b, real4(real(-1.0)), real4(real(1.0))), rule);
+    return biasedMoments(clamp(b, real4(real(-1.0)), real4(real(1.0))), rule);
+}
+
+// What is not a number counts as lit.
+GN_FN real msmVisibility(real4 stored, real t, MomentRule rule)
+{
+    real4 b = usableMoments(stored, rule);
     Hankel h = factorise(b, leastLastPivot(rule.flags));
     real v = hasFlag(rule.flags, kMomentHausdorff) ? hausdorffVisibility(h, b, t) : hamburgerVisibility(h, t);
     return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));

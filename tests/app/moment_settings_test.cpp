@@ -100,8 +100,9 @@ TEST(MomentSettings, EachReachesTheLibrary)
     EXPECT_TRUE(evsm.log_space);
     EXPECT_EQ(evsm.evsm_positive, 60.0F);
     EXPECT_EQ(evsm.evsm_negative, 7.0F);
-    const MomentOptions msm = set("msm", {"msm.solver=hausdorff", "msm.bias=0.0625"}).shadow.moments;
+    const MomentOptions msm = set("msm", {"msm.solver=hausdorff", "msm.bias=0.0625", "penumbra=light"}).shadow.moments;
     EXPECT_EQ(msm.solver, MomentSolver::hausdorff);
+    EXPECT_EQ(msm.penumbra, MomentPenumbra::light);
     EXPECT_EQ(msm.moment_bias, 0.0625F);
 }
 

@@ -51,6 +51,24 @@ TEST(MomentOptions, WhatAFilterCannotStoreIsRefusedFirst)
               "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
 }
 
+TEST(MomentOptions, PenumbraeOfALightNeedDepthsAlongIt)
+{
+    const Change light = [](MomentOptions& o) {
+        o.penumbra = MomentPenumbra::light;
+    };
+    const Change over_w = [](MomentOptions& o) {
+        o.penumbra = MomentPenumbra::light;
+        o.metric = DepthMetricKind::z_over_w;
+    };
+    for (const auto& [filter, format] :
+         {std::pair(Filter::vsm, MapFormat::rg32f), std::pair(Filter::msm, MapFormat::rgba16)}) {
+        EXPECT_EQ(reasonFor(filter, format, light), "");
+        EXPECT_EQ(reasonFor(filter, format, over_w),
+                  "penumbra light takes the distance to an occluder from depths along the light: depth-metric linear");
+    }
+    EXPECT_EQ(reasonFor(Filter::esm, MapFormat::r32f, over_w), ""); // which has no such penumbrae
+}
+
 TEST(MomentOptions, FiltersThatCompareDepthsPassOverThem)
 {
     EXPECT_EQ(reasonFor(Filter::pcf, MapFormat::d32f, [](MomentOptions& o) { o.samples = 3; }), "");

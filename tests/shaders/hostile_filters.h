@@ -83,7 +83,7 @@ inline void expectBounded(const Options& o, int draws)
 inline void expectAllBounded()
 {
     for (const int filter : {kFilterVsm, kFilterLvsm, kFilterEsm, kFilterEvsm, kFilterMsm}) {
-        for (int flags = 0; flags < 2 * kMomentDerivatives; ++flags) {
+        for (int flags = 0; flags < 2 * kMomentPenumbra; ++flags) {
             for (const real exponent : {real(5.5), real(88.0)}) {
                 expectBounded({filter, flags, flags % 4, exponent}, 60);
             }

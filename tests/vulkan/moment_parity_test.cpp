@@ -82,6 +82,10 @@ void logarithmic(MomentOptions& o)
 {
     o.log_space = true;
 }
+void penumbra(MomentOptions& o)
+{
+    o.penumbra = MomentPenumbra::light;
+}
 void hausdorff(MomentOptions& o)
 {
     o.solver = MomentSolver::hausdorff;
@@ -139,6 +143,8 @@ const MomentCase kVsm[] = {
     {"vsm_rg32f_z_over_w", Filter::vsm, MapFormat::rg32f, zOverW},
     {"vsm_rg16f_remapped", Filter::vsm, MapFormat::rg16f, remapped},
     {"vsm_rg32f_shaped", Filter::vsm, MapFormat::rg32f, shaped},
+    {"vsm_rg32f_penumbra", Filter::vsm, MapFormat::rg32f, penumbra},
+    {"vsm_rg32f_penumbra_alone", Filter::vsm, MapFormat::rg32f, penumbra, kAlone},
     {"vsm_rg32f_together", Filter::vsm, MapFormat::rg32f, unchanged, kTogether},
     {"vsm_rg32f_alone", Filter::vsm, MapFormat::rg32f, unchanged, kAlone},
 };
@@ -182,6 +188,8 @@ const MomentCase kEvsm[] = {
     {"evsm_rgba32f_alone", Filter::evsm, MapFormat::rgba32f, unchanged, kAlone},
 };
 const MomentCase kMsm[] = {
+    {"msm_rgba32f_penumbra", Filter::msm, MapFormat::rgba32f, penumbra},
+    {"msm_rgba32f_penumbra_alone", Filter::msm, MapFormat::rgba32f, penumbra, kAlone},
     {"msm_rgba16", Filter::msm, MapFormat::rgba16},
     {"msm_rgba32f", Filter::msm, MapFormat::rgba32f},
     {"msm_rgba16_hausdorff", Filter::msm, MapFormat::rgba16, hausdorff},

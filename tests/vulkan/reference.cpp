@@ -165,7 +165,7 @@ double quantumOf(MapFormat format)
     }
 }
 
-bool integratesLight(const ShadowOptions& options)
+bool comparesInCone(const ShadowOptions& options)
 {
     return options.technique.filter == Filter::pcss || options.technique.filter == Filter::raymarch;
 }
@@ -176,7 +176,7 @@ double reachOf(const ShadowOptions& options)
     if (options.technique.filter == Filter::hard) {
         return 0.5;
     }
-    if (integratesLight(options)) {
+    if (comparesInCone(options)) {
         return 2.0;
     }
     if (isFilterable(options.technique.filter)) {
@@ -220,7 +220,7 @@ BiasRule ruleOf(const ShadowOptions& options)
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
     rule.reach_texels = biasReachOf(options);
     rule.quantum = quantumOf(formatOf(options));
-    rule.exact_plane = integratesLight(options) ? 1.0 : 0.0;
+    rule.exact_plane = comparesInCone(options) ? 1.0 : 0.0;
     return rule;
 }
 
@@ -258,8 +258,8 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
     const MapPages& pages = scene.plan.pages[0];
-    input.coarsest = integratesLight(options) ? std::bit_width(std::max(pages.width, pages.height) - 1U)
-                                              : coarsestOf(view.tile, levelsOf(options, pages));
+    input.coarsest = comparesInCone(options) ? std::bit_width(std::max(pages.width, pages.height) - 1U)
+                                             : coarsestOf(view.tile, levelsOf(options, pages));
     input.near_over_far = view.orthographic ? 1.0 : view.metric.near_m / view.metric.far_m;
     return input;
 }
@@ -316,7 +316,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     current_taps = int(options.pcf.taps);
     current_holding = holdingOf(options);
     current_blocks.clear();
-    if (integratesLight(options)) {
+    if (comparesInCone(options)) {
         std::ranges::transform(scene.maps, std::back_inserter(current_blocks), blocksOf);
     }
     const Picture& picture = scene.picture;

@@ -70,7 +70,7 @@ struct FilterTraits {
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
-    bool integrates_light; // one frame takes all of the light's size: it reads as far from a receiver as that leads
+    bool integrates_light; // it always does, and compares single depths for that: see integratesLight() (options.h)
     bool weighs_frames;    // Soften::converge: a frame counts the more, the nearer it reads to a texel's centre
 };
 /// Null for a filter that is not available, and for automatic, which stands for another (filterOf()).

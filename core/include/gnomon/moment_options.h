@@ -27,6 +27,9 @@ enum class MapSampling : std::uint8_t { nearest, bilinear, trilinear, anisotropi
 enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd, gaps };
 /// msm: which of the paper's two bounds.
 enum class MomentSolver : std::uint8_t { hamburger, hausdorff };
+/// vsm, msm: how wide shadows' edges are. `fixed`: as the blur; `light`: as the light's size and the depth of occluders
+/// make the penumbra.
+enum class MomentPenumbra : std::uint8_t { fixed, light };
 
 inline constexpr std::uint32_t kMaxBlurRadius = 31; // texels
 inline constexpr std::uint32_t kMaxDepthLayers = 8;
@@ -44,6 +47,9 @@ struct MomentOptions {
     MapSampling sampling = MapSampling::bilinear; // nearest to the truth at rest; coarser levels spare shimmer
     std::uint32_t anisotropy = 8;                 // anisotropic: most reads a pixel, 2 .. 16
 
+    // vsm, msm
+    /// light: refused with metric z_over_w, in which no distance to an occluder can be read.
+    MomentPenumbra penumbra = MomentPenumbra::fixed;
     // vsm, lvsm, evsm
     /// Least variance, in squares of the depth metric, of lvsm a layer's own, 0 .. 1. Nothing: what the format's
     /// rounding and half a texel of depth on a slope ask for.
@@ -85,9 +91,12 @@ struct MomentOptions {
 [[nodiscard]] std::string_view nameOf(MapSampling value);
 [[nodiscard]] std::string_view nameOf(LayerPlacement value);
 [[nodiscard]] std::string_view nameOf(MomentSolver value);
+[[nodiscard]] std::string_view nameOf(MomentPenumbra value);
 
 /// Does it go by what each map holds? Then layers are found on the GPU.
 [[nodiscard]] bool followsDepths(LayerPlacement placement);
+/// Does this filter, with these options, make penumbrae as wide as the light's size asks?
+[[nodiscard]] bool followsLight(Filter filter, const MomentOptions& options);
 /// Texels of the kernel on each side of its middle; 0 without blur.
 [[nodiscard]] std::uint32_t blurRadius(const MomentOptions& options);
 /// Of a filter's map: lvsm has two layers of depth to an image layer, all others one image layer a map.

@@ -151,6 +151,7 @@ public:
     /// How far from a receiver's place in the map the filter reads, reachTexels().
     [[nodiscard]] float reach_texels() const { return reach_texels_; }
     /// Of what was asked for, see below.
+    [[nodiscard]] bool integratesLight() const;
     [[nodiscard]] bool fitsOnGpu() const;
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
     [[nodiscard]] bool paired_maps() const { return paired_maps_; }
@@ -188,6 +189,9 @@ struct Resolution {
 
 /// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
 [[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
+/// One frame takes all of the light's size, and reads a map as far from a receiver as that leads: filter pcss or
+/// raymarch, or moments whose penumbra is light.
+[[nodiscard]] bool integratesLight(const ShadowOptions& options);
 /// The filter that is used: the one asked for, or what automatic stands for.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is

@@ -172,7 +172,7 @@ struct View {
     SunPosition sun = SunPosition::only;
     glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
     FitReport fit;
-    /// Room on all sides for the rays to the rest of the light (FilterTraits::integrates_light), in texel_m's units of
+    /// Room on all sides for the rays to the rest of the light (integratesLight()), in texel_m's units of
     /// length.
     double light_reach = 0.0;
     ViewSlice slice;

@@ -48,6 +48,10 @@ bool hasVariance(const ShadowOptions& o)
 {
     return filterOf(o) == Filter::vsm || isLvsm(o) || isEvsm(o);
 }
+bool canFollowLight(const ShadowOptions& o)
+{
+    return filterOf(o) == Filter::vsm || isMsm(o);
+}
 /// Where it is not so always.
 bool canRemap(const ShadowOptions& o)
 {
@@ -150,6 +154,7 @@ void addBoundRows(std::vector<OptionRow>& table)
         // clang-format off
         {.key = "min-variance", .type = real, .form = "V", .unit = "depth^2", .min = 0, .max = 1, .doc = "least variance, depth being 0 to 1; else what rounding and slopes need", .used = hasVariance, .used_when = "filter vsm, lvsm or evsm", GNOMON_MEMBER(moments.min_variance)},
         {.key = "derivative-variance", .type = flag, .form = "0|1", .doc = "a texel's own slope adds to its variance", .used = hasVariance, .used_when = "filter vsm, lvsm or evsm", GNOMON_MEMBER(moments.derivative_variance)},
+        {.key = "penumbra", .type = choice, .form = "KIND", .choices = namesOf<MomentPenumbra>, .doc = "edges as wide as the blur, or as the light's size asks", .used = canFollowLight, .used_when = "filter vsm or msm", GNOMON_MEMBER(moments.penumbra)},
         {.key = "bleeding.linstep", .type = real, .form = "V", .unit = "visibility", .min = 0, .max = 0.99, .doc = "up to this is dark, the rest is stretched", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.bleeding_linstep)},
         {.key = "bleeding.power", .type = real, .form = "P", .min = 0.1, .max = 16, .doc = "visibility is raised to this, after linstep", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.bleeding_power)},
         {.key = "lighten", .type = real, .form = "V", .unit = "visibility", .min = 0, .max = 1, .doc = "what full shadow becomes, last of all", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.lighten)},

@@ -179,6 +179,17 @@ bool ResolvedOptions::fitsOnGpu() const
     return gnomon::fitsOnGpu(asked_);
 }
 
+bool integratesLight(const ShadowOptions& options)
+{
+    const FilterTraits* const traits = filterTraits(filterOf(options));
+    return traits != nullptr && (traits->integrates_light || followsLight(traits->filter, options.moments));
+}
+
+bool ResolvedOptions::integratesLight() const
+{
+    return gnomon::integratesLight(asked_);
+}
+
 Resolution resolve(const ShadowOptions& options)
 {
     if (auto reason = refusalOf(options)) {
