@@ -184,7 +184,9 @@
 #define kPlaneAlone gnomon_kPlaneAlone
 #define kRayBeyond gnomon_kRayBeyond
 #define kRayEnd gnomon_kRayEnd
+#define kRayOffset gnomon_kRayOffset
 #define kRaySteps gnomon_kRaySteps
+#define kRayStride gnomon_kRayStride
 #define kRaysFewest gnomon_kRaysFewest
 #define kRaysLeast gnomon_kRaysLeast
 #define kRaysMost gnomon_kRaysMost

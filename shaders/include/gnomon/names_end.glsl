@@ -184,7 +184,9 @@
 #undef kPlaneAlone
 #undef kRayBeyond
 #undef kRayEnd
+#undef kRayOffset
 #undef kRaySteps
+#undef kRayStride
 #undef kRaysFewest
 #undef kRaysLeast
 #undef kRaysMost
