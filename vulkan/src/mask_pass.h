@@ -24,6 +24,13 @@ struct MaskPush {
 /// By options; null where no light has named them.
 using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
+/// Of the mask itself.
+[[nodiscard]] VkFormat maskFormat(bool several_lights);
+/// Does what is drawn go to ConvergePass::target(), and not to another pass before it?
+[[nodiscard]] bool drawsToConverge(const Plan& plan);
+/// Do frames that converge count by FilterTraits::weighs_frames?
+[[nodiscard]] bool weighsFrames(const ResolvedOptions& options);
+
 class MaskPassRecorder {
 public:
     MaskPassRecorder(Device& device, const ShadowRendererOptions& options);

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mask pass makes before frames need it: pipelines, and the passes that join frames.
+#include "mask_pass.h"
+
+#include <gnomon/pack/frame_passes.h>
+
+#include <algorithm>
+
+namespace gnomon::vulkan {
+
+VkFormat maskFormat(bool several_lights)
+{
+    return several_lights ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8_UNORM;
+}
+
+bool drawsToConverge(const Plan& plan)
+{
+    return std::ranges::any_of(plan.lights, pack::joinsFrames) && std::ranges::none_of(plan.lights, pack::takesTurns);
+}
+
+bool weighsFrames(const ResolvedOptions& options)
+{
+    return options.technique().soften == Soften::converge && options.traits().weighs_frames;
+}
+
+VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape)
+{
+    const ResolvedOptions& options = (*plan.options)[draw.options];
+    MaskPipelineKey key = maskPipelineKey(options, shape);
+    key.format = mask_.info().format;
+    if (drawsToConverge(plan)) {
+        key.format = ConvergePass::targetFormat(key.format);
+        key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
+    }
+    key.orthographic = draw.orthographic;
+    key.shares = draw.shares;
+    key.constants.few_views = draw.few_views;
+    key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
+    return pipelines_.get(key, layout_.get());
+}
+
+void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
+{
+    pack::listMaskDraws(plan, mask_.info().extent.width, draws_);
+    for (const pack::MaskDraw& draw : draws_) {
+        (void)pipeline(plan, draw, shape);
+    }
+}
+
+void MaskPassRecorder::makeAlternate()
+{
+    if (!alternate_) {
+        alternate_.emplace(device_, slot_count_, cache_);
+    }
+}
+
+void MaskPassRecorder::makeConverge()
+{
+    if (!converge_) {
+        converge_.emplace(device_, slot_count_, cache_);
+    }
+}
+
+void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge)
+{
+    MaskPipelineKey key = maskPipelineKey(options, what.inputs);
+    const auto formatOf = [&](bool several_lights) {
+        const VkFormat format = maskFormat(several_lights);
+        return to_converge ? ConvergePass::targetFormat(format) : format;
+    };
+    const auto make = [&] {
+        for (const bool orthographic : {true, false}) {
+            key.orthographic = orthographic;
+            if (orthographic || what.perspective) {
+                (void)pipelines_.get(key, layout_.get());
+            }
+        }
+    };
+    key.constants.confidence = to_converge && weighsFrames(options) ? VK_TRUE : VK_FALSE;
+    key.format = formatOf(false);
+    key.constants.few_views = pack::fewViews(options);
+    make();
+    if (key.constants.few_views > 1) { // a spot has one map
+        key.constants.few_views = 1;
+        make();
+    }
+    key.constants.few_views = 0;
+    key.format = formatOf(true);
+    if (what.several_lights) {
+        make();
+    }
+    key.shares = true;
+    if (what.several_lights && what.several_options) {
+        make();
+    }
+}
+
+void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
+{
+    const bool converges = options.technique().soften == Soften::converge;
+    if (converges || what.several_options) {
+        warmUpDraws(options, what, true);
+    }
+    if (!converges || what.several_options) {
+        warmUpDraws(options, what, false);
+    }
+    if (options.technique().motion == Motion::step_alternate) {
+        makeAlternate();
+        alternate_->warmUp(maskFormat(false));
+        if (what.several_lights) {
+            alternate_->warmUp(maskFormat(true));
+        }
+        if (what.several_lights && what.several_options) {
+            alternate_->warmUp(ConvergePass::targetFormat(maskFormat(true)));
+        }
+    }
+    if (options.technique().soften == Soften::converge) {
+        makeConverge();
+        converge_->warmUp(maskFormat(false));
+        if (what.several_lights) {
+            converge_->warmUp(maskFormat(true));
+        }
+    }
+}
+
+/// By what lights may come to need, so that nothing is made in the middle of frames.
+void MaskPassRecorder::prepareHistories(const Plan& plan)
+{
+    const auto may = [&](auto&& does) {
+        return std::ranges::any_of(*plan.options, [&](const ResolvedOptions& one) { return does(one.technique()); });
+    };
+    if (may([](const Technique& technique) { return technique.motion == Motion::step_alternate; }) ||
+        std::ranges::any_of(plan.lights, pack::takesTurns)) {
+        makeAlternate();
+        alternate_->prepare(mask_.info(), plan.lights.size());
+    }
+    if (may([](const Technique& technique) { return technique.soften == Soften::converge; }) ||
+        std::ranges::any_of(plan.lights, pack::joinsFrames)) {
+        makeConverge();
+        converge_->prepare(mask_.info(), plan.lights.size());
+        if (alternate_) {
+            alternate_->warmUp(converge_->target().info().format);
+        }
+    }
+}
+
+} // namespace gnomon::vulkan
