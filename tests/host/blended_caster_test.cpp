@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::host::test {
@@ -62,8 +65,9 @@ struct Sides {
     float under = 0.0F;
 };
 
-/// Of sun and spot light, in the last of `frames` frames.
-std::vector<Sides> sidesOf(Gpu& gpu, const scene::Scene& scene, const ShadowOptions& shadow, int frames = 1)
+/// Of sun and spot light, in the last of `frames` frames. `uses`: gets what memory that took.
+std::vector<Sides> sidesOf(Gpu& gpu, const scene::Scene& scene, const ShadowOptions& shadow, int frames = 1,
+                           std::vector<vulkan::MemoryUse>* uses = nullptr)
 {
     const scene::State state = scene::evaluate(scene, 0.0);
     RenderOptions options;
@@ -79,6 +83,9 @@ std::vector<Sides> sidesOf(Gpu& gpu, const scene::Scene& scene, const ShadowOpti
     std::vector<Sides> sides;
     for (const ImageF& mask : picture.masks) {
         sides.push_back({mask.values[24 * 64 + 16], mask.values[24 * 64 + 48]});
+    }
+    if (uses != nullptr) {
+        *uses = renderer.memory();
     }
     return sides;
 }
@@ -116,6 +123,28 @@ TEST(BlendedCaster, TintsTheMaskOfEveryFilterAndPartition)
             EXPECT_NEAR(sides.free, 1.0F, kStep) << i;
             EXPECT_NEAR(sides.under, luminance(kThrough), kStep) << i;
         }
+    }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
+bool usesTints(std::span<const vulkan::MemoryUse> uses)
+{
+    return std::ranges::any_of(
+        uses, [](const vulkan::MemoryUse& use) { return std::string_view(use.purpose) == "maps of tints"; });
+}
+
+TEST(BlendedCaster, CastsNothingAndCostsNothingWithTranslucentNone)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    for (const Translucent translucent : {Translucent::none, Translucent::grey}) {
+        ShadowOptions shadow = plainWith(Filter::pcf);
+        shadow.translucent = translucent;
+        std::vector<vulkan::MemoryUse> uses;
+        const bool tints = translucent == Translucent::grey;
+        for (const Sides& sides : sidesOf(gpu, panes({2.0F}), shadow, 1, &uses)) {
+            EXPECT_NEAR(sides.under, tints ? luminance(kThrough) : 1.0F, kStep);
+        }
+        EXPECT_EQ(usesTints(uses), tints);
     }
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }

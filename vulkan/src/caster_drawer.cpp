@@ -70,6 +70,11 @@ void CasterDrawer::setBiases(std::span<const float> bias_m)
     impl_->biases_m.assign(bias_m.begin(), bias_m.end());
 }
 
+bool CasterDrawer::Impl::tintsWith(const ResolvedOptions& resolved) const
+{
+    return tints && resolved.asked().translucent != Translucent::none;
+}
+
 // Views that need no redraw are counted too, so that a frame that redraws them all finds its room.
 void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
 {
@@ -83,7 +88,8 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
         std::size_t listed_in_pass = 0;
         for (; i < end; ++i) {
             // What stands still and what moves may be drawn apart.
-            const std::uint32_t for_tints = tints ? 2 : 0; // what blocks, and what is blended
+            const std::uint32_t for_tints =
+                tintsWith(optionsOf(plan, plan.views[i])) ? 2 : 0; // what blocks, and what is blended
             const std::uint32_t passes = (isDrawnTwice(optionsOf(plan, plan.views[i])) ? 2 : 1) + for_tints;
             for (const CasterShare share : {CasterShare::still, CasterShare::moving}) {
                 const auto list = castersOf(plan, plan.views[i], share);
@@ -173,7 +179,7 @@ void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
 void CasterDrawer::Impl::ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved)
 {
     ensureBatches(key);
-    if (tints && !key.layered) {
+    if (tintsWith(resolved) && !key.layered) {
         ensureTints(key);
     }
     if (isDrawnTwice(resolved)) {

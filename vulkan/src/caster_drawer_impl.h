@@ -37,6 +37,8 @@ struct CasterDrawer::Impl {
     void checkPass(const MapPass& pass) const;
     void checkRoom(const MapPass& pass, std::uint32_t instances) const;
     void ensurePipelines(const Plan& plan);
+    /// Views with these options get maps of tints, where their casters ask for them.
+    [[nodiscard]] bool tintsWith(const ResolvedOptions& resolved) const;
     void ensureTints(CasterPipelineKey key);
     void ensureBatches(CasterPipelineKey key);
     void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);

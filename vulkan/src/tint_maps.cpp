@@ -52,7 +52,7 @@ void TintMaps::makeImages(const MapPages& pages, std::uint32_t layers)
 void TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended)
 {
     in_use_ = false;
-    if (!is_blended) {
+    if (!is_blended || (*plan.options)[options].asked().translucent == Translucent::none) {
         return;
     }
     tints_.letGo();

@@ -68,6 +68,13 @@ enum class KeepStill : std::uint8_t {
 };
 [[nodiscard]] std::string_view nameOf(KeepStill value);
 
+/// What blended casters do to light, where a host says which these are (ShadowRendererOptions::is_blended).
+enum class Translucent : std::uint8_t {
+    none, // nothing: they cast no shadow, and no maps of tints are made or drawn
+    grey, // each lets 1 - alpha (1 - colour) through, and the mask has the luminance of what arrives of white light
+};
+[[nodiscard]] std::string_view nameOf(Translucent value);
+
 /// The kernel of Filter::pcf.
 struct PcfOptions {
     PcfKernel kernel = PcfKernel::gaussian_3x3;
@@ -120,7 +127,8 @@ struct ShadowOptions {
     PcfOptions pcf; // filter pcf
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
-    MomentOptions moments;                    // filters vsm, lvsm, esm, evsm, msm
+    Translucent translucent = Translucent::grey;
+    MomentOptions moments; // filters vsm, lvsm, esm, evsm, msm
 
     bool operator==(const ShadowOptions&) const = default;
 };

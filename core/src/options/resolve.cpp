@@ -99,6 +99,10 @@ std::string_view nameOf(CasterFaces value)
 {
     return nameIn(std::array<std::string_view, 3>{"nearest", "back", "midpoint"}, value);
 }
+std::string_view nameOf(Translucent value)
+{
+    return nameIn(std::array<std::string_view, 2>{"none", "grey"}, value);
+}
 std::string_view nameOf(StepBy value)
 {
     return nameIn(std::array<std::string_view, 2>{"angle", "time"}, value);

@@ -39,7 +39,8 @@ struct ShadowRendererOptions {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     /// Does the object with this index of the plan's lists draw blended casters, which tint light instead of blocking
     /// it? Then views that have such casters get a map of tints beside their map, and the mask holds the luminance of
-    /// what arrives. prepare() asks for each caster of a plan. Null: nothing is blended, and nothing is spent on it.
+    /// what arrives, unless ShadowOptions::translucent is none. prepare() asks for each caster of a plan. Null: nothing
+    /// is blended, and nothing is spent on it.
     std::function<bool(std::uint32_t object)> is_blended;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
     /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were
