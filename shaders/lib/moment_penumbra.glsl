@@ -67,11 +67,11 @@ GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCo
         at = at * (r2 * length(at));
         MapPoint q = pointOnPlane(point, f, coneTexel(cone, widest, at));
         Occluders o = tapOccluders(filter_number, q, f);
-        real depth = min(q.depth, real(1.0)) - o.height;
+        real depth = max(min(q.depth, real(1.0)) - o.height, real(0.0)); // nothing is drawn before 0
         real height = point.depth - depth;
         real here = coneWidth(cone, point, coneReach(cone, depth));
         bool counts = length(at) * widest_texels <= here * real(1.25) + kTapReach;
-        counts = counts && depth >= real(0.0) && height > kLeastHeight * point.texel_depth;
+        counts = counts && height > kLeastHeight * point.texel_depth;
         // By the share of the light that a tap stands for: its ring's area, which grows with the third power, over that
         // of the cone where it is blocked.
         here = max(here, kTapReach);

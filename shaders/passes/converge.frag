@@ -74,11 +74,11 @@ struct Seen {
 Seen seenAt(ivec3 at)
 {
     vec4 seen = texelFetch(visibility_now, at, 0);
-    float power = confidencePower(float(layers[layer].state.z));
-    vec2 x = unpackSeen(seen.x, power);
-    vec2 y = unpackSeen(seen.y, power);
-    vec2 z = unpackSeen(seen.z, power);
-    vec2 w = unpackSeen(seen.w, power);
+    vec4 power = layers[layer].power;
+    vec2 x = unpackSeen(seen.x, power.x);
+    vec2 y = unpackSeen(seen.y, power.y);
+    vec2 z = unpackSeen(seen.z, power.z);
+    vec2 w = unpackSeen(seen.w, power.w);
     return Seen(vec4(x.x, y.x, z.x, w.x), vec4(x.y, y.y, z.y, w.y));
 }
 

@@ -26,10 +26,15 @@ GN_FN real texelConfidence(real2 place)
 }
 
 // By which power of that a frame counts, `stood` frames of the same before it: the higher, the less of a texel's blur
-// is left, and the fewer frames count. Chosen, see docs/techniques/converge.md.
-GN_FN real confidencePower(real stood)
+// is left, and the fewer frames count. `most`: kMostOfWholeLight where each of them sees all of the light, kMostOfPoint
+// where it sees the light from one point, and many have to count for a penumbra. Chosen, see
+// docs/techniques/converge.md.
+GN_CONST real kMostOfWholeLight = real(8.0);
+GN_CONST real kMostOfPoint = real(1.5);
+
+GN_FN real confidencePower(real stood, real most)
 {
-    return min(real(1.0) + stood / real(4.0), real(8.0));
+    return most * min(stood / real(20.0), real(1.0));
 }
 
 // What it counts for then. Its mean over a texel is 1.

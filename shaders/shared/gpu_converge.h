@@ -24,15 +24,16 @@ struct GpuConverge {
     GN_VEC4 most;     // by light: the frames before count as so many at most; 0: they do not count
     GN_VEC4 size;     // by light: GpuLight::size.x
     GN_VEC4 pad;      // by light: mayShadow()'s, metres
+    GN_VEC4 power;    // by light: confidencePower()
     GN_VEC4 place[4]; // by light: GpuLight::place, of the light's own middle
-    // x: how many boxes; y: 1 where the camera stands as it did; z: ConvergePass::stood(); w: 1 where both frames have
+    // x: how many boxes; y: 1 where the camera stands as it did; w: 1 where both frames have
     // normals
     GN_UVEC4 state;
     GN_VEC4 box[2 * kMovedBoxes]; // eye-relative: centre, then half its size
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuConverge) == (4 + 3 + 4 + 1 + 2 * kMovedBoxes) * 16);
+static_assert(sizeof(GpuConverge) == (4 + 4 + 4 + 1 + 2 * kMovedBoxes) * 16);
 } // namespace gnomon::shared
 #endif
 #endif

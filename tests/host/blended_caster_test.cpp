@@ -2,6 +2,7 @@
 // What a pane of coloured glass leaves of a light, in the mask.
 #include "host/frame_renderer.h"
 #include "scene/state.h"
+#include "small_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -24,12 +25,7 @@ void addLevel(scene::Scene& scene, float left_m, float y, std::uint32_t material
     primitive.positions = {{left_m, y, -4}, {left_m, y, 4}, {4, y, 4}, {4, y, -4}};
     primitive.indices = {0, 1, 2, 0, 2, 3};
     primitive.material = material;
-    scene::Mesh mesh;
-    mesh.primitives = {primitive};
-    scene.meshes.push_back(mesh);
-    scene::Node node;
-    node.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
-    scene.nodes.push_back(node);
+    addMesh(scene, std::move(primitive));
 }
 
 /// A ground under panes at these heights over its right half, a sun overhead and a spot light over its middle.

@@ -3,6 +3,7 @@
 // form, and of one width whatever the fit, partition and size of the map.
 #include "host/frame_renderer.h"
 #include "scene/state.h"
+#include "small_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::host::test {
@@ -27,12 +29,7 @@ void addLevel(scene::Scene& scene, glm::vec3 from, glm::vec3 to)
     scene::Primitive primitive;
     primitive.positions = {from, {from.x, from.y, to.z}, to, {to.x, from.y, from.z}};
     primitive.indices = {0, 1, 2, 0, 2, 3};
-    scene::Mesh mesh;
-    mesh.primitives = {primitive};
-    scene.meshes.push_back(mesh);
-    scene::Node node;
-    node.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
-    scene.nodes.push_back(node);
+    addMesh(scene, std::move(primitive));
 }
 
 /// A ground under a half plane at height `h` that ends at x = 0, a sun overhead and a lamp at 3 h.
@@ -132,6 +129,8 @@ Widths widthsOf(Gpu& gpu, double h, Filter filter, const Variant& variant)
     options.shadow.technique.partition = variant.partition;
     options.shadow.technique.fit = variant.fit;
     options.shadow.map_size = variant.map_size;
+    options.shadow.moments.blur = BlurKind::none; // of filters with moments
+    options.shadow.moments.penumbra = MomentPenumbra::light;
     options.shadow.max_distance_m = 3.0 * h;
     options.shadow.fade = 0.0;
     std::vector<ShadedLight> lights = lightsOf(scene, state);
@@ -169,21 +168,27 @@ const std::vector<Variant> kVariants{
     {.partition = Partition::sdsm, .fit = Fit::lispsm_simple},
 };
 
-class PenumbraWidth : public testing::TestWithParam<Filter> {};
+struct Expected {
+    Filter filter = Filter::hard;
+    double off = 0.0;   // from the closed form, as a share of it
+    double apart = 0.0; // the widest from the narrowest, as a ratio
+};
+
+class PenumbraWidth : public testing::TestWithParam<Expected> {};
 
 TEST_P(PenumbraWidth, IsTheClosedFormsInEveryFitPartitionAndSize)
 {
     Gpu gpu({.gpu = "software", .validate = true});
-    const double expected = 2.0 * tenthOfADisc();
+    const double expected = 2.0 * tenthOfADisc(); // half widths
     for (const double h : {1.0, 5.0, 20.0}) {
         std::array<std::vector<double>, 2> found; // of sun and lamp
         for (const Variant& variant : kVariants) {
-            const Widths widths = widthsOf(gpu, h, GetParam(), variant);
+            const Widths widths = widthsOf(gpu, h, GetParam().filter, variant);
             for (std::size_t light = 0; light < 2; ++light) {
                 for (const double width : {widths.near[light], widths.far[light]}) {
                     found[light].push_back(width / expected);
 
-                    EXPECT_NEAR(found[light].back(), 1.0, 0.05)
+                    EXPECT_NEAR(found[light].back(), 1.0, GetParam().off)
                         << nameOf(variant.partition) << ' ' << nameOf(variant.fit) << ' ' << variant.map_size
                         << " light " << light;
                 }
@@ -191,14 +196,17 @@ TEST_P(PenumbraWidth, IsTheClosedFormsInEveryFitPartitionAndSize)
         }
         for (const std::vector<double>& widths : found) {
             const auto [least, most] = std::ranges::minmax(widths);
-            EXPECT_LE(most / least, 1.02) << h << " m";
+            EXPECT_LE(most / least, GetParam().apart) << h << " m";
         }
     }
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
-INSTANTIATE_TEST_SUITE_P(Filters, PenumbraWidth, testing::Values(Filter::pcss, Filter::raymarch),
-                         [](const auto& one) { return std::string(nameOf(one.param)); });
+// Sixteen reads of moments do not reach the light's rim.
+INSTANTIATE_TEST_SUITE_P(Filters, PenumbraWidth,
+                         testing::Values(Expected{Filter::pcss, 0.05, 1.02}, Expected{Filter::raymarch, 0.05, 1.02},
+                                         Expected{Filter::vsm, 0.06, 1.03}, Expected{Filter::msm, 0.06, 1.03}),
+                         [](const auto& one) { return std::string(nameOf(one.param.filter)); });
 
 } // namespace
 } // namespace gnomon::host::test

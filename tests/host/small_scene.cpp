@@ -4,6 +4,7 @@
 #include "scene/state.h"
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::host::test {
 namespace {
@@ -114,6 +115,16 @@ void addLights(scene::Scene& scene)
 }
 
 } // namespace
+
+void addMesh(scene::Scene& scene, scene::Primitive primitive)
+{
+    scene::Mesh mesh;
+    mesh.primitives.push_back(std::move(primitive));
+    scene.meshes.push_back(std::move(mesh));
+    scene::Node node;
+    node.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+    scene.nodes.push_back(std::move(node));
+}
 
 scene::Scene smallScene()
 {

@@ -10,6 +10,9 @@ namespace gnomon::host::test {
 // Nodes of the scene, by what they are.
 enum : std::uint32_t { kGroundNode, kMoverNode, kMaskedNode, kGlassNode, kGlowNode, kJointNode, kFlagNode, kShyNode };
 
+/// Adds a node that shows it alone.
+void addMesh(scene::Scene& scene, scene::Primitive primitive);
+
 /// A ground, a box that moves along x with time, a masked fence, a pane of glass, a glowing box, a flag whose one joint
 /// moves, and a box that receives no shadow; a sun and a spot light with a cookie.
 [[nodiscard]] scene::Scene smallScene();

@@ -64,11 +64,13 @@ TEST(FrameWeight, isOneOnTheMeanOverATexel)
         double sum = 0.0;
         for (int i = 0; i < kSteps * kSteps; ++i) {
             const real2 place(-3.0 + (i % kSteps + 0.5) / kSteps, 5.0 + (i / kSteps + 0.5) / kSteps);
-            sum += frameWeight(texelConfidence(place), confidencePower(stood));
+            sum += frameWeight(texelConfidence(place), confidencePower(stood, kMostOfWholeLight));
         }
         EXPECT_NEAR(sum / (kSteps * kSteps), 1.0, 1e-3) << stood;
     }
-    EXPECT_EQ(confidencePower(1000.0), 8.0);
+    EXPECT_EQ(confidencePower(0.0, kMostOfPoint), 0.0) << "the first frame is as it is without";
+    EXPECT_EQ(frameWeight(0.2, 0.0), 1.0);
+    EXPECT_EQ(confidencePower(1000.0, kMostOfPoint), kMostOfPoint);
     EXPECT_EQ(texelConfidence(real2(-3.5, 7.5)), 1.0);
     EXPECT_EQ(texelConfidence(real2(-3.5, 7.0)), 0.0);
     EXPECT_NEAR(texelConfidence(real2(2.75, 7.4)), 0.5, 1e-12);

@@ -8,6 +8,7 @@
 #include <gnomon/pack/frame_passes.h>
 #include <gnomon/plan_views.h>
 
+#include <converge.h>
 #include <gnomon_spirv.h>
 #include <gpu_structs.h>
 
@@ -188,6 +189,9 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
                                   : glm::vec4(glm::vec3(to_light), 1.0F);
     out.size[channel] = static_cast<float>(parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m);
     out.pad[channel] = static_cast<float>(padOf(plan, planned, to_light));
+    const bool whole = (*plan.options)[planned.options].integratesLight();
+    out.power[channel] = shared::confidencePower(static_cast<float>(stood(frame, plan)),
+                                                 whole ? shared::kMostOfWholeLight : shared::kMostOfPoint);
 }
 
 /// Returns whether the camera stands and nothing moved.
@@ -206,8 +210,7 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
         layer.before_y = before.y;
         layer.before_w = before.w;
         layer.before_eye = before.eye;
-        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, stood(frame, plan),
-                       has_normals && had_normals_ ? 1U : 0U};
+        layer.state = {plan.moved_ws.size(), still ? 1U : 0U, 0U, has_normals && had_normals_ ? 1U : 0U};
         for (std::size_t i = 0; i < plan.moved_ws.size(); ++i) {
             const Aabb& box = plan.moved_ws[i];
             layer.box[2 * i] = glm::dvec4((glm::dvec3(box.min) + glm::dvec3(box.max)) * 0.5 - frame.camera.eye_ws, 0.0);

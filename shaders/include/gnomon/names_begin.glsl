@@ -171,6 +171,8 @@
 #define kMostExponent gnomon_kMostExponent
 #define kMostLift gnomon_kMostLift
 #define kMostLog gnomon_kMostLog
+#define kMostOfPoint gnomon_kMostOfPoint
+#define kMostOfWholeLight gnomon_kMostOfWholeLight
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
 #define kNarrowest gnomon_kNarrowest

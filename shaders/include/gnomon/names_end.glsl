@@ -171,6 +171,8 @@
 #undef kMostExponent
 #undef kMostLift
 #undef kMostLog
+#undef kMostOfPoint
+#undef kMostOfWholeLight
 #undef kMostReads
 #undef kMostWarpOfTexel
 #undef kNarrowest
