@@ -134,6 +134,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     json.value("view_count", light.view_count);
     json.value("mask_layer", light.mask_layer);
     json.value("mask_channel", light.mask_channel);
+    json.flag("mask_coloured", light.mask_coloured);
     json.value("options", light.options);
     writeSteps(json, light.steps);
     writeChoice(json, light.choice);

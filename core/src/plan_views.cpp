@@ -28,6 +28,11 @@ bool goTogether(const View& view, const View& next, std::uint32_t above)
 
 } // namespace
 
+std::uint32_t maskChannelCount(const Plan& plan)
+{
+    return plan.lights.size() > 1 || std::ranges::any_of(plan.lights, &LightPlan::mask_coloured) ? 4 : 1;
+}
+
 SunPosition strongerPosition(const SunSteps& steps)
 {
     if (!steps.paired) {

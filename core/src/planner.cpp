@@ -25,6 +25,30 @@ Outcome checkRange(const ObjectSet& objects)
     return fault.empty() ? Outcome{} : Outcome{OutcomeKind::degenerate, fault};
 }
 
+/// Four lights share a layer of the mask, but a coloured one has its own. Where none is coloured light i has channel
+/// i % 4 of layer i / 4.
+void placeInMask(Plan& plan)
+{
+    constexpr std::uint32_t kLuminance = 3;
+    std::uint32_t shared_layer = 0;
+    std::uint32_t next_channel = 4; // no layer is begun
+    plan.mask_layers = 0;
+    for (LightPlan& light : plan.lights) {
+        light.mask_coloured = (*plan.options)[light.options].asked().translucent == Translucent::colour;
+        if (light.mask_coloured) {
+            light.mask_layer = plan.mask_layers++;
+            light.mask_channel = kLuminance;
+            continue;
+        }
+        if (next_channel == 4) {
+            shared_layer = plan.mask_layers++;
+            next_channel = 0;
+        }
+        light.mask_layer = shared_layer;
+        light.mask_channel = next_channel++;
+    }
+}
+
 } // namespace
 
 Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
@@ -113,6 +137,7 @@ void Planner::Impl::makePlan(const Frame& frame)
     begin(frame);
     noteMovement(frame);
     admit(frame);
+    placeInMask(plan);
     listReceivers(frame);
     store.beginFrame(*frame.objects, keys, wishes);
     suns.begin();
@@ -128,7 +153,6 @@ void Planner::Impl::makePlan(const Frame& frame)
 void Planner::Impl::begin(const Frame& frame)
 {
     plan.frame = frame.index;
-    plan.mask_layers = (static_cast<std::uint32_t>(frame.lights.size()) + 3) / 4;
     plan.lights.clear();
     plan.views.clear();
     plan.casters.clear();
@@ -158,8 +182,6 @@ void Planner::Impl::admit(const Frame& frame)
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         const Light& light = frame.lights[index];
         LightPlan& planned = plan.lights.emplace_back();
-        planned.mask_layer = index / 4;
-        planned.mask_channel = index % 4;
         keys.push_back(light.key);
         wishes.emplace_back();
         if (fault.kind != OutcomeKind::ok) {

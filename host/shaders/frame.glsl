@@ -9,7 +9,7 @@ struct LightData {
     vec4 colour; // rgb: exposed illuminance or intensity; w: 1 / range, 0 without limit
     vec4 axis;   // xyz: unit, the way the light travels; w: layer of the cookie, -1 none
     vec4 cone;   // x scale, y offset of the cosine; z: cotangent of the outer angle
-    vec4 right;  // xyz: unit, the cookie's +u; w: mask layer * 4 + channel
+    vec4 right;  // xyz: unit, the cookie's +u; w: mask layer * 8 + channel, + 4 where the layer has colours
 };
 const int kMaxLights = 64;
 

@@ -28,10 +28,11 @@ vec3 lightFrom(uint i, Lit s, ivec2 pixel)
         e = arriving(frame.lights[i], s.p, cookies, l);
     }
     float n_l = max(dot(s.n, l), 0.0);
-    float seen = 1.0;
+    vec3 seen = vec3(1.0);
     if (frame.counts.y != 0) {
         int slot = int(frame.lights[i].right.w);
-        seen = texelFetch(mask, ivec3(pixel, slot >> 2), 0)[slot & 3];
+        vec4 texel = texelFetch(mask, ivec3(pixel, slot >> 3), 0);
+        seen = (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
     }
     return reflectance(s, l, n_l) * e * (n_l * seen);
 }

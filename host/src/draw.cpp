@@ -214,7 +214,8 @@ void FrameRenderer::Impl::writeFrameData(const scene::State& state, const std::v
     fillFrameData(data, sight, drawn.width, drawn.height, lights, cookie_layers, exposure, state.environment,
                   finished.masks.image != VK_NULL_HANDLE);
     for (std::size_t i = 0; plan != nullptr && i < lights.size(); ++i) {
-        data.lights[i].right.w = static_cast<float>(plan->lights[i].mask_layer * 4 + plan->lights[i].mask_channel);
+        const LightPlan& planned = plan->lights[i];
+        data.lights[i].right.w = maskSlot(planned.mask_layer, planned.mask_channel, planned.mask_coloured);
     }
 }
 

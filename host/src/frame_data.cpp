@@ -132,6 +132,11 @@ double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const
     return brightest > 0.0 ? kKey * environment.exposure / brightest : environment.exposure;
 }
 
+float maskSlot(std::uint32_t layer, std::uint32_t channel, bool coloured)
+{
+    return static_cast<float>(layer * 8 + (coloured ? 4 : 0) + channel);
+}
+
 void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
                    std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,
                    const scene::Environment& environment, bool has_mask)
@@ -154,7 +159,8 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
     data.counts = {lights.size(), has_mask ? 1 : 0, 0, 0};
     for (std::size_t i = 0; i < lights.size(); ++i) {
         fillLight(data.lights[i], lights[i], sight, exposure, cookie_layers[i]);
-        data.lights[i].right.w = static_cast<float>(i); // mask layer * 4 + channel
+        const auto index = static_cast<std::uint32_t>(i);
+        data.lights[i].right.w = maskSlot(index / 4, index % 4, false);
     }
 }
 

@@ -58,6 +58,9 @@ struct Sight {
 [[nodiscard]] double exposureOf(std::span<const ShadedLight> lights, const Aabb& scene_bounds_ws,
                                 const scene::Environment& environment);
 
+/// LightData::right.w: where in the masks a light's is.
+[[nodiscard]] float maskSlot(std::uint32_t layer, std::uint32_t channel, bool coloured);
+
 /// Fills everything but the lights' cookie layers and mask slots from the arguments; `cookie_layers` has one per light.
 void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
                    std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,

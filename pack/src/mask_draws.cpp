@@ -140,7 +140,8 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
         }
         const ShownViews views = shownViews(plan, light, strip.shown[light.mask_channel]);
         if (views.count > 0) {
-            draw.channels |= 1U << light.mask_channel;
+            draw.channels |= maskChannelsOf(light);
+            draw.coloured = light.mask_coloured;
             draw.orthographic = draw.orthographic && isOrthographic(plan, views);
         }
     }
@@ -206,7 +207,7 @@ void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDra
         const Strips strips = stripsOf(plan, layer, width_px);
         for (const Strip& strip : strips) {
             std::uint32_t first_light = layer * shared::kLightsPerLayer;
-            if (strips.count > 1) { // of this strip alone; those by the frame's index serve all of the screen
+            if (strips.count > 1) { // of this strip alone
                 first_light = next;
                 next += shared::kLightsPerLayer;
             }
@@ -233,7 +234,11 @@ std::uint32_t maskLightCount(const Plan& plan)
 void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
                     std::span<shared::GpuLight> lights)
 {
-    fillLights(frame, plan, lights);
+    if (frame.lights.size() != plan.lights.size()) {
+        throw Error("describe lights to the mask pass", "the frame has others than the plan",
+                    "give the frame that was planned");
+    }
+    std::ranges::fill(lights, shared::GpuLight{});
     for (const MaskDraw& draw : draws) {
         if (draw.first_light + std::size_t{shared::kLightsPerLayer} > lights.size()) {
             throw Error("describe lights to the mask pass", "there is no room for those of all strips",
@@ -241,9 +246,11 @@ void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDr
         }
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             const LightPlan& light = plan.lights[i];
-            if (light.mask_layer == draw.layer && (draw.channels >> light.mask_channel & 1U) != 0) {
-                fillLight(frame, plan, i, draw.shown[light.mask_channel],
-                          lights[draw.first_light + light.mask_channel]);
+            const std::uint32_t channels = maskChannelsOf(light) & draw.channels;
+            for (std::uint32_t channel = 0; light.mask_layer == draw.layer && channels >> channel != 0; ++channel) {
+                if ((channels >> channel & 1U) != 0) {
+                    fillLight(frame, plan, i, draw.shown[light.mask_channel], lights[draw.first_light + channel]);
+                }
             }
         }
     }

@@ -165,16 +165,18 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
 
 // Visibility by the views [first, end) of one position of a light, which are in the order in which they fade over into
 // each other. A pixel looks for its view first and filters then: once, and again only where another view fades in.
-float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
+// Here as in what follows, a: the visibility, in which blended casters count by their luminance; rgb: the same for each
+// colour, which costs nothing where nobody reads it.
+vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
 {
-    float v = 1.0;
+    vec4 v = vec4(1.0);
     bool found = false;
     uint view = first;
     Search s = Search(first, end, slicesAt(r.depth));
     float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
-            float here = viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n);
+            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n));
 #ifdef GNOMON_TINTS
             if (GNOMON_TINTS) {
                 here *= viewTint(viewAt(view), bias, r.p, r.n);
@@ -199,7 +201,7 @@ float viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiv
 
 // `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `pixel` of the screen; `w` of the
 // point by GpuScreen's eye_w: one over clip space's w.
-float lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, float w)
+vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, float w)
 {
 #ifdef GNOMON_CONFIDENCE
     lookup_confidence = -1.0;
@@ -213,7 +215,7 @@ float lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, f
         light = gnomon_lights[index];
     }
     if (light.views.y == 0u) {
-        return 1.0;
+        return vec4(1.0);
     }
     LightPoint at = lightPoint(p, n, s, towardLight(light.place, p));
     Receiver r;
@@ -227,19 +229,19 @@ float lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, f
     f.spread = lightSpread(light.place, f.toward, light.size.x);
     BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
-    float v = 1.0;
+    vec4 v = vec4(1.0);
     uvec2 range = light.views.xy;
     bool is_later = false;
     bool more = light.views.w > 0u;
     do { // over the positions of the sun, so that the filter is compiled once
-        float here = viewsVisibility(range.x, range.x + range.y, bias, f, r);
+        vec4 here = viewsVisibility(range.x, range.x + range.y, bias, f, r);
         v = is_later ? steppedVisibility(v, here, stepWeight(light.steps, pixel.x * GNOMON_NUMBERS.screen.size.z)) : here;
         more = more && !is_later;
         range = light.views.zw;
         is_later = true;
     } while (more);
     v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
-    return at.faces ? v : 0.0;
+    return at.faces ? v : vec4(0.0);
 }
 
 #endif

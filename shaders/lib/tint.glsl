@@ -15,13 +15,13 @@ vec3 tintTexel(vec2 texel, float layer, float depth)
     return depth > tint.a ? tint.rgb : vec3(1.0);
 }
 
-// The luminance (ITU-R BT.709) of what arrives of white light at the point `p`, whose surface has the normal `n`. Bilinear,
-// each texel being compared on its own.
-float viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
+// What arrives of white light at the point `p`, whose surface has the normal `n`: red, green, blue, and their luminance
+// (ITU-R BT.709). Bilinear, each texel being compared on its own.
+vec4 viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
 {
     float layer = view.more.w - 1.0;
     if (layer < 0.0) {
-        return 1.0;
+        return vec4(1.0);
     }
     MapPoint point = projectReceiver(rowsOf(view), rule, p, n);
     vec2 first = floor(point.texel - 0.5);
@@ -30,7 +30,8 @@ float viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
     vec2 high = min(first + 1.0, view.whole.zw - 1.0);
     vec3 above = mix(tintTexel(low, layer, point.depth), tintTexel(vec2(high.x, low.y), layer, point.depth), share.x);
     vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point.depth), tintTexel(high, layer, point.depth), share.x);
-    return dot(mix(above, below, share.y), vec3(0.2126, 0.7152, 0.0722));
+    vec3 tint = mix(above, below, share.y);
+    return vec4(tint, dot(tint, vec3(0.2126, 0.7152, 0.0722)));
 }
 
 #endif

@@ -152,10 +152,10 @@ GN_FN real viewShare(GpuView view, real depth)
     return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0));
 }
 
-// Visibility at a distance from the eye: shadows fade away before the distance to which they are drawn.
-GN_FN real fadedVisibility(GN_VEC4 fade, real v, real distance)
+// Visibility at a distance from the eye, of each colour: shadows fade away before the distance to which they are drawn.
+GN_FN real4 fadedVisibility(GN_VEC4 fade, real4 v, real distance)
 {
-    return mix(v, real(1.0), clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0)));
+    return mix(v, real4(1.0), clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0)));
 }
 
 // Never outside [0, 1]; what is not a number is lit.

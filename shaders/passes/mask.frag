@@ -23,6 +23,7 @@ layout(constant_id = 10) const bool kHasSmooth = false;
 layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
 layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
 layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: packSeen()
+layout(constant_id = 14) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -125,11 +126,11 @@ void main()
     uint left = kViewCount > 0 ? 1u : channels;
     do {
         int channel = findLSB(left);
-        float v = lightVisibility(first + channel, p, n, s, gl_FragCoord.xy, h.w);
+        vec4 v = lightVisibility(first + channel, p, n, s, gl_FragCoord.xy, h.w);
         if (kConfidence && lookup_confidence >= 0.0) {
-            v = packSeen(v, lookup_confidence);
+            v += packSeen(0.0, lookup_confidence);
         }
-        visibility = mix(visibility, vec4(v), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
-        left &= left - 1u;
+        visibility = kColoured ? v : mix(visibility, vec4(v.a), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
+        left &= kColoured ? 0u : left - 1u;
     } while (left != 0u);
 }

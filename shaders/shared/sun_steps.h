@@ -22,6 +22,12 @@ GN_FN real steppedVisibility(real earlier, real later, real weight)
 {
     return earlier + (later - earlier) * weight;
 }
+// The same of each colour.
+GN_FN real4 steppedVisibility(real4 earlier, real4 later, real weight)
+{
+    return real4(steppedVisibility(earlier.x, later.x, weight), steppedVisibility(earlier.y, later.y, weight),
+                 steppedVisibility(earlier.z, later.z, weight), steppedVisibility(earlier.w, later.w, weight));
+}
 
 // Where this frame has the one position and the frame before had the other (step-alternate): how much the frame before
 // counts. `weight`: stepWeight(); `read_later`: 1 where this frame has the later position, else 0.

@@ -67,8 +67,8 @@ constexpr const char* kGolden = R"({
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [
-    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "options": 0, "steps": null, "sample": null},
-    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "options": 1, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}, "sample": {"position_ws": [1, 2, 3], "direction_ws": [0, -1, 0]}}
+    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "mask_coloured": false, "options": 0, "steps": null, "sample": null},
+    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "mask_coloured": false, "options": 1, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}, "sample": {"position_ws": [1, 2, 3], "direction_ws": [0, -1, 0]}}
   ],
   "views": [
     {

@@ -72,6 +72,31 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
     EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "it will be seen from two positions";
 }
 
+TEST(MaskDraws, ColouredLightIsDrawnToAllChannelsOfItsLayer)
+{
+    PlanByHand by_hand({filteredBy(Filter::pcf), filteredBy(Filter::evsm)});
+    by_hand.add(0, 1);
+    LightPlan& coloured = by_hand.add(1, 1);
+    coloured.mask_layer = 1;
+    coloured.mask_channel = 3;
+    coloured.mask_coloured = true;
+    by_hand.plan.mask_layers = 2;
+    const auto draws = drawsOf(by_hand.plan);
+    ASSERT_EQ(draws.size(), 2U);
+    EXPECT_FALSE(draws[0].coloured);
+    EXPECT_TRUE(draws[1].coloured);
+    EXPECT_EQ(draws[1].layer, 1U);
+    EXPECT_EQ(draws[1].channels, 0b1111U);
+    EXPECT_FALSE(draws[1].shares);
+    std::vector<shared::GpuLight> lights(pack::maskLightCount(by_hand.plan));
+    pack::fillMaskLights(by_hand.frame, by_hand.plan, draws, lights);
+    EXPECT_EQ(lights[0].views, glm::uvec4(0, 1, 0, 0));
+    EXPECT_EQ(lights[1].views.y, 0U) << "nobody has that channel";
+    for (std::uint32_t channel = 0; channel < 4; ++channel) {
+        EXPECT_EQ(lights[draws[1].first_light + channel].views, glm::uvec4(1, 1, 0, 0)) << channel;
+    }
+}
+
 TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
 {
     ShadowOptions stepping{.technique = kPlainTechnique};

@@ -132,6 +132,7 @@ TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
     pack::MaskDraw draw;
     draw.first_light = 1;
     EXPECT_THROW(pack::fillMaskLights(frame, plan, {&draw, 1}, lights), Error);
+    EXPECT_THROW(pack::fillMaskLights(Frame(), plan, {}, lights), Error);
 }
 
 } // namespace

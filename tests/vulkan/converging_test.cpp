@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon::test {
@@ -152,6 +153,46 @@ TEST_P(Converging, keepsEachLightApart)
     }
     (void)watcher.draw(std::vector<Light>{});
     EXPECT_EQ(countBetween(watcher.draw(std::span(lights.data(), 1))), 0U);
+}
+
+/// Layer and channel of a mask's bytes.
+std::vector<std::byte> channelOf(const std::vector<std::byte>& mask, const LightPlan& light)
+{
+    constexpr std::size_t kPixels = std::size_t{kScreen.width} * kScreen.height;
+    std::vector<std::byte> one;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        one.push_back(mask[(light.mask_layer * kPixels + i) * 4 + light.mask_channel]);
+    }
+    return one;
+}
+
+// When another light's colours go, a light moves to a channel where frames before had something else.
+TEST_P(Converging, beginsAnewWhereALightIsElsewhereInTheMask)
+{
+    const ShadowOptions grey = optionsOf(Soften::converge, GetParam());
+    ShadowOptions coloured = grey;
+    coloured.translucent = Translucent::colour;
+    Planner planner(std::array{grey, coloured});
+    Drawing drawing(gpu(), scene.mesh());
+    std::vector<Light> three = sunsAndSpots(3);
+    for (Light& light : three) {
+        light.angular_diameter_rad = 0.15;
+        light.radius_m = 0.3;
+        light.options = 1;
+    }
+    three[2].options = 0;
+    std::vector<std::byte> mask;
+    for (int frame = 0; frame < 8; ++frame) {
+        const Frame now = scene.frameOf(three);
+        mask = scene.draw(drawing, now, planner.plan(now));
+    }
+    three[0].options = 0;
+    const Frame now = scene.frameOf(three);
+    const Plan& plan = planner.plan(now);
+    ASSERT_EQ(plan.lights[2].mask_layer, 0U);
+    mask = scene.draw(drawing, now, plan);
+    EXPECT_EQ(countBetween(channelOf(mask, plan.lights[2])), 0U) << "it was in layer 2";
+    EXPECT_GT(countBetween(channelOf(mask, plan.lights[1])), 20U) << "this one stayed in layer 1";
 }
 
 TEST_P(Converging, aCameraThatMovesFindsItsSurfacesAgain)

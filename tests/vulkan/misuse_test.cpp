@@ -243,6 +243,7 @@ std::vector<std::function<void(Plan&)>> planFaults()
             [](Plan& p) { p.lights[1].view_count = kHuge; },
             [](Plan& p) { p.lights[1].mask_layer = 1; },
             [](Plan& p) { p.lights[1].mask_channel = 4; },
+            [](Plan& p) { p.lights[1].mask_coloured = true; }, // but has a channel of a shared layer
             [](Plan& p) { p.lights.pop_back(); },
             [](Plan& p) { p.views[1].light = 2; },
             [](Plan& p) { p.views[1].first_caster = kHuge; },
@@ -296,6 +297,7 @@ TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
                                                              p.pages[0] = {512, 512, 2};
                                                          },
                                                          [](Plan& p) { p.views.push_back(p.views.back()); },
+                                                         [](Plan& p) { p.mask_layers = 2; },
                                                          [](Plan& p) {
                                                              p.lights.push_back(p.lights.back());
                                                              p.lights.back().mask_channel = 2;

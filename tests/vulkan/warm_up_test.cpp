@@ -112,7 +112,11 @@ INSTANTIATE_TEST_SUITE_P(
                     WarmCase{"pcf_step_band", "filter=pcf motion=step-band map-size=64"},
                     WarmCase{"hard_step_blend_paired", "filter=hard motion=step-blend map-format=rg16 map-size=64"},
                     WarmCase{"pcf_step_alternate", "filter=pcf motion=step-alternate map-size=64"},
-                    WarmCase{"evsm_step_alternate", "filter=evsm motion=step-alternate map-size=64"}),
+                    WarmCase{"evsm_step_alternate", "filter=evsm motion=step-alternate map-size=64"},
+                    WarmCase{"pcf_colour", "filter=pcf translucent=colour map-size=64"},
+                    WarmCase{"pcf_colour_converge", "filter=pcf translucent=colour soften=converge map-size=64"},
+                    WarmCase{"pcf_colour_step_alternate",
+                             "filter=pcf translucent=colour motion=step-alternate map-size=64"}),
     [](const auto& test_case) { return std::string(test_case.param.name); });
 
 } // namespace

@@ -120,11 +120,15 @@ glm::vec4 AlternatePass::weightsOfBefore(const Plan& plan, std::uint32_t layer) 
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         const SunSteps& steps = light.steps;
-        if (light.mask_layer == layer && pack::takesTurns(light) && lights_[i].known &&
-            isSameDirection(lights_[i].direction_ws, directionNotRead(steps))) {
-            const auto weight = static_cast<float>(laterWeight(steps, 0.0));
-            weights[static_cast<int>(light.mask_channel)] =
-                shared::weightOfBefore(weight, steps.read == SunPosition::later ? 1.0F : 0.0F);
+        const MaskPlace place = maskPlaceOf(light);
+        if (place.layer != layer || !pack::takesTurns(light) || !lights_[i].known || lights_[i].place != place ||
+            !isSameDirection(lights_[i].direction_ws, directionNotRead(steps))) {
+            continue;
+        }
+        const float weight = shared::weightOfBefore(static_cast<float>(laterWeight(steps, 0.0)),
+                                                    steps.read == SunPosition::later ? 1.0F : 0.0F);
+        for (int channel = 0; channel < 4; ++channel) {
+            weights[channel] = (place.channels >> channel & 1U) != 0 ? weight : weights[channel];
         }
     }
     return weights;
@@ -135,6 +139,7 @@ void AlternatePass::remember(const Plan& plan)
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const LightPlan& light = plan.lights[i];
         lights_[i].known = pack::takesTurns(light);
+        lights_[i].place = maskPlaceOf(light);
         lights_[i].direction_ws = directionRead(light.steps);
     }
 }

@@ -37,6 +37,7 @@ public:
 private:
     struct LightHistory {
         bool known = false;
+        MaskPlace place;
         glm::dvec3 direction_ws{0.0}; // of the maps that it was seen by
     };
     void writeSet(VkDescriptorSet set, const AlternateInputs& inputs);

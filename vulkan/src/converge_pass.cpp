@@ -177,21 +177,30 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
 {
     const LightPlan& planned = plan.lights[index];
     const Light& light = frame.lights[index];
-    if (!pack::joinsFrames(planned) || !lights_[index].known || !isSameLight(lights_[index].light, light)) {
+    const LightBefore& before = lights_[index];
+    if (!pack::joinsFrames(planned) || !before.known || !isSameLight(before.light, light) ||
+        before.place != maskPlaceOf(planned)) {
         return;
     }
-    const auto channel = static_cast<int>(planned.mask_channel);
-    const double move = moveOf(lights_[index].light, light);
-    out.most[channel] = move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
+    const double move = moveOf(before.light, light);
     const bool parallel = light.type == LightType::directional;
     const glm::dvec3 to_light = light.position_ws - frame.camera.eye_ws;
-    out.place[channel] = parallel ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
-                                  : glm::vec4(glm::vec3(to_light), 1.0F);
-    out.size[channel] = static_cast<float>(parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m);
-    out.pad[channel] = static_cast<float>(padOf(plan, planned, to_light));
+    const double size = parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m;
     const bool whole = (*plan.options)[planned.options].integratesLight();
-    out.power[channel] = shared::confidencePower(static_cast<float>(stood(frame, plan)),
-                                                 whole ? shared::kMostOfWholeLight : shared::kMostOfPoint);
+    const float power = shared::confidencePower(static_cast<float>(stood(frame, plan)),
+                                                whole ? shared::kMostOfWholeLight : shared::kMostOfPoint);
+    for (int channel = 0; channel < 4; ++channel) {
+        if ((maskChannelsOf(planned) >> channel & 1U) == 0) {
+            continue;
+        }
+        out.most[channel] =
+            move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
+        out.place[channel] = parallel ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
+                                      : glm::vec4(glm::vec3(to_light), 1.0F);
+        out.size[channel] = static_cast<float>(size);
+        out.pad[channel] = static_cast<float>(padOf(plan, planned, to_light));
+        out.power[channel] = power;
+    }
 }
 
 /// Returns whether the camera stands and nothing moved.
@@ -230,6 +239,7 @@ void ConvergePass::remember(const Frame& frame, const Plan& plan, bool has_norma
         lights_[i].known = i < plan.lights.size() && pack::joinsFrames(plan.lights[i]);
         if (lights_[i].known) {
             lights_[i].light = frame.lights[i];
+            lights_[i].place = maskPlaceOf(plan.lights[i]);
         }
     }
     planner_ = plan.planner;

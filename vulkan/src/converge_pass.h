@@ -43,6 +43,7 @@ private:
     struct LightBefore {
         bool known = false;
         Light light;
+        MaskPlace place;
     };
     struct Slot {
         HostBuffer layers;                   // GpuConverge by layer of the mask

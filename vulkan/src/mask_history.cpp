@@ -3,6 +3,8 @@
 
 #include "barriers.h"
 
+#include <gnomon/plan_views.h>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,6 +29,11 @@ bool isAlike(const ImageInfo& a, const ImageInfo& b)
 }
 
 } // namespace
+
+MaskPlace maskPlaceOf(const LightPlan& light)
+{
+    return {light.mask_layer, maskChannelsOf(light)};
+}
 
 bool MaskHistory::prepare(const ImageInfo& mask)
 {

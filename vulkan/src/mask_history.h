@@ -21,6 +21,15 @@ struct Reprojection {
     glm::vec4 eye; // xyz: this frame's eye as seen from that one's, metres; w is free
 };
 
+/// Where in the mask a light is. What the frame before has there is of another light if this one was elsewhere.
+struct MaskPlace {
+    std::uint32_t layer = 0;
+    std::uint32_t channels = 0; // maskChannelsOf()
+
+    bool operator==(const MaskPlace&) const = default;
+};
+[[nodiscard]] MaskPlace maskPlaceOf(const LightPlan& light);
+
 class MaskHistory {
 public:
     struct Images {

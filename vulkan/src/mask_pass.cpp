@@ -139,7 +139,7 @@ void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
 {
     device_.retire(std::move(mask_));
     mask_ = Image(device_,
-                  {maskFormat(plan.lights.size() > 1), screen, std::max(plan.mask_layers, 1U),
+                  {maskFormat(maskChannelCount(plan)), screen, std::max(plan.mask_layers, 1U),
                    VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                    VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
 }
@@ -152,7 +152,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
         tinted_[i] = maps[i] && maps[i]->tints.inUse() ? 1 : 0;
     }
     const ImageInfo& have = mask_.info();
-    const bool fits = mask_ && have.format == maskFormat(plan.lights.size() > 1) &&
+    const bool fits = mask_ && have.format == maskFormat(maskChannelCount(plan)) &&
                       have.layers >= std::max(plan.mask_layers, 1U) && have.extent.width == screen.width &&
                       have.extent.height == screen.height;
     if (!fits) {

@@ -24,8 +24,8 @@ struct MaskPush {
 /// By options; null where no light has named them.
 using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
-/// Of the mask itself.
-[[nodiscard]] VkFormat maskFormat(bool several_lights);
+/// Of the mask itself, by maskChannelCount().
+[[nodiscard]] VkFormat maskFormat(std::uint32_t channels);
 /// Does what is drawn go to ConvergePass::target(), and not to another pass before it?
 [[nodiscard]] bool drawsToConverge(const Plan& plan);
 /// Do frames that converge count by FilterTraits::weighs_frames?

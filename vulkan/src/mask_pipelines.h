@@ -24,6 +24,7 @@ struct MaskConstants {
     VkBool32 tints = VK_FALSE;      // views of the draw's options have maps of tints
     VkBool32 shows_rays = VK_FALSE; // ShadowRendererOptions::shows_rays
     VkBool32 confidence = VK_FALSE; // for the pass that joins frames: FilterTraits::weighs_frames
+    VkBool32 coloured = VK_FALSE;   // pack::MaskDraw::coloured
 
     bool operator==(const MaskConstants&) const = default;
 };

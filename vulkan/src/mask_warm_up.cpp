@@ -7,10 +7,24 @@
 #include <algorithm>
 
 namespace gnomon::vulkan {
+namespace {
 
-VkFormat maskFormat(bool several_lights)
+bool isColoured(const ResolvedOptions& options)
 {
-    return several_lights ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8_UNORM;
+    return options.asked().translucent == Translucent::colour;
+}
+
+/// maskChannelCount() of a plan with one light of these options.
+std::uint32_t channelsAlone(const ResolvedOptions& options)
+{
+    return isColoured(options) ? 4 : 1;
+}
+
+} // namespace
+
+VkFormat maskFormat(std::uint32_t channels)
+{
+    return channels > 1 ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8_UNORM;
 }
 
 bool drawsToConverge(const Plan& plan)
@@ -36,6 +50,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     key.shares = draw.shares;
     key.constants.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
+    key.constants.coloured = draw.coloured ? VK_TRUE : VK_FALSE;
     return pipelines_.get(key, layout_.get());
 }
 
@@ -64,8 +79,8 @@ void MaskPassRecorder::makeConverge()
 void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
-    const auto formatOf = [&](bool several_lights) {
-        const VkFormat format = maskFormat(several_lights);
+    const auto formatOf = [&](std::uint32_t channels) {
+        const VkFormat format = maskFormat(channels);
         return to_converge ? ConvergePass::targetFormat(format) : format;
     };
     const auto make = [&] {
@@ -77,7 +92,8 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
         }
     };
     key.constants.confidence = to_converge && weighsFrames(options) ? VK_TRUE : VK_FALSE;
-    key.format = formatOf(false);
+    key.constants.coloured = isColoured(options) ? VK_TRUE : VK_FALSE;
+    key.format = formatOf(channelsAlone(options));
     key.constants.few_views = pack::fewViews(options);
     make();
     if (key.constants.few_views > 1) { // a spot has one map
@@ -85,12 +101,12 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
         make();
     }
     key.constants.few_views = 0;
-    key.format = formatOf(true);
+    key.format = formatOf(4);
     if (what.several_lights) {
         make();
     }
     key.shares = true;
-    if (what.several_lights && what.several_options) {
+    if (what.several_lights && what.several_options && !isColoured(options)) {
         make();
     }
 }
@@ -106,19 +122,19 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
     }
     if (options.technique().motion == Motion::step_alternate) {
         makeAlternate();
-        alternate_->warmUp(maskFormat(false));
+        alternate_->warmUp(maskFormat(channelsAlone(options)));
         if (what.several_lights) {
-            alternate_->warmUp(maskFormat(true));
+            alternate_->warmUp(maskFormat(4));
         }
         if (what.several_lights && what.several_options) {
-            alternate_->warmUp(ConvergePass::targetFormat(maskFormat(true)));
+            alternate_->warmUp(ConvergePass::targetFormat(maskFormat(4)));
         }
     }
     if (options.technique().soften == Soften::converge) {
         makeConverge();
-        converge_->warmUp(maskFormat(false));
+        converge_->warmUp(maskFormat(channelsAlone(options)));
         if (what.several_lights) {
-            converge_->warmUp(maskFormat(true));
+            converge_->warmUp(maskFormat(4));
         }
     }
 }

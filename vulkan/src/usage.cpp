@@ -54,6 +54,9 @@ const char* wrongOf(const Plan& plan)
         if (light.mask_layer >= plan.mask_layers || light.mask_channel > 3) {
             return "a light's channel is beyond the mask's layers";
         }
+        if (light.mask_coloured && light.mask_channel != 3) {
+            return "a coloured light's channel is not the last of its layer";
+        }
     }
     for (const View& view : plan.views) {
         if (view.light >= plan.lights.size()) {
@@ -133,11 +136,16 @@ void PreparedSize::take(const Plan& plan)
     views_ = std::max(views_, plan.views.size()); // what is made for views does not shrink
     depth_layers_ = std::max(depth_layers_, pack::depthLayersCount(plan));
     cascade_lights_ = std::max(cascade_lights_, pack::cascadeLightCount(plan));
+    mask_layers_ = plan.mask_layers;
+    mask_channels_ = maskChannelCount(plan);
 }
 
 bool PreparedSize::holds(const Plan& plan) const
 {
     if (plan.lights.size() > lights_ || plan.views.size() > views_ || pack::cascadeLightCount(plan) > cascade_lights_) {
+        return false;
+    }
+    if (plan.mask_layers > mask_layers_ || maskChannelCount(plan) > mask_channels_) {
         return false;
     }
     for (std::uint32_t view = 0; view < plan.views.size(); ++view) {

@@ -38,6 +38,8 @@ private:
     std::vector<OfOptions> options_;
     std::size_t lights_ = 0;
     std::size_t views_ = 0;
+    std::uint32_t mask_layers_ = 0;
+    std::uint32_t mask_channels_ = 0;
     std::uint32_t cascade_lights_ = 0;
     std::uint32_t depth_layers_ = 0;
     mutable std::vector<OfOptions> asked_; // scratch

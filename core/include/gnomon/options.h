@@ -70,8 +70,9 @@ enum class KeepStill : std::uint8_t {
 
 /// What blended casters do to light, where a host says which these are (ShadowRendererOptions::is_blended).
 enum class Translucent : std::uint8_t {
-    none, // nothing: they cast no shadow, and no maps of tints are made or drawn
-    grey, // each lets 1 - alpha (1 - colour) through, and the mask has the luminance of what arrives of white light
+    none,   // nothing: they cast no shadow, and no maps of tints are made or drawn
+    grey,   // each lets 1 - alpha (1 - colour) through, and the mask has the luminance of what arrives of white light
+    colour, // and the mask has red, green and blue of that beside it: LightPlan::mask_coloured
 };
 [[nodiscard]] std::string_view nameOf(Translucent value);
 

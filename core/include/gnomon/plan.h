@@ -255,8 +255,11 @@ struct LightPlan {
     std::uint32_t first_view = 0; // range of Plan::views; of a paired light the earlier position's come first
     std::uint32_t view_count = 0;
     std::uint32_t mask_layer = 0;   // of the mask image
-    std::uint32_t mask_channel = 0; // 0..3
-    std::uint32_t options = 0;      // Light::options
+    std::uint32_t mask_channel = 0; // 0..3: visibility, by which blended casters count as a grey
+    /// The layer is this light's alone: red, green and blue are what arrives of each, of 1, and mask_channel is 3.
+    /// Translucent::colour, whether there are blended casters or not.
+    bool mask_coloured = false;
+    std::uint32_t options = 0; // Light::options
     Outcome outcome;
     SunSteps steps;
     AutoChoice choice;
@@ -287,7 +290,7 @@ struct Plan {
     std::vector<MapPages> pages = std::vector<MapPages>(1); // one for each of the planner's options
     /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
     std::uint32_t map_count = 0;
-    std::uint32_t mask_layers = 0; // (lights + 3) / 4
+    std::uint32_t mask_layers = 0; // one for every four lights without colours, and one for each coloured light
     /// Which of its planner's plans this is, from 1 on: the next one goes on from it.
     std::uint64_t number = 0;
     bool cut = false; // this plan goes on from none: Frame::cut, another ObjectSet, or a planner's first

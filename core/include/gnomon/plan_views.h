@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a plan's views a picture is made of, for who asks what one pixel reads; and which of them one pass can draw,
-// for who draws them.
+// Which of a plan's views a picture is made of, for who asks what one pixel reads; which of them one pass can draw, for
+// who draws them; and which channels of the mask a light has.
 #pragma once
 
 #include <gnomon/plan.h>
@@ -19,6 +19,14 @@ namespace gnomon {
 {
     return (*plan.options)[optionsIndexOf(plan, view)];
 }
+
+/// The channels of its mask layer that are a light's: bit i for channel i.
+[[nodiscard]] constexpr std::uint32_t maskChannelsOf(const LightPlan& light)
+{
+    return light.mask_coloured ? 0xFU : 1U << light.mask_channel;
+}
+/// How many channels each layer of the plan's mask has: 1 or 4. One is enough for a single light without colours.
+[[nodiscard]] std::uint32_t maskChannelCount(const Plan& plan);
 
 /// The position of a sun that says more of this frame's picture; by turns, the one that is read.
 [[nodiscard]] SunPosition strongerPosition(const SunSteps& steps);

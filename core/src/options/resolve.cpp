@@ -101,7 +101,7 @@ std::string_view nameOf(CasterFaces value)
 }
 std::string_view nameOf(Translucent value)
 {
-    return nameIn(std::array<std::string_view, 2>{"none", "grey"}, value);
+    return nameIn(std::array<std::string_view, 3>{"none", "grey", "colour"}, value);
 }
 std::string_view nameOf(StepBy value)
 {

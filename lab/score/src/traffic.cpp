@@ -27,10 +27,10 @@ std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
     return texels * options.image_layers;
 }
 
-/// One byte for a single light, else four to a layer (ShadowRenderer::mask()).
+/// A byte for each channel (ShadowRenderer::mask()).
 std::uint64_t maskBytes(const Plan& plan)
 {
-    return plan.lights.size() == 1 ? 1 : std::uint64_t{4} * plan.mask_layers;
+    return std::uint64_t{maskChannelCount(plan)} * plan.mask_layers;
 }
 
 } // namespace

@@ -27,7 +27,7 @@
 // light is 0, a light without a map 1.
 float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
 {
-    return lightVisibility(light, point, normal, flatSurface(normal), pixel, 1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0)));
+    return lightVisibility(light, point, normal, flatSurface(normal), pixel, 1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0))).a;
 }
 
 // The same of a smooth-shaded mesh, whose terminator then has no steps: whether a point faces the light its
@@ -35,7 +35,7 @@ float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
 float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec4 smooth_surface, vec2 pixel)
 {
     return lightVisibility(light, point, normal, SmoothSurface(smooth_surface.xyz, smooth_surface.w), pixel,
-                           1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0)));
+                           1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0))).a;
 }
 
 #include "names_end.glsl"

@@ -28,6 +28,7 @@ struct MaskDraw {
     /// Of fillMaskLights(): the place of the layer's channel 0.
     std::uint32_t first_light = 0;
     std::uint32_t channels = 0; // bit i: channel i is drawn; others are to be left as they are
+    bool coloured = false;      // LightPlan::mask_coloured: all four channels are of one light
     std::array<SunShown, shared::kLightsPerLayer> shown{}; // by channel
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // another draw has further channels of the strip
@@ -41,8 +42,8 @@ struct MaskDraw {
 void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out);
 /// How many places fillMaskLights() needs at most for a plan like this one, however its suns stand.
 [[nodiscard]] std::uint32_t maskLightCount(const Plan& plan);
-/// As fillLights(), and behind the frame's lights what strips read that do not see all of a light. Throws Error where
-/// there is no room for that.
+/// What the draws read: at MaskDraw::first_light + channel the light that has this channel, a coloured one four times.
+/// Throws Error where there is no room for that, or the frame has other lights than the plan.
 void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
                     std::span<shared::GpuLight> lights);
 

@@ -39,8 +39,8 @@ struct ShadowRendererOptions {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     /// Does the object with this index of the plan's lists draw blended casters, which tint light instead of blocking
     /// it? Then views that have such casters get a map of tints beside their map, and the mask holds the luminance of
-    /// what arrives, unless ShadowOptions::translucent is none. prepare() asks for each caster of a plan. Null: nothing
-    /// is blended, and nothing is spent on it.
+    /// what arrives, or its colour as well, as ShadowOptions::translucent says. prepare() asks for each caster of a
+    /// plan. Null: nothing is blended, and nothing is spent on maps of tints.
     std::function<bool(std::uint32_t object)> is_blended;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
     /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were
@@ -250,7 +250,8 @@ public:
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
-    /// R8 for one light, else RGBA8, one layer per four lights; a 2D array in either case.
+    /// R8 for one light, else RGBA8, one layer per four lights and one for each coloured light (LightPlan::mask_layer),
+    /// with which a single light's is RGBA8 too; a 2D array in either case.
     [[nodiscard]] ImageRef mask() const;
     /// Of one of the plan's options; an empty one where no light of the plan names
     /// them. After recordMaps() its writes are
