@@ -47,6 +47,20 @@ GN_CONST real kWideTo = real(6.0);
 // No edge is narrowed further, texels: the map does not say where it is within less.
 GN_CONST real kNarrowest = real(0.8);
 
+// Where rays say that there is an edge, more of them look which way it runs, in a square of so many texels; and more
+// find its place in a strip along it, so wide and so long. Over such a length the steps of its texels are one line.
+GN_CONST int kRaysAlong = 25;
+GN_CONST real kLooksWithin = real(3.0);
+GN_CONST real kStripWide = real(1.0);
+GN_CONST real kStripLong = real(5.0);
+// Less than the first value of RaysFound::straight is no edge to look along. Of a strip's, the strip counts for nothing
+// below the second, for all above the third.
+GN_CONST real kEdgeFrom = real(0.3);
+GN_CONST real kStripFrom = real(0.3);
+GN_CONST real kStripTo = real(0.6);
+// No edge in a strip is narrowed further, texels.
+GN_CONST real kNarrowestInStrip = real(0.6);
+
 // A pass that shows how rays fared has one of these instead of visibility: what blocks decided without a ray; as many
 // rays as wanted; fewer, or some that ended after kRaySteps.
 #ifndef GNOMON_SHOWS_RAYS
@@ -55,6 +69,7 @@ GN_CONST real kNarrowest = real(0.8);
 GN_CONST real kShowsDecided = real(0.25);
 GN_CONST real kShowsRays = real(0.5);
 GN_CONST real kShowsCeiling = real(0.75);
+
 // Where a ray is on the map: between two places it runs straight from texel to texel.
 struct RayRun {
     real2 first;    // texels, where it begins
@@ -188,19 +203,39 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
     return found;
 }
 
+// Where rays start around their receiver, on its plane: a rectangle of the map, `across` by `along`, `way` being the
+// unit vector across it.
+struct RayStarts {
+    real2 way;
+    real across; // texels
+    real along;
+};
+
+GN_FN RayStarts startSquare(real side)
+{
+    RayStarts starts;
+    starts.way = real2(real(1.0), real(0.0));
+    starts.across = side;
+    starts.along = side;
+    return starts;
+}
+
 // What the rays of a pixel found.
 struct RaysFound {
     real lit;      // share of them that reach the light
     real straight; // 1: those that are blocked start on one side of a straight edge; 0: all around
+    real2 to_lit;  // from the middle of all starts to that of those in light, texels
     real fall;     // of the metric, from the receiver to what blocks: mean
     bool cut;      // kRaySteps or kPixelSteps were too few
 };
 
-// `count` rays, or in a narrow penumbra kRaysFewest if these agree, as far as depth `nearest`, above which nothing casts.
-GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, bool wide, real within)
+// `count` rays, or kRaysFewest if these agree and not `all` are wanted, as far as depth `nearest`, above which nothing
+// casts.
+GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, bool all,
+                          RayStarts within)
 {
     ConeNoise noise = coneNoise(f.pixel);
-    int enough = wide ? count : kRaysFewest;
+    int enough = all ? count : kRaysFewest;
     bool agree = true;
     bool cut = false;
     int steps = 0;
@@ -210,8 +245,9 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
     real2 starts_lit = real2(real(0.0));
     int i = 0;
     do {
-        real2 at = pointOfLight(noise, wide ? (i * kRayStride + kRayOffset) % count : i, count);
-        real2 from = pointOfTexel(noise, i) * within;
+        real2 at = pointOfLight(noise, all ? (i * kRayStride + kRayOffset) % count : i, count);
+        real2 place = pointOfTexel(noise, i) * real2(within.across, within.along);
+        real2 from = within.way * place.x + real2(-within.way.y, within.way.x) * place.y;
         real w = max(real(1.0) + dot(point.w_slope, from), real(0.25));
         real metric = (point.depth + dot(point.depth_slope, from)) / w;
         real3 start = real3(point.texel.x + from.x, point.texel.y + from.y, real(1.0)) * (cone.start.z / w);
@@ -240,18 +276,20 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
     found.lit = lit / n;
     found.cut = cut;
     found.fall = falls / max(n - lit, real(1.0));
-    // An edge along the map's axes leaves a slab of starts in light, whose middle is that far from the middle of all.
-    real apart = real(0.5) * within * (real(1.0) - found.lit);
-    found.straight = length(starts_lit / max(lit, real(1.0)) - starts / n) / max(apart, real(0.01));
+    // An edge along a square leaves a slab of starts in light, whose middle is that far from the middle of all.
+    real apart = real(0.5) * within.across * (real(1.0) - found.lit);
+    found.to_lit = starts_lit / max(lit, real(1.0)) - starts / n;
+    found.straight = length(found.to_lit) / max(apart, real(0.01));
     return found;
 }
 
 // The starts of rays make a ramp of what is a step where the light is small or its blocker near. Rays tell how far off
 // that is, and so how wide the penumbra is: `across`, texels. A straight edge's ramp is narrowed to that about its
-// middle. Around leaves and wires rays are blocked on all sides, and there the mean stays as it is.
-GN_FN real narrowed(RaysFound found, real across, real within)
+// middle, but to no less than `narrowest`. Around leaves and wires rays are blocked on all sides, and there the mean
+// stays as it is.
+GN_FN real narrowed(RaysFound found, real across, real within, real narrowest)
 {
-    real steeper = (within + across) / max(across, kNarrowest);
+    real steeper = (within + across) / max(across, narrowest);
     real straight = clamp((found.straight - kStraightFrom) / (kStraightTo - kStraightFrom), real(0.0), real(1.0));
     real share = straight * clamp((kWideTo - across) / (kWideTo - kWideFrom), real(0.0), real(1.0));
     return clamp(real(0.5) + (found.lit - real(0.5)) * mix(real(1.0), steeper, share), real(0.0), real(1.0));
@@ -265,6 +303,32 @@ GN_FN int rayCount(real across)
     return int(wanted) / 2 * 2 + 1; // odd, see kRayStride
 }
 
+// How wide the penumbra of what rays found is, texels: `widest` is the light's disc where it is farthest from the
+// receiver, at depth `nearest`.
+GN_FN real penumbraAcross(MapPoint point, RaysFound found, real widest, real nearest)
+{
+    return widest * found.fall / max(point.depth - nearest, real(1e-9));
+}
+
+// A second opinion on an edge, `seen` being what its texels alone say: by a strip of the map along it.
+GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real nearest, real widest, real seen)
+{
+    RaysFound look = traceRays(point, f, cone, nearest, kRaysAlong, true, startSquare(kLooksWithin));
+    real2 way = look.to_lit / max(length(look.to_lit), real(1e-6));
+    RayStarts strip;
+    strip.way = way;
+    strip.across = kStripWide;
+    strip.along = kStripLong;
+    RaysFound found = traceRays(point, f, cone, nearest, kRaysAlong, true, strip);
+    // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
+    real apart = real(0.5) * kStripWide * (real(1.0) - found.lit);
+    real straight = dot(found.to_lit, way) / max(apart, real(0.01));
+    real share = clamp((straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
+    share = look.straight > kStraightFrom ? share : real(0.0);
+    real across = penumbraAcross(point, found, widest, nearest);
+    return mix(seen, narrowed(found, across, kStripWide, kNarrowestInStrip), share);
+}
+
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
@@ -276,12 +340,17 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     real widest = across - kStartsWithin; // of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     within = f.stood > 0 ? kStartsAtRest : within;
-    RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across),
-                                across >= kWideFrom, within);
+    RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across), across >= kWideFrom, startSquare(within));
     if (GNOMON_SHOWS_RAYS) {
         return found.cut ? kShowsCeiling : kShowsRays;
     }
-    return narrowed(found, widest * found.fall / max(point.depth - around.nearest, real(1e-9)), within);
+    real seen = narrowed(found, penumbraAcross(point, found, widest, around.nearest), within, kNarrowest);
+    // Frames at rest find the edge's place together.
+    bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && found.straight > kEdgeFrom;
+    if (is_edge && widest < kWideTo && f.stood == 0) {
+        seen = seenAlongEdge(point, f, cone, around.nearest, widest, seen);
+    }
+    return seen;
 }
 
 GN_END

@@ -253,7 +253,8 @@ TEST(Raymarch, BlocksOnlySaveWork)
             const RayCone cone = rayCone(point, f);
             const double v = lookAround(point, f, cone, kStartsWithin).visibility;
             if (v >= 0.0) {
-                EXPECT_NEAR(traceRays(point, f, cone, 0.0, 64, 64, 1.0).lit, v, 0.08) << round << ", " << i;
+                EXPECT_NEAR(traceRays(point, f, cone, 0.0, 64, 64, startSquare(1.0)).lit, v, 0.08)
+                    << round << ", " << i;
                 ++decided;
             }
         }

@@ -22,6 +22,7 @@
 #define RayEnd gnomon_RayEnd
 #define RayRegion gnomon_RayRegion
 #define RayRun gnomon_RayRun
+#define RayStarts gnomon_RayStarts
 #define RayStep gnomon_RayStep
 #define RayTexel gnomon_RayTexel
 #define RaysFound gnomon_RaysFound
@@ -130,6 +131,7 @@
 #define kDepthChannel gnomon_kDepthChannel
 #define kDepthLayers gnomon_kDepthLayers
 #define kDiscPoints gnomon_kDiscPoints
+#define kEdgeFrom gnomon_kEdgeFrom
 #define kEdgeOn gnomon_kEdgeOn
 #define kFarthestNeighbour gnomon_kFarthestNeighbour
 #define kFewViews gnomon_kFewViews
@@ -155,6 +157,7 @@
 #define kLeastShare gnomon_kLeastShare
 #define kLightsPerLayer gnomon_kLightsPerLayer
 #define kLongestFootprint gnomon_kLongestFootprint
+#define kLooksWithin gnomon_kLooksWithin
 #define kMomentArithmetic gnomon_kMomentArithmetic
 #define kMomentDerivatives gnomon_kMomentDerivatives
 #define kMomentFourChannels gnomon_kMomentFourChannels
@@ -176,6 +179,7 @@
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
 #define kNarrowest gnomon_kNarrowest
+#define kNarrowestInStrip gnomon_kNarrowestInStrip
 #define kNarrowings gnomon_kNarrowings
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
@@ -189,6 +193,7 @@
 #define kRayOffset gnomon_kRayOffset
 #define kRaySteps gnomon_kRaySteps
 #define kRayStride gnomon_kRayStride
+#define kRaysAlong gnomon_kRaysAlong
 #define kRaysFewest gnomon_kRaysFewest
 #define kRaysLeast gnomon_kRaysLeast
 #define kRaysMost gnomon_kRaysMost
@@ -213,6 +218,10 @@
 #define kSteepest gnomon_kSteepest
 #define kStraightFrom gnomon_kStraightFrom
 #define kStraightTo gnomon_kStraightTo
+#define kStripFrom gnomon_kStripFrom
+#define kStripLong gnomon_kStripLong
+#define kStripTo gnomon_kStripTo
+#define kStripWide gnomon_kStripWide
 #define kTapReach gnomon_kTapReach
 #define kTinyVariance gnomon_kTinyVariance
 #define kVarianceOfRead gnomon_kVarianceOfRead
@@ -272,6 +281,7 @@
 #define pcfBilinear gnomon_pcfBilinear
 #define pcfDisc gnomon_pcfDisc
 #define pcfSeparable gnomon_pcfSeparable
+#define penumbraAcross gnomon_penumbraAcross
 #define pixelSteps gnomon_pixelSteps
 #define planeDeviation gnomon_planeDeviation
 #define planeNearest gnomon_planeNearest
@@ -297,6 +307,7 @@
 #define sampleMoments gnomon_sampleMoments
 #define samplingLevel gnomon_samplingLevel
 #define secondPolynomial gnomon_secondPolynomial
+#define seenAlongEdge gnomon_seenAlongEdge
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
@@ -306,6 +317,7 @@
 #define smoothEncode gnomon_smoothEncode
 #define smoothPlane gnomon_smoothPlane
 #define smoothSurface gnomon_smoothSurface
+#define startSquare gnomon_startSquare
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
 #define tapBlocks gnomon_tapBlocks

@@ -22,6 +22,7 @@
 #undef RayEnd
 #undef RayRegion
 #undef RayRun
+#undef RayStarts
 #undef RayStep
 #undef RayTexel
 #undef RaysFound
@@ -130,6 +131,7 @@
 #undef kDepthChannel
 #undef kDepthLayers
 #undef kDiscPoints
+#undef kEdgeFrom
 #undef kEdgeOn
 #undef kFarthestNeighbour
 #undef kFewViews
@@ -155,6 +157,7 @@
 #undef kLeastShare
 #undef kLightsPerLayer
 #undef kLongestFootprint
+#undef kLooksWithin
 #undef kMomentArithmetic
 #undef kMomentDerivatives
 #undef kMomentFourChannels
@@ -176,6 +179,7 @@
 #undef kMostReads
 #undef kMostWarpOfTexel
 #undef kNarrowest
+#undef kNarrowestInStrip
 #undef kNarrowings
 #undef kNearlyOne
 #undef kNoLayerBegins
@@ -189,6 +193,7 @@
 #undef kRayOffset
 #undef kRaySteps
 #undef kRayStride
+#undef kRaysAlong
 #undef kRaysFewest
 #undef kRaysLeast
 #undef kRaysMost
@@ -213,6 +218,10 @@
 #undef kSteepest
 #undef kStraightFrom
 #undef kStraightTo
+#undef kStripFrom
+#undef kStripLong
+#undef kStripTo
+#undef kStripWide
 #undef kTapReach
 #undef kTinyVariance
 #undef kVarianceOfRead
@@ -272,6 +281,7 @@
 #undef pcfBilinear
 #undef pcfDisc
 #undef pcfSeparable
+#undef penumbraAcross
 #undef pixelSteps
 #undef planeDeviation
 #undef planeNearest
@@ -297,6 +307,7 @@
 #undef sampleMoments
 #undef samplingLevel
 #undef secondPolynomial
+#undef seenAlongEdge
 #undef shapeVisibility
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
@@ -306,6 +317,7 @@
 #undef smoothEncode
 #undef smoothPlane
 #undef smoothSurface
+#undef startSquare
 #undef stepWeight
 #undef steppedVisibility
 #undef tapBlocks
