@@ -53,11 +53,12 @@ GN_CONST int kRaysAlong = 25;
 GN_CONST real kLooksWithin = real(3.0);
 GN_CONST real kStripWide = real(1.0);
 GN_CONST real kStripLong = real(5.0);
-// Less than the first value of RaysFound::straight is no edge to look along. Of a strip's, the strip counts for nothing
-// below the second, for all above the third.
+// Less than these of RaysFound::straight is no edge: of the first rays, and of those that look. Of the strip's own the
+// strip counts for nothing below the first value, for all above the second. Less strict ones made woods brighter.
 GN_CONST real kEdgeFrom = real(0.3);
-GN_CONST real kStripFrom = real(0.3);
-GN_CONST real kStripTo = real(0.6);
+GN_CONST real kLookFrom = real(0.8);
+GN_CONST real kStripFrom = real(0.5);
+GN_CONST real kStripTo = real(0.8);
 // No edge in a strip is narrowed further, texels.
 GN_CONST real kNarrowestInStrip = real(0.6);
 
@@ -324,7 +325,7 @@ GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real neare
     real apart = real(0.5) * kStripWide * (real(1.0) - found.lit);
     real straight = dot(found.to_lit, way) / max(apart, real(0.01));
     real share = clamp((straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
-    share = look.straight > kStraightFrom ? share : real(0.0);
+    share = look.straight > kLookFrom ? share : real(0.0);
     real across = penumbraAcross(point, found, widest, nearest);
     return mix(seen, narrowed(found, across, kStripWide, kNarrowestInStrip), share);
 }

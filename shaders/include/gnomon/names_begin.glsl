@@ -157,6 +157,7 @@
 #define kLeastShare gnomon_kLeastShare
 #define kLightsPerLayer gnomon_kLightsPerLayer
 #define kLongestFootprint gnomon_kLongestFootprint
+#define kLookFrom gnomon_kLookFrom
 #define kLooksWithin gnomon_kLooksWithin
 #define kMomentArithmetic gnomon_kMomentArithmetic
 #define kMomentDerivatives gnomon_kMomentDerivatives

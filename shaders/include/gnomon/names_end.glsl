@@ -157,6 +157,7 @@
 #undef kLeastShare
 #undef kLightsPerLayer
 #undef kLongestFootprint
+#undef kLookFrom
 #undef kLooksWithin
 #undef kMomentArithmetic
 #undef kMomentDerivatives
