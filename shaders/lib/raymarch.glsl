@@ -56,7 +56,7 @@ GN_CONST real kStripLong = real(5.0);
 // Less than these of RaysFound::straight is no edge: of the first rays, and of those that look. Of the strip's own the
 // strip counts for nothing below the first value, for all above the second. Less strict ones made woods brighter.
 GN_CONST real kEdgeFrom = real(0.3);
-GN_CONST real kLookFrom = real(0.8);
+GN_CONST real kLookFrom = real(0.9);
 GN_CONST real kStripFrom = real(0.5);
 GN_CONST real kStripTo = real(0.8);
 // No edge in a strip is narrowed further, texels.
