@@ -83,7 +83,7 @@ private:
 class Watcher {
 public:
     Watcher(Gpu& gpu, const scene::Scene& scene, ShadowOptions shadow, Translucent translucent)
-        : scene_(scene), state_(scene::evaluate(scene, 0.0)), uploaded_(gpu, scene, state_),
+        : state_(scene::evaluate(scene, 0.0)), uploaded_(gpu, scene, state_),
           renderer_(uploaded_, optionsOf(shadow, translucent)), copied_(gpu), lights_(lightsOf(scene, state_))
     {
     }
@@ -109,7 +109,6 @@ private:
         return options;
     }
 
-    const scene::Scene& scene_;
     scene::State state_;
     SceneOnGpu uploaded_;
     FrameRenderer renderer_;
