@@ -76,9 +76,6 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     }
     describeFrame();
     writeFrameData(state, lights);
-    if (ForwardShadows* const forward = forwardShadows()) {
-        forward->describe(slot, frame, *plan, shadows->renderer);
-    }
     record(present);
     now().commands->submit();
     if (deform_now) {
@@ -253,12 +250,6 @@ void FrameRenderer::Impl::writeInstead(const std::vector<ImageF>& masks)
             }
         }
     }
-}
-
-ForwardShadows* FrameRenderer::Impl::forwardShadows()
-{
-    const bool wanted = plan != nullptr && !plan->views.empty() && draws.anyBlended();
-    return wanted ? &*shadows->forward : nullptr;
 }
 
 void FrameRenderer::Impl::describeFrame()

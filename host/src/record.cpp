@@ -84,8 +84,6 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     depth.clearValue.depthStencil.depth = 0.0F;
     beginRendering(cmd, targets.drawn, colours, &depth);
     setViewport(cmd, targets.drawn);
-    // llvmpipe 22.3 crashes on a descriptor set before the first graphics pipeline, and nothing opaque may be in sight.
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
     profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, frame_set));
     vkCmdEndRendering(cmd);
     for (const Image& image : targets.gbuffer) {
@@ -115,9 +113,6 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
         &profiler);
     if (!frame_lights.empty()) {
         renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
-    }
-    if (ForwardShadows* const forward = forwardShadows()) {
-        forward->recordViews(cmd, slot, *plan, renderer);
     }
 }
 
@@ -153,24 +148,11 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,
                             nullptr);
     draws.bindStreams(cmd);
-    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + recordBlended(cmd));
+    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
     vkCmdEndRendering(cmd);
     barrier(cmd, targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
     profiler.endPass(cmd);
     memory.names().end(cmd);
-}
-
-std::uint32_t FrameRenderer::Impl::recordBlended(VkCommandBuffer cmd)
-{
-    if (!draws.anyBlended()) {
-        return 0;
-    }
-    if (const ForwardShadows* const forward = forwardShadows()) {
-        forward->bind(cmd, slot);
-    } else {
-        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.blended);
-    }
-    return draws.recordBlended(cmd, scene.pipelines);
 }
 
 void FrameRenderer::Impl::recordBloom(VkCommandBuffer cmd)
