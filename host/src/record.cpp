@@ -84,6 +84,8 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     depth.clearValue.depthStencil.depth = 0.0F;
     beginRendering(cmd, targets.drawn, colours, &depth);
     setViewport(cmd, targets.drawn);
+    // llvmpipe 22.3 crashes on a descriptor set before the first graphics pipeline, and nothing opaque may be in sight.
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
     profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, frame_set));
     vkCmdEndRendering(cmd);
     for (const Image& image : targets.gbuffer) {

@@ -48,6 +48,21 @@ std::vector<Sides> sidesOf(Gpu& gpu, const scene::Scene& scene, const ShadowOpti
 
 constexpr float kStep = 1.5F / 255.0F; // of a mask of 8 bits, with what 16 bits of a tint round away
 
+TEST(BlendedCaster, MayBeAllThatThereIs)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    scene::Scene scene = panes({Pane{2.0F}});
+    scene.nodes.erase(scene.nodes.begin()); // the ground
+    scene::finishScene(scene);
+    for (const ShadowOptions& shadow : plainWithAll()) {
+        for (const Sides& sides : sidesOf(gpu, scene, shadow)) {
+            EXPECT_EQ(sides.free, 1.0F); // of the background
+            EXPECT_EQ(sides.under, 1.0F);
+        }
+    }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
 TEST(BlendedCaster, TintsTheMaskOfEveryFilterAndPartition)
 {
     Gpu gpu({.gpu = "software", .validate = true});
