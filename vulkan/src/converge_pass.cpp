@@ -189,17 +189,18 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
     const bool whole = (*plan.options)[planned.options].integratesLight();
     const float power = shared::confidencePower(static_cast<float>(stood(frame, plan)),
                                                 whole ? shared::kMostOfWholeLight : shared::kMostOfPoint);
+    const float most = move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
+    const auto pad = static_cast<float>(padOf(plan, planned, to_light));
+    const glm::vec4 place = parallel ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
+                                     : glm::vec4(glm::vec3(to_light), 1.0F);
     for (int channel = 0; channel < 4; ++channel) {
-        if ((maskChannelsOf(planned) >> channel & 1U) == 0) {
-            continue;
+        if ((maskChannelsOf(planned) >> channel & 1U) != 0) {
+            out.most[channel] = most;
+            out.place[channel] = place;
+            out.size[channel] = static_cast<float>(size);
+            out.pad[channel] = pad;
+            out.power[channel] = power;
         }
-        out.most[channel] =
-            move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
-        out.place[channel] = parallel ? glm::vec4(glm::vec3(-glm::normalize(light.direction_ws)), 0.0F)
-                                      : glm::vec4(glm::vec3(to_light), 1.0F);
-        out.size[channel] = static_cast<float>(size);
-        out.pad[channel] = static_cast<float>(padOf(plan, planned, to_light));
-        out.power[channel] = power;
     }
 }
 
