@@ -47,18 +47,17 @@ GN_CONST real kWideTo = real(6.0);
 // No edge is narrowed further, texels: the map does not say where it is within less.
 GN_CONST real kNarrowest = real(0.8);
 
-// Where rays say that there is an edge, more of them look which way it runs, in a square of so many texels; and more
-// find its place in a strip along it, so wide and so long. Over such a length the steps of its texels are one line.
+// Where the first rays say that there is an edge, so many more find its place in a strip along it, so wide and so long.
+// Over such a length the steps of its texels are one line. Penumbrae that have a strip are narrow, so these rays are
+// short, and stay far below kPixelSteps.
 GN_CONST int kRaysAlong = 25;
-GN_CONST real kLooksWithin = real(3.0);
-GN_CONST real kStripWide = real(1.0);
+GN_CONST real kStripWide = real(1.5);
 GN_CONST real kStripLong = real(5.0);
-// Less than these of RaysFound::straight is no edge: of the first rays, and of those that look. Of the strip's own the
-// strip counts for nothing below the first value, for all above the second. Less strict ones made woods brighter.
-GN_CONST real kEdgeFrom = real(0.3);
-GN_CONST real kLookFrom = real(0.9);
-GN_CONST real kStripFrom = real(0.5);
-GN_CONST real kStripTo = real(0.8);
+// Less than the first of RaysFound::straight is no edge. Of the strip's own, the strip counts for nothing below the
+// second, for all above the third. Less strict ones made woods brighter.
+GN_CONST real kEdgeFrom = real(0.8);
+GN_CONST real kStripFrom = real(0.6);
+GN_CONST real kStripTo = real(0.9);
 // No edge in a strip is narrowed further, texels.
 GN_CONST real kNarrowestInStrip = real(0.6);
 
@@ -311,21 +310,19 @@ GN_FN real penumbraAcross(MapPoint point, RaysFound found, real widest, real nea
     return widest * found.fall / max(point.depth - nearest, real(1e-9));
 }
 
-// A second opinion on an edge, `seen` being what its texels alone say: by a strip of the map along it.
-GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real nearest, real widest, real seen)
+// A second opinion on an edge, `seen` being what the first rays say: by a strip of the map along it.
+GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real nearest, real widest, RaysFound first,
+                         real seen)
 {
-    RaysFound look = traceRays(point, f, cone, nearest, kRaysAlong, true, startSquare(kLooksWithin));
-    real2 way = look.to_lit / max(length(look.to_lit), real(1e-6));
     RayStarts strip;
-    strip.way = way;
+    strip.way = first.to_lit / max(length(first.to_lit), real(1e-6));
     strip.across = kStripWide;
     strip.along = kStripLong;
     RaysFound found = traceRays(point, f, cone, nearest, kRaysAlong, true, strip);
     // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
     real apart = real(0.5) * kStripWide * (real(1.0) - found.lit);
-    real straight = dot(found.to_lit, way) / max(apart, real(0.01));
-    real share = clamp((straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
-    share = look.straight > kLookFrom ? share : real(0.0);
+    found.straight = dot(found.to_lit, strip.way) / max(apart, real(0.01));
+    real share = clamp((found.straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
     real across = penumbraAcross(point, found, widest, nearest);
     return mix(seen, narrowed(found, across, kStripWide, kNarrowestInStrip), share);
 }
@@ -349,7 +346,7 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     // Frames at rest find the edge's place together.
     bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && found.straight > kEdgeFrom;
     if (is_edge && widest < kWideTo && f.stood == 0) {
-        seen = seenAlongEdge(point, f, cone, around.nearest, widest, seen);
+        seen = seenAlongEdge(point, f, cone, around.nearest, widest, found, seen);
     }
     return seen;
 }

@@ -157,8 +157,6 @@
 #define kLeastShare gnomon_kLeastShare
 #define kLightsPerLayer gnomon_kLightsPerLayer
 #define kLongestFootprint gnomon_kLongestFootprint
-#define kLookFrom gnomon_kLookFrom
-#define kLooksWithin gnomon_kLooksWithin
 #define kMomentArithmetic gnomon_kMomentArithmetic
 #define kMomentDerivatives gnomon_kMomentDerivatives
 #define kMomentFourChannels gnomon_kMomentFourChannels

@@ -157,8 +157,6 @@
 #undef kLeastShare
 #undef kLightsPerLayer
 #undef kLongestFootprint
-#undef kLookFrom
-#undef kLooksWithin
 #undef kMomentArithmetic
 #undef kMomentDerivatives
 #undef kMomentFourChannels
