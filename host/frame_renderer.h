@@ -105,7 +105,8 @@ public:
 
     /// Draws one frame of `state` (same scene, any time; only its dynamic objects may differ), and `present` it if that
     /// is given. Waits for the frame that is RenderOptions::frames_in_flight older, and for no other. Blended surfaces
-    /// are lit without shadow, cast none and are not in the masks. Throws Error, for more than kMaxLights lights too.
+    /// are not in the masks: they are in the shadow of the maps, and with `masks_instead` in none. Throws Error, for
+    /// more than kMaxLights lights too.
     /// Allocates nothing once warm, unless the plan outgrows the maps or the number of lights changes. `masks_instead`:
     /// use these visibility masks (one per light, as Picture::masks) instead of the library's, e.g. the ray tracer's.
     void submit(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights,

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces that are not in the G-buffer: blended ones, lit here; and what emits, added to what is shaded already.
+// The mask knows nothing of blended surfaces. With GNOMON_FILTER they ask the maps themselves, as the mask did.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#ifdef GNOMON_FILTER
+#define GNOMON_SET 2
+#include "gnomon/smooth_surface.glsl"
+#include "gnomon/visibility.glsl"
+#endif
 #include "frame.glsl"
 #include "lighting.glsl"
 #include "material.glsl"
@@ -13,8 +19,19 @@ layout(location = 0) in vec4 normal;
 layout(location = 1) in vec4 uvs;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uvec2 ids;
+layout(location = 4) flat in uvec2 ids; // y: 0 where it receives no shadow
 layout(location = 0) out vec4 out_light;
+
+float seenBy(uint light, vec3 p, Surface surface)
+{
+#ifdef GNOMON_FILTER
+    if (ids.y != 0u) {
+        vec4 smooth_surface = gnomonSmoothSurface(p, surface.geometric_normal, normal);
+        return gnomonLightVisibility(light, p, surface.geometric_normal, smooth_surface, gl_FragCoord.xy);
+    }
+#endif
+    return 1.0;
+}
 
 void main()
 {
@@ -37,7 +54,7 @@ void main()
         vec3 l;
         vec3 e = arriving(frame.lights[i], p, cookies, l);
         float n_l = max(dot(s.n, l), 0.0);
-        sum += reflectance(s, l, n_l) * e * n_l;
+        sum += reflectance(s, l, n_l) * e * (n_l * seenBy(i, p, surface));
     }
     out_light = vec4(sum * base.a, base.a); // premultiplied
 }

@@ -76,6 +76,9 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     }
     describeFrame();
     writeFrameData(state, lights);
+    if (ForwardShadows* const forward = forwardShadows()) {
+        forward->describe(slot, frame, *plan, shadows->renderer);
+    }
     record(present);
     now().commands->submit();
     if (deform_now) {
@@ -250,6 +253,12 @@ void FrameRenderer::Impl::writeInstead(const std::vector<ImageF>& masks)
             }
         }
     }
+}
+
+ForwardShadows* FrameRenderer::Impl::forwardShadows()
+{
+    const bool wanted = plan != nullptr && !plan->views.empty() && draws.anyBlended();
+    return wanted ? &*shadows->forward : nullptr;
 }
 
 void FrameRenderer::Impl::describeFrame()

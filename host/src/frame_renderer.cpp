@@ -21,7 +21,7 @@ std::uint32_t slotsOf(const RenderOptions& options)
     return options.frames_in_flight;
 }
 
-std::shared_ptr<Shadows> makeShadows(const SceneData& scene, const RenderOptions& options)
+std::shared_ptr<Shadows> makeShadows(SceneData& scene, const RenderOptions& options)
 {
     return options.shadows ? std::make_shared<Shadows>(scene, options) : nullptr;
 }
@@ -175,6 +175,9 @@ std::vector<vulkan::MemoryUse> FrameRenderer::memory() const
     if (self.shadows) {
         add(self.shadows->renderer.memory());
         add(self.shadows->casters.memory());
+        if (self.shadows->forward) {
+            add(self.shadows->forward->memory());
+        }
     }
     std::erase_if(uses, [](const vulkan::MemoryUse& use) { return use.bytes == 0; });
     return uses;

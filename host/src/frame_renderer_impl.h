@@ -85,11 +85,14 @@ struct FrameRenderer::Impl {
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);
     void writeInstead(const std::vector<ImageF>& masks);
     void describeFrame();
+    /// Where this frame's blended surfaces have their shadows from; null: it draws none, or there are no maps.
+    [[nodiscard]] ForwardShadows* forwardShadows();
     void record(Present* present);
     void recordGBuffer(VkCommandBuffer cmd);
     void recordShadows(VkCommandBuffer cmd);
     void recordInstead(VkCommandBuffer cmd);
     void recordLight(VkCommandBuffer cmd);
+    std::uint32_t recordBlended(VkCommandBuffer cmd);
     void recordBloom(VkCommandBuffer cmd);
     void recordPicture(VkCommandBuffer cmd);
     void screenPass(VkCommandBuffer cmd, const char* name, VkPipeline pipeline, const Image& target);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <string>
 
 namespace gnomon::host {
 namespace {
@@ -95,6 +96,7 @@ struct Pipelines::Wish {
     bool depth = false;
     bool depth_write = false;
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
+    VkPipelineLayout layout = VK_NULL_HANDLE; // null: that of the scene or of the screen
 };
 
 Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials) : gpu_(gpu), names_(names)
@@ -127,6 +129,24 @@ void Pipelines::makeLayouts(VkDescriptorSetLayout material)
     screen_layout = makeLayout(std::span(sets).first(1));
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout.get(), "scene");
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout.get(), "screen");
+}
+
+void Pipelines::makeShadowedLayout(VkDescriptorSetLayout material)
+{
+    std::array<VkDescriptorSetLayoutBinding, kMapsBindings.size()> bindings{};
+    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {i, kMapsBindings[i], 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = bindings.size();
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout maps = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(gpu_.view().device, &info, nullptr, &maps), "making a descriptor set layout");
+    maps_layout = {gpu_, maps};
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, maps, "maps");
+    const std::array<VkDescriptorSetLayout, 3> sets{frame_layout.get(), material, maps};
+    shadowed_layout = makeLayout(sets);
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shadowed_layout.get(), "shadowed");
 }
 
 OwnedPipelineLayout Pipelines::makeLayout(std::span<const VkDescriptorSetLayout> sets) const
@@ -188,7 +208,7 @@ VkPipeline Pipelines::make(const Wish& wish)
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &fixed.blend;
     info.pDynamicState = &fixed.dynamic;
-    info.layout = (wish.scene ? scene_layout : screen_layout).get();
+    info.layout = wish.layout != VK_NULL_HANDLE ? wish.layout : (wish.scene ? scene_layout : screen_layout).get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateGraphicsPipelines(gpu_.view().device, gpu_.pipelineCache(), 1, &info, nullptr, &pipeline),
           "compiling shaders");
@@ -220,20 +240,44 @@ void Pipelines::makeScene(const Materials& materials)
             gbuffer_[i] = make(wish);
         }
     }
-    wish.fragment = "forward.frag";
-    wish.colours = {&kLightFormat, 1};
-    wish.depth_write = false;
-    wish.blend = true;
+    wish = blendedWish();
     if (any([](const MaterialFacts& m) { return m.blended; })) {
-        wish.name = "blended";
-        wish.constants = {VK_TRUE, VK_FALSE, VK_TRUE, VK_FALSE};
         blended = make(wish);
+        makeShadowedLayout(materials.layout());
     }
     if (any([](const MaterialFacts& m) { return m.emits && !m.blended; })) {
         wish.name = "emissive";
         wish.constants = {VK_FALSE, VK_FALSE, VK_FALSE, VK_TRUE};
         emissive = make(wish);
     }
+}
+
+Pipelines::Wish Pipelines::blendedWish()
+{
+    Wish wish;
+    wish.name = "blended";
+    wish.vertex = "scene.vert";
+    wish.fragment = "forward.frag";
+    wish.constants = {VK_TRUE, VK_FALSE, VK_TRUE, VK_FALSE};
+    wish.colours = {&kLightFormat, 1};
+    wish.scene = true;
+    wish.blend = true;
+    wish.depth = true;
+    wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    return wish;
+}
+
+VkPipeline Pipelines::shadowedFor(Filter filter)
+{
+    const auto found = std::ranges::find(shadowed_, filter, &std::pair<Filter, VkPipeline>::first);
+    if (found != shadowed_.end()) {
+        return found->second;
+    }
+    const std::string fragment = "forward_" + std::string(nameOf(filter)) + ".frag";
+    Wish wish = blendedWish();
+    wish.fragment = fragment;
+    wish.layout = shadowed_layout.get();
+    return shadowed_.emplace_back(filter, make(wish)).second;
 }
 
 void Pipelines::makeSky()

@@ -20,6 +20,12 @@ inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNOR
                                                          VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
                                                          VK_FORMAT_R16G16B16A16_SNORM};
 
+/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks.
+inline constexpr std::array<VkDescriptorType, 6> kMapsBindings{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
 /// Instance-rate vertex data of host/shaders/scene.vert.
 struct InstanceData {
     glm::vec4 row_x; // eye-relative from object
@@ -48,25 +54,32 @@ public:
     Pipelines& operator=(const Pipelines&) = delete;
 
     [[nodiscard]] VkPipeline gbuffer(SurfaceKind kind) const { return gbuffer_[static_cast<std::size_t>(kind)]; }
-    VkPipeline blended = VK_NULL_HANDLE;  // null when the scene has no such surface
+    VkPipeline blended = VK_NULL_HANDLE;  // lit without shadow; null when the scene has no such surface
     VkPipeline emissive = VK_NULL_HANDLE; // likewise
     VkPipeline sky = VK_NULL_HANDLE;
 
     // Compiled when first asked for, which is not to be while a frame is recorded.
     /// The shading pass made for this many lights. Phong and unlit surfaces are left out where the scene has none.
     [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional);
+    /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
+    [[nodiscard]] VkPipeline shadowedFor(Filter filter);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
     OwnedSetLayout frame_layout;
     OwnedPipelineLayout scene_layout;  // set 0 frame, set 1 material
     OwnedPipelineLayout screen_layout; // set 0 frame
+    // Null when the scene has no blended surface.
+    OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
+    OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);
+    void makeShadowedLayout(VkDescriptorSetLayout material);
     [[nodiscard]] OwnedPipelineLayout makeLayout(std::span<const VkDescriptorSetLayout> sets) const;
     [[nodiscard]] OwnedShader module(std::string_view name) const;
     struct Wish;
+    [[nodiscard]] static Wish blendedWish();
     VkPipeline make(const Wish& wish);
     void makeScene(const Materials& materials);
     void makeSky();
@@ -75,6 +88,7 @@ private:
     const DebugNames& names_;
     std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
     std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
+    std::vector<std::pair<Filter, VkPipeline>> shadowed_;
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;

@@ -116,6 +116,9 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     if (!frame_lights.empty()) {
         renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
     }
+    if (ForwardShadows* const forward = forwardShadows()) {
+        forward->recordViews(cmd, slot, *plan, renderer);
+    }
 }
 
 void FrameRenderer::Impl::recordInstead(VkCommandBuffer cmd)
@@ -150,11 +153,24 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,
                             nullptr);
     draws.bindStreams(cmd);
-    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + draws.recordBlended(cmd, pipelines));
+    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + recordBlended(cmd));
     vkCmdEndRendering(cmd);
     barrier(cmd, targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
     profiler.endPass(cmd);
     memory.names().end(cmd);
+}
+
+std::uint32_t FrameRenderer::Impl::recordBlended(VkCommandBuffer cmd)
+{
+    if (!draws.anyBlended()) {
+        return 0;
+    }
+    if (const ForwardShadows* const forward = forwardShadows()) {
+        forward->bind(cmd, slot);
+    } else {
+        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.blended);
+    }
+    return draws.recordBlended(cmd, scene.pipelines);
 }
 
 void FrameRenderer::Impl::recordBloom(VkCommandBuffer cmd)

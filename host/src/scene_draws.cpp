@@ -171,9 +171,6 @@ std::uint32_t SceneDraws::recordEmissive(VkCommandBuffer commands, const Pipelin
 
 std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipelines& pipelines) const
 {
-    if (!blended_.empty()) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.blended);
-    }
     for (const Blended& one : blended_) {
         const vulkan::DrawPart& part = table_.parts[table_.objects[one.object].first_part];
         const Batch& batch = table_.batches[part.batch];

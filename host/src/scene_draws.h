@@ -26,10 +26,11 @@ public:
                std::span<const std::uint32_t> visible);
 
     /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set and the vertex streams
-    /// itself; before the others they are bound.
+    /// itself; before the others they are bound, and before recordBlended the pipeline is.
     std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, VkDescriptorSet frame_set) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
     std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    [[nodiscard]] bool anyBlended() const { return !blended_.empty(); } // in what was built last
     void bindStreams(VkCommandBuffer commands) const;
 
     [[nodiscard]] std::span<const vulkan::Rows3x4> transforms() const { return transforms_; }

@@ -36,11 +36,14 @@ bool isFitted(const View& view)
 
 } // namespace
 
-Shadows::Shadows(const SceneData& scene, const RenderOptions& options)
+Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     : planner(resolvedOrThrow(options.shadow).asked()), renderer(scene.gpu.view(), rendererOptions(scene, options)),
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);
+    if (scene.pipelines.blended != VK_NULL_HANDLE) {
+        forward.emplace(scene, resolvedOrThrow(options.shadow), options.frames_in_flight);
+    }
 }
 
 const Plan& Shadows::planAgain()

@@ -2,6 +2,7 @@
 // The library, set up for one technique.
 #pragma once
 
+#include "forward_shadows.h"
 #include "scene_data.h"
 
 #include "host/frame_renderer.h"
@@ -13,7 +14,7 @@ namespace gnomon::host {
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
 struct Shadows {
     /// Throws Error.
-    Shadows(const SceneData& scene, const RenderOptions& options);
+    Shadows(SceneData& scene, const RenderOptions& options);
 
     /// The last plan once more, nothing of which is to be drawn.
     [[nodiscard]] const Plan& planAgain();
@@ -23,7 +24,8 @@ struct Shadows {
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;
-    const Plan* plan = nullptr; // the last one
+    std::optional<ForwardShadows> forward; // of scenes with blended surfaces
+    const Plan* plan = nullptr;            // the last one
 
 private:
     Plan kept_;

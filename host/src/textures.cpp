@@ -83,6 +83,12 @@ VkSampler Textures::makeSampler(VkSamplerAddressMode u, VkSamplerAddressMode v, 
     return made.get();
 }
 
+VkSampler Textures::mipSampler(bool linear)
+{
+    constexpr VkSamplerAddressMode kClamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    return makeSampler(kClamp, kClamp, linear, linear, true);
+}
+
 VkSampler Textures::sampler(const scene::Texture& texture)
 {
     return makeSampler(address(texture.wrap_u), address(texture.wrap_v), texture.magnify_linear, texture.minify_linear,

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] int cookieLayer(std::uint32_t image) const;
     [[nodiscard]] VkSampler plainSampler() const { return plain_; }     // linear, clamped, no mips
     [[nodiscard]] VkSampler nearestSampler() const { return nearest_; } // for texels as they are
+    /// Clamped, of all mip levels: linear within and between them, or nearest.
+    [[nodiscard]] VkSampler mipSampler(bool linear);
 
 private:
     VkSampler sampler(const scene::Texture& texture);

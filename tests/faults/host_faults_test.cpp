@@ -33,6 +33,8 @@ RenderOptions tinyOptions(Filter filter, MapFormat format)
     options.bloom.on = true;
     options.shadow.map_size = 32;
     options.shadow.technique.filter = filter;
+    options.shadow.technique.fit =
+        Fit::uniform; // what auto came to in the frames before is not what a new renderer finds
     options.shadow.format = format;
     return options;
 }

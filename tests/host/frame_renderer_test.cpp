@@ -54,6 +54,15 @@ void expectSame(const Picture& a, const Picture& b)
     }
 }
 
+/// With the pane in the shadow of the box that moves.
+scene::Scene sceneWithShadedGlass()
+{
+    scene::Scene scene = smallScene();
+    scene.nodes[kGlassNode].transform.translation = {-2.5F, 1.0F, -0.6F};
+    scene::finishScene(scene);
+    return scene;
+}
+
 class FrameRenderers : public testing::Test {
 protected:
     void TearDown() override { EXPECT_EQ(gpu_.messages(), std::vector<std::string>{}); }
@@ -76,7 +85,7 @@ protected:
         return pictures;
     }
 
-    scene::Scene scene_ = smallScene();
+    scene::Scene scene_ = sceneWithShadedGlass();
     Gpu gpu_{{.gpu = "software", .validate = true}};
 };
 
@@ -113,7 +122,8 @@ TEST_F(FrameRenderers, ChangeTheirTechniqueWithFramesInFlight)
     std::vector<RenderOptions> techniques{optionsOf(Filter::pcf, MapFormat::d32f, Partition::single),
                                           optionsOf(Filter::hard, MapFormat::d16, Partition::cascades),
                                           optionsOf(Filter::vsm, MapFormat::rg32f, Partition::single),
-                                          optionsOf(Filter::pcf, MapFormat::r32f, Partition::sdsm)};
+                                          optionsOf(Filter::pcf, MapFormat::r32f, Partition::sdsm),
+                                          optionsOf(Filter::raymarch, MapFormat::d32f, Partition::cascades)};
     techniques.push_back(techniques.front());
     techniques.back().shadows = false;
     constexpr std::size_t kFrames = 2; // of each, so that both slots have it before the next one comes

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadows on blended surfaces, by door 2 of docs/integrating.md. The mask has one surface a pixel, so it cannot know
+// what is blended over that. These surfaces read the frame's maps in the pass that lights them.
+#pragma once
+
+#include "scene_data.h"
+
+#include <vector>
+
+namespace gnomon::host {
+
+/// What that pass binds: for each slot a set, and the buffers in it.
+class ForwardShadows {
+public:
+    /// For lights of these options. Makes the pipeline. Precondition: the scene has blended surfaces. Throws Error.
+    ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots);
+    ~ForwardShadows() = default;
+    ForwardShadows(const ForwardShadows&) = delete;
+    ForwardShadows& operator=(const ForwardShadows&) = delete;
+
+    /// For the frame that is recorded next, after ShadowRenderer::prepare(). The GPU has finished the slot's last
+    /// frame. Precondition: the plan has views. Throws Error.
+    void describe(std::uint32_t slot, const Frame& frame, const Plan& plan, const vulkan::ShadowRenderer& renderer);
+    /// Outside of rendering, after ShadowRenderer::recordBounds().
+    void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
+                     vulkan::ShadowRenderer& renderer) const;
+    /// Inside rendering: the pipeline and set 2. Sets 0 and 1 are the scene's.
+    void bind(VkCommandBuffer commands, std::uint32_t slot) const;
+    [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
+
+private:
+    struct Slot {
+        Buffer constants;
+        Buffer lights;
+        Buffer views;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+    };
+    void makeSets();
+    void writeSet(const Slot& slot, const vulkan::ShadowRenderer& renderer) const;
+
+    const Gpu& gpu_;
+    const Pipelines& pipelines_;
+    Memory memory_;
+    VkPipeline pipeline_;
+    VkSampler map_sampler_;
+    VkSampler block_sampler_;
+    OwnedDescriptorPool pool_;
+    std::vector<Slot> slots_;
+};
+
+} // namespace gnomon::host
