@@ -43,7 +43,7 @@ constexpr std::array kValues{
     ChoiceValue{kLight, "directional", number(LightType::directional), true, "a sun: parallel rays", kMarinescu},
     ChoiceValue{kLight, "spot", number(LightType::spot), true, "a cone of at most 120 degrees, with a cookie texture",
                 kShastry},
-    ChoiceValue{kLight, "point", number(LightType::point), false, "shines all around", kForsyth},
+    ChoiceValue{kLight, "point", number(LightType::point), true, "shines all around", kForsyth},
 
     ChoiceValue{kPartition, "single", number(Partition::single), true, "one frustum for all receivers of a light",
                 kMarinescu},
@@ -52,11 +52,11 @@ constexpr std::array kValues{
                 "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
     ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), true, "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
-    ChoiceValue{kPartition, "cube", number(Partition::cube), false, "six faces around a point light", kForsyth},
+    ChoiceValue{kPartition, "cube", number(Partition::cube), true, "six faces around a point light", kForsyth},
     ChoiceValue{kPartition, "multi", number(Partition::multi), false, "frustums grown around groups of receivers",
                 kForsyth},
     ChoiceValue{kPartition, "auto", number(Partition::automatic), true,
-                "single or cascades, whichever is predicted to err less", kDense},
+                "single or cascades, whichever is predicted to err less; cube of a point light", kDense},
 
     ChoiceValue{kFit, "uniform", number(Fit::uniform), true, "the light-space box of what matters", kMarinescu},
     ChoiceValue{kFit, "lispsm", number(Fit::lispsm), true, "perspective perpendicular to the light",
@@ -177,7 +177,20 @@ constexpr std::string_view formatReason(Filter filter)
     }
 }
 
+bool goesAround(Partition partition)
+{
+    return partition == Partition::cube || partition == Partition::automatic;
+}
+
 constexpr std::array kRules{
+    ChoiceRule{[](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
+               "light point with every partition but cube and auto",
+               "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
+    ChoiceRule{[](LightType light, const Technique& t) {
+                   return light != LightType::point && t.partition == Partition::cube;
+               },
+               "partition cube with every light but point",
+               "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
     ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "

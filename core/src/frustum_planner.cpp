@@ -82,7 +82,7 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     lit_.reserve(sight.points().size());
     lightPoints(lie.space, sight.points(), input.slice.depth, lit_);
     places_.clear();
-    if (input.recipe.takesDepth()) {
+    if (input.recipe.takesDepth(input.light.type)) {
         for (const LitPoint& point : lit_) {
             places_.push_back(point.q);
         }
@@ -131,6 +131,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     }
 
     view.slice = input.slice.depth;
+    view.sector = input.slice.sector;
     view.parallel = !space.perspective;
     view.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.

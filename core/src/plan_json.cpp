@@ -218,6 +218,13 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     json.value("blend_m", view.slice.blend_m);
     json.vector("axis", view.slice.axis, 4);
     json.closeLine('}');
+    if (view.sector.bounded()) {
+        json.openLine("sector", '{');
+        json.vector("x", view.sector.x, 4);
+        json.vector("y", view.sector.y, 4);
+        json.vector("w", view.sector.w, 4);
+        json.closeLine('}');
+    }
     if (view.gpu_cascade != kNoIndex) {
         json.value("gpu_cascade", view.gpu_cascade);
     }

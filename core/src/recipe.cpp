@@ -80,6 +80,7 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
     wish.options = index;
     wish.side = light.map_size == 0 ? largest : std::clamp(light.map_size, kSmallestMap, largest);
     wish.count = mapsOf(divided);
+    wish.stacked = divided.maps == 0; // cascades may be drawn by one pass
     if (choosesPartition() || !options.map_size) {
         wish.side = sideOfShared(wish.side, wish.count);
     }
@@ -97,7 +98,10 @@ MapWish Recipe::wishOf(const Light& light, std::uint32_t index, const PartitionT
 
 std::uint32_t Recipe::mapsOf(const PartitionTraits& divided) const
 {
-    return divided.cascades && !takesDepth() ? options.cascades.count : 1;
+    if (divided.maps != 0) {
+        return divided.maps;
+    }
+    return divided.fits_on_gpu && choosesPartition() ? 1 : options.cascades.count; // one, as takesDepth() has it
 }
 
 bool Recipe::levelsDepth() const

@@ -50,8 +50,12 @@ struct Recipe {
     [[nodiscard]] bool searchesWarp() const { return options.technique.fit == Fit::automatic && !steady(); }
     /// It also finds out how a light is divided (partition auto).
     [[nodiscard]] bool choosesPartition() const { return options.technique.partition == Partition::automatic; }
-    /// One map around what the camera's depth shows, found on the GPU: what best quality spends on it.
-    [[nodiscard]] bool takesDepth() const { return choosesPartition() && resolved.fitsOnGpu(); }
+    /// One map around what the camera's depth shows, found on the GPU: what best quality spends on it. Not of a light
+    /// that shines all around, whose faces no one rectangle holds.
+    [[nodiscard]] bool takesDepth(LightType type) const
+    {
+        return choosesPartition() && resolved.fitsOnGpu() && type != LightType::point;
+    }
     /// It also finds out how many texels are of use (map-size auto).
     [[nodiscard]] bool sizesMap() const { return !options.map_size && !steady(); }
     [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition() || sizesMap(); }

@@ -88,6 +88,13 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     if (const double end_m = optionsOf(plan, view).fadeEnd_m(); end_m > 0.0) {
         addDepth(end_m, -1.0);
     }
+    if (view.sector.bounded()) {
+        for (const glm::dvec4& side : {view.sector.x, -view.sector.x, view.sector.y, -view.sector.y}) {
+            const glm::dvec4 row = (view.sector.w + side) / glm::length(glm::dvec3(view.sector.w + side));
+            planes.push_back({glm::dvec3(row), row.w});
+        }
+        return planes;
+    }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
     const double tangent = std::tan(frame.lights[view.light].outer_half_angle_rad);
     for (int i = 0; plane.perspective && i < kSides; ++i) {

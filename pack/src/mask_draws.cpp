@@ -194,8 +194,9 @@ std::uint32_t fewViews(const ResolvedOptions& options)
 {
     const Technique& technique = options.technique();
     const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
-    const bool divided = technique.partition != Partition::single;
-    return steps ? 0 : divided && options.cascades().count > 1 ? shared::kFewViews : 1;
+    const bool around = technique.partition == Partition::cube || technique.partition == Partition::automatic;
+    const bool divided = technique.partition != Partition::single && options.cascades().count > 1;
+    return steps ? 0 : around || divided ? shared::kFewViews : 1;
 }
 
 void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out)

@@ -50,6 +50,9 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
     gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
                            slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
+    gpu.sector_x = view.sector.x * world_from_eye;
+    gpu.sector_y = view.sector.y * world_from_eye;
+    gpu.sector_w = view.sector.w * world_from_eye;
     gpu.more.z = static_cast<float>(view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m);
     return gpu;
 }

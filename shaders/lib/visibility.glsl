@@ -128,11 +128,18 @@ GN_FN bool inSlice(GpuView view, real depth)
     return !(depth < real(view.slice.x) || depth > real(view.slice.y));
 }
 
+// Does this view, of several side by side, serve this point?
+GN_FN bool inSector(GpuView view, real3 p)
+{
+    real w = dotRow(real4(view.sector_w), p);
+    return abs(dotRow(real4(view.sector_x), p)) <= w && abs(dotRow(real4(view.sector_y), p)) <= w;
+}
+
 // Does this view serve a point at this depth of the camera, and is the point in the
 // map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p, real depth)
 {
-    if (!inSlice(view, depth)) {
+    if (!inSlice(view, depth) || !inSector(view, p)) {
         return false;
     }
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY

@@ -42,6 +42,9 @@ struct GpuView {
     // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: only while the GPU
     // has yet to fit the view (cascade_constants.comp): one past its number in the plan
     GN_VEC4 slice;
+    GN_VEC4 sector_x; // rows that take an eye-relative point to its place among views side by side: ViewSector
+    GN_VEC4 sector_y;
+    GN_VEC4 sector_w;
 };
 
 // The layers of depth of one view's lvsm map, ascending; beyond the last, begins is 2. In the view's depth metric.
@@ -96,7 +99,7 @@ struct GpuConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 192 && sizeof(GpuLight) == 80 && sizeof(GpuDepthLayers) == 128 &&
+static_assert(sizeof(GpuView) == 240 && sizeof(GpuLight) == 80 && sizeof(GpuDepthLayers) == 128 &&
               sizeof(GpuRule) == 144 + 32 * 16 && sizeof(GpuScreen) == 128 && sizeof(GpuConstants) == 784);
 } // namespace gnomon::shared
 #endif

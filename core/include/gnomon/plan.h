@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -120,6 +121,22 @@ struct ViewSlice {
     }
 };
 
+/// Where views of one light stand side by side, the part of its directions that one of them serves: the points p with
+/// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)). A map shows more, for filters to read, but not all
+/// that casts there.
+struct ViewSector {
+    glm::dvec4 x{0.0};
+    glm::dvec4 y{0.0};
+    glm::dvec4 w{0.0, 0.0, 0.0, 1.0};
+
+    [[nodiscard]] bool bounded() const { return x != glm::dvec4(0.0) || y != glm::dvec4(0.0); }
+    [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
+    {
+        const glm::dvec4 p(p_ws, 1.0);
+        return std::max(std::abs(glm::dot(x, p)), std::abs(glm::dot(y, p))) <= glm::dot(w, p);
+    }
+};
+
 /// What a fit achieved. Sides of texels are as View::texel_xy_m has them, in x and y of the map.
 struct FitReport {
     double strength = 1.0;          // how many times as wide the widest texel is as the narrowest; 1: no warp
@@ -176,6 +193,7 @@ struct View {
     /// length.
     double light_reach = 0.0;
     ViewSlice slice;
+    ViewSector sector;
     /// Partition::sdsm: which of its light's cascades this is. Then what is above says how the light's base map lies,
     /// and the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters
     /// are the base map's. Always to be drawn again. kNoIndex: all is as it says here.

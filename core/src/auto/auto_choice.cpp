@@ -23,6 +23,7 @@ constexpr std::string_view kOneMap = "one map: cascades are not predicted to err
 constexpr std::string_view kStillOneMap = "one map, as before: cascades are predicted to err less, but not by a fifth";
 constexpr std::string_view kCascades = "cascades: they are predicted to err less than one map by more than a fifth";
 constexpr std::string_view kStillCascades = "cascades, as before: they are still predicted to err less than one map";
+constexpr std::string_view kAround = "six faces of a cube: a point light shines all around";
 constexpr std::string_view kPlaced = "one map: a light with a place has a short cone";
 constexpr std::string_view kFast = "one map: quality fast spends no more";
 constexpr std::string_view kDepth =
@@ -49,8 +50,10 @@ std::size_t choose(std::size_t before, bool has_before, double single, double ca
 void AutoChooser::follow(std::span<const Light> lights)
 {
     keys_.clear();
+    types_.clear();
     for (const Light& light : lights) {
         keys_.push_back(light.key);
+        types_.push_back(light.type);
     }
     rows_.follow(keys_);
     memories_.resize(std::max<std::size_t>(memories_.size(), rows_.end()));
@@ -59,12 +62,14 @@ void AutoChooser::follow(std::span<const Light> lights)
     }
 }
 
-void AutoChooser::begin(const Recipe& recipe, Memory& memory) const
+void AutoChooser::begin(const Recipe& recipe, LightType type, Memory& memory)
 {
-    const bool chooses = recipe.choosesPartition() && recipe.options.quality != Quality::fast && !recipe.takesDepth();
-    const PartitionTraits* const first = recipe.takesDepth()         ? partitionTraits(Partition::sdsm)
-                                         : recipe.choosesPartition() ? partitionTraits(Partition::single)
-                                                                     : recipe.partition;
+    const bool around = type == LightType::point;
+    const bool takes_depth = recipe.takesDepth(type);
+    const bool chooses =
+        recipe.choosesPartition() && recipe.options.quality != Quality::fast && !takes_depth && !around;
+    const Partition alone = around ? Partition::cube : takes_depth ? Partition::sdsm : Partition::single;
+    const PartitionTraits* const first = recipe.choosesPartition() ? partitionTraits(alone) : recipe.partition;
     if (memory.count == (chooses ? 2U : 1U) && memory.candidates[0].partition == first) {
         return;
     }
@@ -74,17 +79,18 @@ void AutoChooser::begin(const Recipe& recipe, Memory& memory) const
     memory.candidates[1].partition = partitionTraits(Partition::cascades);
     memory.decision.partition = first;
     memory.decision.told.partition = first->partition;
-    memory.decision.told.reason = recipe.takesDepth()         ? kDepth
-                                  : chooses                   ? kNothing
-                                  : recipe.choosesPartition() ? kFast
-                                  : recipe.searchesWarp()     ? kGiven
-                                                              : kAllGiven;
+    const std::string_view given = recipe.searchesWarp() ? kGiven : kAllGiven;
+    memory.decision.told.reason = !recipe.choosesPartition() ? given
+                                  : around                   ? kAround
+                                  : takes_depth              ? kDepth
+                                  : chooses                  ? kNothing
+                                                             : kFast;
 }
 
 const AutoDecision& AutoChooser::decisionOf(const Recipe& recipe, std::size_t light)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
-    begin(recipe, memory);
+    begin(recipe, types_[light], memory);
     return memory.decision;
 }
 
@@ -92,7 +98,7 @@ const AutoDecision& AutoChooser::decide(const FrustumInput& input, const Sight& 
                                         FrustumPlanner& frustums)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
-    begin(input.recipe, memory);
+    begin(input.recipe, types_[light], memory);
     const bool had_choice = memory.decision.told.made;
     const bool placed = input.light.type != LightType::directional;
     const std::size_t before = placed || memory.decision.partition == memory.candidates[0].partition ? 0 : 1;

@@ -47,13 +47,14 @@ private:
         std::uint32_t frames = 0; // since all candidates were looked at
         AutoDecision decision;
     };
-    void begin(const Recipe& recipe, Memory& memory) const;
+    static void begin(const Recipe& recipe, LightType type, Memory& memory);
     void predict(const FrustumInput& input, const Sight& sight, std::uint32_t halvings, FrustumPlanner& frustums,
                  Candidate& candidate);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
     std::vector<std::uint32_t> keys_;
+    std::vector<LightType> types_; // of the frame's lights
     std::vector<Slice> slices_;
 };
 

@@ -17,7 +17,8 @@ struct Slice {
     double half_angle_rad = 0.0;        // lights with a place: the frustum is a square pyramid around the axis
     std::array<Plane, 8> cut;           // inward; receivers outside belong to another slice
     std::uint32_t cut_count = 0;
-    ViewSlice depth; // of the camera that it serves
+    ViewSlice depth;   // of the camera that it serves
+    ViewSector sector; // of the light's directions
 };
 
 struct PartitionInput {
@@ -34,8 +35,9 @@ struct PartitionTraits {
     bool measures; // it needs CameraView::near_m and far_m
     /// Each of its slices is a base map, to be listed once for each cascade that the GPU fits to a part of it.
     bool fits_on_gpu;
-    bool cascades; // one map for each of CascadeOptions::count, else one
+    std::uint32_t maps; // of a light; 0: one for each of CascadeOptions::count
 };
+inline constexpr std::uint32_t kCubeFaces = 6;
 /// Null for a partition that is not available. That of Partition::automatic stands for all that it may choose.
 [[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
 
@@ -45,5 +47,6 @@ struct PartitionTraits {
 void partitionSingle(const PartitionInput& input, std::vector<Slice>& out);
 void partitionCascades(const PartitionInput& input, std::vector<Slice>& out);
 void partitionSdsm(const PartitionInput& input, std::vector<Slice>& out);
+void partitionCube(const PartitionInput& input, std::vector<Slice>& out);
 
 } // namespace gnomon

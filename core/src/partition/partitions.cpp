@@ -5,10 +5,11 @@ namespace gnomon {
 namespace {
 
 constexpr PartitionTraits kPartitions[] = {
-    {Partition::single, partitionSingle, false, false, false},
-    {Partition::cascades, partitionCascades, true, false, true},
-    {Partition::sdsm, partitionSdsm, true, true, true},
-    {Partition::automatic, partitionCascades, true, false, true},
+    {Partition::single, partitionSingle, false, false, 1},
+    {Partition::cascades, partitionCascades, true, false, 0},
+    {Partition::sdsm, partitionSdsm, true, true, 0},
+    {Partition::cube, partitionCube, false, false, kCubeFaces},
+    {Partition::automatic, partitionCascades, true, false, 0},
 };
 
 } // namespace

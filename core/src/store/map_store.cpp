@@ -63,9 +63,10 @@ void MapStore::furnish(Room& room)
     if (room.places.empty()) {
         const std::uint32_t level = pages.levelOf(wish.side);
         const std::uint32_t pages_before = pages.pages();
-        // Each position's maps follow each other, so that one pass can draw them.
-        for (std::uint32_t position = 0; position < (wish.shares_texels ? 1 : wish.positions); ++position) {
-            if (!pages.take(level, wish.count, room.squares)) {
+        const std::uint32_t maps = wish.count * (wish.shares_texels ? 1 : wish.positions);
+        const std::uint32_t together = wish.stacked ? wish.count : 1;
+        for (std::uint32_t i = 0; i < maps; i += together) {
+            if (!pages.take(level, together, room.squares)) {
                 clear(room);
                 pages.dropPagesFrom(pages_before);
                 room.wish = wish;

@@ -22,6 +22,7 @@ struct MapWish {
     std::uint32_t side = 0;      // texels, of each map; not more than a page has
     std::uint32_t count = 0;     // frustums that it is divided among; 0: it wants no map
     std::uint32_t positions = 1; // that it shines from: 2 of a stepping sun
+    bool stacked = true;         // its frustums' maps lie at one place of consecutive pages, if there is such a run
     bool shares_texels = false;  // its two positions' maps share texels
     bool keeps_still = false;    // each map has a copy of what stands still
 

@@ -84,7 +84,7 @@ inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& poi
 /// Does the mask take this view for a receiver at a point, whose place in the map is `texel`?
 inline bool serves(const View& view, const glm::dvec3& point_ws, const glm::dvec2& texel, double reach_texels)
 {
-    if (!view.slice.holds(point_ws)) {
+    if (!view.slice.holds(point_ws) || !view.sector.holds(point_ws)) {
         return false;
     }
     const double margin = tileMarginTexels(reach_texels);
