@@ -312,8 +312,8 @@ void validateSettings(const Settings& settings)
 void completeTechnique(Settings& settings)
 {
     const ShadowOptions& shadow = settings.shadow;
-    // The light comes later; a directional one has no rules of its own, so this refuses what no light can have.
-    if (const auto reason = refusal(LightType::directional, shadow.technique)) {
+    // The light comes later: this refuses what no light can have.
+    if (const auto reason = refusal(shadow.technique)) {
         throw UsageError(std::string(*reason));
     }
     const MapFormat format = formatOf(shadow);

@@ -385,6 +385,16 @@ std::optional<std::string_view> refusal(LightType light, const Technique& techni
     return std::nullopt;
 }
 
+std::optional<std::string_view> refusal(const Technique& technique)
+{
+    for (const LightType light : {LightType::spot, LightType::point}) {
+        if (!refusal(light, technique)) {
+            return std::nullopt;
+        }
+    }
+    return refusal(LightType::directional, technique);
+}
+
 std::optional<std::string_view> refusal(Filter filter, MapFormat format)
 {
     if (const auto reason = unavailable(kFilter, filter)) {

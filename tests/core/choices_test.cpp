@@ -67,8 +67,10 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
         Technique technique;
         if (row.choice == "light")
             light = static_cast<LightType>(row.value);
-        else if (row.choice == "partition")
+        else if (row.choice == "partition") {
             technique.partition = static_cast<Partition>(row.value);
+            light = technique.partition == Partition::cube ? LightType::point : light;
+        }
         else if (row.choice == "fit")
             technique.fit = static_cast<Fit>(row.value);
         else if (row.choice == "filter")
@@ -91,18 +93,19 @@ TEST(Choices, RefusalsAreSentences)
     technique.filter = Filter::id;
     EXPECT_EQ(refusal(LightType::spot, technique),
               "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
-    EXPECT_EQ(refusal(LightType::point, Technique{}),
-              "light point is not in this version; it has directional and spot");
+    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi}),
+              "partition multi is not in this version; it has single, cascades, sdsm, cube and auto");
 }
 
 TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 {
-    ASSERT_EQ(choiceRules().size(), 2U);
-    const ChoiceRule& rule = choiceRules().front();
+    ASSERT_EQ(choiceRules().size(), 4U);
+    const ChoiceRule& rule = choiceRules()[2];
     EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
     for (const ChoiceValue& partition : choiceValues())
         for (const ChoiceValue& motion : choiceValues()) {
-            if (partition.choice != "partition" || motion.choice != "motion" || !partition.available)
+            if (partition.choice != "partition" || motion.choice != "motion" || !partition.available ||
+                partition.name == "cube")
                 continue;
             const Technique technique{.partition = static_cast<Partition>(partition.value),
                                       .motion = static_cast<Motion>(motion.value)};
@@ -110,6 +113,22 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
             EXPECT_EQ(rule.applies(LightType::spot, technique), refused) << partition.name << motion.name;
             EXPECT_EQ(refusal(LightType::spot, technique), refused ? std::optional(rule.reason) : std::nullopt);
         }
+}
+
+TEST(Choices, APointLightGoesWithCubeAndAutoAndCubeWithNoOther)
+{
+    EXPECT_EQ(choiceRules()[0].refuses, "light point with every partition but cube and auto");
+    EXPECT_EQ(choiceRules()[1].refuses, "partition cube with every light but point");
+    for (const ChoiceValue& partition : choiceValues()) {
+        if (partition.choice != "partition" || !partition.available)
+            continue;
+        const Technique technique{.partition = static_cast<Partition>(partition.value)};
+        const bool around = partition.name == "cube" || partition.name == "auto";
+        EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
+        for (const LightType other : {LightType::directional, LightType::spot})
+            EXPECT_EQ(refusal(other, technique),
+                      partition.name == "cube" ? std::optional(choiceRules()[1].reason) : std::nullopt);
+    }
 }
 
 TEST(Choices, WhatConvergesIsNotHeldStill)

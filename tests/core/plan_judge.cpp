@@ -32,17 +32,29 @@ double reachOf(const Light& light, const Aabb& scene_ws)
     return reach;
 }
 
-/// Distance along the axis, and whether the cone's light gets there; all inside with some slack.
+/// How far p is along the axis of the light's frustum that serves it: a spot light's own, or of a point light the
+/// nearest to it of the world's.
+double depthOf(const Light& light, const glm::dvec3& p)
+{
+    const glm::dvec3 to = p - light.position_ws;
+    if (light.type == LightType::spot)
+        return glm::dot(to, light.direction_ws);
+    return std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)});
+}
+
+/// Does the light get there? All inside with some slack.
 bool lightReaches(const Light& light, const Aabb& scene_ws, const glm::dvec3& p)
 {
     if (light.type == LightType::directional)
         return true;
     const glm::dvec3 to = p - light.position_ws;
-    const double depth = glm::dot(to, light.direction_ws);
+    const double depth = depthOf(light, p);
     const double reach = reachOf(light, scene_ws);
+    const bool within = depth > 0.00101 * reach && (light.range_m == 0.0 || glm::length(to) < reach * 0.999);
+    if (light.type == LightType::point)
+        return within;
     const double across = glm::length(to - light.direction_ws * depth);
-    return depth > 0.00101 * reach && (light.range_m == 0.0 || glm::length(to) < reach * 0.999) &&
-           across < 0.999 * depth * std::tan(light.outer_half_angle_rad);
+    return within && across < 0.999 * depth * std::tan(light.outer_half_angle_rad);
 }
 
 /// Where a box is along the line from p (0), t in steps of `way`; false when it is not.
@@ -127,6 +139,11 @@ struct Lit {
     std::span<const View> views; // that serve the point
 };
 
+bool serves(const View& view, const glm::dvec3& p)
+{
+    return view.slice.holds(p) && view.sector.holds(p);
+}
+
 bool draws(const Lit& lit, const View& view, std::uint32_t object)
 {
     const auto first = lit.plan.casters.begin() + view.first_caster;
@@ -140,7 +157,7 @@ void checkCasters(const Lit& lit, const glm::dvec3& p, Tally& tally)
     const glm::dvec3 toward = sunny ? -lit.light.direction_ws : glm::normalize(lit.light.position_ws - p);
     double way_m = 1e12;
     if (!sunny) { // as far as the light's near distance along its axis
-        const double depth = glm::dot(p - lit.light.position_ws, lit.light.direction_ws);
+        const double depth = depthOf(lit.light, p);
         const double near_m = 0.00101 * reachOf(lit.light, lit.scene.set.bounds());
         way_m = glm::distance(p, lit.light.position_ws) * (1.0 - near_m / depth);
     }
@@ -152,7 +169,7 @@ void checkCasters(const Lit& lit, const glm::dvec3& p, Tally& tally)
         ++tally.blocked;
         bool served = false;
         for (const View& view : lit.views) {
-            if (!view.slice.holds(p))
+            if (!serves(view, p))
                 continue;
             served = true;
             ASSERT_TRUE(draws(lit, view, object));
@@ -184,7 +201,7 @@ void checkPoint(const RandomScene& scene, const Plan& plan, std::uint32_t object
         const Lit lit{scene, plan, scene.lights[i], viewsOfLight(plan, light)};
         ASSERT_EQ(light.outcome.hasMap(), !lit.views.empty());
         for (const View& view : lit.views)
-            if (view.slice.holds(p)) {
+            if (serves(view, p)) {
                 ASSERT_NO_FATAL_FAILURE(checkInMap(scene, view, p));
                 if (filterTraits(scene.options.technique.filter)->filterable) {
                     ASSERT_TRUE(draws(lit, view, object));
@@ -276,7 +293,7 @@ std::string bytesOf(const Plan& plan)
     for (const View& v : plan.views) {
         append(out, v.light, v.clip_from_world, v.metric, v.orthographic, v.clamp_near, v.texel_m, v.tile, v.part);
         append(out, v.first_caster, v.caster_count, v.still_count, v.redraw, v.kept_layer, v.texel_xy_m);
-        append(out, v.fit, v.slice, v.gpu_cascade, v.parallel, v.light_place_ws);
+        append(out, v.fit, v.slice, v.sector, v.gpu_cascade, v.parallel, v.light_place_ws);
     }
     for (const std::vector<std::uint32_t>* objects : {&plan.casters, &plan.receivers})
         for (const std::uint32_t object : *objects)

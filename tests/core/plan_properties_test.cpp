@@ -189,6 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Fits, PlanProperties, testing::ValuesIn(allFits(Partiti
 INSTANTIATE_TEST_SUITE_P(FitsOfCascades, PlanProperties, testing::ValuesIn(allFits(Partition::cascades, Filter::hard)),
                          fitOf);
 INSTANTIATE_TEST_SUITE_P(FitsOfSdsm, PlanProperties, testing::ValuesIn(allFits(Partition::sdsm, Filter::hard)), fitOf);
+INSTANTIATE_TEST_SUITE_P(FitsOfCube, PlanProperties, testing::ValuesIn(allFits(Partition::cube, Filter::hard)), fitOf);
 // Maps of filterable texels are not clamped at the near plane, hold receivers too and measure depth otherwise.
 INSTANTIATE_TEST_SUITE_P(
     FitsOfFilterable, PlanProperties,
@@ -199,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
     Snap, PlanProperties,
     testing::Values(Technique{Partition::single, Fit::uniform, Filter::hard, Soften::none, Motion::snap},
                     Technique{Partition::single, Fit::uniform, Filter::evsm, Soften::none, Motion::snap},
-                    Technique{Partition::cascades, Fit::uniform, Filter::pcf, Soften::none, Motion::snap}),
+                    Technique{Partition::cascades, Fit::uniform, Filter::pcf, Soften::none, Motion::snap},
+                    Technique{Partition::cube, Fit::uniform, Filter::evsm, Soften::none, Motion::snap}),
     [](const auto& technique) {
         return std::string(nameOf(technique.param.partition)) + "_" + std::string(nameOf(technique.param.filter));
     });

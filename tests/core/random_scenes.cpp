@@ -61,6 +61,16 @@ void addLights(Random& random, RandomScene& scene, const glm::dvec3& origin)
     scene.lights.push_back(awayLamp(random, scene, origin));
 }
 
+/// The same lights as points; a sun has a place then, on the way from where it shone.
+void shineAllAround(RandomScene& scene, const glm::dvec3& origin)
+{
+    for (Light& light : scene.lights) {
+        if (light.type == LightType::directional)
+            light.position_ws = origin - light.direction_ws * (0.7 * scene.size_m);
+        light.type = LightType::point;
+    }
+}
+
 struct Look {
     glm::dvec3 eye;
     glm::dvec3 target;
@@ -187,6 +197,8 @@ RandomScene randomScene(std::uint64_t seed, const Technique& technique)
     }
     addObjects(random, scene, origin);
     addLights(random, scene, origin);
+    if (technique.partition == Partition::cube)
+        shineAllAround(scene, origin);
     scene.camera = randomCamera(random, scene, origin);
     scene.options.map_size = 16U << random.below(8);
     scene.options.border_texels = random.below(2) == 0 ? 4.0 : random.uniform(0.0, 64.0);

@@ -34,7 +34,7 @@ inline constexpr int kAwkwardCount = 12;
 struct RandomScene {
     ObjectSet set;
     Camera camera;
-    std::vector<Light> lights; // the sun, a lamp among the objects, a lamp away from them
+    std::vector<Light> lights; // the sun, a lamp among the objects, a lamp away from them; with cube all are points
     ShadowOptions options{.technique = kPlainTechnique};
     double size_m = 1.0;
     std::uint32_t awkward = 0; // bit i: Awkward i

@@ -78,6 +78,8 @@ struct FilterTraits {
 
 /// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.
 [[nodiscard]] std::optional<std::string_view> refusal(LightType light, const Technique& technique);
+/// Why no light of any type can be planned so; nothing when one can.
+[[nodiscard]] std::optional<std::string_view> refusal(const Technique& technique);
 /// Why this filter cannot use this format; nothing when it can.
 [[nodiscard]] std::optional<std::string_view> refusal(Filter filter, MapFormat format);
 

@@ -55,7 +55,7 @@ std::optional<std::string> facesRefusal(const ShadowOptions& options)
 
 std::optional<std::string> refusalOf(const ShadowOptions& options)
 {
-    if (const auto reason = refusal(LightType::directional, options.technique)) {
+    if (const auto reason = refusal(options.technique)) {
         return std::string(*reason);
     }
     if (auto reason = firstOutOfRange(options)) {
