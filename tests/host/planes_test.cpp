@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace gnomon::host::test {
@@ -81,7 +82,7 @@ std::vector<const View*> viewsAt(const Plan& plan, const LightPlan& light, const
     for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
         const View& view = plan.views[i];
         const glm::dvec2 texel = texelOf(view, p);
-        if (view.slice.holds(p) && std::min(texel.x, texel.y) >= 2.0 && texel.x <= view.tile.width - 2.0 &&
+        if (view.slice.holds(p) && view.sector.holds(p) && std::min(texel.x, texel.y) >= 2.0 && texel.x <= view.tile.width - 2.0 &&
             texel.y <= view.tile.height - 2.0) {
             found.push_back(&view);
         }
@@ -134,13 +135,28 @@ std::ostream& operator<<(std::ostream& out, const EdgeCase& edge)
     return out << edge.name;
 }
 
+/// Points instead. Both have edges of their cube in the box's shadow.
+void shineAllAround(std::vector<ShadedLight>& lights)
+{
+    constexpr std::array<glm::dvec3, 2> kPlaces{{{-3.5, 4.5, 0.3}, {2.0, 5.0, -1.5}}};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        lights[i].caster.type = LightType::point;
+        lights[i].caster.position_ws = kPlaces[i];
+        lights[i].caster.range_m = 0.0;
+    }
+}
+
 class PlanesEdge : public testing::TestWithParam<EdgeCase> {};
 
 TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
 {
     const scene::Scene scene = scene::makePlanes(1);
     const scene::State state = scene::evaluate(scene, 0.0);
-    const std::vector<ShadedLight> lights = lightsOf(scene, state);
+    std::vector<ShadedLight> lights = lightsOf(scene, state);
+    const bool cube = GetParam().technique.partition == Partition::cube;
+    if (cube) {
+        shineAllAround(lights);
+    }
     RenderOptions options;
     options.width = 480;
     options.height = 360;
@@ -163,10 +179,11 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     for (std::size_t i = 0; i < lights.size(); ++i) {
         SCOPED_TRACE(lights[i].name);
         const LightPlan& plan = renderer.plan().lights[i];
-        ASSERT_EQ(plan.view_count, GetParam().views);
-        const View& view = renderer.plan().views[plan.first_view];
+        ASSERT_EQ(plan.view_count, GetParam().views + (cube ? i : 0)); // the second lamp shines on the box's top, too
+        const auto views = std::span(renderer.plan().views).subspan(plan.first_view, plan.view_count);
         const bool warps = GetParam().technique.fit != Fit::uniform && GetParam().technique.motion == Motion::free;
-        EXPECT_EQ(view.fit.strength > 1.0, warps) << plan.outcome.reason;
+        EXPECT_EQ(std::ranges::any_of(views, [](const View& view) { return view.fit.strength > 1.0; }), warps)
+            << plan.outcome.reason;
         const Tally tally = tallyGround(picture, world_from_clip, renderer.plan(), lights[i].caster, i);
         EXPECT_GT(tally.lit, 10000);
         EXPECT_GT(tally.shadowed, 1000);
@@ -187,6 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"map_1024", 1024, kPlainTechnique, 1}, EdgeCase{"lispsm", 256, of(Fit::lispsm), 1},
                     EdgeCase{"tsm", 256, of(Fit::tsm), 1}, EdgeCase{"lispsm_simple", 256, of(Fit::lispsm_simple), 1},
                     EdgeCase{"psm", 256, of(Fit::psm), 1},
+                    EdgeCase{"cube", 256, of(Fit::uniform, Partition::cube), 4},
+                    EdgeCase{"cube_lispsm", 256, of(Fit::lispsm, Partition::cube), 4},
                     EdgeCase{"cascades", 128, of(Fit::uniform, Partition::cascades), 4},
                     EdgeCase{"cascades_tsm", 128, of(Fit::tsm, Partition::cascades), 4},
                     EdgeCase{"sdsm", 128, of(Fit::uniform, Partition::sdsm), 4},
@@ -195,6 +214,30 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"snap", 256, of(Fit::uniform, Partition::single, Motion::snap), 1},
                     EdgeCase{"cascades_snap", 128, of(Fit::uniform, Partition::cascades, Motion::snap), 3}),
     [](const auto& edge) { return edge.param.name; });
+
+// Such a map's range of depth is that of a plane across its axis: next to nothing, beside which all rounding is large.
+TEST(FlatFloor, AloneInAFaceOfALampsCubeIsLit)
+{
+    const scene::Scene scene = scene::makePlanes(1);
+    const scene::State state = scene::evaluate(scene, 0.0);
+    std::vector<ShadedLight> lights = lightsOf(scene, state);
+    lights.resize(1);
+    lights[0].caster.type = LightType::point;
+    lights[0].caster.position_ws = {2.4, 1.2, 1.8}; // below the box, which is in no face with the floor beneath
+    lights[0].caster.radius_m = 0.1;
+    RenderOptions options;
+    options.width = 240;
+    options.height = 180;
+    Gpu gpu({.gpu = "software", .validate = true});
+    const SceneOnGpu uploaded(gpu, scene, state);
+    for (const Filter filter : {Filter::hard, Filter::pcf, Filter::pcss, Filter::raymarch}) {
+        options.shadow.technique = {.partition = Partition::cube, .fit = Fit::uniform, .filter = filter};
+        FrameRenderer renderer(uploaded, options);
+        renderer.draw(state, {.position_ws = {2.4, 4.0, 4.0}, .target_ws = {2.4, 0.0, 1.8}, .fov_y_rad = 0.4}, lights);
+        const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = false});
+        EXPECT_EQ(*std::ranges::min_element(picture.masks[0].values), 1.0F) << nameOf(filter);
+    }
+}
 
 // In the middle of the box's shadow, as the eye draws back: dark, then (d - begin) / (end - begin), then lit.
 TEST(Fade, IsLinearInTheDistanceFromTheEye)

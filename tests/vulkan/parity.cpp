@@ -67,10 +67,44 @@ void setSteppingSun(bool band, bool share_texels, Rendered& r)
     light.steps.edge = band ? 0.7 : 0.0;
 }
 
+/// A lamp between the boxes. Its views overlap by some degrees, as those do that have room for a filter's kernel.
+void setPoint(Rendered& r)
+{
+    constexpr std::uint32_t kSide = 256;
+    Light lamp = makeSpot({-2.5, 4.0, 2.0}, {0.0, 0.0, 0.0}, 0.85);
+    lamp.type = LightType::point;
+    lamp.radius_m = 0.1;
+    r.lights = {lamp};
+    r.plan = makePlan(r.scene, r.lights, std::vector<Tile>{{0, 0, 0, kSide, kSide}}, {4 * kSide, 2 * kSide, 1});
+    r.plan.views.clear();
+    for (int face = 0; face < 6; ++face) {
+        glm::dmat3 axes(0.0);
+        for (int i = 0; i < 3; ++i) {
+            axes[i][(face / 2 + i) % 3] = i == 0 && face % 2 == 1 ? -1.0 : 1.0;
+        }
+        Light toward = lamp;
+        toward.type = LightType::spot;
+        toward.direction_ws = axes[0];
+        const auto at = static_cast<std::uint32_t>(face);
+        View view = makeView(r.scene, toward, 0, {0, at % 4 * kSide, at / 4 * kSide, kSide, kSide});
+        const auto row = [&](int i) {
+            return glm::dvec4(axes[i], -glm::dot(axes[i], lamp.position_ws));
+        };
+        view.sector = {row(1), row(2), row(0)};
+        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        r.plan.views.push_back(view);
+    }
+    r.plan.lights[0].view_count = 6;
+}
+
 void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
 {
     if (lights == ParityLights::stepping_sun || lights == ParityLights::stepping_band) {
         setSteppingSun(lights == ParityLights::stepping_band, hasTwoMapsInATexel(options), r);
+        return;
+    }
+    if (lights == ParityLights::point) {
+        setPoint(r);
         return;
     }
     Light sun = makeSun({0.8, -0.9, -0.35});

@@ -305,7 +305,9 @@ private:
     glm::dvec2 pixel_;
 };
 
-/// What one view alone says.
+constexpr double kElsewhere = -1.0;
+
+/// What one view alone says; kElsewhere where it does not serve the pixel.
 std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, const View& view,
                                const ShadowOptions& options, std::span<const pack::DepthLayer> layers)
 {
@@ -339,8 +341,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             const double w = shared::dotRow(rows.w, p);
             const double x = shared::dotRow(rows.x, p) / w - view.tile.x;
             const double y = shared::dotRow(rows.y, p) / w - view.tile.y;
-            if (w <= 0.0 || x < margin || y < margin || x > view.tile.width - margin || y > view.tile.height - margin) {
-                mask.push_back(1.0);
+            if (w <= 0.0 || x < margin || y < margin || x > view.tile.width - margin ||
+                y > view.tile.height - margin || !view.sector.holds(p)) {
+                mask.push_back(kElsewhere);
                 continue;
             }
             input.pixel = glm::dvec2(i % picture.extent.width, i / picture.extent.width) + 0.5;
@@ -359,6 +362,21 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     return mask;
 }
 
+/// What the first of some views says that serves the pixel; 1 where none does.
+std::vector<double> maskOfViews(const ReferenceScene& scene, const Light& light, std::span<const View> views,
+                                const ShadowOptions& options, std::span<const pack::DepthLayer> layers)
+{
+    std::vector<double> mask(scene.picture.depth.size(), kElsewhere);
+    for (const View& view : views) {
+        const std::vector<double> here = maskOfView(scene, light, view, options, layers);
+        std::ranges::transform(mask, here, mask.begin(), [](double before, double v) {
+            return before == kElsewhere ? v : before;
+        });
+    }
+    std::ranges::replace(mask, kElsewhere, 1.0);
+    return mask;
+}
+
 } // namespace
 
 std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t index, const ShadowOptions& options,
@@ -366,11 +384,11 @@ std::vector<double> referenceMask(const ReferenceScene& scene, std::uint32_t ind
 {
     const Light& light = scene.lights[index];
     const LightPlan& planned = scene.plan.lights[index];
-    std::vector<double> mask = maskOfView(scene, light, scene.plan.views[planned.first_view], options, layers);
+    const std::span views = std::span(scene.plan.views).subspan(planned.first_view, planned.view_count);
     const SunSteps& steps = planned.steps;
+    std::vector<double> mask = maskOfViews(scene, light, steps.paired ? views.first(1) : views, options, layers);
     if (steps.paired) {
-        const View& later_view = scene.plan.views[planned.first_view + 1];
-        const std::vector<double> later = maskOfView(scene, light, later_view, options, layers);
+        const std::vector<double> later = maskOfViews(scene, light, views.subspan(1), options, layers);
         const glm::dvec4 rule(steps.share, steps.edge, steps.band > 0.0 ? 1.0 / steps.band : 0.0,
                               steps.smooth ? 1.0 : 0.0);
         const std::uint32_t width = scene.picture.extent.width;
