@@ -183,14 +183,14 @@ bool goesAround(Partition partition)
 }
 
 constexpr std::array kRules{
-    ChoiceRule{[](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
-               "light point with every partition but cube and auto",
-               "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
-    ChoiceRule{[](LightType light, const Technique& t) {
-                   return light != LightType::point && t.partition == Partition::cube;
-               },
-               "partition cube with every light but point",
-               "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
+        "light point with every partition but cube and auto",
+        "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
+        "partition cube with every light but point",
+        "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
     ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "

@@ -70,8 +70,7 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
         else if (row.choice == "partition") {
             technique.partition = static_cast<Partition>(row.value);
             light = technique.partition == Partition::cube ? LightType::point : light;
-        }
-        else if (row.choice == "fit")
+        } else if (row.choice == "fit")
             technique.fit = static_cast<Fit>(row.value);
         else if (row.choice == "filter")
             technique.filter = static_cast<Filter>(row.value);

@@ -82,8 +82,8 @@ std::vector<const View*> viewsAt(const Plan& plan, const LightPlan& light, const
     for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
         const View& view = plan.views[i];
         const glm::dvec2 texel = texelOf(view, p);
-        if (view.slice.holds(p) && view.sector.holds(p) && std::min(texel.x, texel.y) >= 2.0 && texel.x <= view.tile.width - 2.0 &&
-            texel.y <= view.tile.height - 2.0) {
+        if (view.slice.holds(p) && view.sector.holds(p) && std::min(texel.x, texel.y) >= 2.0 &&
+            texel.x <= view.tile.width - 2.0 && texel.y <= view.tile.height - 2.0) {
             found.push_back(&view);
         }
     }

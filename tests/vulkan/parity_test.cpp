@@ -62,10 +62,10 @@ INSTANTIATE_TEST_SUITE_P(Filters, Parity,
 // A point light's views stand side by side, and a pixel is one view's alone.
 TEST(ParityOfPoints, maskIsThatOfTheCpu)
 {
-    for (const auto& [filter, format] : {std::pair{Filter::hard, MapFormat::d32f}, std::pair{Filter::pcf, MapFormat::d16},
-                                         std::pair{Filter::pcss, MapFormat::d32f},
-                                         std::pair{Filter::raymarch, MapFormat::d32f},
-                                         std::pair{Filter::vsm, MapFormat::rg32f}}) {
+    for (const auto& [filter, format] :
+         {std::pair{Filter::hard, MapFormat::d32f}, std::pair{Filter::pcf, MapFormat::d16},
+          std::pair{Filter::pcss, MapFormat::d32f}, std::pair{Filter::raymarch, MapFormat::d32f},
+          std::pair{Filter::vsm, MapFormat::rg32f}}) {
         ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = filter;
         options.format = format;

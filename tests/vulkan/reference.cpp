@@ -341,8 +341,8 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             const double w = shared::dotRow(rows.w, p);
             const double x = shared::dotRow(rows.x, p) / w - view.tile.x;
             const double y = shared::dotRow(rows.y, p) / w - view.tile.y;
-            if (w <= 0.0 || x < margin || y < margin || x > view.tile.width - margin ||
-                y > view.tile.height - margin || !view.sector.holds(p)) {
+            if (w <= 0.0 || x < margin || y < margin || x > view.tile.width - margin || y > view.tile.height - margin ||
+                !view.sector.holds(p)) {
                 mask.push_back(kElsewhere);
                 continue;
             }
@@ -369,9 +369,8 @@ std::vector<double> maskOfViews(const ReferenceScene& scene, const Light& light,
     std::vector<double> mask(scene.picture.depth.size(), kElsewhere);
     for (const View& view : views) {
         const std::vector<double> here = maskOfView(scene, light, view, options, layers);
-        std::ranges::transform(mask, here, mask.begin(), [](double before, double v) {
-            return before == kElsewhere ? v : before;
-        });
+        std::ranges::transform(mask, here, mask.begin(),
+                               [](double before, double v) { return before == kElsewhere ? v : before; });
     }
     std::ranges::replace(mask, kElsewhere, 1.0);
     return mask;

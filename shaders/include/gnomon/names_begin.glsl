@@ -109,6 +109,7 @@
 #define hamburgerVisibility gnomon_hamburgerVisibility
 #define hasFlag gnomon_hasFlag
 #define hausdorffVisibility gnomon_hausdorffVisibility
+#define inSector gnomon_inSector
 #define inSlice gnomon_inSlice
 #define interleavedGradientNoise gnomon_interleavedGradientNoise
 #define isLayer gnomon_isLayer

@@ -109,6 +109,7 @@
 #undef hamburgerVisibility
 #undef hasFlag
 #undef hausdorffVisibility
+#undef inSector
 #undef inSlice
 #undef interleavedGradientNoise
 #undef isLayer
