@@ -34,7 +34,7 @@ struct Light {
     glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
     double outer_half_angle_rad = 0.7853981634; // spot: (0, 1.0471] (60 degrees: a single frustum holds 120)
     double range_m = 0.0;                       // spot, point: reach, > 0; 0 means "as far as the scene goes"
-    double near_m = 0.0;                        // spot, point: nothing nearer casts; 0 picks 1/1000 of the reach
+    double near_m = 0.0;                        // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
     double angular_diameter_rad =
         0.00925025;            // directional: 0.53 degrees is the sun; for filters that know the light's size
     double radius_m = 0.0;     // spot, point: radius of the emitting sphere
