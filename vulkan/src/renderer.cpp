@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cascade_fitter.h"
-#include "map_class.h"
-#include "mask_pass.h"
+#include "renderer_parts.h"
 #include "reuse_count.h"
 #include "timed.h"
 #include "usage.h"
 
-#include <gnomon/error.h>
-#include <gnomon/pack/frame_passes.h>
-#include <gnomon/vulkan/shadow_renderer.h>
+#include <gpu_structs.h>
 
 #include <algorithm>
 #include <memory>
@@ -26,157 +22,12 @@ ImageRef describe(const Image& image)
             image.info().levels};
 }
 
-// Made by warmUp(), without images.
-struct Spare {
-    ResolvedOptions options; // that it was made for; it may serve others, too
-    std::unique_ptr<MapClass> maps;
-};
-
-/// All that a renderer makes. One that a call left half way, because something threw, is given up as a whole.
-struct Parts {
-    Parts(Device& device_in, const ShadowRendererOptions& options_in, bool layered_in)
-        : device(device_in), options(options_in), fitter(device, options.frames_in_flight, options.pipeline_cache),
-          mask(device, options), layered(layered_in), reuse(options.frames_in_flight)
-    {
-    }
-
-    [[nodiscard]] std::unique_ptr<MapClass> makeClass(const ResolvedOptions& wanted);
-    [[nodiscard]] std::unique_ptr<MapClass> takeClass(const ResolvedOptions& wanted);
-    void matchClasses(const Plan& plan);
-    [[nodiscard]] bool prepare(const Plan& plan, VkExtent2D screen);
-    void check(const ResolvedOptions& wanted) const;
-    /// Before anything is recorded.
-    void checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const;
-    void checkInputs(const char* tried, const Frame& frame, const Plan& plan, const MaskInputs& inputs) const;
-    void checkFitted(const char* tried, const Plan& plan) const;
-
-    Device& device;
-    const ShadowRendererOptions& options;
-    MapClasses classes; // by options of the last plan; null where no light has named them
-    std::vector<Spare> spares;
-    CascadeFitter fitter;
-    MaskPassRecorder mask;
-    bool layered;                        // the device can
-    std::vector<pack::FramePass> passes; // of the plan that was prepared last
-    std::vector<MapReuse> reuse;         // by slot
-    MapNotes notes;
-    PreparedSize prepared;
-    bool has_mask = false; // prepare() was given a screen
-};
-
-void Parts::check(const ResolvedOptions& wanted) const
-{
-    if (wanted.cascades().pass == CascadePass::layered && !layered) {
-        throw Error("draw cascades in one pass", "the device was made without shaderOutputLayer",
-                    "draw each in a pass of its own");
-    }
-}
-
-void Parts::checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const
-{
-    checkCommands(tried, commands);
-    checkSlot(tried, slot, options.frames_in_flight);
-    checkPlan(tried, plan);
-    bool fits = prepared.holds(plan);
-    for (const LightPlan& light : plan.lights) {
-        const std::uint32_t i = light.options;
-        fits = fits && i < classes.size() && classes[i] && classes[i]->serves((*plan.options)[i]);
-    }
-    if (!fits) {
-        refuseUse(tried, "the plan needs other images than those that are there", "call prepare() with it first");
-    }
-}
-
-void Parts::checkInputs(const char* tried, const Frame& frame, const Plan& plan, const MaskInputs& inputs) const
-{
-    if (frame.lights.size() != plan.lights.size()) {
-        refuseUse(tried, "the frame has other lights than the plan", "hand in the frame that was planned");
-    }
-    if (inputs.depth == VK_NULL_HANDLE) {
-        refuseUse(tried, "MaskInputs::depth is null", "hand in the camera's depth");
-    }
-    if (inputs.extent.width == 0 || inputs.extent.height == 0) {
-        refuseUse(tried, "MaskInputs::extent is 0", "say how large the camera's depth is");
-    }
-}
-
-void Parts::checkFitted(const char* tried, const Plan& plan) const
-{
-    if (!fitter.isFitted(plan)) {
-        refuseUse(tried, "the plan's cascades are fitted on the GPU, and were not yet",
-                  "call recordBounds() with it first");
-    }
-}
-
-std::unique_ptr<MapClass> Parts::makeClass(const ResolvedOptions& wanted)
-{
-    check(wanted);
-    return std::make_unique<MapClass>(device, wanted, options.frames_in_flight, options.pipeline_cache);
-}
-
-std::unique_ptr<MapClass> Parts::takeClass(const ResolvedOptions& wanted)
-{
-    check(wanted);
-    const auto found = std::ranges::find_if(spares, [&](const Spare& spare) { return spare.maps->serves(wanted); });
-    if (found == spares.end()) {
-        return makeClass(wanted);
-    }
-    std::unique_ptr<MapClass> taken = std::move(found->maps);
-    spares.erase(found);
-    return taken;
-}
-
-/// Options that are others than those of the last plan lose their maps, unless these are made in the same way.
-void Parts::matchClasses(const Plan& plan)
-{
-    for (std::uint32_t i = 0; i < classes.size(); ++i) {
-        const bool goes_on = i < plan.options->size() && classes[i] && classes[i]->serves((*plan.options)[i]);
-        if (classes[i] && !goes_on) {
-            device.retire(std::move(classes[i]));
-            notes.lose(i);
-        }
-    }
-    classes.resize(std::max(classes.size(), plan.options->size()));
-    for (const pack::FramePass& pass : passes) {
-        if (pass.kind == pack::FramePassKind::maps && !classes[pass.options]) {
-            classes[pass.options] = takeClass((*plan.options)[pass.options]);
-        }
-    }
-}
-
-bool Parts::prepare(const Plan& plan, VkExtent2D screen)
-{
-    prepared.forget(); // until all of it is there
-    has_mask = false;
-    pack::listFramePasses(plan, passes);
-    matchClasses(plan);
-    notes.reserve(plan);
-    bool changed = false;
-    for (const pack::FramePass& pass : passes) {
-        if (pass.kind == pack::FramePassKind::maps) {
-            check((*plan.options)[pass.options]);
-            const MapRecorder::Prepared maps = classes[pass.options]->recorder->prepare(plan, pass.options);
-            classes[pass.options]->tints.prepare(plan, pass.options, options.is_blended);
-            changed = changed || maps.changed;
-            if (maps.lost) {
-                notes.lose(pass.options);
-            }
-        }
-    }
-    fitter.prepare(plan);
-    const bool wants_mask = screen.width > 0 && screen.height > 0;
-    const bool mask_changed = wants_mask && mask.prepare(plan, screen, classes);
-    has_mask = wants_mask;
-    prepared.take(plan);
-    return changed || mask_changed;
-}
-
 } // namespace
 
 struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options_in)
         : device(view), options(checked(options_in)), layered(view.layered),
-          parts(std::make_unique<Parts>(device, options, layered))
+          parts(std::make_unique<RendererParts>(device, options, layered))
     {
     }
 
@@ -189,7 +40,7 @@ struct ShadowRenderer::Impl {
     void mend()
     {
         if (spoilt) {
-            auto fresh = std::make_unique<Parts>(device, options, layered);
+            auto fresh = std::make_unique<RendererParts>(device, options, layered);
             device.retire(std::move(parts)); // frames in flight may use it
             parts = std::move(fresh);
             spoilt = false;
@@ -207,7 +58,7 @@ struct ShadowRenderer::Impl {
     Device device;
     ShadowRendererOptions options;
     bool layered;
-    std::unique_ptr<Parts> parts;
+    std::unique_ptr<RendererParts> parts;
     bool spoilt = false;
 };
 
@@ -221,7 +72,7 @@ ShadowRenderer::~ShadowRenderer() = default;
 void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
     impl_->mend();
-    impl_->whole([&](Parts& parts) {
+    impl_->whole([&](RendererParts& parts) {
         // Two options may have maps of one kind and be in one plan: each gets its own.
         if (std::ranges::find(parts.spares, options, &Spare::options) == parts.spares.end()) {
             std::unique_ptr<MapClass> maps = parts.makeClass(options);
@@ -245,7 +96,7 @@ bool ShadowRenderer::prepare(const Plan& plan, VkExtent2D screen)
     checkPlan("prepare for a plan", plan);
     impl_->mend();
     bool changed = false;
-    impl_->whole([&](Parts& parts) { changed = parts.prepare(plan, screen); });
+    impl_->whole([&](RendererParts& parts) { changed = parts.prepare(plan, screen); });
     return changed;
 }
 
@@ -260,7 +111,7 @@ void ShadowRenderer::recordBounds(VkCommandBuffer commands, std::uint32_t slot, 
     impl_->device.enter(slot, Retirement::Work::bounds);
     if (pack::has(impl_->parts->passes, pack::FramePassKind::bounds)) {
         const Timed timed(profiler, commands, "shadow bounds");
-        impl_->whole([&](Parts& parts) { parts.fitter.record(commands, slot, frame, plan, inputs); });
+        impl_->whole([&](RendererParts& parts) { parts.fitter.record(commands, slot, frame, plan, inputs); });
     }
 }
 
@@ -274,7 +125,7 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
         refuseUse(kTried, "there is no function that draws casters", "hand in a DrawCasters");
     }
     impl_->device.enter(slot, Retirement::Work::maps);
-    impl_->whole([&](Parts& parts) {
+    impl_->whole([&](RendererParts& parts) {
         const std::span<const ViewWork> work = parts.notes.workFor(plan);
         parts.reuse[slot] = countReuse(plan, work);
         const DrawCasters placed = [&](const MapPass& pass) {
@@ -309,7 +160,7 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     }
     impl_->device.enter(slot, Retirement::Work::mask);
     const Timed timed(profiler, commands, "mask");
-    impl_->whole([&](Parts& parts) {
+    impl_->whole([&](RendererParts& parts) {
         for (const std::unique_ptr<MapClass>& maps : parts.classes) {
             if (maps) {
                 maps->recorder->makeReadable(commands);
@@ -341,14 +192,14 @@ ImageRef ShadowRenderer::mask() const
 
 ImageRef ShadowRenderer::maps(std::uint32_t options) const
 {
-    const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];
-    return made ? describe(impl_->parts->classes[options]->recorder->maps()) : ImageRef{};
+    const MapClass* const made = impl_->parts->classOf(options);
+    return made != nullptr ? describe(made->recorder->maps()) : ImageRef{};
 }
 
 ImageRef ShadowRenderer::blocks(std::uint32_t options) const
 {
-    const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];
-    const Image* const blocks = made ? impl_->parts->classes[options]->recorder->blocks() : nullptr;
+    const MapClass* const made = impl_->parts->classOf(options);
+    const Image* const blocks = made != nullptr ? made->recorder->blocks() : nullptr;
     if (blocks == nullptr) {
         return {};
     }
@@ -359,10 +210,8 @@ ImageRef ShadowRenderer::blocks(std::uint32_t options) const
 
 BufferRef ShadowRenderer::depthLayersBuffer(std::uint32_t options) const
 {
-    const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];
-    return made ? BufferRef{impl_->parts->classes[options]->placer.buffer(),
-                            impl_->parts->classes[options]->placer.bytes()}
-                : BufferRef{};
+    const MapClass* const made = impl_->parts->classOf(options);
+    return made != nullptr ? BufferRef{made->placer.buffer(), made->placer.bytes()} : BufferRef{};
 }
 
 FilterCost ShadowRenderer::filterCost(std::uint32_t slot) const
@@ -391,10 +240,8 @@ std::vector<pack::DepthLayer> ShadowRenderer::depthLayers(const Plan& plan, std:
     if (view >= plan.views.size() || plan.views[view].light >= plan.lights.size()) {
         return {};
     }
-    const std::uint32_t options = optionsIndexOf(plan, plan.views[view]);
-    const bool made = options < impl_->parts->classes.size() && impl_->parts->classes[options];
-    return made ? impl_->parts->classes[options]->placer.read(pack::depthLayersSlot(plan, view))
-                : std::vector<pack::DepthLayer>{};
+    const MapClass* const made = impl_->parts->classOf(optionsIndexOf(plan, plan.views[view]));
+    return made != nullptr ? made->placer.read(pack::depthLayersSlot(plan, view)) : std::vector<pack::DepthLayer>{};
 }
 
 std::vector<FittedView> ShadowRenderer::fittedViews(std::uint32_t slot) const

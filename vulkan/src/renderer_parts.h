@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a ShadowRenderer is made of, how that is fitted to a plan, and whether a call fits what is there.
+#pragma once
+
+#include "cascade_fitter.h"
+#include "map_class.h"
+#include "map_notes.h"
+#include "mask_pass.h"
+#include "usage.h"
+
+#include <gnomon/pack/frame_passes.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// Made by warmUp(), without images.
+struct Spare {
+    ResolvedOptions options; // that it was made for; it may serve others, too
+    std::unique_ptr<MapClass> maps;
+};
+
+/// All that a renderer makes. One that a call left half way, because something threw, is given up as a whole.
+struct RendererParts {
+    RendererParts(Device& device_in, const ShadowRendererOptions& options_in, bool layered_in)
+        : device(device_in), options(options_in), fitter(device, options.frames_in_flight, options.pipeline_cache),
+          mask(device, options), layered(layered_in), reuse(options.frames_in_flight)
+    {
+    }
+
+    [[nodiscard]] std::unique_ptr<MapClass> makeClass(const ResolvedOptions& wanted);
+    /// ShadowRenderer::prepare().
+    [[nodiscard]] bool prepare(const Plan& plan, VkExtent2D screen);
+    /// Of one of the last plan's options; null where no light has named them.
+    [[nodiscard]] const MapClass* classOf(std::uint32_t index) const
+    {
+        return index < classes.size() ? classes[index].get() : nullptr;
+    }
+
+    /// Each throws Error, before anything is recorded.
+    void checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const;
+    void checkPrepared(const char* tried, const Plan& plan) const;
+    void checkInputs(const char* tried, const Frame& frame, const Plan& plan, const MaskInputs& inputs) const;
+    void checkFitted(const char* tried, const Plan& plan) const;
+
+    Device& device;
+    const ShadowRendererOptions& options;
+    MapClasses classes; // by options of the last plan; null where no light has named them
+    std::vector<Spare> spares;
+    CascadeFitter fitter;
+    MaskPassRecorder mask;
+    bool layered;                        // the device can
+    std::vector<pack::FramePass> passes; // of the plan that was prepared last
+    std::vector<MapReuse> reuse;         // by slot
+    MapNotes notes;
+    PreparedSize prepared;
+    bool has_mask = false; // prepare() was given a screen
+
+private:
+    [[nodiscard]] std::unique_ptr<MapClass> takeClass(const ResolvedOptions& wanted);
+    void matchClasses(const Plan& plan);
+    void check(const ResolvedOptions& wanted) const;
+};
+
+} // namespace gnomon::vulkan
