@@ -57,6 +57,7 @@ def written(names: list[str]) -> dict[str, str]:
 def host_shader(names: list[str]) -> str:
     functions = "".join(f"float {name}() {{ return 1.0; }}\n" for name in [*names, "real", "real2", "real3", "real4"])
     return ("#version 460\n#extension GL_GOOGLE_include_directive : require\n"
+            "#define GNOMON_TINTS true\n"
             '#include "gnomon/caster.glsl"\n#include "gnomon/smooth_surface.glsl"\n#include "gnomon/visibility.glsl"\n' +
             functions +
             "layout(location = 0) in vec3 point;\nlayout(location = 1) in vec3 normal;\n"
@@ -64,6 +65,8 @@ def host_shader(names: list[str]) -> str:
             "void main() { seen = gnomonLightVisibility(3u, point, normal, gl_FragCoord.xy) +\n"
             "    gnomonLightVisibility(2u, point, normal, gnomonSmoothSurface(point, normal, vec4(normal,\n"
             "        gnomonSmoothPlane(normal, point, false))), gl_FragCoord.xy) +\n"
+            "    gnomonLightColour(1u, point, normal, gl_FragCoord.xy).r +\n"
+            "    gnomonLightColour(1u, point, normal, vec4(normal, -1.0), vec3(0.5), gl_FragCoord.xy).r +\n"
             "    gnomonSmoothEncode(vec4(normal, 1.0), point).x +\n"
             "    gnomonCasterDepth(gnomonCasterMetric(point, vec4(normal, 1.0))); }\n")
 

@@ -67,6 +67,9 @@ vec2 discPoint(int i)
 #include "visibility.glsl"
 // A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
 #ifdef GNOMON_TINTS
+#ifndef GNOMON_TINTS_BINDING
+#define GNOMON_TINTS_BINDING GNOMON_BINDING + 6
+#endif
 #include "tint.glsl"
 #endif
 
@@ -80,6 +83,7 @@ float lookup_confidence; // less than 0: no map was asked
 struct Receiver {
     vec3 p; // eye-relative
     vec3 n;
+    vec3 own_tint;
     float depth; // of the camera
     PixelSteps steps;
 };
@@ -179,7 +183,7 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
             vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n));
 #ifdef GNOMON_TINTS
             if (GNOMON_TINTS) {
-                here *= viewTint(viewAt(view), bias, r.p, r.n);
+                here *= viewTint(viewAt(view), bias, r.p, r.n, r.own_tint);
             }
 #endif
             v = found ? mix(v, here, share) : here;
@@ -199,9 +203,9 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
     return v;
 }
 
-// `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `pixel` of the screen; `w` of the
-// point by GpuScreen's eye_w: one over clip space's w.
-vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, float w)
+// `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `own_tint` of a blended caster, else
+// 1; `pixel` of the screen; `w` of the point by GpuScreen's eye_w: one over clip space's w.
+vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint, vec2 pixel, float w)
 {
 #ifdef GNOMON_CONFIDENCE
     lookup_confidence = -1.0;
@@ -221,6 +225,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec2 pixel, fl
     Receiver r;
     r.p = at.p;
     r.n = at.n;
+    r.own_tint = own_tint;
     r.depth = dot(GNOMON_NUMBERS.screen.view_axis.xyz, p);
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);

@@ -9,15 +9,17 @@
 
 layout(set = GNOMON_SET, binding = GNOMON_TINTS_BINDING) uniform sampler2DArray gnomon_tints;
 
-vec3 tintTexel(vec2 texel, float layer, float depth)
+vec3 tintTexel(vec2 texel, float layer, float depth, vec3 own)
 {
     vec4 tint = texelFetch(gnomon_tints, ivec3(texel, layer), 0);
-    return depth > tint.a ? tint.rgb : vec3(1.0);
+    return depth > tint.a ? min(tint.rgb / own, 1.0) : vec3(1.0);
 }
 
 // What arrives of white light at the point `p`, whose surface has the normal `n`: red, green, blue, and their luminance
-// (ITU-R BT.709). Bilinear, each texel being compared on its own.
-vec4 viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
+// (ITU-R BT.709). Bilinear, each texel being compared on its own. `own_tint`: what the surface itself multiplies the
+// light behind it by. It is a factor of the product and has to come out again: 0 cannot, but what lets nothing of a
+// colour through reflects nothing of it either.
+vec4 viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n, vec3 own_tint)
 {
     float layer = view.more.w - 1.0;
     if (layer < 0.0) {
@@ -28,8 +30,9 @@ vec4 viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n)
     vec2 share = point.texel - 0.5 - first;
     vec2 low = max(first, view.whole.xy);
     vec2 high = min(first + 1.0, view.whole.zw - 1.0);
-    vec3 above = mix(tintTexel(low, layer, point.depth), tintTexel(vec2(high.x, low.y), layer, point.depth), share.x);
-    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point.depth), tintTexel(high, layer, point.depth), share.x);
+    vec3 own = max(own_tint, vec3(1.0 / 65535.0)); // the map's step
+    vec3 above = mix(tintTexel(low, layer, point.depth, own), tintTexel(vec2(high.x, low.y), layer, point.depth, own), share.x);
+    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point.depth, own), tintTexel(high, layer, point.depth, own), share.x);
     vec3 tint = mix(above, below, share.y);
     return vec4(tint, dot(tint, vec3(0.2126, 0.7152, 0.0722)));
 }

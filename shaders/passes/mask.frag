@@ -126,7 +126,7 @@ void main()
     uint left = kViewCount > 0 ? 1u : channels;
     do {
         int channel = findLSB(left);
-        vec4 v = lightVisibility(first + channel, p, n, s, gl_FragCoord.xy, h.w);
+        vec4 v = lightVisibility(first + channel, p, n, s, vec3(1.0), gl_FragCoord.xy, h.w);
         if (kConfidence && lookup_confidence >= 0.0) {
             v += packSeen(0.0, lookup_confidence);
         }

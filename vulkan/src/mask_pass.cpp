@@ -191,8 +191,8 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
                           : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead),
         orDepth(kSmooth, inputs.smooth),
-        DescriptorSets::image(kTints, sampler, maps.tints.inUse() ? maps.tints.view() : maps.recorder->maps().view(),
-                              kRead)};
+        DescriptorSets::image(kTints, sampler,
+                              maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead)};
     sets_.write(slot.sets[options], writes);
 }
 
@@ -218,6 +218,11 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
                          {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights});
     const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
     pack::fillViews(frame, plan, map_images_, views);
+    placeTints(plan, maps, views);
+}
+
+void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuView> views)
+{
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         views[i].more.w = static_cast<float>(maps[optionsIndexOf(plan, plan.views[i])]->tints.placeOf(i));
     }

@@ -24,6 +24,8 @@ struct MaskPush {
 /// By options; null where no light has named them.
 using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
+/// ShadowRenderer::placeTints(), of a plan that was prepared.
+void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuView> views);
 /// Of the mask itself, by maskChannelCount().
 [[nodiscard]] VkFormat maskFormat(std::uint32_t channels);
 /// Does what is drawn go to ConvergePass::target(), and not to another pass before it?

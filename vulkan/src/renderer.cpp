@@ -208,6 +208,22 @@ ImageRef ShadowRenderer::blocks(std::uint32_t options) const
     return ref;
 }
 
+ImageRef ShadowRenderer::tints(std::uint32_t options) const
+{
+    const MapClass* const made = impl_->parts->classOf(options);
+    return made != nullptr && made->tints.inUse() ? describe(made->tints.image()) : ImageRef{};
+}
+
+void ShadowRenderer::placeTints(const Plan& plan, std::span<shared::GpuView> views) const
+{
+    constexpr const char* kTried = "place tints in views";
+    impl_->parts->checkPrepared(kTried, plan);
+    if (views.size() < plan.views.size()) {
+        refuseUse(kTried, "there is no room for the plan's views", "give room for plan.views.size()");
+    }
+    vulkan::placeTints(plan, impl_->parts->classes, views);
+}
+
 BufferRef ShadowRenderer::depthLayersBuffer(std::uint32_t options) const
 {
     const MapClass* const made = impl_->parts->classOf(options);

@@ -105,8 +105,8 @@ bool RendererParts::prepare(const Plan& plan, VkExtent2D screen)
         if (pass.kind == pack::FramePassKind::maps) {
             check((*plan.options)[pass.options]);
             const MapRecorder::Prepared maps = classes[pass.options]->recorder->prepare(plan, pass.options);
-            classes[pass.options]->tints.prepare(plan, pass.options, options.is_blended);
-            changed = changed || maps.changed;
+            const bool tints_changed = classes[pass.options]->tints.prepare(plan, pass.options, options.is_blended);
+            changed = changed || maps.changed || tints_changed;
             if (maps.lost) {
                 notes.lose(pass.options);
             }

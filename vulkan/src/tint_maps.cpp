@@ -8,6 +8,7 @@
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::vulkan {
 namespace {
@@ -49,11 +50,11 @@ void TintMaps::makeImages(const MapPages& pages, std::uint32_t layers)
                         VK_IMAGE_ASPECT_DEPTH_BIT, "depth before blended casters"});
 }
 
-void TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended)
+bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended)
 {
-    in_use_ = false;
+    const bool was_in_use = std::exchange(in_use_, false);
     if (!is_blended || (*plan.options)[options].asked().translucent == Translucent::none) {
-        return;
+        return was_in_use;
     }
     tints_.letGo();
     // Of two maps that share their texels each has a layer.
@@ -71,9 +72,11 @@ void TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
     held_.resize(std::max<std::size_t>(held_.size(), plan.map_count), 0);
     const MapPages& pages = plan.pages[options];
     const std::uint32_t layers = pages.layers * (paired ? 2 : 1);
-    if (in_use_ && !tints_.covers({pages.width, pages.height}, layers)) {
+    const bool grows = in_use_ && !tints_.covers({pages.width, pages.height}, layers);
+    if (grows) {
         makeImages(pages, layers);
     }
+    return grows || in_use_ != was_in_use;
 }
 
 void TintMaps::record(const MapJob& job)

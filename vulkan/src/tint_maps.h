@@ -25,14 +25,14 @@ class TintMaps {
 public:
     explicit TintMaps(Device& device) : device_(device) {}
 
-    /// Finds the views with blended casters, and makes what images they need. Throws Error where the device cannot
-    /// blend in the format of tints.
-    void prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended);
+    /// Finds the views with blended casters, and makes what images they need. Returns whether image() or inUse() is
+    /// another than before. Throws Error where the device cannot blend in the format of tints.
+    bool prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended);
     /// After the maps: draws those that do not hold what their views want.
     void record(const MapJob& job);
     /// Some view of the prepared plan has one.
     [[nodiscard]] bool inUse() const { return in_use_; }
-    [[nodiscard]] VkImageView view() const { return tints_.image().view(); }
+    [[nodiscard]] const Image& image() const { return tints_.image(); }
     /// Of a view of that plan: one past its layer; 0: it has none.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t view) const { return in_use_ ? places_[view] : 0; }
 

@@ -3,11 +3,12 @@
 // library that this declares begins with gnomon or GNOMON, or GN_.
 //
 // Define beforehand, if the defaults do not suit:
-//   GNOMON_SET      descriptor set of the six bindings below (0)
+//   GNOMON_SET      descriptor set of the bindings below (0)
 //   GNOMON_BINDING  the first of them (0)
 //   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of shared/choice_numbers.h: the one filter that is compiled,
 //                   which the options must have. Without it all of them are, and GpuRule says which.
 //   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
+//   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
 // Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
@@ -17,25 +18,40 @@
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
 //   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (shared/map_blocks.h), in GENERAL,
 //      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it
+//   6  combined image sampler, 2D array: the maps of tints, sampler nearest. With GNOMON_TINTS alone
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"
 #include "../../lib/light_visibility.glsl"
 
-// Visibility of light `light` of the frame, 0 .. 1, at a surface's point: `point` relative to the camera's eye, metres,
-// in the world's axes; `normal` the unit geometric normal there. `pixel`: gl_FragCoord.xy. What faces away from the
-// light is 0, a light without a map 1.
-float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
+// What arrives of light `light` of the frame, 0 .. 1 of each colour, at a surface's point: `point` relative to the
+// camera's eye, metres, in the world's axes; `normal` the unit geometric normal there. `pixel`: gl_FragCoord.xy. What
+// faces away from the light is 0, a light without a map 1. Alpha is the luminance (ITU-R BT.709). Without GNOMON_TINTS
+// all four are the same.
+vec4 gnomonLightColour(uint light, vec3 point, vec3 normal, vec2 pixel)
 {
-    return lightVisibility(light, point, normal, flatSurface(normal), pixel, 1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0))).a;
+    return lightVisibility(light, point, normal, flatSurface(normal), vec3(1.0), pixel,
+                           1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0)));
 }
 
 // The same of a smooth-shaded mesh, whose terminator then has no steps: whether a point faces the light its
-// interpolated normal says. `smooth_surface`: what gnomonSmoothSurface() (smooth_surface.glsl) gives there.
+// interpolated normal says. `smooth_surface`: what gnomonSmoothSurface() (smooth_surface.glsl) gives there, or
+// vec4(normal, -1.0). `own_tint`: of a blended surface that casts, what it draws to maps of tints itself, which is
+// 1 - alpha (1 - colour), each 0 .. 1; it is in the map and must not tint itself. 1 of any other surface.
+vec4 gnomonLightColour(uint light, vec3 point, vec3 normal, vec4 smooth_surface, vec3 own_tint, vec2 pixel)
+{
+    return lightVisibility(light, point, normal, SmoothSurface(smooth_surface.xyz, smooth_surface.w), own_tint, pixel,
+                           1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0)));
+}
+
+// Visibility, 0 .. 1: the luminance of that.
+float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
+{
+    return gnomonLightColour(light, point, normal, pixel).a;
+}
 float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec4 smooth_surface, vec2 pixel)
 {
-    return lightVisibility(light, point, normal, SmoothSurface(smooth_surface.xyz, smooth_surface.w), pixel,
-                           1.0 / dot(gnomon.screen.clip_w, vec4(point, 1.0))).a;
+    return gnomonLightColour(light, point, normal, smooth_surface, vec3(1.0), pixel).a;
 }
 
 #include "names_end.glsl"

@@ -20,6 +20,9 @@
 #include <span>
 #include <vector>
 
+namespace gnomon::shared {
+struct GpuView;
+}
 namespace gnomon::vulkan {
 
 /// What MaskInputs has besides the camera's depth.
@@ -195,6 +198,7 @@ struct WarmUp {
 /// What becomes of a wrong call, in every build; nothing is recorded before it is found out:
 ///   a plan without options, or whose numbers point beyond its own lists or pages    Error
 ///   a plan recorded that needs other images than the last prepare() made            Error
+///   views asked to have tints placed that are fewer than the plan's                 Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() without a mask, of another extent, of a frame with other lights    Error
@@ -225,10 +229,11 @@ public:
     /// Makes images, buffers and pipelines for this plan and screen size where those that are there do not fit; of size
     /// 0 no mask: for a host that has none drawn. To be called before a frame's recordings, not between them. Frames in
     /// flight need not be waited for: what is replaced is kept until every slot that may use it has begun another
-    /// frame, and what maps hold is copied into larger images by the next recordMaps(). Returns true when maps() or
-    /// mask() is another image than before: a host that has them in descriptors of its own writes those anew, whatever
-    /// the handles are. Throws Error for sizes beyond the device's limits or memory, for a map format that the device
-    /// has not what it takes for, and for CascadePass::layered on a device without it (DeviceView::layered).
+    /// frame, and what maps hold is copied into larger images by the next recordMaps(). Returns true when maps(),
+    /// tints() or mask() is another image than before: a host that has them in descriptors of its own writes those
+    /// anew, whatever the handles are. Throws Error for sizes beyond the device's limits or memory, for a map format
+    /// that the device has not what it takes for, and for CascadePass::layered on a device without it
+    /// (DeviceView::layered).
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// What was recorded last is never submitted: the next prepare() begins as a new renderer does.
@@ -260,6 +265,13 @@ public:
     /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise. Of other filters than pcss and
     /// raymarch, and where maps() is empty, an empty one.
     [[nodiscard]] ImageRef blocks(std::uint32_t options = 0) const;
+    /// The maps of tints beside those maps, for GNOMON_TINTS (shaders/include/gnomon/visibility.glsl), visible
+    /// likewise. Empty where no view of the prepared plan with these options has blended casters.
+    [[nodiscard]] ImageRef tints(std::uint32_t options = 0) const;
+    /// Says in views that pack::fillViews() wrote where in tints() theirs are: GpuView::more.w, which is 0 before.
+    /// Throws Error where there are fewer views than the plan's, or the plan needs other images than the last prepare()
+    /// made.
+    void placeTints(const Plan& plan, std::span<shared::GpuView> views) const;
     /// GpuDepthLayers by pack::depthLayersSlot(), visible likewise. Of other filters than lvsm one that nobody reads.
     /// Empty where maps() is.
     [[nodiscard]] BufferRef depthLayersBuffer(std::uint32_t options = 0) const;
