@@ -10,7 +10,7 @@ layout(location = 0) in vec4 normal;
 layout(location = 1) in vec4 uvs;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uvec2 ids;
+layout(location = 4) flat in uvec3 ids;
 
 layout(location = 0) out vec4 out_base;     // square root of the base colour; occlusion
 layout(location = 1) out vec4 out_normals;  // geometric, shading

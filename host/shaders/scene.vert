@@ -17,13 +17,13 @@ layout(location = 5) in vec2 uv_other;
 layout(location = 6) in vec4 row_x; // eye-relative from object
 layout(location = 7) in vec4 row_y;
 layout(location = 8) in vec4 row_z;
-layout(location = 9) in uvec2 ids; // object id + 1; the same where it receives, else 0
+layout(location = 9) in uvec3 ids; // object id + 1; the same where it receives, else 0; 1 where it tints the light
 
 layout(location = 0) out vec4 out_normal; // w: smoothPlane()
 layout(location = 1) out vec4 out_uvs;
 layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_colour;
-layout(location = 4) flat out uvec2 out_ids;
+layout(location = 4) flat out uvec3 out_ids;
 invariant gl_Position; // drawn again with depth compared for equality
 
 void main()

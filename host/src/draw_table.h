@@ -17,7 +17,7 @@ struct Batch {
     bool two_sided = false;
     bool mirrored = false;
     std::uint32_t material = 0;
-    auto operator<=>(const Batch&) const = default;
+    auto operator<=>(const Batch&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 [[nodiscard]] vulkan::Rows3x4 rowsOf(const glm::mat4& m);

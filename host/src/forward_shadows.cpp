@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forward_shadows.h"
 
+#include "host/view.h"
+
 #include <gnomon/pack/shading_buffers.h>
 
 #include <array>
 #include <cassert>
+#include <span>
 
 namespace gnomon::host {
 namespace {
@@ -16,7 +19,7 @@ constexpr const char* kPurpose = "host shadows of blended surfaces";
 ForwardShadows::ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots)
     : gpu_(scene.gpu), pipelines_(scene.pipelines), memory_(scene.gpu),
       pipeline_(scene.pipelines.shadowedFor(options.filter())),
-      map_sampler_(scene.textures.mipSampler(options.filterable())), block_sampler_(scene.textures.mipSampler(false)),
+      map_sampler_(scene.textures.mipSampler(options.filterable())), texel_sampler_(scene.textures.mipSampler(false)),
       slots_(slots)
 {
     for (Slot& slot : slots_) {
@@ -69,7 +72,9 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
     pack::fillConstants(frame, plan, 0, frame.size_px, image,
                         *static_cast<shared::GpuConstants*>(now.constants.mapped));
     pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});
-    pack::fillViews(frame, plan, {&image, 1}, {static_cast<shared::GpuView*>(now.views.mapped), views});
+    const std::span into(static_cast<shared::GpuView*>(now.views.mapped), views);
+    pack::fillViews(frame, plan, {&image, 1}, into);
+    renderer.placeTints(plan, into);
     writeSet(now, renderer);
 }
 
@@ -77,10 +82,16 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
 void ForwardShadows::writeSet(const Slot& slot, const vulkan::ShadowRenderer& renderer) const
 {
     const vulkan::ImageRef maps = renderer.maps();
-    // Most filters have no blocks. lavapipe 22.3 crashes on a descriptor that was never written.
-    const vulkan::ImageRef blocks = renderer.blocks().view != VK_NULL_HANDLE ? renderer.blocks() : maps;
-    const std::array<VkDescriptorImageInfo, 2> images{
-        {{map_sampler_, maps.view, maps.layout}, {block_sampler_, blocks.view, blocks.layout}}};
+    // Most filters have no blocks, and most frames no tints. lavapipe 22.3 crashes on a descriptor that was never
+    // written.
+    const auto orMaps = [&maps](const vulkan::ImageRef& image) {
+        return image.view != VK_NULL_HANDLE ? image : maps;
+    };
+    const vulkan::ImageRef blocks = orMaps(renderer.blocks());
+    const vulkan::ImageRef tints = orMaps(renderer.tints());
+    const std::array<VkDescriptorImageInfo, 3> images{{{map_sampler_, maps.view, maps.layout},
+                                                       {texel_sampler_, blocks.view, blocks.layout},
+                                                       {texel_sampler_, tints.view, tints.layout}}};
     const std::array<VkDescriptorBufferInfo, 4> buffers{{{slot.constants.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.lights.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.views.handle, 0, VK_WHOLE_SIZE},

@@ -43,7 +43,7 @@ private:
     Memory memory_;
     VkPipeline pipeline_;
     VkSampler map_sampler_;
-    VkSampler block_sampler_;
+    VkSampler texel_sampler_; // nearest, of blocks and tints
     OwnedDescriptorPool pool_;
     std::vector<Slot> slots_;
 };

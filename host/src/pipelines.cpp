@@ -27,7 +27,7 @@ constexpr std::array<VkVertexInputAttributeDescription, 10> kAttributes{
      {6, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_x)},
      {7, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_y)},
      {8, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_z)},
-     {9, 3, VK_FORMAT_R32G32_UINT, offsetof(InstanceData, id)}}};
+     {9, 3, VK_FORMAT_R32G32B32_UINT, offsetof(InstanceData, id)}}};
 
 VkPipelineColorBlendAttachmentState blendState(bool add)
 {

@@ -20,11 +20,12 @@ inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNOR
                                                          VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
                                                          VK_FORMAT_R16G16B16A16_SNORM};
 
-/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks.
-inline constexpr std::array<VkDescriptorType, 6> kMapsBindings{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks, tints.
+inline constexpr std::array<VkDescriptorType, 7> kMapsBindings{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 /// Instance-rate vertex data of host/shaders/scene.vert.
 struct InstanceData {
@@ -33,7 +34,8 @@ struct InstanceData {
     glm::vec4 row_z;
     std::uint32_t id = 0;          // object + 1
     std::uint32_t receiver_id = 0; // the same where the object receives, else 0
-    std::uint32_t unused[2] = {0, 0};
+    std::uint32_t tints = 0;       // 1: it is a blended caster
+    std::uint32_t unused = 0;
 };
 static_assert(sizeof(InstanceData) == 64);
 

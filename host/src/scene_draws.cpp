@@ -62,6 +62,7 @@ void SceneDraws::writeInstance(InstanceData& out, std::uint32_t object, bool rec
     data.row_z.w = static_cast<float>(double{data.row_z.w} - eye_ws.z);
     data.id = object + 1;
     data.receiver_id = receives ? object + 1 : 0;
+    data.tints = table_.blended[object];
     std::memcpy(static_cast<void*>(&out), &data, sizeof data); // whole, in order: the memory may be write-combined
 }
 
