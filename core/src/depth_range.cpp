@@ -17,10 +17,6 @@ constexpr double kClearanceRanges = 3.0;
 constexpr double kClearanceTexels = 64.0;
 /// Share of the range that is added at its ends.
 constexpr double kMargin = 1e-4;
-/// What single precision rounds coordinates by is a tenth of a pad, and filters reckon with depths that are off by
-/// 4e-6 of the range. So no range is less than so many pads, be the floor as flat as it may. Where casters are clamped,
-/// the clearance is room enough.
-constexpr double kLeastRangePads = 25000.0;
 
 } // namespace
 
@@ -44,8 +40,8 @@ DepthRange depthRangeOf(const DepthRangeInput& input)
     if (space.perspective) {
         range.near_m = std::max(range.near_m, space.near_m);
     }
-    const double least_m = input.clamp_near ? margin_m : kLeastRangePads * input.pad_m;
-    range.far_m = std::max(range.far_m, range.near_m + std::max(least_m, 1e-9 * std::abs(range.near_m)));
+    const double least_m = std::max({margin_m, input.least_m, 1e-9 * std::abs(range.near_m)});
+    range.far_m = std::max(range.far_m, range.near_m + least_m);
     if (input.steady) {
         const SteppedRange stepped = steppedRange(range.near_m, range.far_m);
         return {stepped.low, stepped.high};

@@ -18,7 +18,13 @@ struct DepthRangeInput {
     bool steady = false;     // MotionTraits::steady
     double texel_m = 0.0;
     double pad_m = 0.0;
+    double least_m = 0.0; // the range is at least that
 };
+/// Share of a scene's largest side that a map's range of depth needs, for filters that follow a receiver's plane
+/// exactly. What single precision rounds coordinates by is some 1e-7 of that side, and those filters reckon with depths
+/// that are off by 4e-6 of the range: a floor straight across a light's axis has no range of its own beside which that
+/// is little.
+inline constexpr double kLeastRange = 0.0125;
 /// As tight as the filter allows: precision is shared out between near and far (Marinescu 2011, eq. 1).
 [[nodiscard]] DepthRange depthRangeOf(const DepthRangeInput& input);
 

@@ -141,7 +141,12 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.texel_m = std::max(view.texel_xy_m.x, view.texel_xy_m.y);
     view.first_caster = first_caster;
     view.caster_count = static_cast<std::uint32_t>(casters.size()) - first_caster;
-    const DepthRange range = depthRangeOf({region_, space, view.clamp_near, steady, view.texel_m, camera.pad_m});
+    const glm::dvec3 scene = glm::dvec3(camera.scene_ws.max) - glm::dvec3(camera.scene_ws.min);
+    // Where casters are clamped there is room for what clamping needs; averages lose by a range that is not theirs.
+    const bool needs_range = !view.clamp_near && !recipe.filter->filterable;
+    const double least_m = needs_range ? kLeastRange * std::max({scene.x, scene.y, scene.z}) : 0.0;
+    const DepthRange range =
+        depthRangeOf({region_, space, view.clamp_near, steady, view.texel_m, camera.pad_m, least_m});
     view.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
     measureDepth(space, range, view);
     if (!isFinite(view)) {

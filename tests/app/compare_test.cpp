@@ -340,7 +340,8 @@ TEST(Compare, RefusesInOneLineAndLeavesNothing)
     test::spill(place.folder / "a.gltf", test::kLightsAndCameras);
     test::spill(place.folder / "file", "");
     const std::vector<Refused> all{
-        {compareOf("a.gltf", {}), 1, "comparing shadows of light light0: light point is not in this version"},
+        {compareOf("a.gltf", {"--partition", "single"}), 1,
+         "comparing shadows of light light0: a point light shines all"},
         {compareOf("planes", {"--light", "sunn"}), 2, "did you mean \"sun\""},
         {compareOf("planes", {"--light", "sun", "--light-size", "1"}), 2, "only on a spot or point light"},
         {compareOf("planes", {"--report", "file"}), 1, "it is not a folder"},

@@ -114,7 +114,8 @@ TEST_P(PlanProperties, HoldForRandomScenes)
     EXPECT_GT(tally.blocked, 15 * kScenes);
     EXPECT_GT(tally.count(OutcomeKind::ok) + tally.count(OutcomeKind::fallback), kScenes / 2);
     EXPECT_GT(tally.count(OutcomeKind::no_receiver), kScenes / 30);
-    EXPECT_GT(tally.count(OutcomeKind::no_caster), kScenes / 100);
+    // Around a point light there is hardly ever nothing that casts.
+    EXPECT_GT(tally.count(OutcomeKind::no_caster), kScenes / (technique.partition == Partition::cube ? 200 : 100));
     EXPECT_EQ(tally.count(OutcomeKind::degenerate), 0);
     for (int i = 0; i < test::kAwkwardCount; ++i) {
         EXPECT_GT(tally.seen_awkward[i], kScenes / 100) << nameOf(static_cast<Awkward>(i));
