@@ -12,6 +12,7 @@
 namespace gnomon {
 namespace {
 
+constexpr double kWidestSun_rad = 1.5708;       // 90 degrees and a rounding
 constexpr double kWidestHalfAngle_rad = 1.0472; // 60 degrees and a rounding
 
 bool finite(const glm::dvec3& v)
@@ -52,6 +53,10 @@ Outcome checkLight(const Light& light)
     if (light.type == LightType::directional) {
         if (!std::isfinite(light.angular_diameter_rad) || light.angular_diameter_rad < 0.0) {
             return {OutcomeKind::degenerate, "the light's angular diameter is negative or not finite"};
+        }
+        if (light.angular_diameter_rad > kWidestSun_rad) {
+            return {OutcomeKind::degenerate,
+                    "the light's angular diameter is more than a quarter turn; it is in radians"};
         }
     } else {
         if (const Outcome outcome = checkPlacedLight(light); outcome.kind != OutcomeKind::ok) {

@@ -269,6 +269,16 @@ TEST(Outcome, EachCanBeProvoked)
     EXPECT_EQ(full.plan(planner).pages[0].layers, 2U);
 }
 
+TEST(Outcome, ASunOfMoreThanAQuarterTurnIsDegenerate)
+{
+    for (const auto& [angle_rad, kind] : {std::pair{1.5707, OutcomeKind::ok}, std::pair{2.0, OutcomeKind::degenerate},
+                                          std::pair{6.0, OutcomeKind::degenerate}}) {
+        World world;
+        world.lights[0].angular_diameter_rad = angle_rad;
+        EXPECT_EQ(world.outcome(), kind) << angle_rad;
+    }
+}
+
 TEST(Outcome, NumbersThatDescribeNothingAreDegenerate)
 {
     const auto light = [](auto change) {

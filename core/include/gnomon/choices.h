@@ -35,7 +35,7 @@ struct Technique {
 
     bool operator==(const Technique&) const = default;
 };
-/// One uniform map and its four nearest texels or a small kernel: what other techniques are held against.
+/// One uniform map and a small kernel, 3x3 unless PcfOptions say otherwise: what other techniques are held against.
 inline constexpr Technique kPlainTechnique{Partition::single, Fit::uniform, Filter::pcf, Soften::none, Motion::free};
 
 /// One row of the table of all values: what `gnomon list` prints and every parser reads.

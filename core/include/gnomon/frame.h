@@ -26,7 +26,9 @@ struct Camera {
     glm::dvec2 jitter_px{0.0};
 };
 
-/// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light.
+/// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light. Of
+/// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the
+/// others are drawn anew.
 struct Light {
     std::uint32_t key = 0;
     LightType type = LightType::directional;
@@ -35,9 +37,10 @@ struct Light {
     double outer_half_angle_rad = 0.7853981634; // spot: (0, 1.0471] (60 degrees: a single frustum holds 120)
     double range_m = 0.0;                       // spot, point: reach, > 0; 0 means "as far as the scene goes"
     double near_m = 0.0;                        // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
-    double angular_diameter_rad =
-        0.00925025;            // directional: 0.53 degrees is the sun; for filters that know the light's size
-    double radius_m = 0.0;     // spot, point: radius of the emitting sphere
+    /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
+    /// size make penumbrae of; 0 is a light without size, and hard.
+    double angular_diameter_rad = 0.00925025;
+    double radius_m = 0.0;     // spot, point: likewise, radius of the emitting sphere, 0 .. 1e9; 0 is hard
     bool casts_shadow = true;  // false: no map; its mask channel reads 1
     std::uint32_t options = 0; // which of the planner's options it is planned by; beyond them: Outcome refused
     /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its

@@ -249,12 +249,9 @@ struct SunSteps {
 struct AutoChoice {
     bool made = false; // the light leaves one of them to the planner, and something was in sight to choose by
     Partition partition = Partition::single;
-    /// Predicted, before anything is drawn: the geometric mean of texels per pixel over what is probably seen,
-    double texels_per_pixel = 0.0;
-    /// the share of it that is wrong in some measure, 0 .. 1, of use for comparing only, and that of the partition
-    /// that was not taken; 0: there was no other.
-    double error = 0.0;
-    double other_error = 0.0;
+    double texels_per_pixel = 0.0; // predicted, before anything is drawn: geometric mean over what is probably seen
+    double error = 0.0;            // predicted share of that which is wrong, 0 .. 1; of use for comparing only
+    double other_error = 0.0;      // the same for the partition that was not taken; 0: there was no other
     /// How many times the side of its maps was halved, because finer texels are predicted to gain nothing.
     std::uint32_t halvings = 0;
     std::string_view reason; // a sentence with static lifetime
