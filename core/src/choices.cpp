@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of all choices and what is made from it. To add a technique, turn its row to available here and give it
-// its line in the table of its folder (fit/fits.cpp, partition/partitions.cpp, motion/motions.cpp, kFilters below).
+// The table of all choices and what is made from it; choice_rules.cpp has what does not go together. To add a
+// technique, turn its row to available here and give it its line in the table of its folder (fit/fits.cpp,
+// partition/partitions.cpp, motion/motions.cpp, kFilters below).
 #include <gnomon/choice_rules.h>
 
 #include <array>
@@ -177,29 +178,6 @@ constexpr std::string_view formatReason(Filter filter)
     }
 }
 
-bool goesAround(Partition partition)
-{
-    return partition == Partition::cube || partition == Partition::automatic;
-}
-
-constexpr std::array kRules{
-    ChoiceRule{
-        [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
-        "light point with every partition but cube and auto",
-        "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
-    ChoiceRule{
-        [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
-        "partition cube with every light but point",
-        "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
-    ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
-               "partition sdsm with every motion but free",
-               "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
-               "motion free"},
-    ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
-               "soften converge with every motion but free",
-               "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
-};
-
 template <class Enum>
 std::string_view nameIn(std::string_view choice, Enum value)
 {
@@ -289,11 +267,6 @@ std::span<const ChoiceValue> choiceValues()
     return kValues;
 }
 
-std::span<const ChoiceRule> choiceRules()
-{
-    return kRules;
-}
-
 const ChoiceValue* findChoice(std::string_view choice, std::string_view name)
 {
     for (const ChoiceValue& row : kValues) {
@@ -377,7 +350,7 @@ std::optional<std::string_view> refusal(LightType light, const Technique& techni
     if (const auto reason = unavailable(kMotion, technique.motion)) {
         return reason;
     }
-    for (const ChoiceRule& rule : kRules) {
+    for (const ChoiceRule& rule : choiceRules()) {
         if (rule.applies(light, technique)) {
             return rule.reason;
         }

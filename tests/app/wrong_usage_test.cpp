@@ -88,6 +88,7 @@ const std::vector<Wrong> kWrong{
     {"PartitionNotHere", {"render", "--partition", "multi"}, 2, "not in this version"},
     {"SdsmHeldStill", {"render", "--partition", "sdsm", "--motion", "snap"}, 2, "needs motion free"},
     {"CascadesThatDoNotAscend", {"render", "--partition", "cascades", "--set", "cascades.ends=40/10"}, 2, "ascend"},
+    {"CascadesOfACube", {"render", "--partition", "cube", "--set", "cascades.count=2"}, 2, "has an effect only"},
     {"CascadesOfASingleMap",
      {"render", "--partition", "single", "--set", "cascades.count=2"},
      2,

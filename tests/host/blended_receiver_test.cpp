@@ -152,17 +152,6 @@ protected:
     Gpu gpu_{{.gpu = "software", .validate = true}};
 };
 
-/// How many values differ by more than this share of the other's largest.
-std::size_t differing(const ImageF& a, const ImageF& b, float share)
-{
-    const float most = share * *std::ranges::max_element(b.values);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.values.size(); ++i) {
-        count += std::abs(a.values[i] - b.values[i]) <= most ? 0 : 1; // NaN differs
-    }
-    return count;
-}
-
 // The same function of the same point of the same maps, but for the rounding of a mask of 8 bits, and of a point that
 // the mask takes from the depth buffer.
 TEST_F(BlendedReceiver, HasTheShadowOfAnOpaqueSurfaceInItsPlace)

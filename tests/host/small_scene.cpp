@@ -3,6 +3,7 @@
 
 #include "scene/state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -167,6 +168,16 @@ Eye smallEye()
     eye.position_ws = {0.0, 5.0, 9.0};
     eye.target_ws = {0.0, 0.8, 0.0};
     return eye;
+}
+
+std::size_t differing(const ImageF& a, const ImageF& b, float share)
+{
+    const float most = share * *std::ranges::max_element(b.values);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        count += std::abs(a.values[i] - b.values[i]) <= most ? 0 : 1; // NaN differs
+    }
+    return count;
 }
 
 } // namespace gnomon::host::test

@@ -18,4 +18,7 @@ void addMesh(scene::Scene& scene, scene::Primitive primitive);
 [[nodiscard]] scene::Scene smallScene();
 [[nodiscard]] Eye smallEye();
 
+/// How many values differ by more than this share of the other's largest.
+[[nodiscard]] std::size_t differing(const ImageF& a, const ImageF& b, float share);
+
 } // namespace gnomon::host::test

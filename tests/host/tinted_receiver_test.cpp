@@ -137,17 +137,6 @@ private:
     FrameTimes times_;
 };
 
-/// How many values differ by more than this share of the other's largest.
-std::size_t differing(const ImageF& a, const ImageF& b, float share)
-{
-    const float most = share * *std::ranges::max_element(b.values);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.values.size(); ++i) {
-        count += std::abs(a.values[i] - b.values[i]) <= most ? 0 : 1; // NaN differs
-    }
-    return count;
-}
-
 /// What arrives of each colour of a light at points of a pane, by what the pane is without shadows and without light.
 class Probe {
 public:

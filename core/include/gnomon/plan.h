@@ -122,8 +122,8 @@ struct ViewSlice {
 };
 
 /// Where views of one light stand side by side, the part of its directions that one of them serves: the points p with
-/// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)). A map shows more, for filters to read, but not
-/// all that casts there.
+/// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)), p in world space. A map shows more, for filters
+/// to read, but not all that casts there. By default it is everything.
 struct ViewSector {
     glm::dvec4 x{0.0};
     glm::dvec4 y{0.0};

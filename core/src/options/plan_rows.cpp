@@ -14,7 +14,8 @@ using enum OptionType;
 
 bool hasCascades(const ShadowOptions& o)
 {
-    return o.technique.partition != Partition::single;
+    const Partition partition = o.technique.partition;
+    return partition == Partition::cascades || partition == Partition::sdsm || partition == Partition::automatic;
 }
 bool hasSplits(const ShadowOptions& o)
 {

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/choice_rules.h>
+
+#include <array>
+
+namespace gnomon {
+namespace {
+
+bool goesAround(Partition partition)
+{
+    return partition == Partition::cube || partition == Partition::automatic;
+}
+
+constexpr std::array kRules{
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
+        "light point with every partition but cube and auto",
+        "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
+        "partition cube with every light but point",
+        "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
+    ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
+               "partition sdsm with every motion but free",
+               "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
+               "motion free"},
+    ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
+               "soften converge with every motion but free",
+               "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},
+};
+
+} // namespace
+
+std::span<const ChoiceRule> choiceRules()
+{
+    return kRules;
+}
+
+} // namespace gnomon
