@@ -4,6 +4,7 @@
 #include "depth_tilt.h"
 #include "fit/projection.h"
 #include "light_reach.h"
+#include "outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,24 @@ MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, 
                                             input.map_size, lie.border_texels, lie.light_reach});
 }
 
+/// Around what the GPU will probably fit the map, if it does: where the points are, and the room for their rays.
+void FrustumPlanner::outlinePlaces(const FrustumInput& input, const Lie& lie)
+{
+    places_.clear();
+    scratch_.clear();
+    if (!input.recipe.takesDepth(input.light.type) || lit_.empty()) {
+        return;
+    }
+    for (const LitPoint& point : lit_) {
+        scratch_.push_back(point.q);
+    }
+    outlineOf(scratch_, places_);
+    if (lie.light_reach > 0.0) {
+        const LightRect seen = rectOf({}, places_);
+        widenOutline(places_, affordableReach(lie.light_reach, seen.high - seen.low), scratch_);
+    }
+}
+
 Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
 {
     constexpr double kFeature_px = 300.0;
@@ -81,12 +100,7 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     lit_.clear();
     lit_.reserve(sight.points().size());
     lightPoints(lie.space, sight.points(), input.slice.depth, lit_);
-    places_.clear();
-    if (input.recipe.takesDepth(input.light.type)) {
-        for (const LitPoint& point : lit_) {
-            places_.push_back(point.q);
-        }
-    }
+    outlinePlaces(input, lie);
     const double feature_m = kFeature_px * sight.meanPixel_m();
     FrustumInput drawn = input;
     if (input.recipe.searchesWarp()) {

@@ -53,13 +53,15 @@ private:
     [[nodiscard]] MapFrame frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const;
     [[nodiscard]] FitInput fitInputOf(const FrustumInput& input, const Lie& lie) const;
     [[nodiscard]] Warp warpOf(const FrustumInput& input, const Lie& lie) const;
+    void outlinePlaces(const FrustumInput& input, const Lie& lie);
     [[nodiscard]] Outcome widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie);
     void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;
     std::vector<std::uint32_t> near_casters_;
     std::vector<LitPoint> lit_;
-    std::vector<glm::dvec2> places_;
+    std::vector<glm::dvec2> places_; // outlinePlaces()
+    std::vector<glm::dvec2> scratch_;
     std::vector<double> texels_px_;
 };
 

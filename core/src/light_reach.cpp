@@ -3,6 +3,7 @@
 
 #include "motion/steps.h"
 
+#include <cascade_fit.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ double lightReach(const Light& light, const LightSpace& space, double near_m, do
 
 double affordableReach(double reach, const glm::dvec2& size)
 {
-    return std::min(reach, 0.25 * std::max(size.x, size.y));
+    return std::min(reach, shared::kMostRoom * std::max(size.x, size.y));
 }
 
 double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws)

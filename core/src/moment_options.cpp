@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::array<std::string_view, 2> kMetrics{"linear", "z-over-w"};
-constexpr std::array<std::string_view, 3> kBlurs{"none", "gaussian", "box"};
+constexpr std::array<std::string_view, 4> kBlurs{"auto", "none", "gaussian", "box"};
 constexpr std::array<std::string_view, 3> kPaths{"auto", "compute", "fragment"};
 constexpr std::array<std::string_view, 4> kSamplings{"nearest", "bilinear", "trilinear", "anisotropic"};
 constexpr std::array<std::string_view, 4> kPlacements{"uniform", "hand", "lloyd", "gaps"};
@@ -111,15 +111,24 @@ bool followsDepths(LayerPlacement placement)
     return placement == LayerPlacement::lloyd || placement == LayerPlacement::gaps;
 }
 
+BlurKind blurOf(const MomentOptions& options)
+{
+    if (options.blur != BlurKind::automatic) {
+        return options.blur;
+    }
+    return options.penumbra == MomentPenumbra::light ? BlurKind::none : BlurKind::gaussian;
+}
+
 std::uint32_t blurRadius(const MomentOptions& options)
 {
-    if (options.blur == BlurKind::none) {
+    const BlurKind blur = blurOf(options);
+    if (blur == BlurKind::none) {
         return 0;
     }
     if (options.blur_radius_texels > 0) {
         return options.blur_radius_texels;
     }
-    if (options.blur == BlurKind::box) {
+    if (blur == BlurKind::box) {
         return 2;
     }
     const float three_sigma = std::ceil(3.0F * options.blur_sigma_texels);

@@ -3,6 +3,8 @@
 // unseen casters still cast); convex body clipping instead of boxes of boxes.
 #include "region.h"
 
+#include "outline.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -30,36 +32,6 @@ void makeConePlanes(const LightSpace& space, std::vector<Plane>& out)
     }
     through(space.forward_ws, -space.near_m);
     through(-space.forward_ws, space.reach_m);
-}
-
-double cross2(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
-{
-    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-
-/// Convex outline, counter-clockwise. Based on: A. M. Andrew, "Another efficient algorithm for convex hulls in two
-/// dimensions", 1979. Sorts `points`, of which there is one at least.
-void outlineOf(std::vector<glm::dvec2>& points, std::vector<glm::dvec2>& outline)
-{
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    outline.clear();
-    const auto chain = [&](auto first, auto last) {
-        const std::size_t start = outline.size();
-        for (auto p = first; p != last; ++p) {
-            while (outline.size() >= start + 2 &&
-                   cross2(outline[outline.size() - 2], outline[outline.size() - 1], *p) <= 0.0) {
-                outline.pop_back();
-            }
-            outline.push_back(*p);
-        }
-        outline.pop_back(); // the other chain begins with it
-    };
-    chain(points.begin(), points.end());
-    chain(points.rbegin(), points.rend());
-    if (outline.empty()) { // all are one point
-        outline.push_back(points.front());
-    }
 }
 
 Aabb grown(const Aabb& box, double by_m)
@@ -207,14 +179,7 @@ void Region::narrowOutline()
 
 void Region::widen(double by)
 {
-    outline_points_.clear();
-    for (const glm::dvec2& p : outline_) {
-        for (const glm::dvec2& side :
-             {glm::dvec2(-by, -by), glm::dvec2(by, -by), glm::dvec2(by, by), glm::dvec2(-by, by)}) {
-            outline_points_.push_back(p + side);
-        }
-    }
-    outlineOf(outline_points_, outline_);
+    widenOutline(outline_, by, outline_points_);
     rect_ = {rect_.low - by, rect_.high + by};
 }
 
@@ -279,6 +244,18 @@ void Region::makeCasterPlanes(const RegionInput& input, const CasterReach& reach
     }
 }
 
+/// A receiver that does not cast is in the map for its own shadows alone, and hides all that is behind it: as a lamp's
+/// housing would the room.
+void Region::leaveOutUnseen(const RegionInput& input, std::size_t first, std::vector<std::uint32_t>& casters)
+{
+    const auto is_unseen = [&](std::uint32_t object) {
+        return !input.objects.flags(object).casts && !std::ranges::binary_search(input.seen, object);
+    };
+    const auto gone =
+        std::ranges::remove_if(casters.begin() + static_cast<std::ptrdiff_t>(first), casters.end(), is_unseen);
+    casters.erase(gone.begin(), gone.end());
+}
+
 Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters)
 {
     makeCasterPlanes(input, reach);
@@ -287,6 +264,9 @@ Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach
     if (casters.size() != first && input.draws_receivers) {
         casters.resize(first);
         input.objects.query(caster_planes_, ObjectSet::Want::all, casters);
+        if (!reach.whole) {
+            leaveOutUnseen(input, first, casters);
+        }
     }
     if (casters.size() == first) {
         return {OutcomeKind::no_caster, "nothing can throw a shadow on what the camera sees"};

@@ -18,7 +18,7 @@ struct RegionInput {
     const Slice& slice;
     const CameraView& view;
     const ObjectSet& objects;
-    std::span<const std::uint32_t> seen; // receivers that the camera sees
+    std::span<const std::uint32_t> seen; // receivers that the camera sees, ascending
     bool draws_receivers = false;        // FilterTraits::filterable
 };
 
@@ -58,6 +58,7 @@ private:
     void narrowOutline();
     void measureCasters(const RegionInput& input, std::span<const std::uint32_t> casters);
     double depthInCone(const LightSpace& space, const Aabb& box);
+    static void leaveOutUnseen(const RegionInput& input, std::size_t first, std::vector<std::uint32_t>& casters);
     void makeCasterPlanes(const RegionInput& input, const CasterReach& reach);
     void addOutlinePlanes(const LightSpace& space, double pad, double pad_m, double rounding);
     void addSidePlane(const LightSpace& space, const glm::dvec2& normal, double offset, double pad);

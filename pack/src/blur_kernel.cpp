@@ -15,7 +15,7 @@ shared::BlurKernel blurKernel(const MomentOptions& options)
     double sum = 0.0;
     for (std::uint32_t i = 0; i <= radius; ++i) {
         const double d = i / sigma;
-        weights[i] = options.blur == BlurKind::box ? 1.0 : std::exp(-0.5 * d * d);
+        weights[i] = blurOf(options) == BlurKind::box ? 1.0 : std::exp(-0.5 * d * d);
         sum += i == 0 ? weights[i] : 2.0 * weights[i];
     }
     shared::BlurKernel kernel{};

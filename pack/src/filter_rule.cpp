@@ -57,7 +57,7 @@ float blurDeviation(const MomentOptions& options)
 {
     const auto radius = static_cast<float>(blurRadius(options));
     const float of_box = std::sqrt(radius * (radius + 1.0F) / 3.0F);
-    return options.blur == BlurKind::gaussian ? std::min(options.blur_sigma_texels, of_box) : of_box;
+    return blurOf(options) == BlurKind::gaussian ? std::min(options.blur_sigma_texels, of_box) : of_box;
 }
 
 int flagsOf(const ResolvedOptions& options)
@@ -90,7 +90,7 @@ float biasReachTexels(const ResolvedOptions& options)
     }
     const MomentOptions& o = options.moments();
     const auto radius = static_cast<float>(blurRadius(o));
-    const float of_blur = o.blur == BlurKind::gaussian ? std::min(o.blur_sigma_texels, radius) : radius * 0.57735F;
+    const float of_blur = blurOf(o) == BlurKind::gaussian ? std::min(o.blur_sigma_texels, radius) : radius * 0.57735F;
     constexpr float kOfBilinear = 0.5F;
     constexpr float kOfRing = 3.0F; // esm also compares single reads that far off (shaders/lib/esm.glsl)
     return std::max(of_blur + kOfBilinear, options.filter() == Filter::esm ? kOfRing : 0.0F);

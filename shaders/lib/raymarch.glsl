@@ -17,10 +17,10 @@
 #include "cone_texels.glsl"
 GN_BEGIN
 
-// Rays of a pixel.
-GN_CONST int kRaysMost = 48;
-GN_CONST int kRaysLeast = 24;
-GN_CONST int kRaysFewest = 8;
+// Rays of a pixel, by how far they spread. In a narrow penumbra no more than the first few if these agree.
+GN_CONST int kLeastRays = 24;
+GN_CONST int kMostRays = 48;
+GN_CONST int kRaysToAgree = 8;
 GN_CONST real kRaysPerTexel = real(3.5); // that the light's disc is wide on the map
 // Vogel's points begin in the light's middle. In a wide penumbra, where rays may end early by kPixelSteps, the first few
 // of them are to be all over the light, or it would look smaller: in steps of a power of two, modulo an odd count, each
@@ -50,7 +50,7 @@ GN_CONST real kNarrowest = real(0.8);
 // Where the first rays say that there is an edge, so many more find its place in a strip along it, so wide and so long.
 // Over such a length the steps of its texels are one line. Penumbrae that have a strip are narrow, so these rays are
 // short, and stay far below kPixelSteps.
-GN_CONST int kRaysAlong = 25;
+GN_CONST int kStripRays = 25;
 GN_CONST real kStripWide = real(1.5);
 GN_CONST real kStripLong = real(5.0);
 // Less than the first of RaysFound::straight is no edge. Of the strip's own, the strip counts for nothing below the
@@ -69,6 +69,31 @@ GN_CONST real kNarrowestInStrip = real(0.6);
 GN_CONST real kShowsDecided = real(0.25);
 GN_CONST real kShowsRays = real(0.5);
 GN_CONST real kShowsCeiling = real(0.75);
+
+// A ray from the receiver's plane to a point of the light.
+struct LightRay {
+    real3 start; // homogeneous, texels
+    real3 end;
+    real from; // the metric at start
+    real to;
+    bool faces; // the light's point is above the receiver's surface
+};
+
+// From `offset` texels beside the receiver to the point `at` of the light's unit disc, as far as depth `nearest`.
+GN_FN LightRay lightRay(MapPoint point, RayCone cone, real nearest, real2 offset, real2 at)
+{
+    real w = max(real(1.0) + dot(point.w_slope, offset), real(0.25));
+    real3 way = cone.axis + cone.side_x * at.x + cone.side_y * at.y;
+    real rise = cone.rise + cone.rise_x * at.x + cone.rise_y * at.y;
+    LightRay ray;
+    ray.from = (point.depth + dot(point.depth_slope, offset)) / w;
+    ray.start = real3(point.texel.x + offset.x, point.texel.y + offset.y, real(1.0)) * (cone.start.z / w);
+    real s = rayLength(kRayBeyond * (ray.from - nearest), max(rise, real(0.05) * cone.rise), ray.start.z, way.z);
+    ray.end = ray.start + way * s;
+    ray.to = ray.from - rise * s;
+    ray.faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
+    return ray;
+}
 
 // Where a ray is on the map: between two places it runs straight from texel to texel.
 struct RayRun {
@@ -143,11 +168,10 @@ struct RayEnd {
     int steps; // squares and texels that it visited
 };
 
-// The ray that leads from `start` to `end` (homogeneous), over which the metric falls from `from` to `to`. Squares of
-// texels none of which comes up to the ray are passed over in one step, larger ones the farther it goes.
-GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, real from, real to)
+// Squares of texels none of which comes up to the ray are passed over in one step, larger ones the farther it goes.
+GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
 {
-    RayRun r = rayRun(start, end);
+    RayRun r = rayRun(ray.start, ray.end);
     real2 cell = floor(r.first);
     RayTexel before;
     before.depth = real(2.0);
@@ -155,7 +179,7 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
     real2 back = real2(real(0.0));
     bool passed = false; // over the square before: its last texel was not read
     real surface = kOneSurface * point.texel_depth;
-    real enters = from;
+    real enters = ray.from;
     real level = real(0.0);
     bool blocked = false;
     bool more = true;
@@ -167,9 +191,9 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
         real s = t;
 #else
         // Of the ray's own length: lines stay straight in a perspective map, but not their measure.
-        real s = t * start.z / (t * start.z + (real(1.0) - t) * end.z);
+        real s = t * ray.start.z / (t * ray.start.z + (real(1.0) - t) * ray.end.z);
 #endif
-        real leaves = from + (to - from) * s;
+        real leaves = ray.from + (ray.to - ray.from) * s;
         bool advances = true;
         if (level > real(0.0)) {
             real2 square = floor(cell * exp2(-level));
@@ -198,25 +222,22 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, real3 start, real3 end, re
         more = more && cell.x >= f.tile.x && cell.y >= f.tile.y && cell.x < f.tile.z && cell.y < f.tile.w;
     } while (more);
     RayEnd found;
-    found.fall = blocked ? from - enters : real(-1.0);
+    found.fall = blocked ? ray.from - enters : real(-1.0);
     found.steps = steps;
     return found;
 }
 
-// Where rays start around their receiver, on its plane: a rectangle of the map, `across` by `along`, `way` being the
-// unit vector across it.
+// Where rays start around their receiver, on its plane: a rectangle of the map.
 struct RayStarts {
-    real2 way;
-    real across; // texels
-    real along;
+    real2 way;  // unit vector along its first side
+    real2 size; // texels, along `way` and across it
 };
 
 GN_FN RayStarts startSquare(real side)
 {
     RayStarts starts;
     starts.way = real2(real(1.0), real(0.0));
-    starts.across = side;
-    starts.along = side;
+    starts.size = real2(side);
     return starts;
 }
 
@@ -229,13 +250,12 @@ struct RaysFound {
     bool cut;      // kRaySteps or kPixelSteps were too few
 };
 
-// `count` rays, or kRaysFewest if these agree and not `all` are wanted, as far as depth `nearest`, above which nothing
-// casts.
+// `count` rays, or kRaysToAgree if these agree and not `all` are wanted. Above depth `nearest` nothing casts.
 GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, bool all,
                           RayStarts within)
 {
     ConeNoise noise = coneNoise(f.pixel);
-    int enough = all ? count : kRaysFewest;
+    int enough = all ? count : kRaysToAgree;
     bool agree = true;
     bool cut = false;
     int steps = 0;
@@ -246,21 +266,15 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
     int i = 0;
     do {
         real2 at = pointOfLight(noise, all ? (i * kRayStride + kRayOffset) % count : i, count);
-        real2 place = pointOfTexel(noise, i) * real2(within.across, within.along);
+        real2 place = pointOfTexel(noise, i) * within.size;
         real2 from = within.way * place.x + real2(-within.way.y, within.way.x) * place.y;
-        real w = max(real(1.0) + dot(point.w_slope, from), real(0.25));
-        real metric = (point.depth + dot(point.depth_slope, from)) / w;
-        real3 start = real3(point.texel.x + from.x, point.texel.y + from.y, real(1.0)) * (cone.start.z / w);
-        real3 way = cone.axis + cone.side_x * at.x + cone.side_y * at.y;
-        real rise = cone.rise + cone.rise_x * at.x + cone.rise_y * at.y;
-        real s = rayLength(kRayBeyond * (metric - nearest), max(rise, real(0.05) * cone.rise), start.z, way.z);
-        real3 end = start + way * s;
+        LightRay ray = lightRay(point, cone, nearest, from, at);
         real fall = real(0.0);
-        if (dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0)) {
-            RayEnd ray = followRay(point, f, start, end, metric, metric - rise * s);
-            fall = ray.fall;
-            steps += ray.steps;
-            cut = cut || ray.steps >= kRaySteps;
+        if (ray.faces) {
+            RayEnd end = followRay(point, f, ray);
+            fall = end.fall;
+            steps += end.steps;
+            cut = cut || end.steps >= kRaySteps;
         }
         bool reaches = fall < real(0.0);
         lit += reaches ? real(1.0) : real(0.0);
@@ -269,43 +283,42 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
         starts_lit = starts_lit + (reaches ? from : real2(real(0.0)));
         ++i;
         agree = lit == real(0.0) || lit == real(i);
-        cut = cut || (steps >= kPixelSteps && i < count && i >= kRaysFewest);
-    } while (i < count && !(agree && i >= enough) && !(steps >= kPixelSteps && i >= kRaysFewest));
+        cut = cut || (steps >= kPixelSteps && i < count && i >= kRaysToAgree);
+    } while (i < count && !(agree && i >= enough) && !(steps >= kPixelSteps && i >= kRaysToAgree));
     real n = real(i);
     RaysFound found;
     found.lit = lit / n;
     found.cut = cut;
     found.fall = falls / max(n - lit, real(1.0));
     // An edge along a square leaves a slab of starts in light, whose middle is that far from the middle of all.
-    real apart = real(0.5) * within.across * (real(1.0) - found.lit);
+    real apart = real(0.5) * within.size.x * (real(1.0) - found.lit);
     found.to_lit = starts_lit / max(lit, real(1.0)) - starts / n;
     found.straight = length(found.to_lit) / max(apart, real(0.01));
     return found;
 }
 
 // The starts of rays make a ramp of what is a step where the light is small or its blocker near. Rays tell how far off
-// that is, and so how wide the penumbra is: `across`, texels. A straight edge's ramp is narrowed to that about its
-// middle, but to no less than `narrowest`. Around leaves and wires rays are blocked on all sides, and there the mean
-// stays as it is.
-GN_FN real narrowed(RaysFound found, real across, real within, real narrowest)
+// that is, and so how wide the penumbra is, texels. A straight edge's ramp is narrowed to that about its middle, but to
+// no less than `narrowest`. Around leaves and wires rays are blocked on all sides, and there the mean stays as it is.
+GN_FN real narrowed(RaysFound found, real penumbra, real within, real narrowest)
 {
-    real steeper = (within + across) / max(across, narrowest);
+    real steeper = (within + penumbra) / max(penumbra, narrowest);
     real straight = clamp((found.straight - kStraightFrom) / (kStraightTo - kStraightFrom), real(0.0), real(1.0));
-    real share = straight * clamp((kWideTo - across) / (kWideTo - kWideFrom), real(0.0), real(1.0));
+    real share = straight * clamp((kWideTo - penumbra) / (kWideTo - kWideFrom), real(0.0), real(1.0));
     return clamp(real(0.5) + (found.lit - real(0.5)) * mix(real(1.0), steeper, share), real(0.0), real(1.0));
 }
 
 // In a penumbra few texels wide these are what is seen, whatever the rays; in a wide one it is the rays' noise.
-// `across`: texels that the rays may lead over.
-GN_FN int rayCount(real across)
+// `spread`: texels that the rays may lead over.
+GN_FN int rayCount(real spread)
 {
-    real wanted = clamp(kRaysPerTexel * across, real(kRaysLeast), real(kRaysMost));
+    real wanted = clamp(kRaysPerTexel * spread, real(kLeastRays), real(kMostRays));
     return int(wanted) / 2 * 2 + 1; // odd, see kRayStride
 }
 
 // How wide the penumbra of what rays found is, texels: `widest` is the light's disc where it is farthest from the
 // receiver, at depth `nearest`.
-GN_FN real penumbraAcross(MapPoint point, RaysFound found, real widest, real nearest)
+GN_FN real penumbraWidth(MapPoint point, RaysFound found, real widest, real nearest)
 {
     return widest * found.fall / max(point.depth - nearest, real(1e-9));
 }
@@ -316,15 +329,14 @@ GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real neare
 {
     RayStarts strip;
     strip.way = first.to_lit / max(length(first.to_lit), real(1e-6));
-    strip.across = kStripWide;
-    strip.along = kStripLong;
-    RaysFound found = traceRays(point, f, cone, nearest, kRaysAlong, true, strip);
+    strip.size = real2(kStripWide, kStripLong);
+    RaysFound found = traceRays(point, f, cone, nearest, kStripRays, true, strip);
     // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
     real apart = real(0.5) * kStripWide * (real(1.0) - found.lit);
     found.straight = dot(found.to_lit, strip.way) / max(apart, real(0.01));
     real share = clamp((found.straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
-    real across = penumbraAcross(point, found, widest, nearest);
-    return mix(seen, narrowed(found, across, kStripWide, kNarrowestInStrip), share);
+    real penumbra = penumbraWidth(point, found, widest, nearest);
+    return mix(seen, narrowed(found, penumbra, kStripWide, kNarrowestInStrip), share);
 }
 
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
@@ -334,15 +346,15 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     if (around.visibility >= real(0.0)) {
         return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
     }
-    real across = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
-    real widest = across - kStartsWithin; // of the light's disc, where it is farthest from the receiver
+    real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
+    real widest = spread - kStartsWithin; // of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
     within = f.stood > 0 ? kStartsAtRest : within;
-    RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(across), across >= kWideFrom, startSquare(within));
+    RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(spread), spread >= kWideFrom, startSquare(within));
     if (GNOMON_SHOWS_RAYS) {
         return found.cut ? kShowsCeiling : kShowsRays;
     }
-    real seen = narrowed(found, penumbraAcross(point, found, widest, around.nearest), within, kNarrowest);
+    real seen = narrowed(found, penumbraWidth(point, found, widest, around.nearest), within, kNarrowest);
     // Frames at rest find the edge's place together.
     bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && found.straight > kEdgeFrom;
     if (is_edge && widest < kWideTo && f.stood == 0) {

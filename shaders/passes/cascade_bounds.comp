@@ -1,20 +1,30 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Finds, for each cascade, the rectangle of the base map that its pixels lie in.
+// Finds, for each cascade, the rectangle of the base map that its pixels lie in, without and with room for rays to the
+// rest of the light.
 #extension GL_GOOGLE_include_directive : require
 #define PIXELS
 #include "../lib/cascade_pixels.glsl"
 layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 
-shared uint found[4 * kMostCascades];
+shared uint found[kBoundKeys * kMostCascades];
 shared vec2 slices[kMostCascades]; // begin, end
+
+// Lets the bounds from `first` on hold a place with room on all sides.
+void note(int first, vec2 place, vec2 room)
+{
+    atomicMax(found[first], greatestKey(room.x - place.x));
+    atomicMax(found[first + 1], greatestKey(room.y - place.y));
+    atomicMax(found[first + 2], greatestKey(place.x + room.x));
+    atomicMax(found[first + 3], greatestKey(place.y + room.y));
+}
 
 void main()
 {
     GpuCascadeLight light = cascade_lights[gl_WorkGroupID.z];
     int count = int(light.cascades.x);
     int thread = int(gl_LocalInvocationIndex);
-    if (thread < 4 * kMostCascades) {
+    if (thread < kBoundKeys * kMostCascades) {
         found[thread] = 0u;
     }
     if (thread < count) {
@@ -26,16 +36,14 @@ void main()
         if (seen.counts) {
             for (int c = 0; c < count; ++c) {
                 if (sliceCounts(seen.depth_m, slices[c].x, slices[c].y)) {
-                    atomicMax(found[4 * c], greatestKey(seen.room.x - seen.place.x));
-                    atomicMax(found[4 * c + 1], greatestKey(seen.room.y - seen.place.y));
-                    atomicMax(found[4 * c + 2], greatestKey(seen.place.x + seen.room.x));
-                    atomicMax(found[4 * c + 3], greatestKey(seen.place.y + seen.room.y));
+                    note(kBoundKeys * c, seen.place, vec2(0.0));
+                    note(kBoundKeys * c + 4, seen.place, seen.room);
                 }
             }
         }
     }
     barrier();
-    if (thread < 4 * count && found[thread] != 0u) {
+    if (thread < kBoundKeys * count && found[thread] != 0u) {
         atomicMax(cascade_keys[gl_WorkGroupID.z].key[kDepthKeys + thread], found[thread]);
     }
 }

@@ -13,6 +13,13 @@ layout(set = 0, binding = 3, std430) writeonly buffer Report
     GpuFittedView report[]; // the same, for whoever asks once the GPU has finished
 };
 
+// Low x, y, high x, y, from the key `first` on.
+vec4 boundsFrom(GpuCascadeKeys keys, int first)
+{
+    return vec4(-fromKey(keys.key[first]), -fromKey(keys.key[first + 1]), fromKey(keys.key[first + 2]),
+                fromKey(keys.key[first + 3]));
+}
+
 void main()
 {
     GpuCascadeLight light = cascade_lights[gl_WorkGroupID.z];
@@ -20,7 +27,7 @@ void main()
     if (i >= int(light.cascades.x)) {
         return;
     }
-    const uint first = kDepthKeys + 4 * i;
+    const int first = kDepthKeys + kBoundKeys * i;
     GpuCascadeKeys keys = cascade_keys[gl_WorkGroupID.z];
     GpuFittedView view;
     view.place = vec4(1.0, 1.0, 0.0, 0.0);
@@ -30,12 +37,13 @@ void main()
         vec3 slice = cascadeSlice(light, i);
         view.slice = vec4(slice.xy, slice.z > 0.0 ? 1.0 / slice.z : 0.0, 0.0);
     }
+    vec4 shown = view.seen;
     if (keys.key[first] != 0u) {
-        view.seen = vec4(-fromKey(keys.key[first]), -fromKey(keys.key[first + 1]), fromKey(keys.key[first + 2]),
-                         fromKey(keys.key[first + 3]));
+        view.seen = boundsFrom(keys, first);
+        shown = spareRoom(view.seen, boundsFrom(keys, first + 4), light.room.xy);
     }
-    vec2 x = axisPlace(view.seen.x, view.seen.z, light.split.z);
-    vec2 y = axisPlace(view.seen.y, view.seen.w, light.split.w);
+    vec2 x = axisPlace(shown.x, shown.z, light.split.z);
+    vec2 y = axisPlace(shown.y, shown.w, light.split.w);
     vec2 scale = vec2(x.x, y.x);
     view.place = vec4(scale, vec2(x.y, y.y) + light.texel.zw / scale);
     view.slice.w = max(light.texel.x / x.x, light.texel.y / y.x);

@@ -68,6 +68,23 @@ GN_FN bool sliceCounts(real depth_m, real begin_m, real end_m)
 // numbers of the base map, up to 2^-24 apart, which is 1/64 of a texel then where a map has 1024 of them on a side.
 GN_CONST real kFinestShare = real(1.0 / 512.0);
 
+// On all sides of what a map shows it has room for rays to the rest of the light, but no more than this share of the
+// longer side: its texels grow by half at most.
+GN_CONST real kMostRoom = real(0.25);
+
+// Rectangles are low x, y, high x, y. What is left of `wanted`, which is `seen` with room on all sides, when the room
+// is no more than a map can spare. `reach` is the length of one and the same ray along both axes; 0: there are no rays.
+GN_FN real4 spareRoom(real4 seen, real4 wanted, real2 reach)
+{
+    if (min(reach.x, reach.y) <= real(0.0)) {
+        return seen;
+    }
+    real rays = max((seen.z - seen.x) / reach.x, (seen.w - seen.y) / reach.y);
+    real2 most = reach * (kMostRoom * rays);
+    return real4(max(wanted.x, seen.x - most.x), max(wanted.y, seen.y - most.y), min(wanted.z, seen.z + most.x),
+                 min(wanted.w, seen.w + most.y));
+}
+
 // What `low` to `high` on an axis of the base map, in [-1, 1], becomes: all of the cascade's map but for the filter's
 // border. `widen` is texels / (texels - 2 border). x: scale, 1 to 1/kFinestShare; y: centre. A place is (place - y) x
 // then. Nothing (low > high) is given the whole base map, and so is what would be coarser than that.

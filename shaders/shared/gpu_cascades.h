@@ -22,6 +22,7 @@ GN_CASCADE_CONST int kMostCascades = 6;
 GN_CASCADE_CONST int kBoundsGroup = 16;   // threads of a group along x and y; it looks at twice as many pixels
 GN_CASCADE_CONST int kCompleteGroup = 64; // views that one group of cascade_constants.comp completes
 GN_CASCADE_CONST int kDepthKeys = 2;      // of GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
+GN_CASCADE_CONST int kBoundKeys = 8;      // of a cascade: x, y low, then high; the same again with room on all sides
 
 // One light that is fitted on the GPU.
 struct GpuCascadeLight {
@@ -46,7 +47,7 @@ struct GpuCascadeLight {
 // Found so far, as whole numbers that only grow, so that the order in which pixels come does not matter: greatestKey()
 // of greatest values and of negated least ones; 0: nothing yet.
 struct GpuCascadeKeys {
-    GN_CASCADE_UINT key[4 * kMostCascades + 4]; // x, y low then high of cascade i from 4 i + kDepthKeys on
+    GN_CASCADE_UINT key[kBoundKeys * kMostCascades + 4]; // cascade i's from kBoundKeys i + kDepthKeys on
 };
 
 // What was found for a view.
@@ -57,7 +58,7 @@ struct GpuFittedView {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuCascadeLight) == 16 * 16 && sizeof(GpuCascadeKeys) == 28 * 4 && sizeof(GpuFittedView) == 48);
+static_assert(sizeof(GpuCascadeLight) == 16 * 16 && sizeof(GpuCascadeKeys) == 52 * 4 && sizeof(GpuFittedView) == 48);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -119,7 +119,7 @@ const std::vector<Wrong> kWrong{
      2,
      "--set pcf.taps: \"65\" is not in"},
     {"BlurOfHard", {"render", "--filter", "hard", "--set", "blur=box"}, 2, "only with filter vsm, lvsm, esm, evsm or"},
-    {"UnknownBlur", {"render", "--filter", "vsm", "--set", "blur=median"}, 2, "it takes none, gaussian and box"},
+    {"UnknownBlur", {"render", "--filter", "vsm", "--set", "blur=median"}, 2, "it takes auto, none, gaussian and box"},
     {"SigmaOfABox",
      {"render", "--filter", "vsm", "--set", "blur=box", "--set", "blur.sigma=2"},
      2,

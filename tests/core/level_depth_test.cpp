@@ -126,6 +126,23 @@ TEST(LevelDepth, FilterableMapsHoldTheirReceivers)
     EXPECT_EQ(std::count(drawn.casters.begin(), drawn.casters.end(), 0U), 1);
 }
 
+// What does not cast, and is drawn for its own shadows alone, would shade what is behind it.
+TEST(LevelDepth, ReceiversThatDoNotCastAreLeftOutUnlessTheCameraSeesThem)
+{
+    Ground ground;
+    const std::uint32_t first = ground.set.size();
+    const glm::vec3 at(-150.0 * kSun); // beside what the camera sees, and in the way of the sun's rays to it
+    const Aabb box{at - 1.0F, at + 1.0F};
+    ground.set.add(box, {false, true, false});
+    const Plan plan = ground.plan({});
+    EXPECT_EQ(std::count(plan.casters.begin(), plan.casters.end(), 0U), 1);
+    EXPECT_EQ(std::count(plan.casters.begin(), plan.casters.end(), first), 0);
+    ground.set.add(box, {true, true, false});
+    const Plan cast = ground.plan({});
+    EXPECT_EQ(std::count(cast.casters.begin(), cast.casters.end(), first + 1), 1) << "it is in the way of the rays";
+    EXPECT_EQ(std::count(cast.casters.begin(), cast.casters.end(), first), 0);
+}
+
 TEST(LevelDepth, ReceiversAloneThrowNoShadow)
 {
     ObjectSet set;

@@ -282,6 +282,18 @@ TEST(MomentOptions, BlurRadius)
     EXPECT_EQ(blurRadius(options), 0U);
 }
 
+TEST(MomentOptions, PenumbraeThatFollowTheLightAreNotBlurredUnlessAskedFor)
+{
+    MomentOptions options;
+    EXPECT_EQ(blurOf(options), BlurKind::gaussian);
+    options.penumbra = MomentPenumbra::light;
+    EXPECT_EQ(blurOf(options), BlurKind::none);
+    EXPECT_EQ(blurRadius(options), 0U);
+    options.blur = BlurKind::box;
+    EXPECT_EQ(blurOf(options), BlurKind::box);
+    EXPECT_EQ(blurRadius(options), 2U);
+}
+
 TEST(MomentOptions, TwoLayersOfDepthShareAnImageLayer)
 {
     const std::uint32_t expected[] = {1, 2, 2, 3, 3, 4, 4}; // of 2 .. 8
@@ -308,7 +320,7 @@ TEST(MomentOptions, Names)
 {
     using Names = std::vector<std::string_view>;
     EXPECT_EQ(namesOf<DepthMetricKind>(3), (Names{"linear", "z-over-w", "?"}));
-    EXPECT_EQ(namesOf<BlurKind>(4), (Names{"none", "gaussian", "box", "?"}));
+    EXPECT_EQ(namesOf<BlurKind>(4), (Names{"auto", "none", "gaussian", "box"}));
     EXPECT_EQ(namesOf<BlurPath>(4), (Names{"auto", "compute", "fragment", "?"}));
     EXPECT_EQ(namesOf<MapSampling>(5), (Names{"nearest", "bilinear", "trilinear", "anisotropic", "?"}));
     EXPECT_EQ(namesOf<LayerPlacement>(5), (Names{"uniform", "hand", "lloyd", "gaps", "?"}));

@@ -142,5 +142,18 @@ TEST(SliceCounts, OnBothSidesOfARoundedEnd)
     EXPECT_FALSE(shared::sliceCounts(9.9998, 10.0, 20.0));
 }
 
+TEST(SpareRoom, IsAQuarterOfTheLongerSideAtMost)
+{
+    const glm::dvec4 seen(-0.4, -0.1, 0.4, 0.1);
+    // A ray is as long along x as along y.
+    EXPECT_EQ(shared::spareRoom(seen, {-0.5, -0.3, 0.45, 0.2}, {0.5, 0.5}), glm::dvec4(-0.5, -0.3, 0.45, 0.2));
+    EXPECT_EQ(shared::spareRoom(seen, {-1.4, -1.1, 1.4, 1.1}, {1.0, 1.0}),
+              glm::dvec4(-0.4 - 0.2, -0.1 - 0.2, 0.4 + 0.2, 0.1 + 0.2));
+    // The base map is four times as wide as high in metres: here what is seen is as long along both axes.
+    EXPECT_EQ(shared::spareRoom(seen, {-1.4, -4.1, 1.4, 4.1}, {1.0, 4.0}),
+              glm::dvec4(-0.4 - 0.2, -0.1 - 0.8, 0.4 + 0.2, 0.1 + 0.8));
+    EXPECT_EQ(shared::spareRoom(seen, seen, {0.0, 0.0}), seen) << "there are no rays";
+}
+
 } // namespace
 } // namespace gnomon

@@ -296,6 +296,49 @@ TEST_P(Sdsm, HoldsEveryPixelWithItsKernelInEachCascadeThatServesIt)
     }
 }
 
+/// What a view shows, without its border, lies between what its pixels need and that with `most` around it.
+void expectRoom(const View& view, const View& base, double border_texels, const Rect& seen, const glm::dvec2& most)
+{
+    constexpr double kOff = 1e-4; // pixels at the ends of slices, and what places are rounded by
+    const Place place = placeOf(view, base);
+    const glm::dvec2 half = 1.0 / (place.scale * (base.tile.width / (base.tile.width - 2.0 * border_texels)));
+    for (int axis = 0; axis < 2; ++axis) {
+        if (place.scale[axis] > 1.0) { // else it is the base map
+            EXPECT_LE(place.centre[axis] - half[axis], seen.low[axis] + kOff);
+            EXPECT_GE(place.centre[axis] + half[axis], seen.high[axis] - kOff);
+            EXPECT_LE(2.0 * half[axis], seen.high[axis] - seen.low[axis] + 2.0 * most[axis] + kOff);
+        }
+    }
+}
+
+// The base map has room for as much of itself, which would be most of a small rectangle of it.
+TEST_P(Sdsm, GivesRaysRoomButNoMoreThanAQuarterOfWhatIsSeen)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    const SceneOnGpu uploaded(gpu, scene_, state_);
+    options_.shadow.technique.filter = Filter::raymarch;
+    casters_[0].angular_diameter_rad = lights_[0].caster.angular_diameter_rad = 0.2;
+    FrameRenderer renderer(uploaded, options_);
+    renderer.draw(state_, eye_, lights_);
+    const Picture picture = renderer.read({.colour = false, .geometry = true});
+    const Plan base_plan = Planner(options_.shadow).plan(frame_);
+    const LightPlan& light = renderer.plan().lights[0];
+    const View& base = base_plan.views[light.first_view];
+    ASSERT_GT(base.light_reach, 0.0);
+    const std::vector<Pixel> pixels = pixelsOf(picture, base);
+    const double pad = double{shared::kDepthRounding};
+    for (std::uint32_t i = light.first_view; i < light.first_view + light.view_count; ++i) {
+        SCOPED_TRACE("cascade " + std::to_string(i));
+        const View& view = renderer.plan().views[i];
+        const Rect seen = rectOf(base, pixels, view.slice, -pad);
+        if (!seen.empty()) {
+            const glm::dvec2 size_texels = (seen.high - seen.low) * base.fit.finest_texel;
+            const glm::dvec2 most = 0.25 * std::max(size_texels.x, size_texels.y) / base.fit.finest_texel;
+            expectRoom(view, base, *options_.shadow.border_texels, seen, most);
+        }
+    }
+}
+
 TEST_P(Sdsm, IsTheSameEveryTime)
 {
     Gpu gpu({.gpu = "software", .validate = true});

@@ -195,7 +195,7 @@ double biasReachOf(const ShadowOptions& options)
     const MomentOptions& o = options.moments;
     const double radius = blurRadius(o);
     const double of_blur =
-        o.blur == BlurKind::gaussian ? std::min(double(o.blur_sigma_texels), radius) : radius / std::sqrt(3.0);
+        blurOf(o) == BlurKind::gaussian ? std::min(double(o.blur_sigma_texels), radius) : radius / std::sqrt(3.0);
     return std::max(of_blur + 0.5, options.technique.filter == Filter::esm ? 3.0 : 0.0);
 }
 

@@ -173,7 +173,8 @@ bool ConvergePass::isAgain(const Plan& plan) const
     return planner_ == plan.planner && number_ == plan.number;
 }
 
-void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t index, shared::GpuConverge& out) const
+void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t index, std::uint32_t stood_frames,
+                             shared::GpuConverge& out) const
 {
     const LightPlan& planned = plan.lights[index];
     const Light& light = frame.lights[index];
@@ -187,7 +188,7 @@ void ConvergePass::fillLight(const Frame& frame, const Plan& plan, std::size_t i
     const glm::dvec3 to_light = light.position_ws - frame.camera.eye_ws;
     const double size = parallel ? std::tan(0.5 * light.angular_diameter_rad) : light.radius_m;
     const bool whole = (*plan.options)[planned.options].integratesLight();
-    const float power = shared::confidencePower(static_cast<float>(stood(frame, plan)),
+    const float power = shared::confidencePower(static_cast<float>(stood_frames),
                                                 whole ? shared::kMostOfWholeLight : shared::kMostOfPoint);
     const float most = move > 0.0 ? std::min(kMostAtRest, static_cast<float>(std::floor(1.0 / move))) : kMostAtRest;
     const auto pad = static_cast<float>(padOf(plan, planned, to_light));
@@ -227,8 +228,9 @@ bool ConvergePass::fill(const Slot& slot, const Frame& frame, const Plan& plan, 
             layer.box[2 * i + 1] = glm::dvec4((glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5, 0.0);
         }
     }
+    const std::uint32_t stood_frames = stood(frame, plan); // looks at all lights
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        fillLight(frame, plan, i, layers[plan.lights[i].mask_layer]);
+        fillLight(frame, plan, i, stood_frames, layers[plan.lights[i].mask_layer]);
     }
     return still && plan.moved_ws.empty();
 }

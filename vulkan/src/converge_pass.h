@@ -54,7 +54,8 @@ private:
     [[nodiscard]] bool goesOn(const Plan& plan) const;
     [[nodiscard]] bool isAgain(const Plan& plan) const;
     [[nodiscard]] bool fill(const Slot& slot, const Frame& frame, const Plan& plan, bool has_normals);
-    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, shared::GpuConverge& out) const;
+    void fillLight(const Frame& frame, const Plan& plan, std::size_t index, std::uint32_t stood_frames,
+                   shared::GpuConverge& out) const;
     void recordLayer(VkCommandBuffer commands, std::uint32_t layer, const Image& mask);
     void remember(const Frame& frame, const Plan& plan, bool has_normals);
 

@@ -16,8 +16,9 @@ namespace gnomon {
 /// What depth is stored. `z_over_w` is what a perspective projection's depth buffer holds, z' = m / (r + m (1 - r))
 /// with r = near / far; it is there to show why it is worse. Under a parallel light both are one.
 enum class DepthMetricKind : std::uint8_t { linear, z_over_w };
-/// Separable; `box` weighs all texels alike.
-enum class BlurKind : std::uint8_t { none, gaussian, box };
+/// Separable; `box` weighs all texels alike. `automatic` is gaussian, and none where penumbrae follow the light: what
+/// is blurred before adds to their width.
+enum class BlurKind : std::uint8_t { automatic, none, gaussian, box };
 /// Which shaders blur. `automatic` is compute: the same frame gives the same bits on every run.
 enum class BlurPath : std::uint8_t { automatic, compute, fragment };
 /// How the map is read: `trilinear` at the level that the receiver's footprint asks for, `anisotropic` with several
@@ -40,7 +41,7 @@ struct MomentOptions {
     /// always stores -1 to 1. All other options keep their meaning.
     bool remap = false;
     std::uint32_t samples = 4; // of the depth pass, 1 or 4; averaged as moments, never as depths
-    BlurKind blur = BlurKind::gaussian;
+    BlurKind blur = BlurKind::automatic;
     float blur_sigma_texels = 1.25F;      // gaussian; 0.3 .. 10
     std::uint32_t blur_radius_texels = 0; // 1 .. 31; 0: three sigma rounded up (box: 2)
     BlurPath blur_path = BlurPath::automatic;
@@ -97,6 +98,8 @@ struct MomentOptions {
 [[nodiscard]] bool followsDepths(LayerPlacement placement);
 /// Does this filter, with these options, make penumbrae as wide as the light's size asks?
 [[nodiscard]] bool followsLight(Filter filter, const MomentOptions& options);
+/// The blur that is done: never automatic.
+[[nodiscard]] BlurKind blurOf(const MomentOptions& options);
 /// Texels of the kernel on each side of its middle; 0 without blur.
 [[nodiscard]] std::uint32_t blurRadius(const MomentOptions& options);
 /// Of a filter's map: lvsm has two layers of depth to an image layer, all others one image layer a map.

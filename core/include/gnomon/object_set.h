@@ -15,8 +15,8 @@ namespace gnomon {
 
 struct ObjectFlags {
     /// Off spares drawing what throws no shadow anyway, such as level ground. Filterable maps
-    /// (FilterTraits::filterable) draw it all the same, because their averages need the receiver's own depth; then it
-    /// casts.
+    /// (FilterTraits::filterable) draw it all the same where the camera sees it, because their averages need the
+    /// receiver's own depth; then it casts.
     bool casts = true;
     bool receives = true;
     bool dynamic = false; // a hint: expected to move; kept apart from what stands still

@@ -18,11 +18,11 @@ bool isFilterable(const ShadowOptions& o)
 }
 bool isBlurred(const ShadowOptions& o)
 {
-    return isFilterable(o) && o.moments.blur != BlurKind::none;
+    return isFilterable(o) && blurOf(o.moments) != BlurKind::none;
 }
 bool isGaussian(const ShadowOptions& o)
 {
-    return isFilterable(o) && o.moments.blur == BlurKind::gaussian;
+    return isFilterable(o) && blurOf(o.moments) == BlurKind::gaussian;
 }
 bool isAnisotropic(const ShadowOptions& o)
 {
@@ -133,7 +133,7 @@ void addMapRows(std::vector<OptionRow>& table)
     const OptionRow rows[]{
         // clang-format off
         {.key = "msaa", .type = choice, .form = "N", .unit = "samples", .choices = sampleCounts, .doc = "depths taken in a texel, averaged as what is stored", .used = isFilterable, .used_when = kFilterable, .get = getSamples, .set = setSamples},
-        {.key = "blur", .type = choice, .form = "KIND", .choices = namesOf<BlurKind>, .doc = "of the map, along rows and then columns", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.blur)},
+        {.key = "blur", .type = choice, .form = "KIND", .choices = namesOf<BlurKind>, .doc = "of the map, along rows and then columns; auto: gaussian, none with penumbra light", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.blur)},
         {.key = "blur.sigma", .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 10, .doc = "standard deviation of the Gaussian", .used = isGaussian, .used_when = "a filterable map and blur gaussian", GNOMON_MEMBER(moments.blur_sigma_texels)},
         {.key = "blur.radius", .type = integer, .form = "N", .unit = "texels", .min = 1, .max = kMaxBlurRadius, .doc = "of the kernel; else three sigma rounded up, 2 of a box", .used = isBlurred, .used_when = "a filterable map and blur gaussian or box", .get = getRadius, .set = setRadius},
         {.key = "blur.path", .type = choice, .form = "PATH", .choices = namesOf<BlurPath>, .doc = "which shaders blur; auto: compute", .used = isBlurred, .used_when = "a filterable map and blur gaussian or box", GNOMON_MEMBER(moments.blur_path)},

@@ -13,6 +13,7 @@
 #define GpuView gnomon_GpuView
 #define Hankel gnomon_Hankel
 #define LightPoint gnomon_LightPoint
+#define LightRay gnomon_LightRay
 #define MapPoint gnomon_MapPoint
 #define MapRows gnomon_MapRows
 #define MomentRule gnomon_MomentRule
@@ -155,6 +156,7 @@
 #define kLeastLayerWidth gnomon_kLeastLayerWidth
 #define kLeastLift gnomon_kLeastLift
 #define kLeastPivot gnomon_kLeastPivot
+#define kLeastRays gnomon_kLeastRays
 #define kLeastShare gnomon_kLeastShare
 #define kLightsPerLayer gnomon_kLightsPerLayer
 #define kLongestFootprint gnomon_kLongestFootprint
@@ -176,6 +178,7 @@
 #define kMostLog gnomon_kMostLog
 #define kMostOfPoint gnomon_kMostOfPoint
 #define kMostOfWholeLight gnomon_kMostOfWholeLight
+#define kMostRays gnomon_kMostRays
 #define kMostReads gnomon_kMostReads
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
 #define kNarrowest gnomon_kNarrowest
@@ -193,11 +196,8 @@
 #define kRayOffset gnomon_kRayOffset
 #define kRaySteps gnomon_kRaySteps
 #define kRayStride gnomon_kRayStride
-#define kRaysAlong gnomon_kRaysAlong
-#define kRaysFewest gnomon_kRaysFewest
-#define kRaysLeast gnomon_kRaysLeast
-#define kRaysMost gnomon_kRaysMost
 #define kRaysPerTexel gnomon_kRaysPerTexel
+#define kRaysToAgree gnomon_kRaysToAgree
 #define kRing gnomon_kRing
 #define kRingWeight gnomon_kRingWeight
 #define kRoughness gnomon_kRoughness
@@ -220,6 +220,7 @@
 #define kStraightTo gnomon_kStraightTo
 #define kStripFrom gnomon_kStripFrom
 #define kStripLong gnomon_kStripLong
+#define kStripRays gnomon_kStripRays
 #define kStripTo gnomon_kStripTo
 #define kStripWide gnomon_kStripWide
 #define kTapReach gnomon_kTapReach
@@ -239,6 +240,7 @@
 #define leaveSquare gnomon_leaveSquare
 #define levelOf gnomon_levelOf
 #define lightPoint gnomon_lightPoint
+#define lightRay gnomon_lightRay
 #define lightSpread gnomon_lightSpread
 #define lightVisibility gnomon_lightVisibility
 #define lloydMean gnomon_lloydMean
@@ -281,7 +283,7 @@
 #define pcfBilinear gnomon_pcfBilinear
 #define pcfDisc gnomon_pcfDisc
 #define pcfSeparable gnomon_pcfSeparable
-#define penumbraAcross gnomon_penumbraAcross
+#define penumbraWidth gnomon_penumbraWidth
 #define pixelSteps gnomon_pixelSteps
 #define planeDeviation gnomon_planeDeviation
 #define planeNearest gnomon_planeNearest

@@ -13,6 +13,7 @@
 #undef GpuView
 #undef Hankel
 #undef LightPoint
+#undef LightRay
 #undef MapPoint
 #undef MapRows
 #undef MomentRule
@@ -155,6 +156,7 @@
 #undef kLeastLayerWidth
 #undef kLeastLift
 #undef kLeastPivot
+#undef kLeastRays
 #undef kLeastShare
 #undef kLightsPerLayer
 #undef kLongestFootprint
@@ -176,6 +178,7 @@
 #undef kMostLog
 #undef kMostOfPoint
 #undef kMostOfWholeLight
+#undef kMostRays
 #undef kMostReads
 #undef kMostWarpOfTexel
 #undef kNarrowest
@@ -193,11 +196,8 @@
 #undef kRayOffset
 #undef kRaySteps
 #undef kRayStride
-#undef kRaysAlong
-#undef kRaysFewest
-#undef kRaysLeast
-#undef kRaysMost
 #undef kRaysPerTexel
+#undef kRaysToAgree
 #undef kRing
 #undef kRingWeight
 #undef kRoughness
@@ -220,6 +220,7 @@
 #undef kStraightTo
 #undef kStripFrom
 #undef kStripLong
+#undef kStripRays
 #undef kStripTo
 #undef kStripWide
 #undef kTapReach
@@ -239,6 +240,7 @@
 #undef leaveSquare
 #undef levelOf
 #undef lightPoint
+#undef lightRay
 #undef lightSpread
 #undef lightVisibility
 #undef lloydMean
@@ -281,7 +283,7 @@
 #undef pcfBilinear
 #undef pcfDisc
 #undef pcfSeparable
-#undef penumbraAcross
+#undef penumbraWidth
 #undef pixelSteps
 #undef planeDeviation
 #undef planeNearest
