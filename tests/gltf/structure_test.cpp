@@ -189,7 +189,25 @@ TEST(GltfStructure, LightErrors)
     EXPECT_TRUE(contains(error(R"({"type":"point","intensity":-1})"), at + "/intensity"));
     EXPECT_TRUE(contains(error(R"({"type":"point","color":[2,0,0]})"), at + "/color/0"));
     EXPECT_TRUE(contains(error(R"({"type":"spot"})"), at));
+    EXPECT_TRUE(contains(error(R"({"type":"point","extras":{"casts_shadow":0}})"), at + "/extras/casts_shadow"));
     EXPECT_TRUE(contains(error(R"({"type":"spot","spot":{"innerConeAngle":0.5,"outerConeAngle":0.5}})"), at + "/spot"));
+}
+
+TEST(GltfStructure, LightsSayInTheirExtrasThatTheyCastNoShadow)
+{
+    const auto read = [](const std::string& extras) {
+        return readText(R"({"asset":{"version":"2.0"},"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point")" +
+                        extras + "}]}}}")
+            .lights.at(0)
+            .casts_shadow;
+    };
+    EXPECT_TRUE(read(""));
+    EXPECT_TRUE(read(R"(,"extras":{})"));
+    EXPECT_TRUE(read(R"(,"extras":{"casts_shadow":true})"));
+    EXPECT_FALSE(read(R"(,"extras":{"casts_shadow":false})"));
+    EXPECT_FALSE(read(R"(,"extras":{"mood":3,"casts_shadow":false})"));
+    EXPECT_TRUE(read(R"(,"extras":[false])"));
+    EXPECT_TRUE(read(R"(,"extras":"casts_shadow")"));
 }
 
 TEST(GltfStructure, Instances)

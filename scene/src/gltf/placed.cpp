@@ -61,6 +61,15 @@ void readSpot(const JsonView& view, Light& light)
     }
 }
 
+/// What glTF leaves to applications. Ours: {"casts_shadow": false} is a light that shines through everything.
+void readExtras(const JsonView& view, Light& light)
+{
+    const std::optional<JsonView> extras = view.find("extras");
+    if (extras && extras->value().is_object()) { // glTF allows any value, and others' are not ours to judge
+        light.casts_shadow = extras->boolean("casts_shadow", true);
+    }
+}
+
 /// False when the type is none we know.
 bool readLight(const JsonView& view, Light& light)
 {
@@ -71,6 +80,7 @@ bool readLight(const JsonView& view, Light& light)
     }
     light.intensity = view.number("intensity", 1.0F, 0.0, kAny);
     light.range_m = view.number("range", 0.0F, kTiny, kAny);
+    readExtras(view, light);
     if (type == "spot") {
         light.type = LightType::spot;
         readSpot(view.at("spot"), light);
