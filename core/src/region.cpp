@@ -251,9 +251,8 @@ void Region::leaveOutUnseen(const RegionInput& input, std::size_t first, std::ve
     const auto is_unseen = [&](std::uint32_t object) {
         return !input.objects.flags(object).casts && !std::ranges::binary_search(input.seen, object);
     };
-    const auto gone =
-        std::ranges::remove_if(casters.begin() + static_cast<std::ptrdiff_t>(first), casters.end(), is_unseen);
-    casters.erase(gone.begin(), gone.end());
+    casters.erase(std::remove_if(casters.begin() + static_cast<std::ptrdiff_t>(first), casters.end(), is_unseen),
+                  casters.end());
 }
 
 Outcome Region::gatherCasters(const RegionInput& input, const CasterReach& reach, std::vector<std::uint32_t>& casters)

@@ -29,12 +29,12 @@ float fromKey(uint key)
 // Where cascade i of a light begins if nothing faded.
 float cascadeSplit(GpuCascadeLight light, int i)
 {
-    GpuCascadeKeys keys = cascade_keys[gl_WorkGroupID.z];
     if (light.cascades.z != 0u) {
         return i == 0 ? 0.0 : light.ends[(i - 1) >> 2][(i - 1) & 3];
     }
     SplitRange range =
-        splitRange(-fromKey(keys.key[0]), fromKey(keys.key[1]), light.split.x, light.cascades.w != 0u);
+        splitRange(-fromKey(cascade_keys[gl_WorkGroupID.z].key[0]), fromKey(cascade_keys[gl_WorkGroupID.z].key[1]),
+                                  light.split.x, light.cascades.w != 0u);
     return splitAt(range, i, int(light.cascades.x));
 }
 

@@ -10,13 +10,15 @@ layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 shared uint found[kBoundKeys * kMostCascades];
 shared vec2 slices[kMostCascades]; // begin, end
 
-// Lets the bounds from `first` on hold a place with room on all sides.
-void note(int first, vec2 place, vec2 room)
+// Lets a cascade's bounds from `first` on hold a place, without and with its room.
+void note(int first, Seen seen)
 {
-    atomicMax(found[first], greatestKey(room.x - place.x));
-    atomicMax(found[first + 1], greatestKey(room.y - place.y));
-    atomicMax(found[first + 2], greatestKey(place.x + room.x));
-    atomicMax(found[first + 3], greatestKey(place.y + room.y));
+    vec4 ends = vec4(-seen.place, seen.place);
+    for (int i = 0; i < kBoundKeys; ++i) {
+        int end = i & 3;
+        float room = i < 4 ? 0.0 : seen.room[end & 1];
+        atomicMax(found[first + i], greatestKey(ends[end] + room));
+    }
 }
 
 void main()
@@ -36,8 +38,7 @@ void main()
         if (seen.counts) {
             for (int c = 0; c < count; ++c) {
                 if (sliceCounts(seen.depth_m, slices[c].x, slices[c].y)) {
-                    note(kBoundKeys * c, seen.place, vec2(0.0));
-                    note(kBoundKeys * c + 4, seen.place, seen.room);
+                    note(kBoundKeys * c, seen);
                 }
             }
         }

@@ -14,10 +14,11 @@ layout(set = 0, binding = 3, std430) writeonly buffer Report
 };
 
 // Low x, y, high x, y, from the key `first` on.
-vec4 boundsFrom(GpuCascadeKeys keys, int first)
+vec4 boundsFrom(int first)
 {
-    return vec4(-fromKey(keys.key[first]), -fromKey(keys.key[first + 1]), fromKey(keys.key[first + 2]),
-                fromKey(keys.key[first + 3]));
+    uint light = gl_WorkGroupID.z;
+    return vec4(-fromKey(cascade_keys[light].key[first]), -fromKey(cascade_keys[light].key[first + 1]),
+                fromKey(cascade_keys[light].key[first + 2]), fromKey(cascade_keys[light].key[first + 3]));
 }
 
 void main()
@@ -28,19 +29,18 @@ void main()
         return;
     }
     const int first = kDepthKeys + kBoundKeys * i;
-    GpuCascadeKeys keys = cascade_keys[gl_WorkGroupID.z];
     GpuFittedView view;
     view.place = vec4(1.0, 1.0, 0.0, 0.0);
     view.seen = vec4(1.0, 1.0, -1.0, -1.0);
     view.slice = vec4(-1e30, 1e30, 0.0, 0.0);
-    if (keys.key[1] != 0u || light.cascades.z != 0u) { // else no pixel was seen, and there is nothing to divide
+    if (cascade_keys[gl_WorkGroupID.z].key[1] != 0u || light.cascades.z != 0u) { // else no pixel was seen, and there is nothing to divide
         vec3 slice = cascadeSlice(light, i);
         view.slice = vec4(slice.xy, slice.z > 0.0 ? 1.0 / slice.z : 0.0, 0.0);
     }
     vec4 shown = view.seen;
-    if (keys.key[first] != 0u) {
-        view.seen = boundsFrom(keys, first);
-        shown = spareRoom(view.seen, boundsFrom(keys, first + 4), light.room.xy);
+    if (cascade_keys[gl_WorkGroupID.z].key[first] != 0u) {
+        view.seen = boundsFrom(first);
+        shown = spareRoom(view.seen, boundsFrom(first + 4), light.room.xy);
     }
     vec2 x = axisPlace(shown.x, shown.z, light.split.z);
     vec2 y = axisPlace(shown.y, shown.w, light.split.w);

@@ -323,11 +323,11 @@ TEST(Raymarch, SquaresThatArePassedOverChangeNoRay)
         });
         for (int i = 0; i < 300; ++i) {
             auto [point, f] = stage.receiver({4.0 * uniform(rng) - 2.0, 4.0 * uniform(rng) - 2.0, 0.0}, pixelOf(i));
-            const glm::dvec3 start(point.texel, 1.0);
-            const glm::dvec3 end(256.0 * uniform(rng), 256.0 * uniform(rng), 1.0);
-            const RayEnd over = followRay(point, f, start, end, point.depth, 0.1);
+            const glm::dvec2 end(256.0 * uniform(rng), 256.0 * uniform(rng));
+            const LightRay ray{glm::dvec3(point.texel, 1.0), glm::dvec3(end, 1.0), point.depth, 0.1, true};
+            const RayEnd over = followRay(point, f, ray);
             f.coarsest = 0.0;
-            const RayEnd through = followRay(point, f, start, end, point.depth, 0.1);
+            const RayEnd through = followRay(point, f, ray);
             if (through.steps >= kRaySteps)
                 continue;
             ASSERT_NEAR(over.fall, through.fall, 1e-12) << round << ", " << i;
