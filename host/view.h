@@ -39,7 +39,7 @@ struct ShadedLight {
 [[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
 
 /// Lights of one frame at most.
-inline constexpr std::size_t kMaxLights = 64;
+inline constexpr std::size_t kMaxLights = 128;
 
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);

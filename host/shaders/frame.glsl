@@ -11,7 +11,7 @@ struct LightData {
     vec4 cone;   // x scale, y offset of the cosine; z: cotangent of the outer angle
     vec4 right;  // xyz: unit, the cookie's +u; w: mask layer * 8 + channel, + 4 where the layer has colours
 };
-const int kMaxLights = 64;
+const int kMaxLights = 128;
 
 layout(set = 0, binding = 0, std140) uniform FrameData
 {

@@ -13,11 +13,13 @@ namespace gnomon::scene {
 
 namespace {
 
-constexpr std::array<World, 5> kWorlds{{
+constexpr std::array<World, 6> kWorlds{{
     {"rts", "a strategy game's map: 400 walking units, a camp, groves, floating debris, one sun (Marinescu 2011)",
      &makeRts},
     {"sundial", "a meadow with trees, fences and a house under a sun and a moon on their courses (Fortier 2010)",
      &makeSundial},
+    {"ring", "a space station bent into a ring: 80 point lights inside lamps, tiles, walkers, plants (Forsyth 2006)",
+     &makeRing},
     {"spotlit", "sculpture on a stage under three spot lights with cookies (Shastry 2005)", &makeSpotlit},
     {"canopies", "three roofs over each other, where averaged maps let light through; closed-form answers",
      &makeCanopies},

@@ -117,7 +117,7 @@ TEST(List, JsonGoesToAFileAndOnlyThere)
 TEST(Plan, IsTheSameBytesEveryTime)
 {
     const test::Folder folder;
-    for (const char* world : {"planes", "rts", "spotlit", "canopies", "sundial"}) {
+    for (const char* world : {"planes", "rts", "ring", "spotlit", "canopies", "sundial"}) {
         const test::Ran first = inFolder(folder, {"plan", world, "--time", "1.5"});
         const test::Ran second = inFolder(folder, {"plan", world, "--time", "1.5"});
         ASSERT_EQ(first.status, 0) << first.err;

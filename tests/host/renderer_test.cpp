@@ -274,7 +274,7 @@ TEST(Renderer, DrawsWithoutLightsAndWithLightsThatHaveNoMap)
     EXPECT_TRUE(
         std::all_of(many.masks[5].values.begin(), many.masks[5].values.end(), [](float v) { return v == 1.0F; }));
     stage.lights = lights;
-    stage.lights.resize(65, lights[0]);
+    stage.lights.resize(kMaxLights + 1, lights[0]);
     EXPECT_THROW(stage.renderer->draw(stage.state, stage.eye, stage.lights), Error);
 }
 
