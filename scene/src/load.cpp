@@ -18,7 +18,7 @@ constexpr std::array<World, 6> kWorlds{{
      &makeRts},
     {"sundial", "a meadow with trees, fences and a house under a sun and a moon on their courses (Fortier 2010)",
      &makeSundial},
-    {"ring", "a space station bent into a ring: 80 point lights inside lamps, tiles, walkers, plants (Forsyth 2006)",
+    {"ring", "a space station bent into a ring: 89 point lights inside lamps, tiles, walkers, plants (Forsyth 2006)",
      &makeRing},
     {"spotlit", "sculpture on a stage under three spot lights with cookies (Shastry 2005)", &makeSpotlit},
     {"canopies", "three roofs over each other, where averaged maps let light through; closed-form answers",

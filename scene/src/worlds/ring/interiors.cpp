@@ -53,7 +53,9 @@ void Decorator::bar(bool large)
     tableSet(0.2, 4.1, 2, 2);
     lamp(Lamp::table, 0.34, 4.0, 0.762 + 0.40, {Hue::warm, 3.2F, 0.7F});
     lamp(Lamp::caged, kEnd, 5.2, 2.15, {Hue::amber, 6.0F, 0.55F}, towardsEnd(side_, true));
-    lamp(Lamp::sconce, 3.0, kAtHull_m, 2.45, {Hue::warm, 4.0F, 0.7F});
+    for (const double t : {-2.0, 0.0, 3.0}) {
+        lamp(Lamp::sconce, t, kAtHull_m, 2.7, {Hue::warm, 4.0F, 0.7F});
+    }
     guest(-0.3, 5.6, kHalfTurn + 0.3F, 0);
     guest(1.35, 5.7, kHalfTurn - 0.4F, 2);
     guest(3.2, 5.9, 2.6F, 0);
@@ -145,6 +147,7 @@ void Decorator::berths()
     put(wares_.chairs[1], 2.6, 5.0, 0.7F);
     lamp(Lamp::table, -2.2, 8.9, 0.55 + 0.40, {Hue::warm, 4.0F, 0.8F});
     lamp(Lamp::sconce, 1.2, kAtHull_m, 2.3, {Hue::white, 6.0F, 0.7F});
+    mood(0.2, 8.0, 1.6, {Hue::cyan, 7.0F, 0.12F});
     plant(wares_.fern, 3.4, 4.2, 1);
 }
 
@@ -180,6 +183,7 @@ void Decorator::stores()
     }
     guest(1.6, 5.6, 1.1F, 3);
     lamp(Lamp::caged, -kEnd, 5.8, 2.1, {Hue::amber, 8.0F, 0.8F}, towardsEnd(side_, false));
+    lamp(Lamp::sconce, 1.9, kAtHull_m, 2.5, {Hue::warm, 6.5F, 0.8F});
 }
 
 void Decorator::workshop()

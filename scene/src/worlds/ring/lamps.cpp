@@ -18,14 +18,14 @@ struct LampFacts {
 };
 constexpr std::array<LampFacts, kLamps> kFacts{{
     {"pendant", 0.07F, 0.0F},
-    {"pierced", 0.05F, 0.0F},
-    {"lantern", 0.10F, 0.0F},
-    {"caged", 0.05F, 0.0F},
+    {"pierced", 0.018F, 0.0F},
+    {"lantern", 0.045F, 0.0F},
+    {"caged", 0.020F, 0.0F},
     {"sconce", 0.06F, 0.0F},
     {"table lamp", 0.045F, 0.40F},
-    {"drum", 0.08F, 1.45F},
-    {"bollard", 0.06F, 0.62F},
-    {"reactor", 0.13F, 1.75F},
+    {"drum", 0.030F, 1.45F},
+    {"bollard", 0.025F, 0.62F},
+    {"reactor", 0.10F, 1.75F},
 }};
 
 const LampFacts& factsOf(Lamp lamp)
@@ -237,7 +237,7 @@ void addReactor(MeshMaker& maker, const RingPalette& palette)
     }
     metal.colour = rgb(0x4E5560);
     for (int i = 0; i < 3; ++i) {
-        const float a = kTau * (static_cast<float>(i) + 0.25F) / 3.0F;
+        const float a = kTau * static_cast<float>(i) / 3.0F;
         const glm::vec3 out(std::sin(a), 0, std::cos(a));
         const std::array<glm::vec3, 5> claw{out * 0.35F + glm::vec3(0, 0.5F - foot, 0),
                                             out * 0.95F + glm::vec3(0, -0.95F, 0), out * 1.22F + glm::vec3(0, -0.3F, 0),

@@ -92,7 +92,7 @@ Mesh makeConsole(const RingPalette& palette, Hue screen)
     metal.box({-0.56F, 0.0F, -0.06F}, {0.56F, 0.62F, 0.04F}, 0.95F, true);
     metal.frame = glm::mat4(1.0F);
     metal.beam({0, 0.7F, -0.26F}, {0, 1.06F, -0.32F}, 0.12F);
-    Part& glow = maker.with(palette.glowOf(screen));
+    Part& glow = maker.with(palette.neonOf(screen));
     glow.frame = at({0, 0.98F, -0.30F}) * turnedX(-0.18F);
     glow.box({-0.48F, 0.08F, 0.03F}, {0.48F, 0.54F, 0.055F}, 1.0F, true);
     glow.frame = at({0, 0.72F, 0.0F}) * turnedX(0.32F);
@@ -115,7 +115,7 @@ Mesh makeScanner(const RingPalette& palette)
     paint.colour = rgb(0xE4EAE8);
     paint.box({-0.16F, 0.35F, -0.5F}, {0.16F, 0.60F, 0.5F});
     hoop(paint, {0, 0.95F, -0.2F}, 0.95F, 0.15F, 24, -0.9F, kPi + 0.9F);
-    Part& glow = maker.with(palette.glowOf(Hue::cyan));
+    Part& glow = maker.with(palette.neonOf(Hue::cyan));
     hoop(glow, {0, 0.95F, 0.0F}, 0.90F, 0.025F, 24, -0.6F, kPi + 0.6F);
     return maker.take("scanner");
 }

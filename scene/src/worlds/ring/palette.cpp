@@ -160,6 +160,8 @@ RingPalette addRingPalette(Scene& scene)
         const glm::vec3 c(rgb(kHueColours[i]));
         palette.glow[i] = addMaterial(scene, std::string("glow ") + kNames[i],
                                       {.base_colour = glm::vec4(c * 0.5F, 1.0F), .emissive = c * 3.0F});
+        palette.neon[i] = addMaterial(scene, std::string("neon ") + kNames[i],
+                                      {.base_colour = glm::vec4(c * 0.3F, 1.0F), .emissive = c * c * 0.9F});
     }
     return palette;
 }

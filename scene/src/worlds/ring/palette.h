@@ -23,9 +23,10 @@ struct RingPalette {
     std::uint32_t shade = kNone;     // of lamps: lit from within, seen from both sides
     std::uint32_t pane_warm = kNone; // these two glow a little
     std::uint32_t pane_cold = kNone;
-    std::array<std::uint32_t, kHues> glow{};
+    std::array<std::uint32_t, kHues> glow{}; // of bulbs
+    std::array<std::uint32_t, kHues> neon{}; // of signs and screens: less, so that its colour shows
 
-    [[nodiscard]] std::uint32_t glowOf(Hue hue) const { return glow[static_cast<std::size_t>(hue)]; }
+    [[nodiscard]] std::uint32_t neonOf(Hue hue) const { return neon[static_cast<std::size_t>(hue)]; }
 };
 [[nodiscard]] RingPalette addRingPalette(Scene& scene);
 

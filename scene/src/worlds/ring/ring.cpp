@@ -52,8 +52,8 @@ void addRingViews(Scene& scene)
         return RingWorld::place(tiles, height_m, across_m);
     };
     scene.views = {
-        {.name = "deck", .eye = at(-4.7, 2.3, 0.9), .target = at(3.0, 2.5, -0.5), .fov_y_rad = 1.0F},
-        {.name = "bar", .eye = at(-3.75, 1.95, -5.2), .target = at(1.2, 1.15, -6.4), .fov_y_rad = 0.95F},
+        {.name = "deck", .eye = at(-3.8, 2.25, 0.8), .target = at(4.0, 2.7, -0.4), .fov_y_rad = 1.0F},
+        {.name = "bar", .eye = at(-3.8, 2.05, -5.3), .target = at(1.2, 1.2, -6.3), .fov_y_rad = 0.95F},
         {.name = "overview", .eye = {0.0F, 32.0F, 23.0F}, .target = {0.0F, 4.6F, -1.6F}, .fov_y_rad = 0.84F},
         {.name = "duel", .eye = at(4.6, 1.25, 0.9), .target = at(8.0, 1.6, 0.0), .fov_y_rad = 0.85F},
     };
@@ -98,9 +98,9 @@ Scene makeRing(std::uint64_t seed)
     addRingViews(scene);
     scene.procedural = [folk, rings = lamps.rings()](double time_s, std::vector<Node>& nodes) {
         folk->pose(time_s, nodes);
-        nodes[rings].transform.rotation = turned({1, 0, 0}, 0.04 * time_s + 0.11);
-        nodes[rings + 1].transform.rotation = turned({0, 0, 1}, 0.06 * time_s + 0.21);
-        nodes[rings + 2].transform.rotation = turned({1, 0, 0}, 0.09 * time_s + 0.13);
+        nodes[rings].transform.rotation = turned({0, 0, 1}, 0.04 * time_s + 0.16);
+        nodes[rings + 1].transform.rotation = turned({1, 0, 0}, 0.06 * time_s + 0.14);
+        nodes[rings + 2].transform.rotation = turned({0, 0, 1}, 0.09 * time_s + 0.12);
     };
     scene.procedural(0.0, scene.nodes);
     finishScene(scene);

@@ -183,7 +183,7 @@ Mesh makeJukebox(const RingPalette& palette)
     wood.box({-0.45F, -0.06F, -0.34F}, {0.45F, 1.05F, 0.30F});
     wood.frame = at({0, 1.05F, -0.34F}) * turnedX(kPi * 0.5F);
     wood.lathe({{0.45F, 0.0F}, {0.45F, 0.64F}, {0.0F, 0.64F}}, 24); // its lower half is inside the box
-    Part& glow = maker.with(palette.glowOf(Hue::rose));
+    Part& glow = maker.with(palette.neonOf(Hue::rose));
     std::vector<glm::vec3> path{{-0.36F, 0.15F, 0.33F}};
     for (int i = 0; i <= 12; ++i) {
         const float a = kPi * static_cast<float>(i) / 12.0F;

@@ -39,13 +39,13 @@ Mesh makeStars(std::uint32_t material)
 }
 
 /// Banded, with a night side and a rim of air.
-Mesh makePlanet(std::uint32_t material, const glm::vec3& centre, float radius)
+Mesh makePlanet(std::uint32_t material, const char* name, const glm::vec3& centre, float radius)
 {
     const glm::vec3 sun = glm::normalize(glm::vec3(-0.35F, 0.75F, 0.15F));
     MeshMaker maker;
     Part& part = maker.with(material);
     part.ball(radius, 5);
-    Mesh mesh = maker.take("planet");
+    Mesh mesh = maker.take(name);
     Primitive& ball = mesh.primitives[0];
     const glm::vec3 view = glm::normalize(kHub - centre);
     for (std::size_t i = 0; i < ball.positions.size(); ++i) {
@@ -74,7 +74,9 @@ void addSpace(Scene& scene)
     };
     add("space/stars", makeStars(material), kHub);
     const glm::vec3 planet = kHub + glm::vec3(150.0F, 22.0F, -105.0F);
-    add("space/planet", makePlanet(material, planet, 42.0F), planet);
+    add("space/planet", makePlanet(material, "planet", planet, 42.0F), planet);
+    const glm::vec3 moon = kHub + glm::vec3(-26.0F, -92.0F, -165.0F);
+    add("space/moon", makePlanet(material, "moon", moon, 13.0F), moon);
 }
 
 } // namespace gnomon::scene::worlds

@@ -56,7 +56,7 @@ Mesh makeSign(const RingPalette& palette, Hue hue)
     metal.box({-0.03F, 0.30F, -0.58F}, {0.03F, 0.35F, 0.30F}, 1.0F, true);
     metal.frame = turnedZ(kPi * 0.5F);
     metal.lathe({{0.0F, -0.05F}, {0.27F, -0.05F}, {0.27F, 0.05F}, {0.0F, 0.05F}}, kCorners);
-    Part& glow = maker.with(palette.glowOf(hue));
+    Part& glow = maker.with(palette.neonOf(hue));
     for (const float x : {-0.06F, 0.06F}) {
         std::vector<glm::vec3> path;
         for (int i = 0; i < kCorners; ++i) {
