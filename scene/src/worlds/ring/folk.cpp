@@ -18,6 +18,7 @@ namespace {
 using World = RingWorld;
 
 constexpr std::uint32_t kWalkers = 46;
+constexpr double kPace_m_per_s = 1.05; // of all, so that none runs into another
 constexpr float kLegSwing_rad = 0.46F;
 constexpr float kArmSwing_rad = 0.50F;
 enum Limb : std::uint32_t { kBody, kRightLeg, kLeftLeg, kRightArm, kLeftArm, kLimbs };
@@ -176,7 +177,6 @@ Folk::Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed)
                  1.38F,
                  0.10F,
                  0.26F,
-                 1.25,
                  1.42};
     kinds_[1] = {addMesh(scene, makeGrey(palette)),
                  limb("grey's leg", 0x5F3A72, 0x8FA398, 0.62F, 0.06F, true),
@@ -185,7 +185,6 @@ Folk::Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed)
                  1.40F,
                  0.10F,
                  0.20F,
-                 0.95,
                  1.1};
     kinds_[2] = {addMesh(scene, makeRound(palette)),
                  limb("round's leg", 0xE08A3C, 0x7A4A24, 0.50F, 0.10F, true),
@@ -194,7 +193,6 @@ Folk::Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed)
                  0.98F,
                  0.17F,
                  0.44F,
-                 0.85,
                  0.85};
     kinds_[3] = {addMesh(scene, makeTin(palette)),
                  limb("tin's leg", 0x9AA4AE, 0x5A626C, 0.62F, 0.07F, true),
@@ -203,7 +201,6 @@ Folk::Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed)
                  1.06F,
                  0.11F,
                  0.29F,
-                 1.1,
                  1.1};
     Rng rng(seed, 700);
     for (std::uint32_t i = 0; i < kWalkers; ++i) {
@@ -211,7 +208,7 @@ Folk::Folk(Scene& scene, const RingPalette& palette, std::uint64_t seed)
         walker.kind = rng.below(kFolkKinds);
         walker.way = (i & 1) != 0 ? -1.0F : 1.0F;
         walker.start_tiles = World::tiles_around * (i + 0.8 * rng.unit()) / kWalkers - 1.2;
-        walker.across_m = walker.way * (1.3 + 0.45 * rng.unit()); // they keep to the right, clear of the middle
+        walker.across_m = walker.way * (1.65 + 0.2 * rng.unit()); // they keep to the right, clear of the middle
         walker.step = rng.unit();
         const std::string name = "walker/" + std::to_string(i);
         walker.body = addBody(scene, name, {}, walker.kind);
@@ -244,7 +241,7 @@ void Folk::pose(double time_s, std::vector<Node>& nodes) const
 {
     for (const Walker& walker : walkers_) {
         const Kind& kind = kinds_[walker.kind];
-        const double walked_m = time_s * kind.pace_m_per_s;
+        const double walked_m = time_s * kPace_m_per_s;
         const double tiles = walker.start_tiles + walker.way * walked_m / World::tile_m;
         const double strides = walked_m / kind.stride_m;
         const float step = static_cast<float>(strides - std::floor(strides)) + walker.step;

@@ -29,7 +29,6 @@ private:
         float shoulder_m = 0.0F;
         float hip_apart_m = 0.0F;
         float shoulder_apart_m = 0.0F;
-        double pace_m_per_s = 1.2;
         double stride_m = 1.3; // both steps
     };
     struct Walker {

@@ -144,7 +144,7 @@ void addSconce(MeshMaker& maker, const RingPalette& palette)
     for (const float x : {-0.16F, 0.16F}) {
         metal.box({x - 0.012F, -0.14F, -0.13F}, {x + 0.012F, 0.14F, 0.115F}, 1.0F, true);
     }
-    rod(metal, {0, -0.12F, -0.12F}, {0, -0.07F, 0.0F}, 0.03F);
+    rod(metal, {0, -0.12F, -0.12F}, {0, -0.09F, 0.0F}, 0.03F);
 }
 
 void addTableLamp(MeshMaker& maker, const RingPalette& palette)
@@ -297,10 +297,11 @@ void LampMaker::add(Lamp lamp, const Transform& transform, const Shine& shine)
     const std::string name = std::string(factsOf(lamp).name) + " " + std::to_string(count_++);
     const std::uint32_t fixture = addNode(scene_, "lamp/" + name, meshes_[static_cast<std::size_t>(lamp)], transform);
     Transform round;
-    round.scale = glm::vec3(bulbOf(lamp));
+    round.scale = glm::vec3(1.03F * bulbOf(lamp)); // its flat faces are outside of the light, too
     const std::uint32_t bulb =
         addNode(scene_, "lamp/" + name + "/bulb", bulbs_[static_cast<std::size_t>(shine.hue)], round, fixture);
-    scene_.nodes[bulb].casts = false; // the light is inside
+    scene_.nodes[bulb].casts = false;    // the light is inside
+    scene_.nodes[bulb].receives = false; // or it would be drawn into filterable maps, and hide the world from its light
     Light light = pointLight(name, shine);
     light.radius_m = bulbOf(lamp);
     scene_.lights.push_back(light);

@@ -82,9 +82,9 @@ Scene makeRing(std::uint64_t seed)
     // Some look at the reactor, before which the view `duel` stands.
     constexpr std::array<glm::vec3, 5> kLookers{glm::vec3(6.75F, 0.75F, 0.0F),
                                                 {6.55F, -0.75F, 1.0F},
-                                                {7.5F, 1.55F, 2.0F},
-                                                {9.1F, -1.2F, 3.0F},
-                                                {7.35F, -1.6F, 3.0F}};
+                                                {7.45F, 2.3F, 2.0F},
+                                                {9.2F, -0.7F, 3.0F},
+                                                {7.35F, -2.3F, 3.0F}};
     for (const glm::vec3& p : kLookers) {
         const double ahead_m = (kReactorTile - p.x) * RingWorld::tile_m;
         const auto yaw = static_cast<float>(std::atan2(ahead_m, static_cast<double>(-p.y)));
