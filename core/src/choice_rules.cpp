@@ -8,14 +8,14 @@ namespace {
 
 bool goesAround(Partition partition)
 {
-    return partition == Partition::cube || partition == Partition::automatic;
+    return partition == Partition::cube || partition == Partition::multi || partition == Partition::automatic;
 }
 
 constexpr std::array kRules{
     ChoiceRule{
         [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
-        "light point with every partition but cube and auto",
-        "a point light shines all around, and no one frustum does; it needs partition cube or auto"},
+        "light point with every partition but cube, multi and auto",
+        "a point light shines all around, and no one frustum does; it needs partition cube, multi or auto"},
     ChoiceRule{
         [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
         "partition cube with every light but point",
@@ -24,6 +24,11 @@ constexpr std::array kRules{
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
                "motion free"},
+    ChoiceRule{
+        [](LightType, const Technique& t) { return t.partition == Partition::multi && t.motion != Motion::free; },
+        "partition multi with every motion but free",
+        "multi gives each frame the frustums that its picture asks for, so nobody can hold them still; it needs motion "
+        "free"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

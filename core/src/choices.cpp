@@ -54,8 +54,8 @@ constexpr std::array kValues{
     ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), true, "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
     ChoiceValue{kPartition, "cube", number(Partition::cube), true, "six faces around a point light", kForsyth},
-    ChoiceValue{kPartition, "multi", number(Partition::multi), false, "frustums grown around groups of receivers",
-                kForsyth},
+    ChoiceValue{kPartition, "multi", number(Partition::multi), true,
+                "as many frustums as what is seen asks for, each with a map of its own size", kForsyth},
     ChoiceValue{kPartition, "auto", number(Partition::automatic), true,
                 "single or cascades, whichever is predicted to err less; cube of a point light", kDense},
 

@@ -41,6 +41,7 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     Lie lie;
     lie.border_texels = recipe.resolved.borderOf(input.map_size);
     lie.space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
+    lie.space.near_m *= input.slice.near_share;
     if (recipe.levelsDepth()) {
         lie.space.depth_ws = levelDepth(lie.space, *input.frame.objects, input.levellers);
     }
@@ -99,7 +100,7 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     }
     lit_.clear();
     lit_.reserve(sight.points().size());
-    lightPoints(lie.space, sight.points(), input.slice.depth, lit_);
+    lightPoints(lie.space, sight.points(), input.slice.depth, input.slice.sector, lit_);
     outlinePlaces(input, lie);
     const double feature_m = kFeature_px * sight.meanPixel_m();
     FrustumInput drawn = input;
@@ -114,7 +115,8 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     const MapFrame frame = places_.empty()
                                ? frameOfWarp(drawn, lie, warp)
                                : frameOf(rectOf(warp, places_), lie.least_size, input.map_size, lie.border_texels);
-    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_)};
+    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_),
+            facingTexels(lit_, warp, frame, texels_px_), true};
 }
 
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)

@@ -28,6 +28,8 @@ struct FrustumInput {
 struct Prediction {
     MapError error;
     double coarsest_px = 0.0; // coarsestTexel_px()
+    FacingTexels facing;
+    bool lies = false; // the slice has receivers, so it may have a map
 };
 
 class FrustumPlanner {

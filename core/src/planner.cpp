@@ -49,6 +49,12 @@ void placeInMask(Plan& plan)
     }
 }
 
+/// Of a light's own maps, or of one of its frustums.
+std::uint64_t tenantKey(const Light& light, std::uint32_t frustum)
+{
+    return std::uint64_t{light.key} << 32U | frustum;
+}
+
 } // namespace
 
 Planner::Planner(const ShadowOptions& options) : Planner(std::span(&options, 1)) {}
@@ -75,6 +81,7 @@ void Planner::reset()
     if (impl_ != nullptr) {
         impl_->store.forget();
         impl_->chooser = {};
+        impl_->multi = {};
     }
 }
 
@@ -105,6 +112,7 @@ const Plan& Planner::plan(const Frame& given)
         s.store = std::move(fresh);
         std::swap(s.suns, s.suns_before);
         s.chooser = {};
+        s.multi = {};
         s.moved.forget();
         s.spoilt = false;
     }
@@ -178,12 +186,13 @@ void Planner::Impl::admit(const Frame& frame)
     keys.clear();
     wishes.clear();
     look(frame, setups[0]);
+    first_tenants.clear();
     chooser.follow(frame.lights);
+    multi.follow(frame.lights);
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         const Light& light = frame.lights[index];
         LightPlan& planned = plan.lights.emplace_back();
-        keys.push_back(light.key);
-        wishes.emplace_back();
+        first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
         if (fault.kind != OutcomeKind::ok) {
             planned.outcome = fault;
             continue;
@@ -199,7 +208,30 @@ void Planner::Impl::admit(const Frame& frame)
             continue;
         }
         look(frame, setup);
-        wishes.back() = decide(frame, index);
+        if (setup.recipe.grows()) {
+            decideFrustums(frame, index);
+            continue;
+        }
+        keys.push_back(tenantKey(light, 0));
+        wishes.push_back(decide(frame, index));
+    }
+    first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+}
+
+/// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
+void Planner::Impl::decideFrustums(const Frame& frame, std::uint32_t index)
+{
+    const Light& light = frame.lights[index];
+    const Setup& setup = setups[light.options];
+    if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
+        return;
+    }
+    multi.divide({frame, setup.recipe, setup.camera, setup.receivers, setup.sight, light}, index, frustums);
+    for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
+        keys.push_back(tenantKey(light, frustum.id));
+        MapWish& wish = wishes.emplace_back();
+        wish = setup.recipe.wishOf(light, light.options, *setup.recipe.partition, 0);
+        wish.side = frustum.side;
     }
 }
 
@@ -236,7 +268,7 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
     if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
     }
-    if (setup.recipe.predicts()) {
+    if (setup.recipe.predicts() || setup.recipe.grows()) {
         setup.sight.look(frame, camera, setup.receivers);
     }
     if (setup.recipe.steady()) {

@@ -7,6 +7,7 @@
 #include "camera_view.h"
 #include "frustum_planner.h"
 #include "motion/sun_steps.h"
+#include "partition/multi.h"
 #include "recipe.h"
 #include "soften/moved_boxes.h"
 #include "store/map_store.h"
@@ -39,6 +40,15 @@ struct Stand {
     bool read = true;       // in this frame
 };
 
+/// One of the slices of a light, and what is known of it before it is planned.
+struct PlannedSlice {
+    Slice slice;
+    std::span<const std::uint32_t> receivers;
+    double strength = 1.0;     // of the warp, with fit auto
+    std::uint32_t tenant = 0;  // whose maps it has
+    std::uint32_t frustum = 0; // which of them
+};
+
 struct Planner::Impl {
     /// Without any options it has the default ones, and `unusable` says why nobody plans by them.
     explicit Impl(std::span<const ShadowOptions> options, Outcome why_unusable = {});
@@ -51,6 +61,7 @@ struct Planner::Impl {
     SunCourses suns;
     SunCourses suns_before; // as they were before this frame
     AutoChooser chooser;
+    MultiPartition multi;
     std::uint64_t frames = 0; // planned so far: whose turn it is
     bool spoilt = false;      // a plan ended half way, because something threw
     MovedBoxes moved;
@@ -61,8 +72,11 @@ struct Planner::Impl {
     // Scratch.
     FrustumPlanner frustums;
     std::vector<Slice> slices;
-    std::vector<std::uint32_t> keys; // of the frame's lights
+    std::vector<PlannedSlice> planned_slices;
+    /// Of the store's tenants: a light, or of partition multi each of its frustums, after each other.
+    std::vector<std::uint64_t> keys;
     std::vector<MapWish> wishes;
+    std::vector<std::uint32_t> first_tenants; // by light
     std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
     std::vector<std::uint32_t> merged;
 
@@ -74,14 +88,17 @@ struct Planner::Impl {
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
     MapWish decide(const Frame& frame, std::uint32_t index);
+    void decideFrustums(const Frame& frame, std::uint32_t index);
     void planLight(const Frame& frame, std::uint32_t index);
+    [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;
     Outcome prospect(std::uint32_t index, const Setup& setup) const;
     std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
     Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
     void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
+    void listSlices(const Stand& stand, const Setup& setup);
     const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
-    Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice);
-    void addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned);
+    Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice);
+    void addView(const Frame& frame, const Stand& stand, const MapPlace& place, const View& planned);
 };
 
 } // namespace gnomon

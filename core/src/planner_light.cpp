@@ -38,10 +38,21 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     planned.view_count = static_cast<std::uint32_t>(plan.views.size()) - planned.first_view;
 }
 
+/// All of what a light wants has room, or nothing is drawn of it.
+bool Planner::Impl::hasRoom(std::uint32_t index, const Setup& setup) const
+{
+    for (std::uint32_t tenant = first_tenants[index]; tenant < first_tenants[index + 1]; ++tenant) {
+        if (!store.hasRoom(tenant)) {
+            return false;
+        }
+    }
+    return setup.recipe.grows() || first_tenants[index] < first_tenants[index + 1];
+}
+
 /// Can a light that may have maps have any in this frame?
 Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
 {
-    if (!store.hasRoom(index)) {
+    if (!hasRoom(index, setup)) {
         return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
     }
     if (setup.camera.outcome.kind != OutcomeKind::ok) {
@@ -113,13 +124,36 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
 void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best)
 {
     const Setup& setup = setups[stand.at.options];
-    slices.clear();
-    partitionOf(setup, stand).divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
-    for (std::uint32_t i = 0; i < slices.size(); ++i) {
-        const Outcome outcome = planSlice(frame, stand, setup, i);
+    listSlices(stand, setup);
+    if (planned_slices.empty() && !best) {
+        best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
+    }
+    for (const PlannedSlice& slice : planned_slices) {
+        const Outcome outcome = planSlice(frame, stand, setup, slice);
         if (!best || rank(outcome.kind) > rank(best->kind)) {
             best = outcome;
         }
+    }
+}
+
+/// How the light is divided.
+void Planner::Impl::listSlices(const Stand& stand, const Setup& setup)
+{
+    const std::uint32_t tenant = first_tenants[stand.light];
+    planned_slices.clear();
+    if (setup.recipe.grows()) {
+        for (const GrownFrustum& one : multi.frustumsOf(stand.light)) {
+            const auto number = static_cast<std::uint32_t>(planned_slices.size());
+            planned_slices.push_back({one.slice, multi.receiversOf(one), one.strength, tenant + number, 0});
+        }
+        return;
+    }
+    slices.clear();
+    partitionOf(setup, stand).divide({stand.at, setup.camera, setup.recipe.options.cascades}, slices);
+    for (std::uint32_t i = 0; i < slices.size(); ++i) {
+        const double strength =
+            setup.recipe.predicts() ? chooser.decisionOf(setup.recipe, stand.light).strengths[i] : 1.0;
+        planned_slices.push_back({slices[i], setup.receivers, strength, tenant, i});
     }
 }
 
@@ -128,7 +162,7 @@ const PartitionTraits& Planner::Impl::partitionOf(const Setup& setup, const Stan
     return setup.recipe.predicts() ? *chooser.decisionOf(setup.recipe, stand.light).partition : *setup.recipe.partition;
 }
 
-Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const Setup& setup, std::uint32_t slice)
+Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice)
 {
     const Recipe& recipe = setup.recipe;
     View planned;
@@ -137,32 +171,30 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
     const glm::dvec2 grid_move = recipe.converges() ? convergeSample(converging).grid_texels : glm::dvec2(0.0);
     const bool on_gpu = partitionOf(setup, stand).fits_on_gpu; // whose views have a grid of their own
     planned.grid_move_texels = on_gpu ? grid_move : glm::dvec2(0.0);
+    const MapPlace& place = store.placeOf(slice.tenant, stand.slot, slice.frustum);
     const Outcome outcome =
-        frustums.plan({frame, recipe, setup.camera, setup.receivers, recipe.steady() ? all_receivers : setup.receivers,
-                       stand.at, slices[slice], store.placeOf(stand.light, stand.slot, slice).tile.width,
-                       recipe.predicts() ? chooser.decisionOf(recipe, stand.light).strengths[slice] : 1.0,
-                       on_gpu ? glm::dvec2(0.0) : grid_move},
+        frustums.plan({frame, recipe, setup.camera, slice.receivers, recipe.steady() ? all_receivers : slice.receivers,
+                       stand.at, slice.slice, place.tile.width, slice.strength, on_gpu ? glm::dvec2(0.0) : grid_move},
                       planned, plan.casters);
     if (!outcome.hasMap()) {
         return outcome;
     }
     if (!on_gpu) {
-        addView(frame, stand, slice, planned);
+        addView(frame, stand, place, planned);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
     for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.mapsOf(partitionOf(setup, stand));
          ++planned.gpu_cascade) {
-        addView(frame, stand, planned.gpu_cascade, planned);
+        addView(frame, stand, store.placeOf(slice.tenant, stand.slot, planned.gpu_cascade), planned);
     }
     return outcome;
 }
 
 /// Says where a view's map is, and what of it has to be drawn.
-void Planner::Impl::addView(const Frame& frame, const Stand& stand, std::uint32_t frustum, const View& planned)
+void Planner::Impl::addView(const Frame& frame, const Stand& stand, const MapPlace& place, const View& planned)
 {
     View& view = plan.views.emplace_back(planned);
-    const MapPlace& place = store.placeOf(stand.light, stand.slot, frustum);
     view.map = place.map;
     view.tile = place.tile;
     view.part = place.part;

@@ -56,6 +56,8 @@ struct Recipe {
     {
         return choosesPartition() && resolved.fitsOnGpu() && type != LightType::point;
     }
+    /// Each light's frustums depend on what is seen (MultiPartition).
+    [[nodiscard]] bool grows() const { return partition != nullptr && partition->grows; }
     /// It also finds out how many texels are of use (map-size auto).
     [[nodiscard]] bool sizesMap() const { return !options.map_size && !steady(); }
     [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition() || sizesMap(); }

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -34,13 +35,13 @@ void makeConePlanes(const LightSpace& space, std::vector<Plane>& out)
     through(-space.forward_ws, space.reach_m);
 }
 
+} // namespace
+
 Aabb grown(const Aabb& box, double by_m)
 {
     const glm::vec3 by(static_cast<float>(by_m));
     return {box.min - by, box.max + by};
 }
-
-} // namespace
 
 Outcome Region::gatherReceivers(const RegionInput& input)
 {
@@ -52,6 +53,7 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     glm::dvec3 low(kInfinity);
     glm::dvec3 high(-kInfinity);
     boxes_measured_ = true;
+    cut_boxes_ = 0;
     const std::span<const Aabb> bounds = input.objects.allBounds();
     for (const std::uint32_t object : input.seen) {
         const Aabb& box = bounds[object];
@@ -69,19 +71,13 @@ Outcome Region::gatherReceivers(const RegionInput& input)
             high = glm::max(high, centre * axes + half * sizes);
             continue;
         }
-        for (int i = 0; i < 8 && boxes_measured_; ++i) {
-            const glm::dvec3 c = space.coordinates(glm::dvec3(box.corner(i)));
-            // A box that reaches behind the light has no bounded image.
-            boxes_measured_ = c.z >= space.near_m;
-            const glm::dvec3 p(c.x / c.z, c.y / c.z, c.z);
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
+        boxes_measured_ = boxes_measured_ && measureBox(input, box, low, high);
     }
     if (receivers_ws.empty()) {
         return {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
     }
     // Directional coordinates are from the world's origin, which is where LightSpace puts its own.
+    boxes_measured_ = boxes_measured_ && low.x <= high.x;
     boxes_rect_ = {glm::dvec2(low), glm::dvec2(high)};
     boxes_near_m_ = low.z;
     boxes_far_m_ = high.z;
@@ -101,6 +97,39 @@ Outcome Region::gatherReceivers(const RegionInput& input)
     outlineOf(outline_points_, outline_);
     narrowToBoxes(space);
     return {};
+}
+
+/// Widens bounds of coordinates as LightSpace::project() has them by a box. A box that reaches behind the light has no
+/// bounded image, but its part in the cone does. False: too many were cut already, because it takes a microsecond.
+bool Region::measureBox(const RegionInput& input, const Aabb& box, glm::dvec3& low, glm::dvec3& high)
+{
+    const LightSpace& space = input.space;
+    const auto add = [&](const glm::dvec3& c) {
+        const glm::dvec3 p(c.x / c.z, c.y / c.z, c.z);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    };
+    bool is_before = true;
+    std::array<glm::dvec3, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+        corners[static_cast<std::size_t>(i)] = space.coordinates(glm::dvec3(box.corner(i)));
+        is_before = is_before && corners[static_cast<std::size_t>(i)].z >= space.near_m;
+    }
+    if (is_before) {
+        std::ranges::for_each(corners, add);
+        return true;
+    }
+    if (cut_boxes_ == kMostCutBoxes) {
+        return false;
+    }
+    ++cut_boxes_;
+    caster_body_.reset(grown(box, input.view.pad_m));
+    caster_body_.clip(cone_planes_);
+    caster_body_.clip(std::span(input.slice.cut).first(input.slice.cut_count));
+    for (const glm::dvec3& p : caster_body_.points()) {
+        add(space.coordinates(p));
+    }
+    return true;
 }
 
 bool Region::measureBody(const LightSpace& space)

@@ -13,6 +13,9 @@ namespace gnomon {
 inline constexpr Outcome kTooFarApart{OutcomeKind::degenerate,
                                       "the numbers of camera, light and scene are too far apart to plan a map by"};
 
+/// Larger by so much on all sides.
+[[nodiscard]] Aabb grown(const Aabb& box, double by_m);
+
 struct RegionInput {
     const LightSpace& space;
     const Slice& slice;
@@ -53,6 +56,7 @@ public:
     [[nodiscard]] glm::dvec3 centre_ws() const { return centre_ws_; }
 
 private:
+    bool measureBox(const RegionInput& input, const Aabb& box, glm::dvec3& low, glm::dvec3& high);
     bool measureBody(const LightSpace& space);
     void narrowToBoxes(const LightSpace& space);
     void narrowOutline();
@@ -68,6 +72,7 @@ private:
     LightRect rect_;
     LightRect boxes_rect_;
     bool boxes_measured_ = false;
+    int cut_boxes_ = 0;
     double receiver_near_m_ = 0.0;
     double receiver_far_m_ = 0.0;
     double boxes_near_m_ = 0.0;

@@ -85,7 +85,11 @@ const std::vector<Wrong> kWrong{
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
     {"FilterNotHere", {"render", "--filter", "id"}, 2, "not in this version"},
-    {"PartitionNotHere", {"render", "--partition", "multi"}, 2, "not in this version"},
+    {"MultiThatHoldsStill", {"render", "--partition", "multi", "--motion", "snap"}, 2, "it needs motion free"},
+    {"TexelsOfMultiElsewhere",
+     {"render", "--partition", "cube", "--set", "multi.texels-per-pixel=2"},
+     2,
+     "only with partition multi"},
     {"SdsmHeldStill", {"render", "--partition", "sdsm", "--motion", "snap"}, 2, "needs motion free"},
     {"CascadesThatDoNotAscend", {"render", "--partition", "cascades", "--set", "cascades.ends=40/10"}, 2, "ascend"},
     {"CascadesOfACube", {"render", "--partition", "cube", "--set", "cascades.count=2"}, 2, "has an effect only"},

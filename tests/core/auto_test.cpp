@@ -88,7 +88,7 @@ TEST(AutoPrediction, IsTheJacobianOfTheMapsOwnMatrix)
         Sight sight;
         sight.look(frameOf(stage), fit.view, fit.seen);
         std::vector<LitPoint> lit;
-        lightPoints(fit.space, sight.points(), {}, lit);
+        lightPoints(fit.space, sight.points(), {}, {}, lit);
         ASSERT_GT(lit.size(), 20U);
         for (const double strength : {1.0, 3.0, 15.0}) {
             const Warp warp = warpOfStrength(fit.input(), slopeOfBody(fit.input()), strength);
@@ -99,7 +99,7 @@ TEST(AutoPrediction, IsTheJacobianOfTheMapsOwnMatrix)
             std::size_t next = 0;
             for (const SightPoint& point : sight.points()) {
                 std::vector<LitPoint> one;
-                lightPoints(fit.space, std::span(&point, 1), {}, one);
+                lightPoints(fit.space, std::span(&point, 1), {}, {}, one);
                 if (one.empty())
                     continue;
                 const glm::dmat2 told = texelFromPixel(lit[next++], warp, frame);
@@ -123,7 +123,7 @@ TEST(AutoPrediction, TheStrengthFoundIsTheBestOne)
         Sight sight;
         sight.look(frameOf(stage), fit.view, fit.seen);
         std::vector<LitPoint> lit;
-        lightPoints(fit.space, sight.points(), {}, lit);
+        lightPoints(fit.space, sight.points(), {}, {}, lit);
         const FitInput input = fit.input();
         const WarpTrial trial{input, slopeOfBody(input),         fit.region.rect(), 0.01, kSide, kBorder_texels, lit,
                               {},    300.0 * sight.meanPixel_m()};

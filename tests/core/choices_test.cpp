@@ -92,19 +92,20 @@ TEST(Choices, RefusalsAreSentences)
     technique.filter = Filter::id;
     EXPECT_EQ(refusal(LightType::spot, technique),
               "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
-    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi}),
-              "partition multi is not in this version; it has single, cascades, sdsm, cube and auto");
+    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::snap}),
+              "multi gives each frame the frustums that its picture asks for, so nobody can hold them still; it needs "
+              "motion free");
 }
 
 TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 {
-    ASSERT_EQ(choiceRules().size(), 4U);
+    ASSERT_EQ(choiceRules().size(), 5U);
     const ChoiceRule& rule = choiceRules()[2];
     EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
     for (const ChoiceValue& partition : choiceValues())
         for (const ChoiceValue& motion : choiceValues()) {
             if (partition.choice != "partition" || motion.choice != "motion" || !partition.available ||
-                partition.name == "cube")
+                partition.name == "cube" || partition.name == "multi")
                 continue;
             const Technique technique{.partition = static_cast<Partition>(partition.value),
                                       .motion = static_cast<Motion>(motion.value)};
@@ -114,15 +115,15 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
         }
 }
 
-TEST(Choices, APointLightGoesWithCubeAndAutoAndCubeWithNoOther)
+TEST(Choices, APointLightGoesWithCubeMultiAndAutoAndCubeWithNoOther)
 {
-    EXPECT_EQ(choiceRules()[0].refuses, "light point with every partition but cube and auto");
+    EXPECT_EQ(choiceRules()[0].refuses, "light point with every partition but cube, multi and auto");
     EXPECT_EQ(choiceRules()[1].refuses, "partition cube with every light but point");
     for (const ChoiceValue& partition : choiceValues()) {
         if (partition.choice != "partition" || !partition.available)
             continue;
         const Technique technique{.partition = static_cast<Partition>(partition.value)};
-        const bool around = partition.name == "cube" || partition.name == "auto";
+        const bool around = partition.name == "cube" || partition.name == "multi" || partition.name == "auto";
         EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
         for (const LightType other : {LightType::directional, LightType::spot})
             EXPECT_EQ(refusal(other, technique),

@@ -115,8 +115,8 @@ TEST(LightRows, StayWithTheirLights)
 {
     test::Random random(5);
     LightRows rows;
-    std::vector<std::uint32_t> keys;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known; // key and turn to row
+    std::vector<std::uint64_t> keys;
+    std::map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t> known; // key and turn to row
     for (int frame = 0; frame < 2000; ++frame) {
         for (int change = 0; change < 3; ++change) {
             if (!keys.empty() && random.below(2) == 0)
@@ -126,10 +126,10 @@ TEST(LightRows, StayWithTheirLights)
         }
         rows.follow(keys);
         decltype(known) now;
-        std::map<std::uint32_t, std::uint32_t> turns;
+        std::map<std::uint64_t, std::uint32_t> turns;
         std::map<std::uint32_t, int> used;
         for (std::size_t light = 0; light < keys.size(); ++light) {
-            const std::pair<std::uint32_t, std::uint32_t> name{keys[light], turns[keys[light]]++};
+            const std::pair<std::uint64_t, std::uint32_t> name{keys[light], turns[keys[light]]++};
             now[name] = rows.rowOf(light);
             EXPECT_LT(rows.rowOf(light), rows.end());
             EXPECT_EQ(++used[rows.rowOf(light)], 1);

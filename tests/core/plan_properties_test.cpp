@@ -82,6 +82,16 @@ TEST(PlanPropertiesOfSteps, HoldForEachPosition)
 
 class PlanProperties : public testing::TestWithParam<Technique> {};
 
+/// Maps keep their places, so those that come and go with what is seen lie where earlier frames left room.
+std::string bytesWithoutPlaces(Plan plan)
+{
+    for (View& view : plan.views)
+        view.tile = {0, 0, 0, view.tile.width, view.tile.height};
+    for (auto& page : plan.pages)
+        page = {};
+    return test::bytesOf(plan);
+}
+
 /// What a planner that has seen other frames, and a scene that was made anew, do not change: a bit of the plan.
 void checkSameBits(const RandomScene& scene, std::uint64_t seed, const Plan& plan)
 {
@@ -93,7 +103,10 @@ void checkSameBits(const RandomScene& scene, std::uint64_t seed, const Plan& pla
         (void)used.plan(other);
         used.reset();
     }
-    ASSERT_EQ(test::bytesOf(plan), test::bytesOf(used.plan(again.frame())));
+    const Plan& same = used.plan(again.frame());
+    const bool moves = scene.options.technique.partition == Partition::multi && seed % 4 == 0;
+    ASSERT_TRUE(moves ? bytesWithoutPlaces(plan) == bytesWithoutPlaces(same)
+                      : test::bytesOf(plan) == test::bytesOf(same));
 }
 
 TEST_P(PlanProperties, HoldForRandomScenes)
@@ -190,6 +203,8 @@ INSTANTIATE_TEST_SUITE_P(Fits, PlanProperties, testing::ValuesIn(allFits(Partiti
 INSTANTIATE_TEST_SUITE_P(FitsOfCascades, PlanProperties, testing::ValuesIn(allFits(Partition::cascades, Filter::hard)),
                          fitOf);
 INSTANTIATE_TEST_SUITE_P(FitsOfSdsm, PlanProperties, testing::ValuesIn(allFits(Partition::sdsm, Filter::hard)), fitOf);
+INSTANTIATE_TEST_SUITE_P(FitsOfMulti, PlanProperties, testing::ValuesIn(allFits(Partition::multi, Filter::hard)),
+                         fitOf);
 INSTANTIATE_TEST_SUITE_P(FitsOfCube, PlanProperties, testing::ValuesIn(allFits(Partition::cube, Filter::hard)), fitOf);
 // Maps of filterable texels are not clamped at the near plane, hold receivers too and measure depth otherwise.
 INSTANTIATE_TEST_SUITE_P(

@@ -45,6 +45,13 @@ struct CascadeOptions {
     bool operator==(const CascadeOptions&) const = default;
 };
 
+/// Partition multi.
+struct MultiOptions {
+    /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
+    double texels_per_pixel = 1.0;
+    bool operator==(const MultiOptions&) const = default;
+};
+
 /// When a sun that moves in steps takes the next one.
 enum class StepBy : std::uint8_t { angle, time };
 [[nodiscard]] std::string_view nameOf(StepBy value);
@@ -113,6 +120,7 @@ struct ShadowOptions {
     double max_distance_m = 0.0;
     double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
     CascadeOptions cascades;
+    MultiOptions multi;
     StepOptions steps;
     KeepStill keep_still = KeepStill::automatic;
     /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64. Nothing: what the kernel needs, at

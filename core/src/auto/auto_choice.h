@@ -53,7 +53,7 @@ private:
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
-    std::vector<std::uint32_t> keys_;
+    std::vector<std::uint64_t> keys_;
     std::vector<LightType> types_; // of the frame's lights
     std::vector<Slice> slices_;
 };

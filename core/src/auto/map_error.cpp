@@ -26,30 +26,49 @@ double texelInPixels(const LitPoint& point, const Warp& warp, const MapFrame& fr
     return std::sqrt(0.5 * squares) / std::abs(glm::determinant(m));
 }
 
+/// The size that all but a fiftieth have at most; 0 of none. Reorders them.
+double coarsestOf(std::vector<double>& sizes)
+{
+    if (sizes.empty()) {
+        return 0.0;
+    }
+    std::ranges::replace_if(
+        sizes, [](double size) { return std::isnan(size); }, std::numeric_limits<double>::infinity());
+    const auto coarsest = sizes.end() - 1 - static_cast<std::ptrdiff_t>(sizes.size() / 50);
+    std::nth_element(sizes.begin(), coarsest, sizes.end());
+    return *coarsest;
+}
+
 } // namespace
 
+std::optional<LitPoint> litPoint(const LightSpace& space, const SightPoint& point)
+{
+    const glm::dvec3 c = space.coordinates(point.p_ws);
+    const bool in_reach = !space.perspective || (c.z > space.near_m && c.z < space.reach_m &&
+                                                 std::max(std::abs(c.x), std::abs(c.y)) < c.z * space.tangent);
+    if (!in_reach) {
+        return std::nullopt;
+    }
+    const auto step = [&](const glm::dvec3& d_ws) {
+        const glm::dvec2 across(glm::dot(space.right_ws, d_ws), glm::dot(space.up_ws, d_ws));
+        return space.perspective ? (across - glm::dvec2(c) * (glm::dot(space.depth_ws, d_ws) / c.z)) / c.z : across;
+    };
+    return LitPoint{glm::dvec2(space.project(point.p_ws)),
+                    {step(point.right_ws), step(point.down_ws)},
+                    point.pixel_m,
+                    space.perspective ? point.facing_m / c.z : point.facing_m};
+}
+
 void lightPoints(const LightSpace& space, std::span<const SightPoint> points, const ViewSlice& depths,
-                 std::vector<LitPoint>& out)
+                 const ViewSector& sector, std::vector<LitPoint>& out)
 {
     for (const SightPoint& point : points) {
-        if (point.depth_m < depths.begin_m || point.depth_m >= depths.end_m) {
+        if (point.depth_m < depths.begin_m || point.depth_m >= depths.end_m || !sector.holds(point.p_ws)) {
             continue;
         }
-        const glm::dvec3 c = space.coordinates(point.p_ws);
-        const bool in_reach = !space.perspective || (c.z > space.near_m && c.z < space.reach_m &&
-                                                     std::max(std::abs(c.x), std::abs(c.y)) < c.z * space.tangent);
-        if (!in_reach) {
-            continue;
+        if (const std::optional<LitPoint> lit = litPoint(space, point)) {
+            out.push_back(*lit);
         }
-        const auto step = [&](const glm::dvec3& d_ws) {
-            const glm::dvec2 across(glm::dot(space.right_ws, d_ws), glm::dot(space.up_ws, d_ws));
-            return space.perspective ? (across - glm::dvec2(c) * (glm::dot(space.depth_ws, d_ws) / c.z)) / c.z : across;
-        };
-        LitPoint lit;
-        lit.q = glm::dvec2(space.project(point.p_ws));
-        lit.q_from_pixel = {step(point.right_ws), step(point.down_ws)};
-        lit.pixel_m = point.pixel_m;
-        out.push_back(lit);
     }
 }
 
@@ -83,17 +102,25 @@ MapError mapErrorOf(std::span<const LitPoint> points, const Warp& warp, const Ma
 double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                         std::vector<double>& scratch)
 {
-    if (points.empty()) {
-        return 0.0;
-    }
     scratch.clear();
     for (const LitPoint& point : points) {
-        const double texel_px = texelInPixels(point, warp, frame);
-        scratch.push_back(std::isnan(texel_px) ? std::numeric_limits<double>::infinity() : texel_px);
+        scratch.push_back(texelInPixels(point, warp, frame));
     }
-    const auto coarsest = scratch.end() - 1 - static_cast<std::ptrdiff_t>(scratch.size() / 50);
-    std::nth_element(scratch.begin(), coarsest, scratch.end());
-    return *coarsest;
+    return coarsestOf(scratch);
+}
+
+FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                          std::vector<double>& scratch)
+{
+    FacingTexels found;
+    scratch.clear();
+    for (LitPoint point : points) {
+        point.q_from_pixel = glm::dmat2(point.facing);
+        scratch.push_back(texelInPixels(point, warp, frame));
+        found.sum_px += scratch.back();
+    }
+    found.coarsest_px = coarsestOf(scratch);
+    return found;
 }
 
 std::uint32_t halvingsFor(double coarsest_px, std::optional<std::uint32_t> before)

@@ -19,11 +19,15 @@ struct LitPoint {
     glm::dvec2 q{0.0};            // of the plane across the light, as LightRect has it
     glm::dmat2 q_from_pixel{1.0}; // by how much q moves to the next pixel on the right, and below
     double pixel_m = 0.0;         // SightPoint::pixel_m
+    double facing = 0.0;          // SightPoint::facing_m, as LightRect has it on a surface that faces the light
 };
 
-/// Appends those of the points that are between two depths of the view and in the light's reach.
+/// Nothing where the light does not reach it.
+[[nodiscard]] std::optional<LitPoint> litPoint(const LightSpace& space, const SightPoint& point);
+
+/// Appends those of the points that a slice of the light serves and that are in the light's reach.
 void lightPoints(const LightSpace& space, std::span<const SightPoint> points, const ViewSlice& depths,
-                 std::vector<LitPoint>& out);
+                 const ViewSector& sector, std::vector<LitPoint>& out);
 
 /// The map's Jacobian at a point: by how many texels the place on the map moves from pixel to pixel.
 [[nodiscard]] glm::dmat2 texelFromPixel(const LitPoint& point, const Warp& warp, const MapFrame& frame);
@@ -54,6 +58,15 @@ struct MapError {
 /// `scratch`, which it fills.
 [[nodiscard]] double coarsestTexel_px(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
                                       std::vector<double>& scratch);
+/// Texels in pixels, of surfaces that face both light and eye: by how much they are larger for the distances alone.
+/// What the light or the eye sees at a flat angle does not count more.
+struct FacingTexels {
+    double coarsest_px = 0.0; // but for a fiftieth
+    double sum_px = 0.0;      // over all points
+};
+/// Fills `scratch`.
+[[nodiscard]] FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,
+                                        std::vector<double>& scratch);
 /// How many times to halve the side of a map whose coarsest texel is this many pixels (> 0): 0 .. 3, to an eighth of a
 /// pixel. `before`: of the frame before, which is kept up to a sixth, for each change draws the map anew; nothing:
 /// there was none.

@@ -142,6 +142,10 @@ void Sight::addPoint(const CameraView& view, const Ray& ray, const glm::dvec2& p
     point.down_ws = stepTo(place + glm::dvec2(0.0, kStep * pixel.y));
     point.depth_m = view.depthOf(point.p_ws);
     point.pixel_m = std::sqrt(glm::length(point.right_ws) * glm::length(point.down_ws));
+    const auto across = [&](const glm::dvec3& step) {
+        return glm::length(step - ray.along_ws * glm::dot(ray.along_ws, step));
+    };
+    point.facing_m = std::max(across(point.right_ws), across(point.down_ws));
     if (std::isfinite(point.pixel_m) && point.pixel_m > 0.0) {
         points_.push_back(point);
     }

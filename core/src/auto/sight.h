@@ -18,6 +18,7 @@ struct SightPoint {
     glm::dvec3 right_ws{0.0}; // to the next pixel on the right, metres
     glm::dvec3 down_ws{0.0};  // and below
     double pixel_m = 0.0;     // side of a square as large as the pixel's part of the face
+    double facing_m = 0.0;    // a pixel's side there on a surface that faced the eye
     double depth_m = 0.0;     // along the view
 };
 

@@ -60,6 +60,15 @@ OptionValue getEnds(const ShadowOptions& o)
     return value;
 }
 
+bool isMulti(const ShadowOptions& o)
+{
+    return o.technique.partition == Partition::multi;
+}
+bool hasBlends(const ShadowOptions& o)
+{
+    return hasCascades(o) || isMulti(o);
+}
+
 } // namespace
 
 void addPlanRows(std::vector<OptionRow>& table)
@@ -72,8 +81,9 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "cascades.count", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "slices of the view, each with a map", .used = hasCascades, .used_when = kCascades, .get = getCount, .set = setCount},
         {.key = "cascades.lambda", .type = real, .form = "V", .min = 0, .max = 1, .doc = "1 splits the view logarithmically, 0 evenly", .used = hasSplits, .used_when = "partition cascades, sdsm or auto without cascades.ends", GNOMON_MEMBER(cascades.lambda)},
         {.key = "cascades.ends", .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthestPlace_m, .count = kMaxCascades - 1, .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .used = hasCascades, .used_when = kCascades, .get = getEnds, .set = setEnds},
-        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "over which one fades into the next", .used = hasCascades, .used_when = kCascades, GNOMON_MEMBER(cascades.blend)},
+        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or shell of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
         {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
+        {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .doc = "what multi gives each part of the picture, as long as a light's texels last", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
         {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", GNOMON_MEMBER(border_texels)},
         // clang-format on
     };

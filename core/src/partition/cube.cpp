@@ -9,20 +9,25 @@
 
 namespace gnomon {
 
-void partitionCube(const PartitionInput& input, std::vector<Slice>& out)
+Slice cubeFace(const Light& light, int face)
 {
     const auto row = [&](int axis, double sign) {
         glm::dvec3 along(0.0);
         along[axis] = sign;
-        return glm::dvec4(along, -sign * input.light.position_ws[axis]);
+        return glm::dvec4(along, -sign * light.position_ws[axis]);
     };
+    const int axis = face / 2;
+    Slice slice;
+    slice.sector = {row((axis + 1) % 3, 1.0), row((axis + 2) % 3, 1.0), row(axis, face % 2 == 0 ? 1.0 : -1.0)};
+    slice.axis_ws = glm::dvec3(slice.sector.w);
+    slice.half_angle_rad = glm::quarter_pi<double>();
+    return slice;
+}
+
+void partitionCube(const PartitionInput& input, std::vector<Slice>& out)
+{
     for (int face = 0; face < static_cast<int>(kCubeFaces); ++face) {
-        const int axis = face / 2;
-        Slice slice;
-        slice.sector = {row((axis + 1) % 3, 1.0), row((axis + 2) % 3, 1.0), row(axis, face % 2 == 0 ? 1.0 : -1.0)};
-        slice.axis_ws = glm::dvec3(slice.sector.w);
-        slice.half_angle_rad = glm::quarter_pi<double>();
-        out.push_back(slice);
+        out.push_back(cubeFace(input.light, face));
     }
 }
 

@@ -15,6 +15,7 @@ namespace gnomon {
 struct Slice {
     glm::dvec3 axis_ws{0.0, -1.0, 0.0}; // of the frustum, unit
     double half_angle_rad = 0.0;        // lights with a place: the frustum is a square pyramid around the axis
+    double near_share = 1.0;            // of the light's near distance: where the pyramid begins, along its axis
     std::array<Plane, 8> cut;           // inward; receivers outside belong to another slice
     std::uint32_t cut_count = 0;
     ViewSlice depth;   // of the camera that it serves
@@ -36,8 +37,12 @@ struct PartitionTraits {
     /// Each of its slices is a base map, to be listed once for each cascade that the GPU fits to a part of it.
     bool fits_on_gpu;
     std::uint32_t maps; // of a light; 0: one for each of CascadeOptions::count
+    /// Its slices depend on what is seen: MultiPartition, and no `divide`.
+    bool grows = false;
 };
 inline constexpr std::uint32_t kCubeFaces = 6;
+/// Around a light's place: 0, 1: +x, -x, then y and z.
+[[nodiscard]] Slice cubeFace(const Light& light, int face);
 /// Null for a partition that is not available. That of Partition::automatic stands for all that it may choose.
 [[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
 

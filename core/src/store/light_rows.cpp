@@ -15,7 +15,7 @@ std::uint32_t LightRows::freshRow()
     return row;
 }
 
-void LightRows::follow(std::span<const std::uint32_t> keys)
+void LightRows::follow(std::span<const std::uint64_t> keys)
 {
     free_.insert(free_.end(), gone_.begin(), gone_.end());
     gone_.clear();

@@ -28,7 +28,7 @@ void MapStore::addPages(std::uint32_t side, std::uint32_t most_pages)
 
 // ---- Whose a square is
 
-void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint32_t> keys,
+void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint64_t> keys,
                           std::span<const MapWish> wishes)
 {
     assert(keys.size() == wishes.size());

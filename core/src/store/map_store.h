@@ -50,7 +50,7 @@ public:
 
     /// The lights of a frame, by key, and what each wants. Lights that are gone give up their maps before new ones look
     /// for room.
-    void beginFrame(const ObjectSet& objects, std::span<const std::uint32_t> keys, std::span<const MapWish> wishes);
+    void beginFrame(const ObjectSet& objects, std::span<const std::uint64_t> keys, std::span<const MapWish> wishes);
     /// False: it wants no map, or there is no room for it.
     [[nodiscard]] bool hasRoom(std::size_t light) const { return !rooms_[rows_.rowOf(light)].places.empty(); }
     /// Of a frustum of a light at one of its positions (0 or 1). Precondition: hasRoom().

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partition `multi`: a light has as many frustums as what is seen of its receivers asks for, each with a map as large
+// as they need it.
+#pragma once
+
+#include "auto/sight.h"
+#include "frustum_planner.h"
+#include "store/light_rows.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// One frustum of a light in one frame.
+struct GrownFrustum {
+    std::uint32_t id = 0; // of its light: the same from frame to frame for as long as it serves the same part
+    Slice slice;
+    double wanted = 0.0;              // texels on a side of its map
+    double sum = 0.0;                 // FacingTexels::sum_px, of a map of the largest side
+    std::uint32_t side = 0;           // that it gets
+    double strength = 0.0;            // of its warp, with fit auto
+    std::uint32_t first_receiver = 0; // see MultiPartition::receiversOf()
+    std::uint32_t receiver_count = 0;
+};
+
+/// Remembers a light by its key for as long as it is in the frames.
+class MultiPartition {
+public:
+    struct Input {
+        const Frame& frame;
+        const Recipe& recipe;
+        const CameraView& camera;                 // measured
+        std::span<const std::uint32_t> receivers; // that the camera sees
+        const Sight& sight;
+        const Light& light;
+    };
+
+    /// The lights of a frame. Those that are gone are forgotten, and nobody has frustums yet.
+    void follow(std::span<const Light> lights);
+    /// Finds a light's frustums.
+    void divide(const Input& input, std::size_t light, FrustumPlanner& frustums);
+    /// Near ones first; of one depth, by direction. Holds until the next divide().
+    [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
+    /// Of the receivers that were given, those that a frustum may serve.
+    [[nodiscard]] std::span<const std::uint32_t> receiversOf(const GrownFrustum& frustum) const
+    {
+        return std::span(receivers_).subspan(frustum.first_receiver, frustum.receiver_count);
+    }
+
+private:
+    /// What some of the points of a light have in common: their rectangle across the light, and how fine it must be.
+    struct Cell {
+        LightRect rect;
+        double density = 0.0; // pixels a unit of length of the rectangle
+        bool used = false;
+        void add(const Cell& other);
+        [[nodiscard]] double texels() const;
+    };
+    static constexpr std::size_t kSectors = kCubeFaces;
+    /// Between two depths of the camera.
+    struct Shell {
+        int octave = 0; // begins at 2^octave metres
+        int end = 0;    // ends at 2^end
+        std::array<Cell, kSectors> cells;
+        void add(const Shell& other);
+        [[nodiscard]] double texels() const;
+    };
+    struct Known {
+        std::uint32_t id = 0;
+        std::uint32_t side = 0;
+        double strength = 0.0;
+    };
+    struct Memory {
+        std::vector<Known> frustums;
+        bool divides = false; // into shells
+    };
+    struct Range {
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+
+    void findShells(const Input& input);
+    void mergeShells();
+    void addShell(const Input& input, std::size_t shell);
+    std::optional<Slice> aimAt(const Input& input, const Slice& shell);
+    void addFrustum(const Input& input, const Slice& slice, std::uint32_t id);
+    static void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
+    double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
+
+    LightRows rows_;
+    std::vector<Memory> memories_; // by row
+    std::vector<std::uint64_t> keys_;
+    std::vector<Range> ranges_; // of frustums_, by light
+    std::vector<GrownFrustum> frustums_;
+    std::vector<std::uint32_t> receivers_;
+    // Scratch.
+    std::vector<Shell> shells_;
+    ConvexBody body_;
+};
+
+} // namespace gnomon

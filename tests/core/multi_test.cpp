@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Partition multi: which frustums a light has, how large their maps are, and what stays from frame to frame.
+#include "allocation_count.h"
+#include "worlds.h"
+
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+/// A floor of tiles, 40 m on a side, with posts on it.
+struct Hall {
+    ObjectSet set;
+    std::vector<Light> lights;
+    Frame frame;
+    ShadowOptions options{.technique = kPlainTechnique};
+
+    Hall()
+    {
+        for (int z = -20; z < 20; z += 2) {
+            for (int x = -20; x < 20; x += 2) {
+                set.add({{x, -0.1F, z}, {x + 2, 0.0F, z + 2}});
+            }
+        }
+        for (int z = -18; z <= 18; z += 6) {
+            for (int x = -18; x <= 18; x += 6) {
+                set.add(test::boxAt({x, 1.0, z}, {0.2, 1.0, 0.2}));
+            }
+        }
+        options.technique.partition = Partition::multi;
+        frame.objects = &set;
+        frame.size_px = {640, 400};
+    }
+    void addLamp(const glm::dvec3& at, double range_m)
+    {
+        Light lamp;
+        lamp.type = LightType::point;
+        lamp.position_ws = at;
+        lamp.range_m = range_m;
+        lamp.key = static_cast<std::uint32_t>(lights.size());
+        lights.push_back(lamp);
+        frame.lights = lights;
+    }
+    void look(const glm::dvec3& eye, const glm::dvec3& target)
+    {
+        frame.camera = test::perspectiveCamera(eye, target, 0.8);
+    }
+};
+
+std::uint64_t texelsOf(const Plan& plan)
+{
+    std::uint64_t texels = 0;
+    for (const View& view : plan.views) {
+        texels += std::uint64_t{view.tile.width} * view.tile.height;
+    }
+    return texels;
+}
+
+/// The side of a texel at a point that faces the lamp, in pixels that face the eye.
+double texelInPixels(const Hall& hall, const View& view, const glm::dvec3& p)
+{
+    const glm::dvec4 w(view.clip_from_world[0][3], view.clip_from_world[1][3], view.clip_from_world[2][3],
+                       view.clip_from_world[3][3]);
+    const double depth_m = glm::dot(w, glm::dvec4(p, 1.0));
+    const double pixel_m = 2.0 * std::tan(0.4) * glm::distance(p, hall.frame.camera.eye_ws) / hall.frame.size_px.y;
+    return view.texel_m * depth_m / pixel_m;
+}
+
+/// The views of a light that serve a point, finest first as the plan has them.
+const View* viewOf(const Plan& plan, const glm::dvec3& p)
+{
+    const auto found =
+        std::ranges::find_if(plan.views, [&](const View& view) { return view.slice.holds(p) && view.sector.holds(p); });
+    return found != plan.views.end() ? &*found : nullptr;
+}
+
+TEST(Multi, HasFrustumsOnlyForWhatIsSeen)
+{
+    Hall hall;
+    hall.addLamp({0, 3, 0}, 12.0);
+    hall.look({25, 6, 25}, {0, 0, 0});
+    Planner planner(hall.options);
+    const Plan& plan = planner.plan(hall.frame);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok) << plan.lights[0].outcome.reason;
+    EXPECT_FALSE(plan.views.empty());
+    for (const View& view : plan.views) {
+        EXPECT_FALSE(view.sector.holds({0, 8, 0})) << "nothing is above the lamp";
+    }
+    hall.look({25, 6, 25}, {50, 6, 50});
+    EXPECT_EQ(planner.plan(hall.frame).lights[0].outcome.kind, OutcomeKind::no_receiver);
+}
+
+TEST(Multi, GivesEachPartTheTexelsThatItsPixelsWant)
+{
+    Hall hall;
+    hall.options.max_texels = 64U << 20U;
+    hall.addLamp({0, 3, -14}, 40.0);
+    hall.look({1, 1.7, 16}, {0, 1, -14}); // into the lamp
+    Planner planner(hall.options);
+    const Plan& plan = planner.plan(hall.frame);
+    int points = 0;
+    int fine = 0;
+    double finest = 1e9;
+    double coarsest = 0.0;
+    for (double z = 12.0; z > -12.0; z -= 0.5) {
+        for (double x = -3.0; x <= 3.0; x += 0.5) {
+            const View* const view = viewOf(plan, {x, 0.0, z});
+            ASSERT_NE(view, nullptr) << x << ", " << z;
+            const double texel_px = texelInPixels(hall, *view, {x, 0.0, z});
+            ++points;
+            fine += texel_px <= 1.1 ? 1 : 0;
+            finest = std::min(finest, texel_px);
+            coarsest = std::max(coarsest, texel_px);
+        }
+    }
+    EXPECT_GE(fine, points * 95 / 100);
+    EXPECT_LE(coarsest, 1.5);
+    // Right below the lamp, in a shell with what is four times as far from it.
+    EXPECT_GT(finest, 0.03);
+}
+
+// Nobody can shape one frustum for both: the near half of the picture is the far half of what the lamp shines on.
+TEST(Multi, DividesWhatIsSeenAgainstTheLight)
+{
+    Hall hall;
+    hall.addLamp({0, 3, -14}, 40.0);
+    hall.look({1, 1.7, 16}, {0, 1, -14});
+    Planner planner(hall.options);
+    const Plan& plan = planner.plan(hall.frame);
+    std::set<double> begins;
+    for (const View& view : plan.views) {
+        begins.insert(view.slice.begin_m);
+    }
+    EXPECT_GE(begins.size(), 2U);
+    EXPECT_LE(begins.size(), 4U);
+    hall.options.technique.partition = Partition::cube;
+    hall.options.map_size = 512;
+    Planner cube(hall.options);
+    const Plan& other = cube.plan(hall.frame);
+    const glm::dvec3 near(0.8, 0.0, 12.5);
+    EXPECT_LT(texelInPixels(hall, *viewOf(plan, near), near), texelInPixels(hall, *viewOf(other, near), near));
+}
+
+TEST(Multi, KeepsToALightsTexels)
+{
+    Hall hall;
+    hall.addLamp({0, 3, -14}, 40.0);
+    hall.look({1, 1.7, 16}, {0, 1, -14});
+    std::uint64_t before = 0;
+    for (const std::uint32_t most : {65536U, 262144U, 1048576U, 4194304U}) {
+        hall.options.max_texels = most;
+        Planner planner(hall.options);
+        const std::uint64_t texels = texelsOf(planner.plan(hall.frame));
+        EXPECT_LE(texels, most);
+        EXPECT_GT(texels, before) << "more texels are of use";
+        before = texels;
+    }
+}
+
+TEST(Multi, DrawsNothingForLampsThatStandStill)
+{
+    Hall hall;
+    for (int i = 0; i < 64; ++i) {
+        hall.addLamp({-14.0 + 4.0 * (i % 8), 2.5, -14.0 + 4.0 * (i / 8)}, 8.0);
+    }
+    hall.options.max_texels = 65536;
+    hall.look({25, 12, 25}, {0, 0, 0});
+    Planner planner(hall.options);
+    const Plan& first = planner.plan(hall.frame);
+    EXPECT_TRUE(std::ranges::all_of(first.views, &View::redraw));
+    EXPECT_GT(first.views.size(), 64U);
+    (void)planner.plan(hall.frame); // warm
+    const std::uint64_t before = test::heapAllocations();
+    const Plan& again = planner.plan(hall.frame);
+    EXPECT_EQ(test::heapAllocations(), before);
+    EXPECT_TRUE(std::ranges::none_of(again.views, &View::redraw));
+    for (const LightPlan& light : again.lights) {
+        EXPECT_EQ(light.outcome.kind, OutcomeKind::ok);
+    }
+}
+
+// Sides of maps and shells stay while little changes: each change is a map drawn in other texels.
+TEST(Multi, ChangesLittleWhereLittleMoves)
+{
+    Hall hall;
+    hall.addLamp({0, 3, -8}, 20.0);
+    Planner planner(hall.options);
+    int changes = 0;
+    int views = 0;
+    std::vector<std::pair<double, std::uint32_t>> before;
+    for (int step = 0; step < 100; ++step) {
+        hall.look({1 + 0.01 * step, 1.7, 12 - 0.02 * step}, {0, 1, -14});
+        std::vector<std::pair<double, std::uint32_t>> now;
+        for (const View& view : planner.plan(hall.frame).views) {
+            now.emplace_back(view.sector.w.x + 2.0 * view.sector.w.y + 4.0 * view.slice.begin_m, view.tile.width);
+        }
+        for (const auto& one : now) {
+            changes += step > 0 && std::ranges::find(before, one) == before.end() ? 1 : 0;
+        }
+        views += static_cast<int>(now.size());
+        before = now;
+    }
+    EXPECT_LT(changes, views / 20);
+}
+
+TEST(Multi, GoesWithSpotsAndSuns)
+{
+    Hall hall;
+    hall.lights = {test::sun({0.3, -1.0, 0.2}), test::spot({0, 8, -10}, {0.1, -1.0, 0.3}, 0.9)};
+    hall.frame.lights = hall.lights;
+    hall.look({1, 1.7, 16}, {0, 1, -14});
+    Planner planner(hall.options);
+    const Plan& plan = planner.plan(hall.frame);
+    for (const LightPlan& light : plan.lights) {
+        EXPECT_EQ(light.outcome.kind, OutcomeKind::ok) << light.outcome.reason;
+        EXPECT_GT(light.view_count, 0U);
+    }
+    EXPECT_GT(plan.lights[0].view_count, 1U) << "a floor seen from near by";
+}
+
+} // namespace
+} // namespace gnomon
