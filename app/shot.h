@@ -39,7 +39,8 @@ void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
 /// The light that --light names, by its own name or its node's, else the first. Throws UsageError for one that is not
 /// there.
 [[nodiscard]] std::size_t lightIndex(const Shot& shot, const Settings& settings);
-/// Throws UsageError when --sun-angle or --light-size is given and none of these lights has such a size.
+/// Throws UsageError when --sun-angle or --light-size is given and none of these lights has such a size. makeShot()
+/// asks it of all of a shot's lights.
 void requireSizedLights(const Settings& settings, std::span<const host::ShadedLight> lights);
 
 [[nodiscard]] host::RenderOptions renderOptions(const Settings& settings);

@@ -181,6 +181,10 @@ void parseWithCli(const Subcommand& subcommand, std::vector<std::string> argumen
     std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
     try {
         cli.parse(arguments);
+    } catch (const CLI::ArgumentMismatch& error) { // it begins with the option's name
+        const std::string_view text = error.what();
+        throw UsageError(
+            fmt::format("{} needs a value; see `gnomon {} --help`", text.substr(0, text.find(':')), subcommand.name));
     } catch (const CLI::ParseError& error) {
         std::string line = error.what();
         std::replace(line.begin(), line.end(), '\n', ' ');

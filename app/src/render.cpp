@@ -133,7 +133,6 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
 /// The same shading with the ray tracer's masks.
 std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target)
 {
-    requireSizedLights(settings, shot.lights);
     if (shot.lights.size() > host::kMaxLights) { // the host would say so only after all rays were traced
         throw Error("lighting the scene", fmt::format("{} lights", shot.lights.size()),
                     fmt::format("use at most {}", host::kMaxLights));

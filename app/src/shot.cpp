@@ -128,6 +128,14 @@ void placeLights(Shot& shot, const Settings& settings)
     }
 }
 
+void noteFrames(Shot& shot, const Settings& settings)
+{
+    const bool converges = settings.shadow.technique.soften == Soften::converge;
+    if (settings.subcommand == kRender && converges && settings.converge == 1 && !settings.frames && !settings.truth) {
+        shot.notices.push_back("soften converge averages frames, and this is one; --converge N draws N at rest");
+    }
+}
+
 /// What people should know of the lights: said once, not for every frame.
 void noteLights(Shot& shot, const Settings& settings)
 {
@@ -345,7 +353,9 @@ Shot makeShot(const Settings& settings)
         followPath(shot, settings, first);
     }
     requireInRange(shot, settings);
+    requireSizedLights(settings, shot.lights);
     noteLights(shot, settings);
+    noteFrames(shot, settings);
     noteExtents(shot, settings);
     noteScene(shot, settings);
     return shot;

@@ -78,6 +78,10 @@ TEST(Converge, saysWhereItHasNoEffect)
     EXPECT_EQ(ran({"--soften", "converge", "--frames", "0-3"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge", "--motion", "snap"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge"}).status, 0);
+    const test::Ran alone = test::gnomon({"render", "planes", "--size", "32x18", "-o", "a.png", "--soften", "converge"},
+                                         {.folder = folder.path()});
+    EXPECT_EQ(alone.status, 0);
+    EXPECT_NE(alone.err.find("--converge N draws N at rest"), std::string::npos) << "one frame averages nothing";
 }
 
 } // namespace

@@ -85,6 +85,9 @@ const std::vector<Wrong> kWrong{
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
     {"FilterNotHere", {"render", "--filter", "id"}, 2, "not in this version"},
+    {"NoValue", {"render", "planes", "--filter"}, 2, "--filter needs a value"},
+    {"SunAngleWithoutASun", {"render", "spotlit", "--sun-angle", "3"}, 2, "only on a directional light"},
+    {"LightSizeWithoutALamp", {"plan", "sundial", "--light-size", "1"}, 2, "only on a spot or point light"},
     {"MultiThatHoldsStill", {"render", "--partition", "multi", "--motion", "snap"}, 2, "it needs motion free"},
     {"TexelsOfMultiElsewhere",
      {"render", "--partition", "cube", "--set", "multi.texels-per-pixel=2"},
