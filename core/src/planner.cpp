@@ -2,6 +2,7 @@
 // A frame's way to its plan: what the camera sees, what each light wants, who has which maps; then one light after the
 // other (planner_light.cpp).
 #include "planner_impl.h"
+#include "soften/light_sample.h"
 
 #include <gnomon/world_range.h>
 
@@ -221,7 +222,7 @@ void Planner::Impl::admit(const Frame& frame)
 /// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
 void Planner::Impl::decideFrustums(const Frame& frame, std::uint32_t index)
 {
-    const Light& light = frame.lights[index];
+    const Light light = sampledLight(frame.lights[index], sampleAt(frame, index)); // where its maps are drawn from
     const Setup& setup = setups[light.options];
     if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;

@@ -93,6 +93,7 @@ struct Planner::Impl {
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;
     Outcome prospect(std::uint32_t index, const Setup& setup) const;
     std::uint32_t followSun(const Frame& frame, const Recipe& recipe, const Light& light, SunSteps& steps);
+    [[nodiscard]] LightSample sampleAt(const Frame& frame, std::uint32_t index) const;
     Outcome planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot);
     void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
     void listSlices(const Stand& stand, const Setup& setup);

@@ -82,17 +82,25 @@ std::uint32_t Planner::Impl::followSun(const Frame& frame, const Recipe& recipe,
     return course.earlierSlot();
 }
 
+/// Which point of a light whose mask is a mean over frames this frame sees it from.
+LightSample Planner::Impl::sampleAt(const Frame& frame, std::uint32_t index) const
+{
+    const Recipe& recipe = setups[plan.lights[index].options].recipe;
+    LightSample sample;
+    if (recipe.converges()) {
+        sample = sampleOf(frame.lights[index], convergeSample(recipe.resolved.integratesLight() ? 0 : converging));
+        sample.number = static_cast<std::uint32_t>(converging % 1024);
+    }
+    return sample;
+}
+
 /// A position keeps its slot, that is its maps, for as long as the sun has it.
 Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::uint32_t earlier_slot)
 {
     const SunSteps steps = plan.lights[index].steps;
     const Recipe& recipe = setups[plan.lights[index].options].recipe;
     const bool has_slots = recipe.pairs(frame.lights[index]);
-    if (recipe.converges()) {
-        plan.lights[index].sample =
-            sampleOf(frame.lights[index], convergeSample(recipe.resolved.integratesLight() ? 0 : converging));
-        plan.lights[index].sample.number = static_cast<std::uint32_t>(converging % 1024);
-    }
+    plan.lights[index].sample = sampleAt(frame, index);
     std::optional<Outcome> best;
     for (const bool later : {false, true}) {
         if (later && !steps.paired) {
@@ -104,10 +112,7 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
         if (steps.stepping) {
             stand.at.direction_ws = later ? steps.later_ws : steps.earlier_ws;
         }
-        if (const LightSample& sample = plan.lights[index].sample; sample.joined) {
-            stand.at.position_ws = sample.position_ws;
-            stand.at.direction_ws = sample.direction_ws;
-        }
+        stand.at = sampledLight(stand.at, plan.lights[index].sample);
         if (steps.paired) {
             stand.sun = later ? SunPosition::later : SunPosition::earlier;
         }

@@ -60,7 +60,8 @@ struct Recipe {
     [[nodiscard]] bool grows() const { return partition != nullptr && partition->grows; }
     /// It also finds out how many texels are of use (map-size auto).
     [[nodiscard]] bool sizesMap() const { return !options.map_size && !steady(); }
-    [[nodiscard]] bool predicts() const { return searchesWarp() || choosesPartition() || sizesMap(); }
+    /// AutoChooser decides for it.
+    [[nodiscard]] bool predicts() const { return !grows() && (searchesWarp() || choosesPartition() || sizesMap()); }
 };
 
 } // namespace gnomon

@@ -209,6 +209,37 @@ TEST(Multi, ChangesLittleWhereLittleMoves)
     EXPECT_LT(changes, views / 20);
 }
 
+// What converges moves its lamp in each frame, and with it where directions are divided.
+TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
+{
+    Hall hall;
+    hall.addLamp({0, 3, 0}, 20.0);
+    hall.lights[0].radius_m = 0.5;
+    hall.frame.lights = hall.lights;
+    hall.options.technique.filter = Filter::hard;
+    hall.options.technique.soften = Soften::converge;
+    hall.look({9, 6, 12}, {0, 0, 0});
+    Planner planner(hall.options);
+    for (int number = 0; number < 24; ++number) {
+        const Plan& plan = planner.plan(hall.frame);
+        const LightSample& sample = plan.lights[0].sample;
+        ASSERT_TRUE(sample.joined);
+        for (const View& view : plan.views) {
+            EXPECT_EQ(view.light_place_ws, sample.position_ws);
+            if (view.sector.bounded()) {
+                EXPECT_NEAR(glm::dot(view.sector.w, glm::dvec4(sample.position_ws, 1.0)), 0.0, 1e-9);
+            }
+        }
+        for (double z = -5.0; z <= 5.0; z += 0.25) {
+            const glm::dvec3 p(0.3 * z, 0.0, z);
+            const View* const view = viewOf(plan, p);
+            ASSERT_NE(view, nullptr) << z;
+            const glm::dvec4 clip = view->clip_from_world * glm::dvec4(p, 1.0);
+            EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w) << number << ", " << z;
+        }
+    }
+}
+
 TEST(Multi, GoesWithSpotsAndSuns)
 {
     Hall hall;

@@ -180,8 +180,11 @@ TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
     for (std::size_t i = 0; i < lights.size(); ++i) {
         SCOPED_TRACE(lights[i].name);
         const LightPlan& plan = renderer.plan().lights[i];
-        // The second lamp shines on the box's top, too. What multi has is its own affair.
-        ASSERT_EQ(plan.view_count, multi ? plan.view_count : GetParam().views + (cube ? i : 0));
+        if (multi) { // divides as it sees fit
+            ASSERT_GT(plan.view_count, 0U);
+        } else { // the second lamp shines on the box's top, too
+            ASSERT_EQ(plan.view_count, GetParam().views + (cube ? i : 0));
+        }
         const auto views = std::span(renderer.plan().views).subspan(plan.first_view, plan.view_count);
         const bool warps = GetParam().technique.fit != Fit::uniform && GetParam().technique.motion == Motion::free;
         EXPECT_EQ(std::ranges::any_of(views, [](const View& view) { return view.fit.strength > 1.0; }), warps)

@@ -117,7 +117,7 @@ FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, co
     for (LitPoint point : points) {
         point.q_from_pixel = glm::dmat2(point.facing);
         scratch.push_back(texelInPixels(point, warp, frame));
-        found.sum_px += scratch.back();
+        found.sum_px += std::isfinite(scratch.back()) ? scratch.back() : 0.0;
     }
     found.coarsest_px = coarsestOf(scratch);
     return found;

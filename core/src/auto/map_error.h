@@ -62,7 +62,7 @@ struct MapError {
 /// What the light or the eye sees at a flat angle does not count more.
 struct FacingTexels {
     double coarsest_px = 0.0; // but for a fiftieth
-    double sum_px = 0.0;      // over all points
+    double sum_px = 0.0;      // over all points that have one
 };
 /// Fills `scratch`.
 [[nodiscard]] FacingTexels facingTexels(std::span<const LitPoint> points, const Warp& warp, const MapFrame& frame,

@@ -32,9 +32,7 @@ void partitionCascades(const PartitionInput& input, std::vector<Slice>& out)
     };
     const glm::dvec4 axis(view.forward_ws, -glm::dot(view.forward_ws, view.eye_ws));
     for (std::uint32_t i = 0; i < count; ++i) {
-        Slice slice;
-        slice.axis_ws = glm::normalize(input.light.direction_ws);
-        slice.half_angle_rad = input.light.outer_half_angle_rad;
+        Slice slice = wholeSlice(input.light);
         slice.depth.axis = axis;
         // The first and the last serve what lies before and behind all splits too: rounding, and explicit ends that
         // leave something over. But nothing is to be seen before the nearest receiver and behind the farthest: without

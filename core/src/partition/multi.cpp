@@ -54,15 +54,6 @@ std::size_t faceOf(const glm::dvec3& d)
     return static_cast<std::size_t>(2 * axis) + (d[axis] < 0.0 ? 1 : 0);
 }
 
-/// The frustum of a light that has one for all of its directions.
-Slice wholeSlice(const Light& light)
-{
-    Slice slice;
-    slice.axis_ws = glm::normalize(light.direction_ws);
-    slice.half_angle_rad = light.outer_half_angle_rad;
-    return slice;
-}
-
 Slice sectorOf(const Light& light, std::size_t sector)
 {
     return light.type == LightType::point ? cubeFace(light, static_cast<int>(sector)) : wholeSlice(light);
@@ -182,7 +173,10 @@ double MultiPartition::addShells(const Input& input, const Memory& memory, Frust
     double texels = 0.0;
     for (GrownFrustum& frustum : std::span(frustums_).subspan(first)) {
         const auto known = std::ranges::find(memory.frustums, frustum.id, &Known::id);
-        frustum.strength = known != memory.frustums.end() ? known->strength : 0.0;
+        if (known != memory.frustums.end()) {
+            frustum.strength = known->strength;
+            frustum.side_before = known->side;
+        }
         const Prediction seen = frustums.predict({input.frame, input.recipe, input.camera, receiversOf(frustum),
                                                   receiversOf(frustum), input.light, frustum.slice, largest},
                                                  input.sight, frustum.strength);
@@ -358,10 +352,6 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
     const std::uint32_t largest = largestSide(input);
     double texels =
         options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels);
-    const auto sideBefore = [&](const GrownFrustum& frustum) {
-        const auto known = std::ranges::find(memory.frustums, frustum.id, &Known::id);
-        return known != memory.frustums.end() ? known->side : 0;
-    };
     for (GrownFrustum& frustum : found) {
         frustum.side = largest;
         while (frustum.side >= 2 * kSmallestSide) {
@@ -374,7 +364,7 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
         double most = 0.0;
         for (GrownFrustum& frustum : found) {
             const double side = frustum.side;
-            const bool kept = sideBefore(frustum) >= 2 * frustum.side;
+            const bool kept = frustum.side_before >= 2 * frustum.side;
             if (2 * frustum.side > largest || frustum.wanted <= kTooSmall * side / (kept ? kHadBefore : 1.0) ||
                 3.0 * side * side > texels) {
                 continue;

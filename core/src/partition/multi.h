@@ -21,6 +21,7 @@ struct GrownFrustum {
     Slice slice;
     double wanted = 0.0;              // texels on a side of its map
     double sum = 0.0;                 // FacingTexels::sum_px, of a map of the largest side
+    std::uint32_t side_before = 0;    // of the frame before; 0: it was not there
     std::uint32_t side = 0;           // that it gets
     double strength = 0.0;            // of its warp, with fit auto
     std::uint32_t first_receiver = 0; // see MultiPartition::receiversOf()

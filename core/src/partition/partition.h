@@ -32,15 +32,17 @@ using PartitionFunction = void (*)(const PartitionInput& input, std::vector<Slic
 
 struct PartitionTraits {
     Partition partition;
-    PartitionFunction divide;
-    bool measures; // it needs CameraView::near_m and far_m
+    PartitionFunction divide = nullptr;
+    bool measures = false; // it needs CameraView::near_m and far_m
     /// Each of its slices is a base map, to be listed once for each cascade that the GPU fits to a part of it.
-    bool fits_on_gpu;
-    std::uint32_t maps; // of a light; 0: one for each of CascadeOptions::count
+    bool fits_on_gpu = false;
+    std::uint32_t maps = 0; // of a light; 0: one for each of CascadeOptions::count
     /// Its slices depend on what is seen: MultiPartition, and no `divide`.
     bool grows = false;
 };
 inline constexpr std::uint32_t kCubeFaces = 6;
+/// The one frustum of a light that is not divided.
+[[nodiscard]] Slice wholeSlice(const Light& light);
 /// Around a light's place: 0, 1: +x, -x, then y and z.
 [[nodiscard]] Slice cubeFace(const Light& light, int face);
 /// Null for a partition that is not available. That of Partition::automatic stands for all that it may choose.

@@ -5,9 +5,14 @@ namespace gnomon {
 namespace {
 
 constexpr PartitionTraits kPartitions[] = {
-    {Partition::single, partitionSingle, false, false, 1}, {Partition::cascades, partitionCascades, true, false, 0},
-    {Partition::sdsm, partitionSdsm, true, true, 0},       {Partition::cube, partitionCube, false, false, kCubeFaces},
-    {Partition::multi, nullptr, true, false, 1, true},     {Partition::automatic, partitionCascades, true, false, 0},
+    // clang-format off
+    {.partition = Partition::single, .divide = partitionSingle, .maps = 1},
+    {.partition = Partition::cascades, .divide = partitionCascades, .measures = true},
+    {.partition = Partition::sdsm, .divide = partitionSdsm, .measures = true, .fits_on_gpu = true},
+    {.partition = Partition::cube, .divide = partitionCube, .maps = kCubeFaces},
+    {.partition = Partition::multi, .measures = true, .maps = 1, .grows = true},
+    {.partition = Partition::automatic, .divide = partitionCascades, .measures = true},
+    // clang-format on
 };
 
 } // namespace

@@ -5,12 +5,17 @@
 
 namespace gnomon {
 
-void partitionSingle(const PartitionInput& input, std::vector<Slice>& out)
+Slice wholeSlice(const Light& light)
 {
     Slice slice;
-    slice.axis_ws = glm::normalize(input.light.direction_ws);
-    slice.half_angle_rad = input.light.outer_half_angle_rad;
-    out.push_back(slice);
+    slice.axis_ws = glm::normalize(light.direction_ws);
+    slice.half_angle_rad = light.outer_half_angle_rad;
+    return slice;
+}
+
+void partitionSingle(const PartitionInput& input, std::vector<Slice>& out)
+{
+    out.push_back(wholeSlice(input.light));
 }
 
 } // namespace gnomon

@@ -34,4 +34,14 @@ LightSample sampleOf(const Light& light, const ConvergeSample& sample)
     return made;
 }
 
+Light sampledLight(const Light& light, const LightSample& sample)
+{
+    Light from = light;
+    if (sample.joined) {
+        from.position_ws = sample.position_ws;
+        from.direction_ws = sample.direction_ws;
+    }
+    return from;
+}
+
 } // namespace gnomon

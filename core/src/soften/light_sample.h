@@ -10,5 +10,7 @@ namespace gnomon {
 
 /// Precondition: checkLight() is ok.
 [[nodiscard]] LightSample sampleOf(const Light& light, const ConvergeSample& sample);
+/// The light as it shines from there.
+[[nodiscard]] Light sampledLight(const Light& light, const LightSample& sample);
 
 } // namespace gnomon
