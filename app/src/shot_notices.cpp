@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shot_notices.h"
+
+#include "light_extent.h"
+
+#include "scene/hash.h"
+
+#include <fmt/format.h>
+
+namespace gnomon::app {
+namespace {
+
+/// A mean over frames needs more than one.
+void noteFrames(Shot& shot, const Settings& settings)
+{
+    const bool converges = settings.shadow.technique.soften == Soften::converge;
+    if (settings.subcommand == kRender && converges && settings.converge == 1 && !settings.frames && !settings.truth) {
+        shot.notices.push_back("soften converge averages frames, and this is one; --converge N draws N at rest");
+    }
+}
+
+/// What people should know of the lights: said once, not for every frame.
+void noteLights(Shot& shot, const Settings& settings)
+{
+    if (shot.scene.lights.empty() && !settings.sun_ws && !settings.spot && !settings.point) {
+        shot.notices.push_back("the scene has no light; a sun is put in");
+    }
+    std::uint32_t refused = 0;
+    std::string_view why;
+    const std::string* first = nullptr;
+    for (const host::ShadedLight& light : shot.lights) {
+        if (const auto reason = refusalOf(light, settings)) {
+            first = refused == 0 ? &light.name : first;
+            why = *reason;
+            ++refused;
+        }
+    }
+    if (refused != 0) {
+        shot.notices.push_back(refused == 1
+                                   ? fmt::format("light {} casts no shadow: {}", *first, why)
+                                   : fmt::format("{} lights cast no shadow ({} and others): {}", refused, *first, why));
+    }
+}
+
+/// A picture of a light that swallows what it is to shine on is right, and not what one had in mind.
+void noteExtents(Shot& shot, const Settings& settings)
+{
+    for (const host::ShadedLight& light : shot.lights) {
+        const Light& caster = light.caster;
+        if (settings.truth == truth::Kind::area && caster.casts_shadow && caster.type != LightType::directional &&
+            holdsSurface(shot.scene, shot.state, caster.position_ws, caster.radius_m)) {
+            shot.notices.push_back(
+                fmt::format("light {}, a sphere of {} m across, reaches into the scene; what is inside "
+                            "it is lit in full and casts nothing in the truth",
+                            light.name, 2.0 * caster.radius_m));
+        }
+    }
+}
+
+/// A result's preset makes its run again only on what it was made on.
+void noteScene(Shot& shot, const Settings& settings)
+{
+    if (settings.scene_hash.empty()) {
+        return;
+    }
+    const std::string hash = scene::toString(scene::sceneHash(shot.scene));
+    if (hash != settings.scene_hash) {
+        shot.notices.push_back(
+            fmt::format("{} is not what the preset's result was measured on: its hash is {}, there {}", settings.scene,
+                        hash, settings.scene_hash));
+    }
+}
+
+} // namespace
+
+std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings)
+{
+    const bool traced_alone = settings.truth && settings.subcommand != kCompare;
+    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.shadow.technique);
+}
+
+void noteWhatSurprises(Shot& shot, const Settings& settings)
+{
+    noteLights(shot, settings);
+    noteFrames(shot, settings);
+    noteExtents(shot, settings);
+    noteScene(shot, settings);
+}
+
+} // namespace gnomon::app
