@@ -35,6 +35,8 @@ struct ShadedLight {
     glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
     std::uint32_t cookie = scene::kNone; // image of the scene
 };
+/// Takes the light's brightness among others from its colour and strength: their luminance.
+void setBrightness(ShadedLight& light);
 /// A light of strength 0 casts no shadow, so that nobody draws a map for it.
 [[nodiscard]] std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state);
 

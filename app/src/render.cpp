@@ -52,6 +52,13 @@ void writePicture(const fs::path& file, host::FrameRenderer& renderer, const Set
 /// What became of the lights, when it is not what one hoped for. Refused ones were named before.
 void noteOutcomes(const Shot& shot, const Plan& plan)
 {
+    if (const auto smaller = std::ranges::count_if(plan.lights, [](const LightPlan& l) { return l.halved > 0; })) {
+        const LightPlan& least = *std::ranges::max_element(plan.lights, {}, &LightPlan::halved);
+        notice(fmt::format("{} of {} lights have smaller maps than they ask for, of 1/{} the side at least: together "
+                           "they ask for {} texels and have {}",
+                           smaller, plan.lights.size(), 1U << least.halved, plan.pages[0].wanted_texels,
+                           plan.pages[0].given_texels));
+    }
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const Outcome& outcome = plan.lights[i].outcome;
         if (outcome.kind == OutcomeKind::fallback || outcome.kind == OutcomeKind::degenerate ||

@@ -40,6 +40,7 @@ host::ShadedLight sunLight(const glm::dvec3& direction_ws)
     light.caster.direction_ws = direction_ws;
     light.colour = kWarmWhite * kSunLux;
     light.up_ws = perpendicular(direction_ws);
+    setBrightness(light);
     return light;
 }
 
@@ -56,6 +57,7 @@ host::ShadedLight spotLight(const SpotLight& spot)
     light.inner_half_angle_rad = light.caster.outer_half_angle_rad * kInnerShare;
     light.colour = kWarmWhite * static_cast<float>(kAimLux * distance * distance);
     light.up_ws = perpendicular(light.caster.direction_ws);
+    setBrightness(light);
     return light;
 }
 
@@ -69,6 +71,7 @@ host::ShadedLight pointLight(const PointLight& point)
     constexpr double kBrightAt = 0.3; // share of the reach: half way to the dark, by eye
     const double bright_m = point.range_m * kBrightAt;
     light.colour = kWarmWhite * static_cast<float>(kAimLux * bright_m * bright_m);
+    setBrightness(light);
     return light;
 }
 

@@ -136,6 +136,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     json.value("mask_channel", light.mask_channel);
     json.flag("mask_coloured", light.mask_coloured);
     json.value("options", light.options);
+    json.value("halved", light.halved);
     writeSteps(json, light.steps);
     writeChoice(json, light.choice);
     writeSample(json, light.sample);
@@ -149,6 +150,8 @@ void writePages(JsonWriter& json, const MapPages& pages)
     json.value("height", pages.height);
     json.value("layers", pages.layers);
     json.value("kept_layers", pages.kept_layers);
+    json.value("wanted_texels", pages.wanted_texels);
+    json.value("given_texels", pages.given_texels);
     json.closeLine('}');
 }
 

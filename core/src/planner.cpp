@@ -136,7 +136,11 @@ const Plan& Planner::plan(const Frame& given)
 void Planner::Impl::addPages(MapStore& to) const
 {
     for (const Setup& setup : setups) {
-        to.addPages(setup.recipe.resolved.largest_side(), setup.recipe.options.max_layers);
+        const std::uint64_t side = setup.recipe.resolved.largest_side();
+        const std::uint64_t budget = setup.recipe.options.budget_texels;
+        const std::uint64_t most = setup.recipe.options.max_layers;
+        to.addPages(static_cast<std::uint32_t>(side),
+                    static_cast<std::uint32_t>(budget == 0 ? most : std::min(most, budget / (side * side))));
     }
 }
 
@@ -148,13 +152,14 @@ void Planner::Impl::makePlan(const Frame& frame)
     admit(frame);
     placeInMask(plan);
     listReceivers(frame);
-    store.beginFrame(*frame.objects, keys, wishes);
+    store.follow(*frame.objects, keys);
+    shareRoom(frame);
     suns.begin();
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
         planLight(frame, light);
     }
     suns.end();
-    store.report(plan);
+    reportRoom();
     ++frames;
     ++converging;
 }
@@ -263,13 +268,15 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
         return;
     }
     setup.looked = true;
+    setup.sighted = false;
     CameraView& camera = setup.camera;
     const ShadowOptions& options = setup.recipe.options;
     camera.look(frame, options.max_distance_m, setup.receivers);
     if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
     }
-    if (setup.recipe.predicts() || setup.recipe.grows()) {
+    setup.sighted = setup.recipe.predicts() || setup.recipe.grows();
+    if (setup.sighted) {
         setup.sight.look(frame, camera, setup.receivers);
     }
     if (setup.recipe.steady()) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a planner keeps, and its steps: those of all lights together are in planner.cpp, those of one light in
-// planner_light.cpp.
+// What a planner keeps, and its steps: those of all lights together are in planner.cpp, how they share what room there
+// is in planner_room.cpp, and those of one light in planner_light.cpp.
 #pragma once
 
 #include "auto/auto_choice.h"
 #include "camera_view.h"
 #include "frustum_planner.h"
+#include "light_shares.h"
 #include "motion/sun_steps.h"
 #include "partition/multi.h"
 #include "recipe.h"
@@ -28,7 +29,8 @@ struct Setup {
     bool looked = false; // in this frame
     CameraView camera;
     std::vector<std::uint32_t> receivers;
-    Sight sight; // where the recipe predicts
+    bool sighted = false; // `sight` is of this frame: where the recipe predicts, or lights share what room there is
+    Sight sight;
 };
 
 /// One position that a light shines from.
@@ -76,7 +78,14 @@ struct Planner::Impl {
     /// Of the store's tenants: a light, or of partition multi each of its frustums, after each other.
     std::vector<std::uint64_t> keys;
     std::vector<MapWish> wishes;
-    std::vector<std::uint32_t> first_tenants; // by light
+    std::vector<std::uint32_t> first_tenants; // by light, and one past the last
+    std::vector<std::uint32_t> wished_sides;  // by tenant, before they share what room there is
+    std::vector<std::uint64_t> wished_texels; // by options
+    std::vector<std::uint64_t> square_texels; // of the squares that hold them
+    LightShares light_shares;
+    TexelShares texel_shares;
+    std::vector<TexelClaim> claims;
+    std::vector<std::uint32_t> claimants;     // tenants
     std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
     std::vector<std::uint32_t> merged;
 
@@ -89,6 +98,10 @@ struct Planner::Impl {
     void admit(const Frame& frame);
     MapWish decide(const Frame& frame, std::uint32_t index);
     void decideFrustums(const Frame& frame, std::uint32_t index);
+    void shareRoom(const Frame& frame);
+    void shrinkWishes(const Frame& frame, std::uint32_t options);
+    void claimFor(std::uint32_t light);
+    void reportRoom();
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;
     Outcome prospect(std::uint32_t index, const Setup& setup) const;

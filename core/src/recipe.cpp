@@ -11,8 +11,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::uint32_t kSmallestMap = 16;
-
 /// A copy that lasts as long as the program, as Outcome::reason must: plans outlive their planners.
 std::string_view lasting(const std::string& sentence)
 {

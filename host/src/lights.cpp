@@ -22,6 +22,12 @@ LightType typeOf(scene::LightType type)
 
 } // namespace
 
+void setBrightness(ShadedLight& light)
+{
+    const glm::vec3 gives = light.colour * light.strength;
+    light.caster.brightness = glm::dot(glm::dvec3(gives), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
 std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State& state)
 {
     std::vector<ShadedLight> lights;
@@ -45,6 +51,7 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
         light.inner_half_angle_rad = source.inner_cone_rad;
         light.up_ws = placed.up_ws;
         light.cookie = source.cookie;
+        setBrightness(light);
         lights.push_back(light);
     }
     return lights;

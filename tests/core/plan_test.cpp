@@ -264,7 +264,7 @@ TEST(Outcome, EachCanBeProvoked)
     EXPECT_EQ(refused.outcome(), OutcomeKind::refused);
     World full;
     full.lights.insert(full.lights.begin(), 2, test::sun({0, -1, 0}));
-    Planner planner({.technique = kPlainTechnique, .max_layers = 2});
+    Planner planner({.technique = kPlainTechnique, .map_size = 16, .max_layers = 2}); // smaller maps there are none
     EXPECT_EQ(full.plan(planner).lights[2].outcome.kind, OutcomeKind::atlas_full);
     EXPECT_EQ(full.plan(planner).pages[0].layers, 2U);
 }

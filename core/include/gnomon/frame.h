@@ -40,8 +40,11 @@ struct Light {
     /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
     /// size make penumbrae of; 0 is a light without size, and hard.
     double angular_diameter_rad = 0.00925025;
-    double radius_m = 0.0;     // spot, point: radius of the sphere that shines, 0 .. 1e9; 0 is hard, too
-    bool casts_shadow = true;  // false: no map; its mask channel reads 1
+    double radius_m = 0.0;    // spot, point: radius of the sphere that shines, 0 .. 1e9; 0 is hard, too
+    bool casts_shadow = true; // false: no map; its mask channel reads 1
+    /// What it gives beside the others: candela of a spot or point light, lux of a directional one, both in any one
+    /// scale; >= 0. Where maps share a budget (ShadowOptions::budget_texels), what the picture owes to a light counts.
+    double brightness = 1.0;
     std::uint32_t options = 0; // which of the planner's options it is planned by; beyond them: Outcome refused
     /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its
     /// options say.

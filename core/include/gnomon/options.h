@@ -130,9 +130,13 @@ struct ShadowOptions {
     /// level ground is level in depth whatever the sun's height. It is still metres along the ray. False: along the
     /// light's axis, as maps of bare depth always do.
     bool level_depth = true;
-    /// Pages that the maps of these options may take, and again those of still casters: 1 .. 2048. Lights that find no
-    /// room get Outcome atlas_full: first come, first served, and a light that is in every frame keeps its place.
+    /// Pages that the maps of these options may take, and again those of still casters: 1 .. 2048.
     std::uint32_t max_layers = 64;
+    /// Texels that the maps of all lights with these options may have together, 1024 .. 2^35; 0: what max_layers pages
+    /// have. A page has no more either. Where lights want more, the sides of their maps are halved, of those first that
+    /// the picture owes least to for their texels (LightPlan::halved). Those that find no room for maps of 16 texels
+    /// get Outcome atlas_full.
+    std::uint64_t budget_texels = 0;
     PcfOptions pcf; // filter pcf
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
@@ -214,8 +218,8 @@ struct Resolution {
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);
-/// Texels on a side of the largest map that a light with these options can have: map_size, or what max_texels has room
-/// for, in whole multiples of 8.
+/// Texels on a side of the largest map that a light with these options can have: map_size, or what max_texels and
+/// budget_texels have room for, in whole multiples of 8.
 [[nodiscard]] std::uint32_t largestSide(const ShadowOptions& options);
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. What the border has room for. Of a filterable map it is of reads at the finest

@@ -275,6 +275,9 @@ struct LightPlan {
     /// Translucent::colour, whether there are blended casters or not.
     bool mask_coloured = false;
     std::uint32_t options = 0; // Light::options
+    /// How many times the side of its maps was halved, or of that one where it was most often, so that all lights have
+    /// room (ShadowOptions::budget_texels).
+    std::uint32_t halved = 0;
     Outcome outcome;
     SunSteps steps;
     AutoChoice choice;
@@ -288,6 +291,9 @@ struct MapPages {
     std::uint32_t height = 0;
     std::uint32_t layers = 0;      // pages of maps: Tile::layer is less
     std::uint32_t kept_layers = 0; // pages of maps of still casters alone: View::kept_layer is less
+    /// Texels of all its lights' maps, in sight or not: as they want them, and as they have them.
+    std::uint64_t wanted_texels = 0;
+    std::uint64_t given_texels = 0;
 };
 
 struct Plan {

@@ -84,6 +84,7 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or shell of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
         {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
         {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .doc = "what multi gives each part of the picture, as long as a light's texels last", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
+        {.key = "budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "that the maps of all lights may have together; those that the picture owes least to get smaller ones; 0: no limit but memory", GNOMON_MEMBER(budget_texels)},
         {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", GNOMON_MEMBER(border_texels)},
         // clang-format on
     };

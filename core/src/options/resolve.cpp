@@ -53,6 +53,18 @@ std::optional<std::string> facesRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
+std::optional<std::string> budgetRefusal(const ShadowOptions& options)
+{
+    constexpr std::uint64_t kLeast = 1024;
+    const std::uint64_t map = options.map_size ? std::uint64_t{*options.map_size} * *options.map_size : kLeast;
+    if (options.budget_texels == 0 || options.budget_texels >= std::max(map, kLeast)) {
+        return std::nullopt;
+    }
+    return "budget is " + std::to_string(options.budget_texels) + "; " +
+           (options.budget_texels < kLeast ? "it can be 0, or 1024 and more"
+                                           : "one map of map-size has " + std::to_string(map));
+}
+
 std::optional<std::string> refusalOf(const ShadowOptions& options)
 {
     if (const auto reason = refusal(options.technique)) {
@@ -63,6 +75,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     }
     if (options.max_layers < 1 || options.max_layers > 2048) {
         return "max_layers is " + std::to_string(options.max_layers) + "; it can be 1 to 2048";
+    }
+    if (auto reason = budgetRefusal(options)) {
+        return reason;
     }
     if (auto reason = endsRefusal(options.cascades)) {
         return reason;
@@ -150,7 +165,10 @@ std::uint32_t largestSide(const ShadowOptions& options)
     if (options.map_size) {
         return *options.map_size;
     }
-    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(options.max_texels)));
+    const std::uint64_t texels = options.budget_texels == 0
+                                     ? options.max_texels
+                                     : std::min<std::uint64_t>(options.max_texels, options.budget_texels);
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(texels)));
     return std::max(side - side % kMultiple, kMultiple);
 }
 

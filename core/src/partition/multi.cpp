@@ -26,11 +26,6 @@ constexpr double kTakeShells = 0.75;
 constexpr double kKeepShells = 0.9;
 /// One frustum serves all of a shell if the light sees it within this half angle.
 constexpr double kWidestHalfAngle_rad = 0.87;
-/// A map of a side that is so little too small is good enough; that which a frustum had in the frame before counts for
-/// so much more.
-constexpr double kTooSmall = 1.05;
-constexpr double kHadBefore = 1.3;
-constexpr std::uint32_t kSmallestSide = 16;
 /// Of a map that serves receivers of which no point is known.
 constexpr double kUnknownSide = 64.0;
 
@@ -73,7 +68,7 @@ Aabb reachOf(const Light& light, const Aabb& scene_ws)
 std::uint32_t largestSide(const MultiPartition::Input& input)
 {
     const std::uint32_t largest = input.recipe.resolved.largest_side();
-    return input.light.map_size != 0 ? std::clamp(input.light.map_size, kSmallestSide, largest) : largest;
+    return input.light.map_size != 0 ? std::clamp(input.light.map_size, kSmallestMap, largest) : largest;
 }
 
 } // namespace
@@ -343,43 +338,18 @@ void MultiPartition::addFrustum(const Input& input, const Slice& slice, std::uin
     }
 }
 
-/// Halves of halves of the largest side, which fill squares of the pages: one after the other is doubled until it has
-/// what is wanted, or the light's texels are spent. An edge is off by about a texel, so a frustum's error is the sum of
-/// its points' texels in pixels. With a side of s it is a / s, and doubling the side gains a / 2 s for 3 s^2 texels.
+/// Halves of halves of the largest side, which fill squares of the pages.
 void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found)
 {
     const ShadowOptions& options = input.recipe.options;
-    const std::uint32_t largest = largestSide(input);
-    double texels =
-        options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels);
-    for (GrownFrustum& frustum : found) {
-        frustum.side = largest;
-        while (frustum.side >= 2 * kSmallestSide) {
-            frustum.side /= 2;
-        }
-        texels -= static_cast<double>(frustum.side) * frustum.side;
+    claims_.clear();
+    for (const GrownFrustum& frustum : found) {
+        claims_.push_back({frustum.sum, frustum.wanted, largestSide(input), 1, frustum.side_before, 0});
     }
-    for (;;) {
-        GrownFrustum* next = nullptr;
-        double most = 0.0;
-        for (GrownFrustum& frustum : found) {
-            const double side = frustum.side;
-            const bool kept = frustum.side_before >= 2 * frustum.side;
-            if (2 * frustum.side > largest || frustum.wanted <= kTooSmall * side / (kept ? kHadBefore : 1.0) ||
-                3.0 * side * side > texels) {
-                continue;
-            }
-            const double gain = std::max(frustum.sum, 1e-6) * (kept ? kHadBefore : 1.0) / (side * side * side);
-            if (gain > most) {
-                most = gain;
-                next = &frustum;
-            }
-        }
-        if (next == nullptr) {
-            break;
-        }
-        texels -= 3.0 * next->side * next->side;
-        next->side *= 2;
+    shares_.share(claims_,
+                  options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        found[i].side = claims_[i].side;
     }
     memory.frustums.clear();
     for (const GrownFrustum& frustum : found) {

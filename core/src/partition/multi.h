@@ -6,6 +6,7 @@
 #include "auto/sight.h"
 #include "frustum_planner.h"
 #include "store/light_rows.h"
+#include "store/texel_shares.h"
 
 #include <array>
 #include <cstdint>
@@ -89,7 +90,7 @@ private:
     void addShell(const Input& input, std::size_t shell);
     std::optional<Slice> aimAt(const Input& input, const Slice& shell);
     void addFrustum(const Input& input, const Slice& slice, std::uint32_t id);
-    static void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
+    void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
     double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
 
     LightRows rows_;
@@ -99,6 +100,8 @@ private:
     std::vector<GrownFrustum> frustums_;
     std::vector<std::uint32_t> receivers_;
     // Scratch.
+    TexelShares shares_;
+    std::vector<TexelClaim> claims_;
     std::vector<Shell> shells_;
     ConvexBody body_;
 };

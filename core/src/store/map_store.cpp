@@ -28,10 +28,8 @@ void MapStore::addPages(std::uint32_t side, std::uint32_t most_pages)
 
 // ---- Whose a square is
 
-void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint64_t> keys,
-                          std::span<const MapWish> wishes)
+void MapStore::follow(const ObjectSet& objects, std::span<const std::uint64_t> keys)
 {
-    assert(keys.size() == wishes.size());
     if (objects.identity() != objects_identity_) {
         forget();
     }
@@ -41,6 +39,16 @@ void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint64_
     for (const std::uint32_t row : rows_.gone()) {
         clear(rooms_[row]);
     }
+}
+
+std::uint64_t MapStore::mostTexels(std::uint32_t options) const
+{
+    const PageSquares& pages = pages_[options].maps;
+    return std::uint64_t{pages.side()} * pages.side() * pages.mostPages();
+}
+
+void MapStore::furnish(std::span<const MapWish> wishes)
+{
     for (std::size_t light = 0; light < wishes.size(); ++light) {
         if (Room& room = rooms_[rows_.rowOf(light)]; room.wish != wishes[light]) {
             clear(room);
@@ -55,32 +63,59 @@ void MapStore::beginFrame(const ObjectSet& objects, std::span<const std::uint64_
 /// Finds room for what a light wants and does not have yet.
 void MapStore::furnish(Room& room)
 {
-    const MapWish wish = room.wish;
-    if (wish.count == 0) {
+    if (room.wish.count == 0) {
         return;
     }
-    PageSquares& pages = pages_[wish.options].maps;
-    if (room.places.empty()) {
-        const std::uint32_t level = pages.levelOf(wish.side);
-        const std::uint32_t pages_before = pages.pages();
-        const std::uint32_t maps = wish.count * (wish.shares_texels ? 1 : wish.positions);
-        const std::uint32_t together = wish.stacked ? wish.count : 1;
-        for (std::uint32_t i = 0; i < maps; i += together) {
-            if (!pages.take(level, together, room.squares)) {
-                clear(room);
-                pages.dropPagesFrom(pages_before);
-                room.wish = wish;
-                return;
-            }
-        }
-        name(room);
+    if (room.places.empty() || (room.side < room.wish.side && room.looked_at != given_up_)) {
+        findRoom(room);
     }
-    if (wish.keeps_still && room.kept_squares.empty() && takeKept(room)) {
+    if (room.wish.keeps_still && !room.places.empty() && room.kept_squares.empty() && takeKept(room)) {
         for (std::size_t i = 0; i < room.places.size(); ++i) {
             room.places[i].kept_map = freshMap();
             room.places[i].kept_layer = room.kept_squares[i].page;
         }
     }
+}
+
+/// Takes the largest squares that there are, if they are larger than those that the light has.
+void MapStore::findRoom(Room& room)
+{
+    const MapWish wish = room.wish;
+    const std::uint32_t least = std::max(room.places.empty() ? kSmallestMap : 2 * room.side, 1U);
+    std::uint32_t side = wish.side;
+    larger_.clear();
+    while (!takeSquares(wish, side, larger_)) {
+        side /= 2;
+        if (side < least) {
+            room.looked_at = given_up_;
+            return;
+        }
+    }
+    clear(room);
+    room.wish = wish;
+    room.side = side;
+    room.looked_at = given_up_;
+    std::swap(room.squares, larger_);
+    name(room);
+}
+
+/// Squares for all maps of a wish, or none.
+bool MapStore::takeSquares(const MapWish& wish, std::uint32_t side, std::vector<PageSquare>& out)
+{
+    PageSquares& pages = pages_[wish.options].maps;
+    const std::uint32_t level = pages.levelOf(side);
+    const std::uint32_t pages_before = pages.pages();
+    const std::uint32_t together = wish.stacked ? wish.count : 1;
+    for (std::uint32_t i = 0; i < wish.squares(); i += together) {
+        if (!pages.take(level, together, out)) {
+            for (; !out.empty(); out.pop_back()) {
+                pages.give(out.back());
+            }
+            pages.dropPagesFrom(pages_before);
+            return false;
+        }
+    }
+    return true;
 }
 
 /// Gives the squares that were found names.
@@ -91,7 +126,7 @@ void MapStore::name(Room& room)
         const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
         MapPlace& place = room.places.emplace_back();
         place.map = freshMap();
-        place.tile = pages_[wish.options].maps.tileOf(square, wish.side);
+        place.tile = pages_[wish.options].maps.tileOf(square, room.side);
         if (wish.shares_texels) {
             place.part = i < wish.count ? TexelPart::first : TexelPart::second;
         }
@@ -130,6 +165,7 @@ void MapStore::clear(Room& room)
     }
     for (const PageSquare& square : room.squares) {
         pages_[room.wish.options].maps.give(square);
+        ++given_up_;
     }
     for (const PageSquare& square : room.kept_squares) {
         pages_[room.wish.options].kept.give(square);
@@ -138,6 +174,7 @@ void MapStore::clear(Room& room)
     room.squares.clear();
     room.kept_squares.clear();
     room.wish = {};
+    room.side = 0;
 }
 
 MapId MapStore::freshMap()
@@ -165,7 +202,11 @@ void MapStore::report(Plan& plan) const
     for (std::size_t i = 0; i < pages_.size(); ++i) {
         const PageSquares& maps = pages_[i].maps;
         const std::uint32_t side = maps.pages() == 0 ? 0 : maps.side();
-        plan.pages[i] = {side, side, maps.pages(), pages_[i].kept.pages()};
+        plan.pages[i] = {side, side, maps.pages(), pages_[i].kept.pages(), 0, 0};
+    }
+    for (const Room& room : rooms_) {
+        MapPages& pages = plan.pages[room.wish.options];
+        pages.given_texels += std::uint64_t{room.side} * room.side * room.squares.size();
     }
     plan.planner = identity_;
     plan.map_count = static_cast<std::uint32_t>(maps_.size());

@@ -5,6 +5,7 @@
 #include "store/light_rows.h"
 #include "store/map_contents.h"
 #include "store/page_squares.h"
+#include "store/texel_shares.h"
 
 #include <gnomon/object_set.h>
 #include <gnomon/plan.h>
@@ -26,6 +27,8 @@ struct MapWish {
     bool shares_texels = false;  // its two positions' maps share texels
     bool keeps_still = false;    // each map has a copy of what stands still
 
+    /// How many squares of the pages hold its maps.
+    [[nodiscard]] std::uint32_t squares() const { return count * (shares_texels ? 1 : positions); }
     friend bool operator==(const MapWish&, const MapWish&) = default;
 };
 
@@ -40,6 +43,7 @@ struct MapPlace {
 
 /// A map keeps its place and contents until
 /// - its light is gone, or wants other maps,
+/// - there is room for it as large as it is wanted, where there was not before,
 /// - lost() or forget() is told, or another object set comes.
 /// Neither what other lights do nor the frame's order of lights counts, but for room: first come, first served.
 class MapStore {
@@ -48,11 +52,25 @@ public:
     /// One for each of the planner's options. Before the first frame.
     void addPages(std::uint32_t side, std::uint32_t most_pages);
 
-    /// The lights of a frame, by key, and what each wants. Lights that are gone give up their maps before new ones look
-    /// for room.
-    void beginFrame(const ObjectSet& objects, std::span<const std::uint64_t> keys, std::span<const MapWish> wishes);
+    /// The lights of a frame, by key. Those that are gone give up their maps.
+    void follow(const ObjectSet& objects, std::span<const std::uint64_t> keys);
+    /// What a light wanted in the frame before; after follow().
+    [[nodiscard]] const MapWish& wishBefore(std::size_t light) const { return rooms_[rows_.rowOf(light)].wish; }
+    /// Side of the square that holds a map of a wish.
+    [[nodiscard]] std::uint32_t squareSide(const MapWish& wish) const
+    {
+        const PageSquares& pages = pages_[wish.options].maps;
+        return pages.side() >> pages.levelOf(wish.side);
+    }
+    /// That all pages would have.
+    [[nodiscard]] std::uint64_t mostTexels(std::uint32_t options) const;
+    /// What each wants. Where the squares that are left are too small, maps are smaller than is wanted, down to
+    /// kSmallestMap.
+    void furnish(std::span<const MapWish> wishes);
     /// False: it wants no map, or there is no room for it.
     [[nodiscard]] bool hasRoom(std::size_t light) const { return !rooms_[rows_.rowOf(light)].places.empty(); }
+    /// Of each of its maps. Precondition: hasRoom().
+    [[nodiscard]] std::uint32_t sideOf(std::size_t light) const { return rooms_[rows_.rowOf(light)].side; }
     /// Of a frustum of a light at one of its positions (0 or 1). Precondition: hasRoom().
     [[nodiscard]] const MapPlace& placeOf(std::size_t light, std::uint32_t position, std::uint32_t frustum) const
     {
@@ -83,12 +101,16 @@ private:
     /// What a light has.
     struct Room {
         MapWish wish;
+        std::uint32_t side = 0;       // of its maps; may be less than is wanted
+        std::uint64_t looked_at = 0;  // `given_up_` when it found no better
         std::vector<MapPlace> places; // position after position, of each its frustums
         std::vector<PageSquare> squares;
         std::vector<PageSquare> kept_squares;
     };
 
     void furnish(Room& room);
+    [[nodiscard]] bool takeSquares(const MapWish& wish, std::uint32_t side, std::vector<PageSquare>& out);
+    void findRoom(Room& room);
     bool takeKept(Room& room);
     void name(Room& room);
     void clear(Room& room);
@@ -107,7 +129,10 @@ private:
     std::uint64_t objects_identity_ = 0;
     std::uint64_t identity_;
     ContentNumber next_number_;
-    // Scratch: the casters of a view.
+    std::uint64_t given_up_ = 1; // how often squares were
+    // Scratch.
+    std::vector<PageSquare> larger_;
+    // The casters of a view.
     std::vector<std::uint32_t> still_;
     std::vector<Mover> moving_;
 };

@@ -40,6 +40,7 @@ public:
 
     /// How many pages there are. It falls only when no square is in use any more, then to 0.
     [[nodiscard]] std::uint32_t pages() const { return pages_; }
+    [[nodiscard]] std::uint32_t mostPages() const { return most_pages_; }
     [[nodiscard]] std::uint32_t side() const { return side_; }
     /// A map's texels in its square.
     [[nodiscard]] Tile tileOf(const PageSquare& square, std::uint32_t map_side) const;

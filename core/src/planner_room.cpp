@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the lights of a frame share what room there is: when they want more texels than their budget has, those get
+// smaller maps that the picture owes least to. None is left out for that.
+#include "planner_impl.h"
+
+#include <gnomon/planner.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace gnomon {
+
+void Planner::Impl::shareRoom(const Frame& frame)
+{
+    wished_sides.clear();
+    wished_texels.assign(setups.size(), 0);
+    square_texels.assign(setups.size(), 0);
+    for (const MapWish& wish : wishes) {
+        wished_sides.push_back(wish.side);
+        if (wish.count > 0) {
+            const std::uint64_t square = store.squareSide(wish);
+            wished_texels[wish.options] += std::uint64_t{wish.side} * wish.side * wish.squares();
+            square_texels[wish.options] += square * square * wish.squares();
+        }
+    }
+    for (std::uint32_t options = 0; options < setups.size(); ++options) {
+        if (square_texels[options] > store.mostTexels(options)) {
+            shrinkWishes(frame, options);
+        }
+    }
+    store.furnish(wishes);
+}
+
+void Planner::Impl::shrinkWishes(const Frame& frame, std::uint32_t options)
+{
+    Setup& setup = setups[options];
+    const bool sees = setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty();
+    if (sees && !setup.sighted) {
+        setup.sight.look(frame, setup.camera, setup.receivers);
+        setup.sighted = true;
+    }
+    light_shares.find(frame.lights, setup.camera, sees ? setup.sight.points() : std::span<const SightPoint>());
+    claims.clear();
+    claimants.clear();
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
+        if (frame.lights[light].options == options) {
+            claimFor(light);
+        }
+    }
+    texel_shares.share(claims, static_cast<double>(store.mostTexels(options)));
+    for (std::size_t i = 0; i < claims.size(); ++i) {
+        MapWish& wish = wishes[claimants[i]];
+        wish.side = std::max(wish.side / (claims[i].largest / claims[i].side), 1U);
+    }
+}
+
+/// What a light's maps claim. Frustums that it was divided among share what it is worth by what they err.
+void Planner::Impl::claimFor(std::uint32_t light)
+{
+    const std::span<const GrownFrustum> grown = multi.frustumsOf(light);
+    double sum = 0.0;
+    for (const GrownFrustum& frustum : grown) {
+        sum += frustum.sum;
+    }
+    for (std::uint32_t tenant = first_tenants[light]; tenant < first_tenants[light + 1]; ++tenant) {
+        const MapWish& wish = wishes[tenant];
+        if (wish.count == 0) {
+            continue;
+        }
+        const double part = sum > 0.0 ? grown[tenant - first_tenants[light]].sum / sum : 1.0;
+        TexelClaim& claim = claims.emplace_back();
+        claimants.push_back(tenant);
+        claim.weight = part * light_shares.shareOf(light);
+        claim.maps = wish.squares();
+        claim.largest = store.squareSide(wish); // squares are what there is to share
+        claim.wanted = claim.largest;
+        const MapWish& before = store.wishBefore(tenant);
+        claim.before = before.options == wish.options && before.count == wish.count ? before.side : 0;
+    }
+}
+
+/// Of each light, how much smaller its maps are than it wanted them.
+void Planner::Impl::reportRoom()
+{
+    store.report(plan);
+    for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+        plan.pages[i].wanted_texels = wished_texels[i];
+    }
+    for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
+        for (std::uint32_t tenant = first_tenants[light]; tenant < first_tenants[light + 1]; ++tenant) {
+            if (store.hasRoom(tenant)) {
+                const std::uint32_t times = wished_sides[tenant] / store.sideOf(tenant);
+                plan.lights[light].halved =
+                    std::max(plan.lights[light].halved, static_cast<std::uint32_t>(std::bit_width(times)) - 1);
+            }
+        }
+    }
+}
+
+} // namespace gnomon
