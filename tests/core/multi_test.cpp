@@ -126,6 +126,41 @@ TEST(Multi, GivesEachPartTheTexelsThatItsPixelsWant)
 }
 
 // Nobody can shape one frustum for both: the near half of the picture is the far half of what the lamp shines on.
+/// How wide a texel is at a point of the floor below the lamp, in pixels.
+double texelBelow(Hall& hall)
+{
+    const glm::dvec3 p(0.5, 0.0, 1.0);
+    Planner planner(hall.options);
+    const View* view = viewOf(planner.plan(hall.frame), p);
+    return view != nullptr ? texelInPixels(hall, *view, p) : 1e9;
+}
+
+TEST(Multi, SeesThroughAnArchAroundTheEye)
+{
+    Hall hall;
+    hall.frame.size_px = {1280, 800};
+    hall.addLamp({0, 3, 0}, 10.0);
+    hall.look({1, 8, 16}, {0, 0, 0});
+    const double without = texelBelow(hall);
+    ASSERT_LT(without, 1.5);
+    hall.set.add(test::boxAt({0, 6, 16}, {10, 6, 3})); // beyond the lamp's reach
+    EXPECT_LE(texelBelow(hall), without);
+}
+
+TEST(Multi, SeesTheWallsOfARoomThatIsOneBox)
+{
+    Hall hall;
+    hall.set = {};
+    hall.set.add(test::boxAt({0, 2, 0}, {5, 2, 5}));
+    hall.addLamp({0, 3, 0}, 20.0);
+    hall.look({0, 1.7, 4}, {0, 1.7, -5});
+    Planner planner(hall.options);
+    const glm::dvec3 wall(1.0, 1.5, -5.0);
+    const View* view = viewOf(planner.plan(hall.frame), wall);
+    ASSERT_NE(view, nullptr);
+    EXPECT_LT(texelInPixels(hall, *view, wall), 1.5);
+}
+
 TEST(Multi, DividesWhatIsSeenAgainstTheLight)
 {
     Hall hall;

@@ -80,6 +80,13 @@ void Sight::meetSlabs(const glm::dvec3& low, const glm::dvec3& high, int flat_ax
             leave_axis = axis;
         }
     }
+    if (flat_axis < 0 && enter < 0.0 && leave > 0.0) {
+        if (leave > ray.left) {
+            ray.left = leave;
+            ray.left_axis = leave_axis;
+        }
+        return;
+    }
     enter = std::max(enter, 0.0);
     if (!(enter <= leave) || enter >= ray.met) {
         return;
@@ -97,6 +104,15 @@ void Sight::meetSlabs(const glm::dvec3& low, const glm::dvec3& high, int flat_ax
         ray.met = met;
         ray.normal_ws = glm::dvec3(0.0);
         ray.normal_ws[axis] = 1.0;
+    }
+}
+
+void Sight::endInside(Ray& ray)
+{
+    if (ray.met == kInfinity && ray.left > 0.0) {
+        ray.met = ray.left;
+        ray.normal_ws = glm::dvec3(0.0);
+        ray.normal_ws[ray.left_axis] = 1.0;
     }
 }
 
@@ -174,6 +190,7 @@ void Sight::look(const Frame& frame, const CameraView& view, std::span<const std
     const glm::dvec2 pixel = 2.0 / glm::dvec2(glm::max(frame.size_px, glm::uvec2(1)));
     double logs = 0.0;
     for (std::size_t cell = 0; cell < rays_.size(); ++cell) {
+        endInside(rays_[cell]);
         if (std::isfinite(rays_[cell].met)) {
             addPoint(view, rays_[cell], placeOf(cell), pixel);
         }

@@ -25,7 +25,8 @@ struct SightPoint {
 /// One ray through the middle of each cell of a grid over the picture, ended by the first receiver that it meets. Of a
 /// receiver no more is known than its box: somewhere on the ray's way through it there is a surface, and each ray has a
 /// share of its own of that way, evenly spread over all rays. A flat box is ground or a wall and is met in its middle,
-/// else behind it; a ray that leaves it through its rim goes on to the next.
+/// else behind it; a ray that leaves it through its rim goes on to the next. A box around the eye, of an arch or a
+/// room, is hollow where the eye is: a ray that starts in it meets its far side, and only where it meets nothing else.
 class Sight {
 public:
     static constexpr int kColumns = 20;
@@ -46,10 +47,13 @@ private:
         double share = 0.0;        // of its way through a box, where it is taken to meet what is in there
         double met = 0.0;          // how many times `along_ws` the nearest face is away
         glm::dvec3 normal_ws{0.0}; // of that face, or its opposite
+        double left = 0.0; // as `met`: where it leaves the last of the boxes that it starts in; 0: there is none
+        int left_axis = 0; // of the face through which it does
     };
     [[nodiscard]] Ray rayAt(const glm::dvec2& place) const;
     void meet(const glm::dmat4& clip_from_world, const Aabb& box);
     static void meetSlabs(const glm::dvec3& low, const glm::dvec3& high, int flat_axis, Ray& ray);
+    static void endInside(Ray& ray);
     void addPoint(const CameraView& view, const Ray& ray, const glm::dvec2& place, const glm::dvec2& pixel);
     [[nodiscard]] static glm::dvec3 meetPlane(const Ray& ray, const glm::dvec3& p_ws, const glm::dvec3& normal_ws);
 
