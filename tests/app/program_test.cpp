@@ -348,6 +348,21 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     EXPECT_EQ(settings.shadow.bias.constant_m, 0.1F);
 }
 
+TEST(Presets, StartopiaHasFrustumsForEachOfManyLamps)
+{
+    app::Settings settings = app::defaultSettings();
+    app::applyPreset(settings, "startopia-2006", app::kRender);
+    app::completeTechnique(settings);
+    EXPECT_EQ(settings.scene, "ring");
+    EXPECT_EQ(settings.shadow.technique.partition, Partition::multi);
+    EXPECT_EQ(settings.shadow.technique.fit, Fit::lispsm_simple);
+    EXPECT_EQ(settings.shadow.technique.filter, Filter::pcf);
+    EXPECT_EQ(settings.shadow.pcf.kernel, PcfKernel::bilinear_2x2);
+    EXPECT_EQ(settings.shadow.multi.texels_per_pixel, 2.0);
+    EXPECT_EQ(formatOf(settings.shadow), MapFormat::d32f);
+    EXPECT_TRUE(settings.shadow.bias.automatic);
+}
+
 app::Settings settingsOf(const std::vector<std::string>& arguments)
 {
     return app::parseCommandLine(arguments).settings;
