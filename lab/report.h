@@ -32,4 +32,8 @@ namespace gnomon::lab {
 /// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
 
+/// How many lights reach each pixel, from 1 to 32 on a logarithmic scale in the same colours; dark grey where none
+/// does.
+[[nodiscard]] Image8 lightCountPicture(const ImageOf<std::uint8_t>& lights);
+
 } // namespace gnomon::lab

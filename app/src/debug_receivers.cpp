@@ -104,20 +104,50 @@ Image8 viewsView(const Drawn& drawn)
     ImageF joined(shares.width, shares.height, std::min<std::uint32_t>(most + 1, lab::kMostTints));
     lab::TintLegend legend;
     legend.title = "Which map a pixel is shadowed from";
-    legend.subtitle = "mixed where two are; grey: no map here";
+    legend.subtitle = "mixed where two are; grey: no map, or out of reach";
     for (std::size_t i = 0; i < views.size() && legend.kinds.size() < joined.channels; ++i) {
         if (kinds[i] == legend.kinds.size()) {
             legend.kinds.push_back(nameOfView(views[i], kinds[i]));
         }
     }
+    const Camera camera = cameraOf(drawn);
+    const lab::Counted reached =
+        lab::reachedPixels({camera, drawn.picture.depth, drawn.picture.normals}, drawn.shot.lights[drawn.light].caster);
     for (std::uint32_t y = 0; y < shares.height; ++y) {
         for (std::uint32_t x = 0; x < shares.width; ++x) {
-            for (std::size_t i = 0; i < views.size(); ++i) {
+            for (std::size_t i = 0; *reached.pixel(x, y) != 0 && i < views.size(); ++i) {
                 joined.pixel(x, y)[kinds[i] % joined.channels] += shares.pixel(x, y)[i];
             }
         }
     }
     return lab::tintedPicture(drawn.picture.colour, joined, legend);
+}
+
+Image8 lightCountView(const Drawn& drawn)
+{
+    const Camera camera = cameraOf(drawn);
+    const lab::Sight seen{camera, drawn.picture.depth, drawn.picture.normals};
+    ImageOf<std::uint8_t> lights(seen.depth.width, seen.depth.height, 1);
+    for (std::size_t light = 0; light < drawn.plan.lights.size(); ++light) {
+        if (!drawn.plan.lights[light].outcome.hasMap()) {
+            continue;
+        }
+        const lab::Counted facing = lab::facingPixels(seen, drawn.shot.lights[light].caster);
+        const lab::Counted reached = lab::reachedPixels(seen, drawn.shot.lights[light].caster);
+        for (std::size_t i = 0; i < lights.values.size(); ++i) {
+            lights.values[i] = static_cast<std::uint8_t>(lights.values[i] + (facing.values[i] & reached.values[i]));
+        }
+    }
+    std::uint64_t surfaces = 0;
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < lights.values.size(); ++i) {
+        surfaces += drawn.picture.object_ids.values[i] != 0 ? 1 : 0;
+        sum += lights.values[i];
+    }
+    notice(fmt::format("{:.2f} lights with a shadow reach a pixel that sees a surface, {} at most",
+                       static_cast<double>(sum) / static_cast<double>(std::max<std::uint64_t>(surfaces, 1)),
+                       *std::max_element(lights.values.begin(), lights.values.end())));
+    return lab::lightCountPicture(lights);
 }
 
 Image8 raysView(const Drawn& drawn)

@@ -152,6 +152,7 @@ constexpr std::array kViews{
     DebugView{"density", always, "a technique that has a map", densityView},
     DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
+    DebugView{"light-count", always, "a technique that has a map", lightCountView},
     DebugView{"map", always, "a technique that has a map", mapPicture},
     DebugView{"rays",
               [](const Settings& s) {

@@ -53,5 +53,7 @@ struct TexelUse {
 /// have none.
 inline constexpr double kFacing = 0.05; // below, light all but grazes, and errors are large that none can see
 [[nodiscard]] Counted facingPixels(const Sight& seen, const Light& light);
+/// 1 where the pixel sees a surface within the light's range and cone, whichever way it faces.
+[[nodiscard]] Counted reachedPixels(const Sight& seen, const Light& light);
 
 } // namespace gnomon::lab

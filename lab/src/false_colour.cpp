@@ -4,7 +4,7 @@
 //   of the error's two sides are the blue of its scheme RdBu and the orange of PuOr, both of the colour-blind-safe
 //   kind. Departure: our lightness is the same on both sides, so that equal errors are equally strong, and the middle
 //   is white.
-// - N. Smith, S. van der Walt, "A Better Default Colormap for Matplotlib", 2015: viridis, for the density.
+// - N. Smith, S. van der Walt, "A Better Default Colormap for Matplotlib", 2015: viridis, for densities and counts.
 // - M. Okabe, K. Ito, "Color Universal Design", 2002: the colours of the classes.
 // - CIE 15: L*a*b* for white D65; colours between control points are interpolated in it.
 #include "false_colour.h"
@@ -113,24 +113,30 @@ Table makeErrorTable()
     return table;
 }
 
-Table makeDensityTable()
+Table makeViridis()
 {
-    constexpr std::array<Colour, 9> viridis = {{{0x44, 0x01, 0x54},
-                                                {0x47, 0x2d, 0x7b},
-                                                {0x3b, 0x52, 0x8b},
-                                                {0x2c, 0x72, 0x8e},
-                                                {0x21, 0x91, 0x8c},
-                                                {0x28, 0xae, 0x80},
-                                                {0x5e, 0xc9, 0x62},
-                                                {0xad, 0xdc, 0x30},
-                                                {0xfd, 0xe7, 0x25}}};
-    std::array<Lab, viridis.size()> points;
-    std::transform(viridis.begin(), viridis.end(), points.begin(), labOf);
+    constexpr std::array<Colour, 9> published = {{{0x44, 0x01, 0x54},
+                                                  {0x47, 0x2d, 0x7b},
+                                                  {0x3b, 0x52, 0x8b},
+                                                  {0x2c, 0x72, 0x8e},
+                                                  {0x21, 0x91, 0x8c},
+                                                  {0x28, 0xae, 0x80},
+                                                  {0x5e, 0xc9, 0x62},
+                                                  {0xad, 0xdc, 0x30},
+                                                  {0xfd, 0xe7, 0x25}}};
+    std::array<Lab, published.size()> points;
+    std::transform(published.begin(), published.end(), points.begin(), labOf);
     Table table;
     for (std::size_t i = 0; i < kSteps; ++i) {
         table[i] = colourAt(points, static_cast<double>(i) / (kSteps - 1));
     }
     return table;
+}
+
+Colour viridis(double t)
+{
+    static const Table table = makeViridis();
+    return lookUp(table, t);
 }
 
 } // namespace
@@ -149,16 +155,20 @@ Colour errorColour(double error)
     return lookUp(table, 0.5 + 0.5 * std::copysign(std::sqrt(std::abs(error)), error));
 }
 
+Colour lightCountColour(std::uint32_t lights)
+{
+    return lights == 0 ? kLeftOut : viridis(std::log2(static_cast<double>(lights)) / kLightOctaves);
+}
+
 Colour densityColour(double texels_per_pixel)
 {
-    static const Table table = makeDensityTable();
     if (std::isnan(texels_per_pixel)) {
         return kNotANumber;
     }
     if (texels_per_pixel <= 0.0) {
         return kLeftOut;
     }
-    return lookUp(table, 0.5 + 0.5 * std::log2(texels_per_pixel) / kDensityOctaves);
+    return viridis(0.5 + 0.5 * std::log2(texels_per_pixel) / kDensityOctaves);
 }
 
 Colour classColour(ErrorClass error_class)

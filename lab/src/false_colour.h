@@ -39,6 +39,10 @@ inline constexpr double kDensityOctaves = 4.0;
 /// Of texels per pixel; 0 and less have kLeftOut, NaN kNotANumber.
 [[nodiscard]] Colour densityColour(double texels_per_pixel);
 
+/// Of how many lights reach a pixel: from 1 to 2^kLightOctaves; beyond, the end's. 0 has kLeftOut.
+inline constexpr double kLightOctaves = 5.0;
+[[nodiscard]] Colour lightCountColour(std::uint32_t lights);
+
 /// The full colour of a class of error; kFaintLight for `correct`, kLeftOut for `left_out`.
 [[nodiscard]] Colour classColour(ErrorClass error_class);
 

@@ -104,6 +104,23 @@ Legend densityLegend()
             {{kWhite, kWhite, "passes through 1"}, {kLeftOut, kLeftOut, "left out"}}};
 }
 
+Legend lightCountLegend()
+{
+    ScaleBar bar;
+    bar.colour_at = [](double place) {
+        return lightCountColour(static_cast<std::uint32_t>(std::lround(std::exp2(place * kLightOctaves))));
+    };
+    for (int octave = 0; octave <= static_cast<int>(kLightOctaves); ++octave) {
+        bar.ticks.push_back({octave / kLightOctaves, std::to_string(1 << octave)});
+    }
+    bar.low = "one light";
+    bar.high = "32 or more";
+    return {"Lights with a shadow that reach a pixel",
+            "facing it, within range and cone; scale: logarithmic",
+            bar,
+            {{kLeftOut, kLeftOut, "none"}}};
+}
+
 // Two neighbours on different sides of 1 are a line, unless they lie farther apart than a factor of 2: then they are
 // two surfaces, and nothing passes through 1.
 bool passesThroughOne(float a, float b)
@@ -174,6 +191,14 @@ Image8 densityPicture(const ImageF& texels_per_pixel)
                            [&](std::size_t i) { return densityColour(texels_per_pixel.values[i]); });
     drawLineAtOne(picture, texels_per_pixel);
     return withLegend(picture, densityLegend());
+}
+
+Image8 lightCountPicture(const ImageOf<std::uint8_t>& lights)
+{
+    assert(lights.channels == 1);
+    return addLegend(
+        paint(lights.width, lights.height, [&](std::size_t i) { return lightCountColour(lights.values[i]); }),
+        lightCountLegend());
 }
 
 } // namespace gnomon::lab

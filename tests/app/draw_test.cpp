@@ -137,6 +137,50 @@ TEST(DebugViews, DensityGrowsWithTheMap)
     EXPECT_GT(brightness("512"), 1.5 * coarse);
 }
 
+TEST(DebugViews, LightCountHasTheLightsThatReachAPixel)
+{
+    const test::Folder folder;
+    const std::vector<std::string> shot{"render", "planes", "--camera", "top", "--debug", "light-count"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = shot;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return drawn(folder, arguments);
+    };
+    const auto differentPixels = [](const ImageF& a, const ImageF& b) {
+        std::size_t different = 0;
+        for (std::uint32_t y = 0; y < kHeight; ++y) {
+            for (std::uint32_t x = 0; x < kWidth; ++x) {
+                different += std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y)) ? 0 : 1;
+            }
+        }
+        return different;
+    };
+    const ImageF all = with({}); // a sun and a spot light
+    const ImageF sun = with({"--sun", "0,-1,0.1"});
+    const ImageF lamp = with({"--point", "0,3,0,3.5"});
+    EXPECT_GT(differentPixels(all, sun), 1000U);
+    EXPECT_GT(differentPixels(sun, lamp), 1000U) << "beyond a lamp's range there is none";
+    EXPECT_LT(differentPixels(sun, lamp), std::size_t{kWidth} * kHeight - 100) << "below it there is one";
+    const test::Ran ran = inFolder(folder, {"render", "planes", "--debug", "light-count", "--light", "sun"});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("--light has an effect only with"), std::string::npos) << ran.err;
+}
+
+TEST(DebugViews, ViewsAreGreyWhereALampDoesNotReach)
+{
+    const test::Folder folder;
+    const ImageF view =
+        drawn(folder, {"render", "planes", "--camera", "top", "--debug", "views", "--point", "0,3,0,3.5"});
+    std::size_t grey = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            grey += isGrey(view.pixel(x, y)) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(grey, 1000U);
+    EXPECT_LT(grey, std::size_t{kWidth} * kHeight - 100);
+}
+
 TEST(DebugViews, RaysSaysHowManyThereAreAndWhereTheyCameToTheirCeiling)
 {
     const test::Folder folder;

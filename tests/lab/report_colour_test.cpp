@@ -217,6 +217,10 @@ TEST(ReportColour, DensityAtItsEnds)
     EXPECT_EQ(densityColour(1.0 / 16.0), (Colour{0x44, 0x01, 0x54}));
     EXPECT_EQ(densityColour(1.0), (Colour{0x21, 0x91, 0x8c}));
     EXPECT_EQ(densityColour(16.0), (Colour{0xfd, 0xe7, 0x25}));
+    EXPECT_EQ(lightCountColour(1), densityColour(1.0 / 16.0));
+    EXPECT_EQ(lightCountColour(32), densityColour(16.0));
+    EXPECT_EQ(lightCountColour(100), lightCountColour(32));
+    EXPECT_EQ(lightCountColour(0), kLeftOut);
     EXPECT_EQ(densityColour(1e-30), densityColour(1.0 / 16.0));
     EXPECT_EQ(densityColour(kInfinity), densityColour(16.0));
     EXPECT_EQ(densityColour(0.0), kLeftOut);

@@ -17,21 +17,6 @@ glm::dvec3 vectorAt(const ImageF& image, std::uint32_t x, std::uint32_t y)
     return {v[0], v[1], v[2]};
 }
 
-/// Does the light shine on a point at all, if nothing is in the way?
-bool shinesOn(const Light& light, const glm::dvec3& point_ws)
-{
-    if (light.type == LightType::directional) {
-        return true;
-    }
-    const glm::dvec3 ray = point_ws - light.position_ws;
-    const double distance = glm::length(ray);
-    if (light.range_m > 0.0 && distance > light.range_m) {
-        return false;
-    }
-    return light.type != LightType::spot ||
-           glm::dot(ray, light.direction_ws) > std::cos(light.outer_half_angle_rad) * distance;
-}
-
 class PixelJudge {
 public:
     PixelJudge(const Judged& judged, const truth::Surfaces& surfaces, const ImageOf<std::uint32_t>& object_ids)

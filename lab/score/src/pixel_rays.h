@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -96,6 +97,21 @@ inline bool serves(const View& view, const glm::dvec3& point_ws, const glm::dvec
 inline glm::dvec3 towardsLight(const Light& light, const glm::dvec3& point_ws)
 {
     return light.type == LightType::directional ? -light.direction_ws : glm::normalize(light.position_ws - point_ws);
+}
+
+/// Does the light shine on a point at all, if nothing is in the way?
+inline bool shinesOn(const Light& light, const glm::dvec3& point_ws)
+{
+    if (light.type == LightType::directional) {
+        return true;
+    }
+    const glm::dvec3 ray = point_ws - light.position_ws;
+    const double distance = glm::length(ray);
+    if (light.range_m > 0.0 && distance > light.range_m) {
+        return false;
+    }
+    return light.type != LightType::spot ||
+           glm::dot(ray, light.direction_ws) > std::cos(light.outer_half_angle_rad) * distance;
 }
 
 } // namespace gnomon::lab

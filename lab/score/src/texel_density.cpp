@@ -51,6 +51,20 @@ std::optional<double> densityOf(const PixelRays& rays, std::span<const View> vie
     return std::nullopt;
 }
 
+template <typename Holds>
+Counted pixelsWhere(const Sight& seen, const Holds& holds)
+{
+    const PixelRays rays(seen);
+    Counted counted(seen.depth.width, seen.depth.height, 1);
+    for (std::uint32_t y = 0; y < counted.height; ++y) {
+        for (std::uint32_t x = 0; x < counted.width; ++x) {
+            const auto surface = rays.surfaceAt(x, y);
+            *counted.pixel(x, y) = surface && holds(*surface) ? 1 : 0;
+        }
+    }
+    return counted;
+}
+
 } // namespace
 
 TexelDensity texelDensity(const Sight& seen, const Counted& counted, const Plan& plan, std::uint32_t light,
@@ -93,17 +107,14 @@ TexelDensity texelDensity(const Sight& seen, const Counted& counted, const Plan&
 
 Counted facingPixels(const Sight& seen, const Light& light)
 {
-    const PixelRays rays(seen);
-    Counted counted(seen.depth.width, seen.depth.height, 1);
-    for (std::uint32_t y = 0; y < counted.height; ++y) {
-        for (std::uint32_t x = 0; x < counted.width; ++x) {
-            if (const auto surface = rays.surfaceAt(x, y)) {
-                const double facing = glm::dot(surface->normal_ws, towardsLight(light, surface->point_ws));
-                *counted.pixel(x, y) = facing > kFacing ? 1 : 0;
-            }
-        }
-    }
-    return counted;
+    return pixelsWhere(seen, [&](const Surface& surface) {
+        return glm::dot(surface.normal_ws, towardsLight(light, surface.point_ws)) > kFacing;
+    });
+}
+
+Counted reachedPixels(const Sight& seen, const Light& light)
+{
+    return pixelsWhere(seen, [&](const Surface& surface) { return shinesOn(light, surface.point_ws); });
 }
 
 } // namespace gnomon::lab
