@@ -20,7 +20,8 @@ struct PlanCaption {
 /// shows how a fit warps it; what the camera sees and the light reaches, slice by slice; the boxes of casters, drawn
 /// and culled, and of receivers seen; and the camera's line of sight. Further panels show the same in each map (of nine
 /// at most); below them stand a table of the maps and the atlas's tiles. Of a stepping sun with two positions the
-/// earlier one's maps are shown. Where the light has no map, the reason stands in the picture.
+/// earlier one's maps are shown. Of a point light the first panel shows the scene from above, and of each map the
+/// pyramid of what it may hold. Where the light has no map, the reason stands in the picture.
 ///
 /// Self-contained, 1180 px wide, on a dark ground of its own. The same input gives the same bytes. Precondition:
 /// light < plan.lights.size(), frame.objects not null.

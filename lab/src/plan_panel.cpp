@@ -117,7 +117,8 @@ std::string open(const Panel& panel)
            " fill=\"#20252c\"/>\n<g clip-path=\"url(#" + panel.name + ")\" fill=\"none\" stroke-linejoin=\"round\">\n";
 }
 
-std::string drawObjects(const PlanScene& scene, const Panel& panel, const std::vector<bool>& drawn, bool with_culled)
+std::string drawObjects(const PlanScene& scene, const PlanLook& look, const Panel& panel,
+                        const std::vector<bool>& drawn, bool with_culled)
 {
     std::string culled;
     std::string seen;
@@ -125,11 +126,11 @@ std::string drawObjects(const PlanScene& scene, const Panel& panel, const std::v
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const PlanObject& object = scene.objects[i];
         if (drawn[i]) {
-            casters += shapeOf(panel, object.shape);
+            casters += shapeOf(panel, look.shapes[i]);
         } else if (object.seen) {
-            seen += shapeOf(panel, object.shape);
+            seen += shapeOf(panel, look.shapes[i]);
         } else if (with_culled && object.casts) {
-            culled += shapeOf(panel, object.shape);
+            culled += shapeOf(panel, look.shapes[i]);
         }
     }
     return shapes("culled", R"(stroke="#7d8896" stroke-width="0.7" stroke-dasharray="3 2.5")", culled) +
@@ -139,13 +140,13 @@ std::string drawObjects(const PlanScene& scene, const Panel& panel, const std::v
            shapes("seen", R"(stroke="#6fcf97" stroke-width="0.8")", seen);
 }
 
-std::string drawSeen(const PlanMap& map, const Panel& panel, std::size_t index)
+std::string drawSeen(const Polygon& seen, const Panel& panel, std::size_t index)
 {
     const std::string colour = mapColour(index);
     return shapes("body",
                   "fill=\"" + colour + "\" fill-opacity=\"0.24\" stroke=\"" + colour +
                       "\" stroke-width=\"1.4\" stroke-dasharray=\"6 3\"",
-                  shapeOf(panel, map.seen));
+                  shapeOf(panel, seen));
 }
 
 /// The map's edge, and lines at every eighth of it.
@@ -163,11 +164,21 @@ std::string drawFrame(const PlanMap& map, const Panel& panel, std::size_t index)
         lines += line(s, -1.0, s, 1.0) + line(-1.0, s, 1.0, s);
     }
     Polygon edge;
-    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+    for (const glm::dvec2& corner : kCorners) {
         edge.push_back(panel.windowOf(planePoint(map.from_plane, corner.x, corner.y)));
     }
     return group("eighths", style + " stroke-width=\"0.8\" stroke-opacity=\"0.5\"", lines) +
            group("edge", style + " stroke-width=\"2.2\"", pathOf(panel, edge, true));
+}
+
+/// What a map of a light that has them all around may hold, from above.
+std::string drawPyramid(const PlanMap& map, const Panel& panel, std::size_t index)
+{
+    Polygon edge;
+    for (const glm::dvec2& q : map.outline_across) {
+        edge.push_back(panel.windowOf(q));
+    }
+    return group("edge", "stroke=\"" + mapColour(index) + "\" stroke-width=\"2.2\"", pathOf(panel, edge, true));
 }
 
 bool isInside(const glm::dvec2& window)
@@ -176,10 +187,10 @@ bool isInside(const glm::dvec2& window)
 }
 
 /// The line of sight, as far as it is in the panel, with an arrow's head, and the eye if it is there.
-std::string drawSight(const PlanScene& scene, const Panel& panel)
+std::string drawSight(const PlanLook& look, const Panel& panel)
 {
     Polygon shown;
-    for (const glm::dvec2& q : scene.sight) {
+    for (const glm::dvec2& q : look.sight) {
         const glm::dvec3 p = panel.window_from_plane * glm::dvec3(q, 1.0);
         if (p.z > 0.0 && isInside(glm::dvec2(p) / p.z)) {
             shown.emplace_back(glm::dvec2(p) / p.z);
@@ -198,8 +209,8 @@ std::string drawSight(const PlanScene& scene, const Panel& panel)
                at(tip - along * 12.0 + across * 6.0) + "L" + at(tip) + "L" + at(tip - along * 12.0 - across * 6.0) +
                "\" stroke-width=\"2.2\"/>\n";
     }
-    if (scene.eye) {
-        const glm::dvec3 p = panel.window_from_plane * glm::dvec3(*scene.eye, 1.0);
+    if (look.eye) {
+        const glm::dvec3 p = panel.window_from_plane * glm::dvec3(*look.eye, 1.0);
         if (p.z > 0.0 && isInside(glm::dvec2(p) / p.z)) {
             const glm::dvec2 px = panel.pixel(glm::dvec2(p) / p.z);
             out += "<circle cx=\"" + svgNumber(px.x) + "\" cy=\"" + svgNumber(px.y) + "\" r=\"5\" fill=\"#15181d\"/>\n";
@@ -213,16 +224,16 @@ Extent extentOf(const PlanScene& scene)
 {
     Extent extent;
     for (const PlanMap& map : scene.maps) {
-        for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
-            extent.add(planePoint(map.from_plane, corner.x, corner.y));
+        for (const glm::dvec2& q : map.outline_across) {
+            extent.add(q);
         }
-        for (const glm::dvec2& q : map.seen) {
+        for (const glm::dvec2& q : map.seen_across) {
             extent.add(q);
         }
     }
-    if (scene.eye) {
+    if (scene.across.eye) {
         Extent more = extent;
-        more.add(*scene.eye);
+        more.add(*scene.across.eye);
         constexpr double kMost = 1.3; // times as large
         const glm::dvec2 grown = more.size() / extent.size();
         extent = grown.x < kMost && grown.y < kMost ? more : extent;
@@ -250,7 +261,7 @@ std::string drawScale(const PlanScene& scene, const Panel& panel, double px_per_
     std::array<char, 32> number{};
     (void)std::snprintf(number.data(), number.size(), "%.0f", length >= 1.0 ? length : 1000.0 * length);
     const std::string text = std::string(number.data()) + (length >= 1.0 ? " m" : " mm") +
-                             (scene.plane.perspective ? " at 1 m from the light" : "");
+                             (scene.across.plane.perspective ? " at 1 m from the light" : "");
     return "<path class=\"scale\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"1.6\" d=\"M" +
            at(left - glm::dvec2(0.0, 5.0)) + "L" + at(left) + "L" + at({right, left.y}) + "L" +
            at({right, left.y - 5.0}) + "\"/>\n<text x=\"" + svgNumber(right + 8.0) + "\" y=\"" +
@@ -285,13 +296,13 @@ std::string drawAcross(const PlanScene& scene, const PixelRect& rect)
     }
     std::string out = open(panel);
     for (std::size_t i = 0; i < scene.maps.size(); ++i) {
-        out += drawSeen(scene.maps[i], panel, i);
+        out += drawSeen(scene.maps[i].seen_across, panel, i);
     }
-    out += drawObjects(scene, panel, drawn, true);
+    out += drawObjects(scene, scene.across, panel, drawn, true);
     for (std::size_t i = 0; i < scene.maps.size(); ++i) {
-        out += drawFrame(scene.maps[i], panel, i);
+        out += scene.from_above ? drawPyramid(scene.maps[i], panel, i) : drawFrame(scene.maps[i], panel, i);
     }
-    return out + drawSight(scene, panel) + "</g>\n" + drawScale(scene, panel, px_per_unit);
+    return out + drawSight(scene.across, panel) + "</g>\n" + drawScale(scene, panel, px_per_unit);
 }
 
 std::string drawInMap(const PlanScene& scene, std::size_t map, const PixelRect& rect)
@@ -302,8 +313,8 @@ std::string drawInMap(const PlanScene& scene, std::size_t map, const PixelRect& 
     for (const std::uint32_t caster : shown.casters) {
         drawn[caster] = true;
     }
-    return open(panel) + drawSeen(shown, panel, map) + drawObjects(scene, panel, drawn, false) +
-           drawFrame(shown, panel, map) + drawSight(scene, panel) + "</g>\n";
+    return open(panel) + drawSeen(shown.seen, panel, map) + drawObjects(scene, shown.look, panel, drawn, false) +
+           drawFrame(shown, panel, map) + drawSight(shown.look, panel) + "</g>\n";
 }
 
 } // namespace gnomon::lab

@@ -17,24 +17,32 @@ struct PixelRect {
 };
 
 struct PlanObject {
-    Polygon shape;
     bool casts = false;
     bool drawn = false; // in one of the maps
     bool seen = false;  // by the camera, and receives
 };
-struct PlanMap {
-    std::uint32_t view = 0; // index into Plan::views
-    glm::dmat3 from_plane{1.0};
-    Polygon seen;
-    std::vector<std::uint32_t> casters;
-};
-/// All that is drawn, in the plane across the light.
-struct PlanScene {
+/// A scene as a plane has it.
+struct PlanLook {
     LightPlane plane;
-    std::vector<PlanObject> objects; // by index
-    std::vector<PlanMap> maps;
+    std::vector<Polygon> shapes;   // of objects, by index
     std::optional<glm::dvec2> eye; // nothing: behind the light
     Polygon sight;                 // points of the camera's line of sight, from the eye on; open
+};
+struct PlanMap {
+    std::uint32_t view = 0; // index into Plan::views
+    PlanLook look;          // across its axis
+    glm::dmat3 from_plane{1.0};
+    Polygon seen;
+    Polygon seen_across;    // the same in the plane of PlanScene::across
+    Polygon outline_across; // of what the map may hold, there
+    std::vector<std::uint32_t> casters;
+};
+/// All that is drawn.
+struct PlanScene {
+    PlanLook across; // of a point light from above
+    bool from_above = false;
+    std::vector<PlanObject> objects; // by index
+    std::vector<PlanMap> maps;
 };
 
 /// Precondition of both: a map at least.

@@ -40,6 +40,69 @@ std::vector<std::uint32_t> shownViews(const Plan& plan, std::uint32_t light)
     return shown;
 }
 
+PlanLook lookOf(const LightPlane& plane, const Frame& frame)
+{
+    PlanLook look;
+    look.plane = plane;
+    const ObjectSet& objects = *frame.objects;
+    look.shapes.resize(objects.size());
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+        if (objects.alive(i)) {
+            look.shapes[i] = shadowOf(plane, ConvexBody::fromAabb(objects.bounds(i)));
+        }
+    }
+    const glm::dvec3 forward = forwardOf(frame.camera);
+    const Aabb bounds = objects.bounds();
+    const double far_m =
+        glm::length(glm::dvec3(bounds.extent())) + glm::length(glm::dvec3(bounds.centre()) - frame.camera.eye_ws);
+    look.eye = plane.project(frame.camera.eye_ws);
+    constexpr int kSteps = 256; // of a light with a place, some of the line is behind it
+    for (int i = 0; i <= kSteps; ++i) {
+        const double share = static_cast<double>(i) / kSteps;
+        if (const auto q = plane.project(frame.camera.eye_ws + forward * (far_m * share * share))) {
+            look.sight.push_back(*q);
+        }
+    }
+    return look;
+}
+
+Polygon cornersOf(const glm::dmat3& map_from_plane)
+{
+    Polygon corners;
+    for (const glm::dvec2& corner : kCorners) {
+        corners.push_back(planePoint(map_from_plane, corner.x, corner.y));
+    }
+    return corners;
+}
+
+/// Of a point light, how high its pyramids are drawn.
+double reachOf(const Light& light, const ObjectSet& objects)
+{
+    const double scene_m = glm::length(glm::dvec3(objects.bounds().extent()));
+    return light.range_m > 0.0 ? std::min(light.range_m, scene_m) : scene_m;
+}
+
+PlanMap mapOf(const PlanScene& scene, const Frame& frame, const Plan& plan, std::uint32_t index)
+{
+    const View& view = plan.views[index];
+    PlanMap map;
+    map.view = index;
+    map.look = scene.from_above ? lookOf(lightPlaneOf(view, frame.camera), frame) : scene.across;
+    map.from_plane = mapFromPlane(map.look.plane, view);
+    map.seen = seenFrom(map.look.plane, frame, plan, view);
+    if (scene.from_above) {
+        map.seen_across = seenFrom(scene.across.plane, frame, plan, view);
+        map.outline_across = pyramidOf(scene.across.plane, {map.look.plane, map.from_plane},
+                                       reachOf(frame.lights[view.light], *frame.objects));
+    } else {
+        map.seen_across = map.seen;
+        map.outline_across = cornersOf(map.from_plane);
+    }
+    const auto casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+    map.casters.assign(casters.begin(), casters.end());
+    return map;
+}
+
 PlanScene sceneOf(const Frame& frame, const Plan& plan, std::uint32_t light)
 {
     const std::vector<std::uint32_t> shown = shownViews(plan, light);
@@ -47,40 +110,22 @@ PlanScene sceneOf(const Frame& frame, const Plan& plan, std::uint32_t light)
     if (shown.empty()) {
         return scene;
     }
-    scene.plane = lightPlaneOf(plan.views[shown.front()], frame.lights[light], frame.camera);
-    const ObjectSet& objects = *frame.objects;
-    scene.objects.resize(objects.size());
-    for (std::uint32_t i = 0; i < objects.size(); ++i) {
-        if (objects.alive(i)) {
-            scene.objects[i].shape = shadowOf(scene.plane, ConvexBody::fromAabb(objects.bounds(i)));
-            scene.objects[i].casts = objects.flags(i).casts;
-        }
+    const View& first = plan.views[shown.front()];
+    scene.from_above = frame.lights[light].type == LightType::point;
+    scene.across = lookOf(scene.from_above ? planeFromAbove(first.light_place_ws, frame.camera)
+                                           : lightPlaneOf(first, frame.camera),
+                          frame);
+    scene.objects.resize(frame.objects->size());
+    for (std::uint32_t i = 0; i < frame.objects->size(); ++i) {
+        scene.objects[i].casts = frame.objects->alive(i) && frame.objects->flags(i).casts;
     }
     for (const std::uint32_t object : plan.receivers) {
         scene.objects[object].seen = true;
     }
     for (const std::uint32_t index : shown) {
-        const View& view = plan.views[index];
-        PlanMap map;
-        map.view = index;
-        map.from_plane = mapFromPlane(scene.plane, view);
-        map.seen = seenFrom(scene.plane, frame, plan, view);
-        for (std::uint32_t i = 0; i < view.caster_count; ++i) {
-            map.casters.push_back(plan.casters[view.first_caster + i]);
-            scene.objects[map.casters.back()].drawn = true;
-        }
-        scene.maps.push_back(std::move(map));
-    }
-    const glm::dvec3 forward = forwardOf(frame.camera);
-    const Aabb bounds = objects.bounds();
-    const double far_m =
-        glm::length(glm::dvec3(bounds.extent())) + glm::length(glm::dvec3(bounds.centre()) - frame.camera.eye_ws);
-    scene.eye = scene.plane.project(frame.camera.eye_ws);
-    constexpr int kSteps = 256; // of a light with a place, some of the line is behind it
-    for (int i = 0; i <= kSteps; ++i) {
-        const double share = static_cast<double>(i) / kSteps;
-        if (const auto q = scene.plane.project(frame.camera.eye_ws + forward * (far_m * share * share))) {
-            scene.sight.push_back(*q);
+        scene.maps.push_back(mapOf(scene, frame, plan, index));
+        for (const std::uint32_t caster : scene.maps.back().casters) {
+            scene.objects[caster].drawn = true;
         }
     }
     return scene;
@@ -90,7 +135,8 @@ std::string mapName(const Plan& plan, const PlanScene& scene, std::size_t i)
 {
     const View& view = plan.views[scene.maps[i].view];
     return (scene.maps.size() > 1 ? "Map " + std::to_string(i) : std::string("In the map")) + ": " +
-           std::to_string(view.tile.width) + " x " + std::to_string(view.tile.height) + " texels";
+           std::to_string(view.tile.width) + " x " + std::to_string(view.tile.height) +
+           (scene.maps.size() > 4 ? "" : " texels"); // three in a row have no room for it
 }
 
 std::string drawMaps(const Plan& plan, const PlanScene& scene)
@@ -146,7 +192,10 @@ std::string planSvg(const Frame& frame, const Plan& plan, std::uint32_t light, c
                                 (outcome.reason.empty() ? "" : ": ") + std::string(outcome.reason);
         return opening(kHeight_px) + body + textAt(kWidth_px / 2.0, 108.0, " class=\"m\"", why, kColumns) + "</svg>\n";
     }
-    body += textAt(kAcross.x, kAcross.y - 7.0, " class=\"h\"", "Across the rays, as the light sees the scene", 60);
+    body += textAt(kAcross.x, kAcross.y - 7.0, " class=\"h\"",
+                   scene.from_above ? "From above: what each map may hold, around the light"
+                                    : "Across the rays, as the light sees the scene",
+                   60);
     body += drawAcross(scene, kAcross);
     body += drawMaps(plan, scene);
     const double below = std::max(kAcross.y + kAcross.height, mapsEnd(scene)) + 28.0;

@@ -88,6 +88,16 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     if (const double end_m = optionsOf(plan, view).fadeEnd_m(); end_m > 0.0) {
         addDepth(end_m, -1.0);
     }
+    const Light& light = frame.lights[view.light];
+    if (light.type != LightType::directional && light.range_m > 0.0) {
+        for (int axis = 0; axis < 3; ++axis) { // the box around its reach
+            for (const double sign : {1.0, -1.0}) {
+                glm::dvec3 normal(0.0);
+                normal[axis] = sign;
+                planes.push_back({normal, light.range_m - glm::dot(normal, light.position_ws)});
+            }
+        }
+    }
     if (view.sector.bounded()) {
         for (const glm::dvec4& side : {view.sector.x, -view.sector.x, view.sector.y, -view.sector.y}) {
             const glm::dvec4 row = (view.sector.w + side) / glm::length(glm::dvec3(view.sector.w + side));
@@ -96,14 +106,28 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
         return planes;
     }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
-    const double tangent = std::tan(frame.lights[view.light].outer_half_angle_rad);
-    for (int i = 0; plane.perspective && i < kSides; ++i) {
+    const double tangent = std::tan(light.outer_half_angle_rad);
+    const bool cone = plane.perspective && light.type == LightType::spot;
+    for (int i = 0; cone && i < kSides; ++i) {
         const double angle = i * glm::two_pi<double>() / kSides;
         const glm::dvec3 side = plane.x_ws * std::cos(angle) + plane.y_ws * std::sin(angle);
         const glm::dvec3 normal = glm::normalize(side + plane.forward_ws * tangent);
         planes.push_back({normal, -glm::dot(normal, plane.origin_ws)});
     }
     return planes;
+}
+
+/// So that the camera looks up in the plane.
+void turnUp(LightPlane& plane, const Camera& camera)
+{
+    const glm::dvec3 camera_up = -rowOf(camera.clip_from_world, 1); // y is down in clip space
+    for (const glm::dvec3& up : {forwardOf(camera), camera_up, glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0)}) {
+        if (const auto across = acrossOf(plane.forward_ws, up)) {
+            plane.y_ws = *across;
+            break;
+        }
+    }
+    plane.x_ws = glm::cross(plane.forward_ws, plane.y_ws);
 }
 
 } // namespace
@@ -127,7 +151,7 @@ glm::dvec3 forwardOf(const Camera& camera)
     return glm::normalize(glm::length(w) > 0.0 ? w : z);
 }
 
-LightPlane lightPlaneOf(const View& view, const Light& light, const Camera& camera)
+LightPlane lightPlaneOf(const View& view, const Camera& camera)
 {
     LightPlane plane;
     plane.perspective = !view.parallel;
@@ -141,17 +165,35 @@ LightPlane lightPlaneOf(const View& view, const Light& light, const Camera& came
         }
     } else {
         plane.origin_ws = view.light_place_ws;
-        plane.forward_ws = glm::normalize(light.direction_ws);
+        plane.forward_ws = glm::normalize(glm::dvec3(view.metric.metric_ws)); // depth grows along the view's axis
     }
-    const glm::dvec3 camera_up = -rowOf(camera.clip_from_world, 1); // y is down in clip space
-    for (const glm::dvec3& up : {forwardOf(camera), camera_up, glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0)}) {
-        if (const auto across = acrossOf(plane.forward_ws, up)) {
-            plane.y_ws = *across;
-            break;
-        }
-    }
-    plane.x_ws = glm::cross(plane.forward_ws, plane.y_ws);
+    turnUp(plane, camera);
     return plane;
+}
+
+LightPlane planeFromAbove(const glm::dvec3& place_ws, const Camera& camera)
+{
+    LightPlane plane;
+    plane.origin_ws = place_ws;
+    turnUp(plane, camera);
+    return plane;
+}
+
+Polygon pyramidOf(const LightPlane& plane, const MapInPlane& map, double reach_m)
+{
+    Polygon points;
+    const auto add = [&](const glm::dvec3& p_ws) {
+        if (const auto q = plane.project(p_ws)) {
+            points.push_back(*q);
+        }
+    };
+    add(map.plane.origin_ws);
+    for (const glm::dvec2& corner : kCorners) {
+        const glm::dvec2 q = planePoint(map.from_plane, corner.x, corner.y);
+        const glm::dvec3 ray = map.plane.forward_ws + map.plane.x_ws * q.x + map.plane.y_ws * q.y;
+        add(map.plane.origin_ws + ray * reach_m);
+    }
+    return hullOf(std::move(points));
 }
 
 glm::dmat3 mapFromPlane(const LightPlane& plane, const View& view)

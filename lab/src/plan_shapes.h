@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,8 +30,10 @@ struct LightPlane {
     /// Nothing for what is not in front of a light with a place.
     [[nodiscard]] std::optional<glm::dvec2> project(const glm::dvec3& p_ws) const;
 };
-/// Of the light that `view` is a map of.
-[[nodiscard]] LightPlane lightPlaneOf(const View& view, const Light& light, const Camera& camera);
+/// Across the axis of `view`.
+[[nodiscard]] LightPlane lightPlaneOf(const View& view, const Camera& camera);
+/// The level plane at a light's place, seen from above, in metres: of a light that has maps all around it.
+[[nodiscard]] LightPlane planeFromAbove(const glm::dvec3& place_ws, const Camera& camera);
 
 /// The unit vector along which the camera looks.
 [[nodiscard]] glm::dvec3 forwardOf(const Camera& camera);
@@ -39,6 +42,15 @@ struct LightPlane {
 [[nodiscard]] glm::dmat3 mapFromPlane(const LightPlane& plane, const View& view);
 /// The map's point at clip space (x, y), as a point of the plane.
 [[nodiscard]] glm::dvec2 planePoint(const glm::dmat3& map_from_plane, double x, double y);
+
+inline constexpr std::array<glm::dvec2, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}; // of a map
+/// A map as its own plane has it.
+struct MapInPlane {
+    LightPlane plane;
+    glm::dmat3 from_plane{1.0};
+};
+/// The pyramid of what a map may hold, `reach_m` high, of a light with a place, as `plane` has it.
+[[nodiscard]] Polygon pyramidOf(const LightPlane& plane, const MapInPlane& map, double reach_m);
 
 /// What is in front of the light of a convex body, as the light sees it: convex, counter-clockwise.
 [[nodiscard]] Polygon shadowOf(const LightPlane& plane, ConvexBody body);

@@ -57,8 +57,10 @@ std::string drawKey(const PlanScene& scene, double x, double y)
         out += boxAt({x, y - 10.0, 22.0, 12.0}, style) + textAt(x + 29.0, y, "", text);
         x += 29.0 + 6.6 * static_cast<double>(text.size()) + 20.0;
     };
-    entry("fill=\"none\" stroke=\"" + first + "\" stroke-width=\"2.2\"",
-          scene.maps.size() > 1 ? "a map and its eighths" : "the map and its eighths");
+    entry("fill=\"none\" stroke=\"" + first + "\" stroke-width=\"2.2\"", scene.from_above ? "what a map may hold"
+                                                                         : scene.maps.size() > 1
+                                                                             ? "a map and its eighths"
+                                                                             : "the map and its eighths");
     entry("fill=\"" + first + "\" fill-opacity=\"0.24\" stroke=\"" + first + "\" stroke-dasharray=\"6 3\"",
           scene.maps.size() > 1 ? "in sight, of its slice" : "in sight and in the light's reach");
     for (const Sample& sample : kSamples) {
@@ -91,8 +93,8 @@ std::string drawRows(const Plan& plan, const PlanScene& scene, const PixelRect& 
         double x;
         const char* name;
     };
-    const char* const unit = scene.plane.perspective ? "texel, m at 1 m" : "texel, m";
-    const std::array columns{Column{30.0, "depth of view"}, Column{150.0, unit},      Column{290.0, "at its finest"},
+    const char* const unit = scene.maps.front().look.plane.perspective ? "texel, m at 1 m" : "texel, m";
+    const std::array columns{Column{36.0, "depth of view"}, Column{155.0, unit},      Column{290.0, "at its finest"},
                              Column{425.0, "warp"},         Column{490.0, "casters"}, Column{560.0, "layer"},
                              Column{615.0, "in this frame"}};
     std::string out;
@@ -114,7 +116,7 @@ std::string drawRows(const Plan& plan, const PlanScene& scene, const PixelRect& 
         out += boxAt({rect.x, y - 10.0, 12.0, 12.0}, "fill=\"" + mapColour(i) + "\"") +
                textAt(rect.x + 18.0, y, "", std::to_string(i).substr(0, 2));
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            out += textAt(rect.x + columns[c].x + (c == 0 ? 12.0 : 0.0), y, "", cells[c]);
+            out += textAt(rect.x + columns[c].x + (c == 0 ? 6.0 : 0.0), y, "", cells[c]);
         }
     }
     if (scene.maps.size() > kMostRows) {

@@ -128,6 +128,52 @@ TEST(PlanPicture, HasAFrameForEachCascade)
     }
 }
 
+/// A lamp amid the row, so that the eye sees what lies on several sides of it.
+void lightALamp(Row& row)
+{
+    row.light = {.type = LightType::point, .position_ws = {3.0, 2.0, 60.0}, .range_m = 25.0};
+    row.options.technique.partition = Partition::multi;
+}
+
+TEST(PlanPicture, ShowsEachMapOfALampAlongItsOwnAxis)
+{
+    Row row;
+    lightALamp(row);
+    const std::string svg = row.svg();
+    expectSound(svg);
+    const std::size_t maps = row.planner->plan(row.frame).views.size();
+    ASSERT_GT(maps, 2U);
+    ASSERT_LE(maps, 9U);
+    EXPECT_EQ(pathsIn(svg, "edge"), 2U * maps);
+    EXPECT_EQ(pathsIn(svg, "eighths"), 2U * 7U * maps); // in the maps alone
+    EXPECT_EQ(shapesIn(svg, "body"), 2U * maps);
+    EXPECT_NE(svg.find("From above"), std::string::npos);
+}
+
+TEST(PlanShapes, WhatIsSeenOfALampIsInItsPyramids)
+{
+    Row row;
+    lightALamp(row);
+    const Plan& plan = row.plan();
+    const LightPlane above = planeFromAbove(row.light.position_ws, row.frame.camera);
+    EXPECT_NEAR(above.forward_ws.y, -1.0, 1e-12);
+    for (const View& view : plan.views) {
+        const LightPlane plane = lightPlaneOf(view, row.frame.camera);
+        const glm::dmat3 map = mapFromPlane(plane, view);
+        const Polygon seen = seenFrom(plane, row.frame, plan, view);
+        EXPECT_EQ(inWindow(seen, map, 1.0 + 1e-6).size(), seen.size()) << "nothing is cut";
+        const Polygon pyramid = pyramidOf(above, {plane, map}, 100.0);
+        ASSERT_GE(pyramid.size(), 3U);
+        for (std::size_t i = 0; i < pyramid.size(); ++i) {
+            const glm::dvec2 a = pyramid[i];
+            const glm::dvec2 along = pyramid[(i + 1) % pyramid.size()] - a;
+            for (const glm::dvec2& q : seenFrom(above, row.frame, plan, view)) {
+                EXPECT_GT(along.x * (q.y - a.y) - along.y * (q.x - a.x), -1e-6 * glm::length(along));
+            }
+        }
+    }
+}
+
 TEST(PlanPicture, SaysWhyThereIsNoMap)
 {
     Row row;
@@ -188,7 +234,7 @@ TEST(PlanShapes, AMapsPointsAreThoseOfItsMatrix)
     for (const Fit fit : {Fit::uniform, Fit::lispsm, Fit::tsm}) {
         row.options.technique.fit = fit;
         const View view = row.plan().views.at(0);
-        const LightPlane plane = lightPlaneOf(view, row.light, row.frame.camera);
+        const LightPlane plane = lightPlaneOf(view, row.frame.camera);
         EXPECT_LT(glm::length(plane.forward_ws - row.light.direction_ws), 1e-6);
         EXPECT_GT(glm::dot(plane.y_ws, forwardOf(row.frame.camera)), 0.0);
         const glm::dmat3 map = mapFromPlane(plane, view);
@@ -208,7 +254,7 @@ TEST(PlanShapes, WhatIsSeenIsInTheMap)
         row.options.technique.fit = fit;
         const Plan& plan = row.plan();
         const View& view = plan.views.at(0);
-        const LightPlane plane = lightPlaneOf(view, row.light, row.frame.camera);
+        const LightPlane plane = lightPlaneOf(view, row.frame.camera);
         const glm::dmat3 map = mapFromPlane(plane, view);
         const Polygon seen = seenFrom(plane, row.frame, plan, view);
         const Polygon window = inWindow(seen, map, 1.0);
