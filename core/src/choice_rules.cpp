@@ -24,11 +24,13 @@ constexpr std::array kRules{
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "
                "motion free"},
-    ChoiceRule{
-        [](LightType, const Technique& t) { return t.partition == Partition::multi && t.motion != Motion::free; },
-        "partition multi with every motion but free",
-        "multi gives each frame the frustums that its picture asks for, so nobody can hold them still; it needs motion "
-        "free"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return t.partition == Partition::multi && t.motion != Motion::free && t.motion != Motion::snap;
+               },
+               "partition multi with every motion but free and snap",
+               "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
+               "not the "
+               "same; it needs motion free or snap"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

@@ -69,8 +69,11 @@ MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, 
 {
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
-    return input.recipe.motion->move(rect, {lie.space, input.frame.camera, input.camera, input.slice, lie.least_size,
-                                            input.map_size, lie.border_texels, lie.light_reach});
+    // Who finds out how fine a frustum has to be asks for what is seen of it alone.
+    const bool asks = input.recipe.grows() && !(input.slice.texel > 0.0);
+    return (asks ? moveFreely : input.recipe.motion->move)(rect, {lie.space, input.frame.camera, input.camera,
+                                                                  input.slice, lie.least_size, input.map_size,
+                                                                  lie.border_texels, lie.light_reach});
 }
 
 /// Around what the GPU will probably fit the map, if it does: where the points are, and the room for their rays.
@@ -115,8 +118,35 @@ Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight
     const MapFrame frame = places_.empty()
                                ? frameOfWarp(drawn, lie, warp)
                                : frameOf(rectOf(warp, places_), lie.least_size, input.map_size, lie.border_texels);
-    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_),
-            facingTexels(lit_, warp, frame, texels_px_), true};
+    const FacingTexels facing =
+        lit_.empty() ? facingAmid(input, sight, lie, warp, frame) : facingTexels(lit_, warp, frame, texels_px_);
+    const glm::dvec2 size = frame.half - frame.texel * lie.border_texels;
+    return {mapErrorOf(lit_, warp, frame, feature_m), coarsestTexel_px(lit_, warp, frame, texels_px_), facing, true,
+            2.0 * std::max(size.x, size.y)};
+}
+
+/// No point tells how fine the map should be: as fine as in the middle of what it shows, and half way to the eye.
+FacingTexels FrustumPlanner::facingAmid(const FrustumInput& input, const Sight& sight, const Lie& lie, const Warp& warp,
+                                        const MapFrame& frame)
+{
+    const CameraView& camera = input.camera;
+    double least_m = std::numeric_limits<double>::infinity();
+    double most_m = 0.0;
+    for (const glm::dvec3& p : region_.body().points()) {
+        const double depth_m = std::max(glm::dot(camera.forward_ws, p - camera.eye_ws), camera.pad_m);
+        least_m = std::min(least_m, depth_m);
+        most_m = std::max(most_m, depth_m);
+    }
+    SightPoint amid;
+    amid.p_ws = region_.centre_ws();
+    amid.facing_m = sight.pixelAt_m(std::sqrt(least_m * most_m), camera.perspective);
+    const std::optional<LitPoint> lit = litPoint(lie.space, amid);
+    if (!lit || !(lit->facing > 0.0)) {
+        return {};
+    }
+    FacingTexels facing = facingTexels(std::span(&*lit, 1), warp, frame, texels_px_);
+    facing.sum_px *= 0.5;
+    return facing;
 }
 
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)
@@ -148,6 +178,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
 
     view.slice = input.slice.depth;
     view.sector = input.slice.sector;
+    view.faded_in = input.slice.faded_in;
     view.parallel = !space.perspective;
     view.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
@@ -176,7 +207,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
 /// lead; so the casters are looked for once more before, as far out as a map may have to show.
 Outcome FrustumPlanner::widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie)
 {
-    if (input.recipe.steady()) { // all of the scene, so that the map holds still
+    if (input.recipe.steady() && !input.recipe.grows()) { // all of the scene, so that the map holds still
         lie.light_reach = steadyReach(input.light, lie.space, input.camera.scene_ws);
         return {};
     }

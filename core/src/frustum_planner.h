@@ -28,8 +28,9 @@ struct FrustumInput {
 struct Prediction {
     MapError error;
     double coarsest_px = 0.0; // coarsestTexel_px()
-    FacingTexels facing;
-    bool lies = false; // the slice has receivers, so it may have a map
+    FacingTexels facing;      // where there is no point, of one amid what is seen, which counts for half a one
+    bool lies = false;        // the slice has receivers, so it may have a map
+    double size = 0.0;        // longer side of what the map has to show, as LightRect has it
 };
 
 class FrustumPlanner {
@@ -55,6 +56,8 @@ private:
     [[nodiscard]] MapFrame frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const;
     [[nodiscard]] FitInput fitInputOf(const FrustumInput& input, const Lie& lie) const;
     [[nodiscard]] Warp warpOf(const FrustumInput& input, const Lie& lie) const;
+    [[nodiscard]] FacingTexels facingAmid(const FrustumInput& input, const Sight& sight, const Lie& lie,
+                                          const Warp& warp, const MapFrame& frame);
     void outlinePlaces(const FrustumInput& input, const Lie& lie);
     [[nodiscard]] Outcome widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie);
     void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;

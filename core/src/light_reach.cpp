@@ -34,4 +34,14 @@ double steadyReach(const Light& light, const LightSpace& space, const Aabb& scen
     return reach > 0.0 ? steppedUp(reach) : 0.0;
 }
 
+Aabb reachBox(const Light& light, const Aabb& scene_ws)
+{
+    if (light.type == LightType::directional || light.range_m <= 0.0) {
+        return scene_ws;
+    }
+    const glm::vec3 range(static_cast<float>(light.range_m));
+    const glm::vec3 place(light.position_ws);
+    return {glm::max(scene_ws.min, place - range), glm::min(scene_ws.max, place + range)};
+}
+
 } // namespace gnomon

@@ -17,4 +17,7 @@ namespace gnomon {
 /// Of a map that holds still: what no receiver in the scene exceeds, in steps.
 [[nodiscard]] double steadyReach(const Light& light, const LightSpace& space, const Aabb& scene_ws);
 
+/// How far the rays of a light lead, and no farther than the scene.
+[[nodiscard]] Aabb reachBox(const Light& light, const Aabb& scene_ws);
+
 } // namespace gnomon

@@ -221,6 +221,9 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     json.value("blend_m", view.slice.blend_m);
     json.vector("axis", view.slice.axis, 4);
     json.closeLine('}');
+    if (view.faded_in < 1.0) {
+        json.value("faded_in", view.faded_in);
+    }
     if (view.sector.bounded()) {
         json.openLine("sector", '{');
         json.vector("x", view.sector.x, 4);

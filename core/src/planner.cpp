@@ -81,6 +81,7 @@ void Planner::reset()
 {
     if (impl_ != nullptr) {
         impl_->store.forget();
+        impl_->settled = false;
         impl_->chooser = {};
         impl_->multi = {};
     }
@@ -90,6 +91,7 @@ void Planner::lost(const MapId& map)
 {
     if (impl_ != nullptr) {
         impl_->store.lost(map);
+        impl_->settled = false;
     }
 }
 
@@ -107,6 +109,10 @@ const Plan& Planner::plan(const Frame& given)
                                        Outcome{OutcomeKind::refused, "the planner was moved from"});
     }
     Impl& s = *impl_;
+    if (s.repeats(given)) {
+        s.repeatPlan(given);
+        return s.plan;
+    }
     if (s.spoilt) { // nobody knows what the maps hold, nor whose they are
         MapStore fresh;
         s.addPages(fresh);
@@ -128,9 +134,32 @@ const Plan& Planner::plan(const Frame& given)
     }
     s.suns_before = s.suns;
     s.spoilt = true;
+    const bool again = s.told.holds(frame) && !frame.cut;
     s.makePlan(frame);
+    s.told.note(frame);
+    // What remembers (AutoChooser, MultiPartition) has had its say on the same frame twice.
+    s.settled = again &&
+                std::ranges::none_of(s.plan.views, [](const View& view) { return view.redraw || view.faded_in < 1.0; });
     s.spoilt = false;
     return s.plan;
+}
+
+/// Would the frame's plan be the last one? Not where it depends on time, or is of another sample of the light.
+bool Planner::Impl::repeats(const Frame& frame) const
+{
+    return settled && !spoilt && !frame.cut && told.holds(frame) &&
+           std::ranges::none_of(setups, [](const Setup& setup) {
+               return setup.recipe.converges() ||
+                      (setup.recipe.motion != nullptr && setup.recipe.motion->stepping != Stepping::none);
+           });
+}
+
+void Planner::Impl::repeatPlan(const Frame& frame)
+{
+    plan.frame = frame.index;
+    plan.cut = false;
+    plan.number = ++frames;
+    ++converging;
 }
 
 void Planner::Impl::addPages(MapStore& to) const
@@ -193,12 +222,15 @@ void Planner::Impl::admit(const Frame& frame)
     wishes.clear();
     look(frame, setups[0]);
     first_tenants.clear();
+    in_reach.clear();
+    reach_ends.clear();
     chooser.follow(frame.lights);
     multi.follow(frame.lights);
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         const Light& light = frame.lights[index];
         LightPlan& planned = plan.lights.emplace_back();
         first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+        reach_ends.push_back(static_cast<std::uint32_t>(in_reach.size()));
         if (fault.kind != OutcomeKind::ok) {
             planned.outcome = fault;
             continue;
@@ -214,6 +246,8 @@ void Planner::Impl::admit(const Frame& frame)
             continue;
         }
         look(frame, setup);
+        listInReach(frame, light);
+        reach_ends.back() = static_cast<std::uint32_t>(in_reach.size());
         if (setup.recipe.grows()) {
             decideFrustums(frame, index);
             continue;
@@ -224,6 +258,42 @@ void Planner::Impl::admit(const Frame& frame)
     first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
 }
 
+/// Many lamps reach few objects each, so each of them asks for its own.
+void Planner::Impl::listInReach(const Frame& frame, const Light& light)
+{
+    const Setup& setup = setups[light.options];
+    if (light.type == LightType::directional || setup.camera.outcome.kind != OutcomeKind::ok ||
+        setup.receivers.empty()) {
+        return;
+    }
+    const Aabb reach =
+        grown(reachBox(light, setup.camera.scene_ws), setup.camera.pad_m + light.radius_m); // sampledLight() moves it
+    planes.assign(setup.camera.planes.begin(), setup.camera.planes.end());
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 normal(0.0);
+        normal[axis] = 1.0;
+        planes.push_back({normal, -static_cast<double>(reach.min[axis])});
+        planes.push_back({-normal, static_cast<double>(reach.max[axis])});
+    }
+    const auto first = static_cast<std::ptrdiff_t>(in_reach.size());
+    frame.objects->query(planes, ObjectSet::Want::receivers, in_reach);
+    if (setup.recipe.options.max_distance_m > 0.0) { // which is finer than planes
+        const auto far = std::remove_if(in_reach.begin() + first, in_reach.end(), [&](std::uint32_t object) {
+            return !std::ranges::binary_search(setup.receivers, object);
+        });
+        in_reach.erase(far, in_reach.end());
+    }
+}
+
+std::span<const std::uint32_t> Planner::Impl::receiversOf(std::uint32_t index, const Light& light) const
+{
+    if (light.type == LightType::directional) {
+        return setups[light.options].receivers;
+    }
+    const std::uint32_t first = index > 0 ? reach_ends[index - 1] : 0;
+    return std::span(in_reach).subspan(first, reach_ends[index] - first);
+}
+
 /// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
 void Planner::Impl::decideFrustums(const Frame& frame, std::uint32_t index)
 {
@@ -232,7 +302,7 @@ void Planner::Impl::decideFrustums(const Frame& frame, std::uint32_t index)
     if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
     }
-    multi.divide({frame, setup.recipe, setup.camera, setup.receivers, setup.sight, light}, index, frustums);
+    multi.divide({frame, setup.recipe, setup.camera, receiversOf(index, light), setup.sight, light}, index, frustums);
     for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
         keys.push_back(tenantKey(light, frustum.id));
         MapWish& wish = wishes.emplace_back();
@@ -252,11 +322,11 @@ MapWish Planner::Impl::decide(const Frame& frame, std::uint32_t index)
     }
     if (setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty()) {
         const Slice none;
-        plan.lights[index].choice =
-            chooser
-                .decide({frame, recipe, setup.camera, setup.receivers, setup.receivers, light, none}, setup.sight,
-                        index, frustums)
-                .told;
+        plan.lights[index].choice = chooser
+                                        .decide({frame, recipe, setup.camera, receiversOf(index, light),
+                                                 receiversOf(index, light), light, none},
+                                                setup.sight, index, frustums)
+                                        .told;
     }
     const AutoDecision& decision = chooser.decisionOf(recipe, index);
     return recipe.wishOf(light, light.options, *decision.partition, decision.told.halvings);

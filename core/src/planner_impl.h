@@ -5,6 +5,7 @@
 
 #include "auto/auto_choice.h"
 #include "camera_view.h"
+#include "frame_memory.h"
 #include "frustum_planner.h"
 #include "light_shares.h"
 #include "motion/sun_steps.h"
@@ -70,6 +71,8 @@ struct Planner::Impl {
     std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
 
     Plan plan;
+    FrameMemory told;     // that `plan` was made from
+    bool settled = false; // and that it would be made from again: nothing in it was to be drawn or fading
 
     // Scratch.
     FrustumPlanner frustums;
@@ -85,17 +88,25 @@ struct Planner::Impl {
     LightShares light_shares;
     TexelShares texel_shares;
     std::vector<TexelClaim> claims;
-    std::vector<std::uint32_t> claimants;     // tenants
+    std::vector<std::uint32_t> claimants; // tenants
+    /// Of what the camera sees, what is in the reach of each light that has one, light after light.
+    std::vector<std::uint32_t> in_reach;
+    std::vector<std::uint32_t> reach_ends; // where each light's end
+    std::vector<Plane> planes;
     std::vector<std::uint32_t> all_receivers; // of the scene, where a steady map measures level depth
     std::vector<std::uint32_t> merged;
 
     void addPages(MapStore& to) const;
+    [[nodiscard]] bool repeats(const Frame& frame) const;
+    void repeatPlan(const Frame& frame);
     void makePlan(const Frame& frame);
     void begin(const Frame& frame);
     void noteMovement(const Frame& frame);
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
+    void listInReach(const Frame& frame, const Light& light);
+    [[nodiscard]] std::span<const std::uint32_t> receiversOf(std::uint32_t index, const Light& light) const;
     MapWish decide(const Frame& frame, std::uint32_t index);
     void decideFrustums(const Frame& frame, std::uint32_t index);
     void shareRoom(const Frame& frame);

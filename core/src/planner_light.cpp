@@ -149,7 +149,10 @@ void Planner::Impl::listSlices(const Stand& stand, const Setup& setup)
     if (setup.recipe.grows()) {
         for (const GrownFrustum& one : multi.frustumsOf(stand.light)) {
             const auto number = static_cast<std::uint32_t>(planned_slices.size());
-            planned_slices.push_back({one.slice, multi.receiversOf(one), one.strength, tenant + number, 0});
+            PlannedSlice& planned = planned_slices.emplace_back(
+                PlannedSlice{one.slice, multi.receiversOf(one), one.strength, tenant + number, 0});
+            // Where room is scarce its map is smaller than it asked for.
+            planned.slice.texel *= static_cast<double>(one.side) / store.sideOf(tenant + number);
         }
         return;
     }
@@ -158,7 +161,7 @@ void Planner::Impl::listSlices(const Stand& stand, const Setup& setup)
     for (std::uint32_t i = 0; i < slices.size(); ++i) {
         const double strength =
             setup.recipe.predicts() ? chooser.decisionOf(setup.recipe, stand.light).strengths[i] : 1.0;
-        planned_slices.push_back({slices[i], setup.receivers, strength, tenant, i});
+        planned_slices.push_back({slices[i], receiversOf(stand.light, stand.at), strength, tenant, i});
     }
 }
 

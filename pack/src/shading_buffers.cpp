@@ -46,10 +46,14 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     const ViewSlice& slice = view.slice;
     // A shader need not know infinities.
     constexpr double kEndless = 1e30;
+    constexpr double kAtOnce = 1e6; // one over the width of a blend that is next to none
     // Depths count from the eye for which the plan was made, which need not be the one that looks now.
     const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
     gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
-                           slice.blend_m > 0.0 ? 1.0 / slice.blend_m : 0.0, 0.0);
+                           slice.blend_m > 0.0   ? 1.0 / slice.blend_m
+                           : view.faded_in < 1.0 ? kAtOnce
+                                                 : 0.0,
+                           view.faded_in);
     gpu.sector_x = view.sector.x * world_from_eye;
     gpu.sector_y = view.sector.y * world_from_eye;
     gpu.sector_w = view.sector.w * world_from_eye;
@@ -118,7 +122,7 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
         gpu.more.y = static_cast<float>(options.traits().integrates_light ? blockLevels(image.size_px)
                                                                           : coarsestLevel(view.tile, image.levels));
         if (view.gpu_cascade != kNoIndex) {
-            gpu.slice.w = static_cast<float>(i + 1);
+            gpu.slice.w = -static_cast<float>(i + 1);
         }
         views[i] = gpu;
     }

@@ -174,7 +174,6 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
 vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
 {
     vec4 v = vec4(1.0);
-    bool found = false;
     uint view = first;
     Search s = Search(first, end, slicesAt(r.depth));
     float share = nextShare(s, true, r, view);
@@ -186,14 +185,13 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
                 here *= viewTint(viewAt(view), bias, r.p, r.n, r.own_tint);
             }
 #endif
-            v = found ? mix(v, here, share) : here;
+            v = v * (1.0 - share) + here * share; // of the first one just what is there, which mix() does not promise
 #ifdef GNOMON_CONFIDENCE
             if (GNOMON_CONFIDENCE) {
                 float confidence = texelConfidence(projectReceiver(rowsOf(viewAt(view)), bias, r.p, r.n).texel);
-                lookup_confidence = found ? mix(lookup_confidence, confidence, share) : confidence;
+                lookup_confidence = lookup_confidence * (1.0 - share) + confidence * share;
             }
 #endif
-            found = true;
             share = 0.0;
             if (isLeft(s)) {
                 share = nextShare(s, false, r, view);

@@ -156,7 +156,7 @@ GN_FN bool viewContains(GpuView view, real3 p, real depth)
 // What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
 GN_FN real viewShare(GpuView view, real depth)
 {
-    return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0));
+    return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0)) * real(view.slice.w);
 }
 
 // Visibility at a distance from the eye, of each colour: shadows fade away before the distance to which they are drawn.

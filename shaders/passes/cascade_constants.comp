@@ -29,7 +29,7 @@ void main()
     if (i >= uint(views.length())) {
         return;
     }
-    uint number = uint(views[i].slice.w);
+    uint number = uint(max(-views[i].slice.w, 0.0));
     if (number == 0u || number > uint(fitted.length())) {
         return;
     }
@@ -46,5 +46,5 @@ void main()
     views[i].plane_x = vec4(cross(metric, y.xyz), 0.0);
     views[i].plane_y = vec4(cross(x.xyz, metric), 0.0);
     views[i].plane_w = vec4(across, 1e-6 * length(across));
-    views[i].slice = vec4(found.slice.xyz, 0.0);
+    views[i].slice = vec4(found.slice.xyz, 1.0);
 }

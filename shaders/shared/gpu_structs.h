@@ -39,8 +39,9 @@ struct GpuView {
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
                   // near / far, w: one past its layer of the maps of tints; 0: no blended caster is in it
-    // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: only while the GPU
-    // has yet to fit the view (cascade_constants.comp): one past its number in the plan
+    // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has
+    // faded in over views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its
+    // number in the plan
     GN_VEC4 slice;
     GN_VEC4 sector_x; // rows that take an eye-relative point to its place among views side by side: ViewSector
     GN_VEC4 sector_y;

@@ -124,19 +124,35 @@ void planNothingMoving(benchmark::State& state)
 }
 BENCHMARK(planNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
 
+void planCameraMoving(benchmark::State& state)
+{
+    World world(state.range(0), 10);
+    Planner planner(ShadowOptions{.technique = kPlainTechnique});
+    int step = 0;
+    for (auto _ : state) {
+        world.lookFrom({0.01 * (++step % 2), 1.4 * world.half_m, 1.9 * world.half_m});
+        benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    }
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(planCameraMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
 /// The same with partition and fit left to the planner, which predicts both partitions in each frame.
-void planAutoNothingMoving(benchmark::State& state)
+void planAutoCameraMoving(benchmark::State& state)
 {
     World world(state.range(0), 10);
     ShadowOptions options{.technique = kPlainTechnique};
     options.technique.partition = Partition::automatic;
     options.technique.fit = Fit::automatic;
     Planner planner(options);
-    for (auto _ : state)
+    int step = 0;
+    for (auto _ : state) {
+        world.lookFrom({0.01 * (++step % 2), 1.4 * world.half_m, 1.9 * world.half_m});
         benchmark::DoNotOptimize(planner.plan(world.frame).casters.data());
+    }
     state.SetComplexityN(state.range(0));
 }
-BENCHMARK(planAutoNothingMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+BENCHMARK(planAutoCameraMoving)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
 
 /// A frustum that sees about a tenth of the world.
 void querySmallRegion(benchmark::State& state)
@@ -165,6 +181,78 @@ void updateAll(benchmark::State& state)
     state.SetComplexityN(state.range(0));
 }
 BENCHMARK(updateAll)->RangeMultiplier(10)->Range(1000, 100000)->Complexity()->Unit(benchmark::kMicrosecond);
+
+/// As many lamps as asked for over a town of 5,000 objects, of which the camera sees all.
+struct Town {
+    World world;
+    std::vector<Light> lamps;
+    Planner planner;
+
+    Town(std::int64_t count, Partition partition, Motion motion)
+        : world(5000, 10), lamps(static_cast<std::size_t>(count)), planner(optionsFor(partition, motion))
+    {
+        for (std::uint32_t i = 0; i < lamps.size(); ++i) {
+            lamps[i].type = LightType::point;
+            lamps[i].key = i;
+            lamps[i].position_ws = {(2.0 * noise(7 * i) - 1.0) * world.half_m, 12.0,
+                                    (2.0 * noise(7 * i + 1) - 1.0) * world.half_m};
+            lamps[i].range_m = 25.0;
+        }
+        world.frame.lights = lamps;
+    }
+    static ShadowOptions optionsFor(Partition partition, Motion motion)
+    {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.technique.partition = partition;
+        options.technique.motion = motion;
+        return options;
+    }
+    void look(int step)
+    {
+        const double turn = 6.283185307179586 * (step % kFrames) / kFrames;
+        world.lookFrom({0.3 * world.half_m * std::sin(turn), 1.4 * world.half_m, 1.9 * world.half_m});
+    }
+};
+
+void planLampsNothingMoving(benchmark::State& state)
+{
+    Town town(state.range(0), static_cast<Partition>(state.range(1)), Motion::free);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(town.planner.plan(town.world.frame).casters.data());
+}
+
+void planLampsCameraMoving(benchmark::State& state)
+{
+    Town town(state.range(0), static_cast<Partition>(state.range(1)), static_cast<Motion>(state.range(2)));
+    int step = 0;
+    for (auto _ : state) {
+        town.look(++step);
+        benchmark::DoNotOptimize(town.planner.plan(town.world.frame).casters.data());
+    }
+}
+
+void planLampsAllMoving(benchmark::State& state)
+{
+    Town town(state.range(0), static_cast<Partition>(state.range(1)), Motion::free);
+    int step = 0;
+    for (auto _ : state) {
+        town.look(++step);
+        town.world.move(step % kFrames);
+        benchmark::DoNotOptimize(town.planner.plan(town.world.frame).casters.data());
+    }
+}
+
+void partitionsOfLamps(benchmark::internal::Benchmark* bench)
+{
+    for (const Partition partition : {Partition::cube, Partition::multi})
+        for (const int lamps : {64, 256, 1000})
+            bench->Args({lamps, static_cast<int>(partition), static_cast<int>(Motion::free)});
+    bench->Args({64, static_cast<int>(Partition::multi), static_cast<int>(Motion::snap)});
+    bench->ArgNames({"lamps", "partition", "motion"})->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK(planLampsNothingMoving)->Apply(partitionsOfLamps);
+BENCHMARK(planLampsCameraMoving)->Apply(partitionsOfLamps);
+BENCHMARK(planLampsAllMoving)->Apply(partitionsOfLamps);
 
 } // namespace
 

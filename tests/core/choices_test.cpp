@@ -92,9 +92,10 @@ TEST(Choices, RefusalsAreSentences)
     technique.filter = Filter::id;
     EXPECT_EQ(refusal(LightType::spot, technique),
               "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
-    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::snap}),
-              "multi gives each frame the frustums that its picture asks for, so nobody can hold them still; it needs "
-              "motion free");
+    EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::step_jump}),
+              "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
+              "not the same; it needs motion free or snap");
+    EXPECT_FALSE(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::snap}));
 }
 
 TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)

@@ -217,7 +217,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Technique{Partition::single, Fit::uniform, Filter::hard, Soften::none, Motion::snap},
                     Technique{Partition::single, Fit::uniform, Filter::evsm, Soften::none, Motion::snap},
                     Technique{Partition::cascades, Fit::uniform, Filter::pcf, Soften::none, Motion::snap},
-                    Technique{Partition::cube, Fit::uniform, Filter::evsm, Soften::none, Motion::snap}),
+                    Technique{Partition::cube, Fit::uniform, Filter::evsm, Soften::none, Motion::snap},
+                    Technique{Partition::multi, Fit::uniform, Filter::hard, Soften::none, Motion::snap}),
     [](const auto& technique) {
         return std::string(nameOf(technique.param.partition)) + "_" + std::string(nameOf(technique.param.filter));
     });

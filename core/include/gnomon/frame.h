@@ -24,6 +24,8 @@ struct Camera {
     /// How far clip_from_world moves the picture for anti-aliasing, pixels of Frame::size_px, y down; 0 where it does
     /// not. Known, it is no movement of the camera: see convergeSample().
     glm::dvec2 jitter_px{0.0};
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light. Of
@@ -49,6 +51,8 @@ struct Light {
     /// Texels on a side of each of its maps: 16 .. those of its options, which are taken for what is beyond. 0: as its
     /// options say.
     std::uint32_t map_size = 0;
+
+    bool operator==(const Light&) const = default;
 };
 
 /// How far along a spot or point light's rays things count.

@@ -49,6 +49,9 @@ struct CascadeOptions {
 struct MultiOptions {
     /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
     double texels_per_pixel = 1.0;
+    /// With motion snap: frames over which frustums fade over into others, where their texels or what they serve
+    /// change; 0 .. 64. 0: at once.
+    std::uint32_t fade_frames = 8;
     bool operator==(const MultiOptions&) const = default;
 };
 

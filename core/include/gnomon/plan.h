@@ -194,6 +194,16 @@ struct View {
     double light_reach = 0.0;
     ViewSlice slice;
     ViewSector sector;
+    /// How far it has faded in over the light's views before it, where they serve the same place: 0 .. 1. Less than 1
+    /// only while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
+    double faded_in = 1.0;
+    /// What it counts for at a depth of the camera where a view before it serves the place, too: 0 .. 1.
+    [[nodiscard]] double shareAt(double depth_m) const
+    {
+        const bool fades = slice.blend_m > 0.0;
+        const double over = fades ? std::clamp((depth_m - slice.begin_m) / slice.blend_m, 0.0, 1.0) : 1.0;
+        return fades || faded_in < 1.0 ? over * faded_in : 0.0;
+    }
     /// Partition::sdsm: which of its light's cascades this is. Then what is above says how the light's base map lies,
     /// and the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters
     /// are the base map's. Always to be drawn again. kNoIndex: all is as it says here.

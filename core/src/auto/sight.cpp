@@ -167,6 +167,15 @@ void Sight::addPoint(const CameraView& view, const Ray& ray, const glm::dvec2& p
     }
 }
 
+double Sight::pixelAt_m(double depth_m, bool perspective) const
+{
+    if (points_.empty()) {
+        return 0.0;
+    }
+    const SightPoint& any = points_.front();
+    return perspective ? any.facing_m * depth_m / any.depth_m : any.facing_m;
+}
+
 void Sight::look(const Frame& frame, const CameraView& view, std::span<const std::uint32_t> receivers)
 {
     world_from_clip_ = glm::inverse(view.clip_from_world);

@@ -36,6 +36,8 @@ public:
     void look(const Frame& frame, const CameraView& view, std::span<const std::uint32_t> receivers);
     /// Of those rays that meet a box.
     [[nodiscard]] std::span<const SightPoint> points() const { return points_; }
+    /// A pixel's side on a surface that faces the eye at a depth; 0: there are no points.
+    [[nodiscard]] double pixelAt_m(double depth_m, bool perspective) const;
     /// Geometric mean of their SightPoint::pixel_m; 0: there are none.
     [[nodiscard]] double meanPixel_m() const { return mean_pixel_m_; }
 

@@ -79,10 +79,24 @@ LightRect sceneRect(const LightSpace& space, const Aabb& scene_ws)
     return {at - reach, at + reach};
 }
 
+/// A map whose texels' size others hold: it pans over them, around what is wanted.
+MapFrame panned(const LightRect& wanted, double texel, std::uint32_t map_size)
+{
+    MapFrame frame;
+    frame.texel = glm::dvec2(texel);
+    frame.half = frame.texel * (0.5 * map_size);
+    const glm::dvec2 low = (wanted.low + wanted.high) * 0.5 - frame.half;
+    frame.centre = glm::round(low / texel) * texel + frame.half;
+    return frame;
+}
+
 } // namespace
 
-MapFrame moveInTexels(const LightRect& /*wanted*/, const MotionInput& input)
+MapFrame moveInTexels(const LightRect& wanted, const MotionInput& input)
 {
+    if (input.slice.texel > 0.0) {
+        return panned(wanted, input.slice.texel, input.map_size);
+    }
     // Without the border, and a texel less: that much the map may be off its place.
     const double texels = static_cast<double>(input.map_size) - 2.0 * input.border_texels - 1.0;
     MapFrame frame;

@@ -64,6 +64,10 @@ bool isMulti(const ShadowOptions& o)
 {
     return o.technique.partition == Partition::multi;
 }
+bool holdsMulti(const ShadowOptions& o)
+{
+    return isMulti(o) && o.technique.motion == Motion::snap;
+}
 bool hasBlends(const ShadowOptions& o)
 {
     return hasCascades(o) || isMulti(o);
@@ -81,9 +85,10 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "cascades.count", .type = integer, .form = "N", .min = 1, .max = kMaxCascades, .doc = "slices of the view, each with a map", .used = hasCascades, .used_when = kCascades, .get = getCount, .set = setCount},
         {.key = "cascades.lambda", .type = real, .form = "V", .min = 0, .max = 1, .doc = "1 splits the view logarithmically, 0 evenly", .used = hasSplits, .used_when = "partition cascades, sdsm or auto without cascades.ends", GNOMON_MEMBER(cascades.lambda)},
         {.key = "cascades.ends", .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthestPlace_m, .count = kMaxCascades - 1, .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .used = hasCascades, .used_when = kCascades, .get = getEnds, .set = setEnds},
-        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or shell of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
+        {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or octave of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
         {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
         {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .doc = "what multi gives each part of the picture, as long as a light's texels last", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
+        {.key = "multi.fade", .type = integer, .form = "N", .unit = "frames", .min = 0, .max = 64, .doc = "over which frustums of multi fade over into others, where motion snap has to change them", .used = holdsMulti, .used_when = "partition multi and motion snap", GNOMON_MEMBER(multi.fade_frames)},
         {.key = "budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "that the maps of all lights may have together; those that the picture owes least to get smaller ones; 0: no limit but memory", GNOMON_MEMBER(budget_texels)},
         {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", GNOMON_MEMBER(border_texels)},
         // clang-format on

@@ -9,60 +9,73 @@
 // instead. Texels are counted in those some hundred points that the camera probably sees (Sight).
 #include "partition/multi.h"
 
+#include "light_reach.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMostShells = 6;
-/// Two shells are one where that needs no more than so many times their texels: each is some passes.
-constexpr double kMergeCost = 1.3;
 /// Shells are taken where they want so many times the texels of none, and kept up to the second.
 constexpr double kTakeShells = 0.75;
 constexpr double kKeepShells = 0.9;
+/// TexelClaim::staying of a map that holds still. With another side its texels are other ones, too.
+constexpr double kHoldsSide = 2.0;
+/// Other shells have to be the better ones for so many frames on end before what holds still is changed for them: what
+/// is known of the picture is some hundred guesses, and they jump.
+constexpr std::uint32_t kPatience_frames = 8;
 /// One frustum serves all of a shell if the light sees it within this half angle.
 constexpr double kWidestHalfAngle_rad = 0.87;
-/// Of a map that serves receivers of which no point is known.
+/// Of a map of which nobody can tell how fine it should be.
 constexpr double kUnknownSide = 64.0;
 
-int octaveOf(double depth_m)
+/// What a part's depths of the camera are. Where it begins it fades in over a share of the octave before.
+Slice depthsOf(const CameraView& camera, const FrustumPart& part, double blend)
 {
-    constexpr double kNearest_m = 1e-3;
-    constexpr double kFarthest_m = 1e6;
-    return static_cast<int>(std::floor(std::log2(std::clamp(depth_m, kNearest_m, kFarthest_m))));
-}
-
-double depthOf(int octave)
-{
-    return std::ldexp(1.0, octave);
-}
-
-/// Which face of a cube around a light a direction leads through: as cubeFace() counts them.
-std::size_t faceOf(const glm::dvec3& d)
-{
-    const glm::dvec3 a = glm::abs(d);
-    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-    return static_cast<std::size_t>(2 * axis) + (d[axis] < 0.0 ? 1 : 0);
-}
-
-Slice sectorOf(const Light& light, std::size_t sector)
-{
-    return light.type == LightType::point ? cubeFace(light, static_cast<int>(sector)) : wholeSlice(light);
-}
-
-/// How far a light reaches, and no farther than the scene.
-Aabb reachOf(const Light& light, const Aabb& scene_ws)
-{
-    if (light.type == LightType::directional || light.range_m <= 0.0) {
-        return scene_ws;
+    Slice depths;
+    depths.depth.axis = glm::dvec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.eye_ws));
+    const bool begins = part.octave != kFromEye;
+    const bool ends = part.end != kToEnd;
+    if (begins) {
+        depths.depth.blend_m = blend * depthOfOctave(part.octave - 1);
+        depths.depth.begin_m = depthOfOctave(part.octave) - depths.depth.blend_m;
     }
-    const glm::vec3 range(static_cast<float>(light.range_m));
-    const glm::vec3 place(light.position_ws);
-    return {glm::max(scene_ws.min, place - range), glm::min(scene_ws.max, place + range)};
+    if (ends) {
+        depths.depth.end_m = depthOfOctave(part.end);
+    }
+    depths.cut[depths.cut_count++] =
+        depthPlane(camera, begins ? depths.depth.begin_m : camera.near_m - camera.pad_m, true);
+    depths.cut[depths.cut_count++] = depthPlane(camera, ends ? depths.depth.end_m : camera.far_m + camera.pad_m, false);
+    return depths;
+}
+
+Slice inSector(const Slice& depths, const Slice& way)
+{
+    Slice slice = depths;
+    slice.axis_ws = way.axis_ws;
+    slice.half_angle_rad = way.half_angle_rad;
+    slice.near_share = way.near_share;
+    slice.sector = way.sector;
+    return slice;
+}
+
+/// Of its light: the same from frame to frame, wherever a frustum that is refitted in each frame ends.
+std::uint32_t idOf(const FrustumPart& part)
+{
+    return static_cast<std::uint32_t>(part.octave - kFromEye) << 3U | part.sector;
+}
+
+/// And of one that holds still, of its end and its texels too.
+std::uint32_t idOf(const HeldFrustum& held)
+{
+    const auto end = static_cast<std::uint32_t>(held.part.end - kFromEye);
+    const auto step = static_cast<std::uint32_t>(held.step + 512) & 1023U;
+    return idOf(held.part) | end << 10U | step << 17U | 1U << 27U;
 }
 
 std::uint32_t largestSide(const MultiPartition::Input& input)
@@ -72,41 +85,6 @@ std::uint32_t largestSide(const MultiPartition::Input& input)
 }
 
 } // namespace
-
-void MultiPartition::Cell::add(const Cell& other)
-{
-    if (!other.used) {
-        return;
-    }
-    rect.low = used ? glm::min(rect.low, other.rect.low) : other.rect.low;
-    rect.high = used ? glm::max(rect.high, other.rect.high) : other.rect.high;
-    density = std::max(density, other.density);
-    used = true;
-}
-
-double MultiPartition::Cell::texels() const
-{
-    const glm::dvec2 size = rect.high - rect.low;
-    return used ? size.x * size.y * density * density : 0.0;
-}
-
-void MultiPartition::Shell::add(const Shell& other)
-{
-    octave = std::min(octave, other.octave);
-    end = std::max(end, other.end);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        cells[i].add(other.cells[i]);
-    }
-}
-
-double MultiPartition::Shell::texels() const
-{
-    double sum = 0.0;
-    for (const Cell& cell : cells) {
-        sum += cell.texels();
-    }
-    return sum;
-}
 
 void MultiPartition::follow(std::span<const Light> lights)
 {
@@ -134,33 +112,56 @@ void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanne
     Memory& memory = memories_[rows_.rowOf(light)];
     Range& range = ranges_[light];
     range.first = frustums_.size();
-    findShells(input);
-    mergeShells();
-    // Points tell which shells may pay. Whether they do is told by what the frustums have to hold: of a receiver no
-    // more is known than its box, and what is in sight of each shell may be the whole of it.
-    const bool divides = shells_.size() > 1;
-    const double of_shells = addShells(input, memory, frustums);
-    const std::size_t count = frustums_.size() - range.first;
-    if (divides) {
-        while (shells_.size() > 1) {
-            shells_[0].add(shells_[1]);
-            shells_.erase(shells_.begin() + 1);
-        }
-        const double of_one = addShells(input, memory, frustums);
-        memory.divides = of_shells < (memory.divides ? kKeepShells : kTakeShells) * of_one;
-        const auto first = frustums_.begin() + static_cast<std::ptrdiff_t>(range.first);
-        const auto one = first + static_cast<std::ptrdiff_t>(count);
-        frustums_.erase(memory.divides ? one : first, memory.divides ? frustums_.end() : one);
+    if (input.frame.cut) {
+        memory.held.cut();
+    }
+    findFrustums(input, memory, range.first, frustums);
+    sizeFrustums(input, memory, std::span(frustums_).subspan(range.first));
+    if (input.recipe.steady()) {
+        hold(input, memory.held, range.first);
     }
     range.count = frustums_.size() - range.first;
-    sizeFrustums(input, memory, std::span(frustums_).subspan(range.first));
+}
+
+/// Points tell which shells may pay. Whether they do is told by what the frustums have to hold: of a receiver no more
+/// is known than its box, and what is in sight of each shell may be the whole of it.
+void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_t first, FrustumPlanner& frustums)
+{
+    const glm::dvec2 cell_px(static_cast<double>(input.frame.size_px.x) / Sight::kColumns,
+                             static_cast<double>(input.frame.size_px.y) / Sight::kRows);
+    const DepthShells::Input seen{input.light, input.camera, input.sight.points(), cell_px};
+    if (memory.held.fading()) { // one change after the other
+        shells_.findAgain(seen, memory.divides ? std::span<const int>(memory.ends) : std::span<const int>());
+        (void)addShells(input, memory, frustums);
+        return;
+    }
+    const bool known = !memory.frustums.empty();
+    const bool waits = known && input.recipe.steady() && memory.patience > 0;
+    const bool suffice = shells_.find(seen, memory.ends,
+                                      !known  ? KeepShells::none
+                                      : waits ? KeepShells::all
+                                              : KeepShells::good_enough);
+    const double of_shells = addShells(input, memory, frustums);
+    bool pays = false;
+    if (shells_.shells().size() > 1) {
+        const auto one = static_cast<std::ptrdiff_t>(frustums_.size());
+        shells_.join();
+        pays = of_shells < (memory.divides ? kKeepShells : kTakeShells) * addShells(input, memory, frustums);
+        const bool divides = waits ? memory.divides : pays;
+        const auto begin = frustums_.begin();
+        frustums_.erase(begin + (divides ? one : static_cast<std::ptrdiff_t>(first)),
+                        divides ? frustums_.end() : begin + one);
+    }
+    const bool stays = suffice && pays == memory.divides;
+    memory.patience = waits && !stays ? memory.patience - 1 : kPatience_frames;
+    memory.divides = waits ? memory.divides : pays;
 }
 
 /// Appends the frustums of all shells. Returns how many texels they want together.
 double MultiPartition::addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums)
 {
     const std::size_t first = frustums_.size();
-    for (std::size_t i = 0; i < shells_.size(); ++i) {
+    for (std::size_t i = 0; i < shells_.shells().size(); ++i) {
         addShell(input, i);
     }
     const std::uint32_t largest = largestSide(input);
@@ -176,8 +177,9 @@ double MultiPartition::addShells(const Input& input, const Memory& memory, Frust
                                                   receiversOf(frustum), input.light, frustum.slice, largest},
                                                  input.sight, frustum.strength);
         const double inner = seen.facing.coarsest_px * input.recipe.options.multi.texels_per_pixel * (largest - border);
-        frustum.wanted = !seen.lies ? 0.0 : seen.error.count == 0 ? kUnknownSide : inner + border;
+        frustum.wanted = !seen.lies ? 0.0 : inner > 0.0 ? inner + border : kUnknownSide;
         frustum.sum = seen.facing.sum_px;
+        frustum.size = seen.size;
         texels += frustum.wanted * frustum.wanted;
     }
     const auto empty = std::remove_if(frustums_.begin() + static_cast<std::ptrdiff_t>(first), frustums_.end(),
@@ -186,97 +188,37 @@ double MultiPartition::addShells(const Input& input, const Memory& memory, Frust
     return texels;
 }
 
-/// A shell for each octave of depth that a lit point is in; one for everything where there is none.
-void MultiPartition::findShells(const Input& input)
-{
-    shells_.clear();
-    const Light& light = input.light;
-    const std::size_t sectors = light.type == LightType::point ? kSectors : 1;
-    std::array<LightSpace, kSectors> spaces;
-    for (std::size_t i = 0; i < sectors; ++i) {
-        const Slice slice = sectorOf(light, i);
-        spaces[i] = lightSpaceOf(light, slice.axis_ws, slice.half_angle_rad, input.camera.scene_ws);
-    }
-    const glm::dvec2 cell_px(static_cast<double>(input.frame.size_px.x) / Sight::kColumns,
-                             static_cast<double>(input.frame.size_px.y) / Sight::kRows);
-    for (const SightPoint& point : input.sight.points()) {
-        const std::size_t sector = sectors > 1 ? faceOf(point.p_ws - light.position_ws) : 0;
-        const std::optional<LitPoint> lit = litPoint(spaces[sector], point);
-        if (!lit || !(lit->facing > 0.0)) {
-            continue;
-        }
-        const int octave = input.camera.perspective ? octaveOf(point.depth_m) : 0;
-        auto shell = std::ranges::lower_bound(shells_, octave, {}, &Shell::octave);
-        if (shell == shells_.end() || shell->octave != octave) {
-            shell = shells_.insert(shell, {octave, octave + 1, {}});
-        }
-        const glm::dvec2 half = 0.5 * lit->facing * cell_px;
-        shell->cells[sector].add({{lit->q - half, lit->q + half}, 1.0 / lit->facing, true});
-    }
-    if (shells_.empty()) {
-        shells_.emplace_back();
-    }
-}
-
-void MultiPartition::mergeShells()
-{
-    while (shells_.size() > 1) {
-        std::size_t best = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i + 1 < shells_.size(); ++i) {
-            Shell both = shells_[i];
-            both.add(shells_[i + 1]);
-            const double cost = both.texels() / (shells_[i].texels() + shells_[i + 1].texels());
-            if (cost < least) {
-                least = cost;
-                best = i;
-            }
-        }
-        if (least > kMergeCost && shells_.size() <= kMostShells) {
-            return;
-        }
-        shells_[best].add(shells_[best + 1]);
-        shells_.erase(shells_.begin() + static_cast<std::ptrdiff_t>(best) + 1);
-    }
-}
-
 /// The first shell serves what is nearer than all points, the last what is farther.
 void MultiPartition::addShell(const Input& input, std::size_t shell)
 {
-    const CameraView& camera = input.camera;
-    const double blend = input.recipe.options.cascades.blend;
-    Slice depths;
-    depths.depth.axis = glm::dvec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.eye_ws));
+    const std::span<const DepthShell> shells = shells_.shells();
+    FrustumPart part{kFromEye, kToEnd, 0};
     if (shell > 0) {
-        const double begin_m = depthOf(shells_[shell - 1].end);
-        depths.depth.blend_m = blend * (begin_m - depthOf(shells_[shell - 1].octave));
-        depths.depth.begin_m = begin_m - depths.depth.blend_m;
+        part.octave = shells[shell - 1].end;
     }
-    depths.cut[depths.cut_count++] =
-        depthPlane(camera, shell > 0 ? depths.depth.begin_m : camera.near_m - camera.pad_m, true);
-    if (shell + 1 < shells_.size()) {
-        depths.depth.end_m = depthOf(shells_[shell].end);
+    if (shell + 1 < shells.size()) {
+        part.end = shells[shell].end;
     }
-    depths.cut[depths.cut_count++] =
-        depthPlane(camera, shell + 1 < shells_.size() ? depths.depth.end_m : camera.far_m + camera.pad_m, false);
+    addSectors(input, depthsOf(input.camera, part, input.recipe.options.cascades.blend), part);
+}
+
+void MultiPartition::addSectors(const Input& input, const Slice& depths, FrustumPart part)
+{
     const auto add = [&](const Slice& way, std::size_t sector) {
-        Slice slice = depths;
-        slice.axis_ws = way.axis_ws;
-        slice.half_angle_rad = way.half_angle_rad;
-        slice.near_share = way.near_share;
-        slice.sector = way.sector;
-        addFrustum(input, slice,
-                   static_cast<std::uint32_t>((shells_[shell].octave + 64) * 8) + static_cast<std::uint32_t>(sector));
+        part.sector = static_cast<std::uint32_t>(sector);
+        addFrustum(input, inSector(depths, way), part);
     };
     if (input.light.type != LightType::point) {
         add(wholeSlice(input.light), 0);
         return;
     }
-    if (const std::optional<Slice> aimed = aimAt(input, depths)) {
-        add(*aimed, kSectors);
+    // One whose axis follows what is seen holds nothing still.
+    const std::optional<Slice> aimed = input.recipe.steady() ? std::nullopt : aimAt(input, depths);
+    if (aimed) {
+        add(*aimed, kCubeFaces);
         return;
     }
-    for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    for (std::size_t sector = 0; sector < kCubeFaces; ++sector) {
         add(cubeFace(input.light, static_cast<int>(sector)), sector);
     }
 }
@@ -284,7 +226,7 @@ void MultiPartition::addShell(const Input& input, std::size_t shell)
 /// One frustum for all that is seen of a shell, if the light sees it within a narrow enough cone.
 std::optional<Slice> MultiPartition::aimAt(const Input& input, const Slice& shell)
 {
-    body_.reset(grown(reachOf(input.light, input.camera.scene_ws), input.camera.pad_m));
+    body_.reset(grown(reachBox(input.light, input.camera.scene_ws), input.camera.pad_m));
     body_.clip(input.camera.planes);
     body_.clip(std::span(shell.cut).first(shell.cut_count));
     if (body_.empty()) {
@@ -315,13 +257,14 @@ std::optional<Slice> MultiPartition::aimAt(const Input& input, const Slice& shel
     return aimed.half_angle_rad <= kWidestHalfAngle_rad ? std::optional(aimed) : std::nullopt;
 }
 
-void MultiPartition::addFrustum(const Input& input, const Slice& slice, std::uint32_t id)
+void MultiPartition::addFrustum(const Input& input, const Slice& slice, const FrustumPart& part)
 {
     GrownFrustum frustum;
-    frustum.id = id;
+    frustum.id = idOf(part);
+    frustum.part = part;
     frustum.slice = slice;
     frustum.first_receiver = static_cast<std::uint32_t>(receivers_.size());
-    const Aabb reach = grown(reachOf(input.light, input.camera.scene_ws), input.camera.pad_m);
+    const Aabb reach = grown(reachBox(input.light, input.camera.scene_ws), input.camera.pad_m);
     const std::span<const Aabb> bounds = input.frame.objects->allBounds();
     const std::span cut = std::span(slice.cut).first(slice.cut_count);
     for (const std::uint32_t object : input.receivers) {
@@ -344,7 +287,14 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
     const ShadowOptions& options = input.recipe.options;
     claims_.clear();
     for (const GrownFrustum& frustum : found) {
-        claims_.push_back({frustum.sum, frustum.wanted, largestSide(input), 1, frustum.side_before, 0});
+        TexelClaim& claim = claims_.emplace_back();
+        claim.weight = frustum.sum;
+        claim.wanted = frustum.wanted;
+        claim.largest = largestSide(input);
+        claim.before = frustum.side_before;
+        if (input.recipe.steady()) {
+            claim.staying = memory.held.fading() ? std::numeric_limits<double>::infinity() : kHoldsSide;
+        }
     }
     shares_.share(claims_,
                   options.map_size ? std::numeric_limits<double>::infinity() : static_cast<double>(options.max_texels));
@@ -354,6 +304,50 @@ void MultiPartition::sizeFrustums(const Input& input, Memory& memory, std::span<
     memory.frustums.clear();
     for (const GrownFrustum& frustum : found) {
         memory.frustums.push_back({frustum.id, frustum.side, frustum.strength});
+    }
+}
+
+/// Gives each frustum texels that hold still, and adds those that fade out.
+void MultiPartition::hold(const Input& input, HeldFrustums& held, std::size_t first)
+{
+    found_.clear();
+    for (GrownFrustum& frustum : std::span(frustums_).subspan(first)) {
+        // A texel less: that much the map may be off its place.
+        const double texels = frustum.side - 2.0 * input.recipe.resolved.borderOf(frustum.side) - 1.0;
+        const int step = held.stepOf(frustum.part, frustum.size, texels);
+        found_.push_back({frustum.part, step, frustum.side, false});
+    }
+    held.take(found_, input.recipe.options.multi.fade_frames);
+    const double faded_in = held.fadedIn(input.recipe.options.multi.fade_frames);
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        GrownFrustum& frustum = frustums_[first + i];
+        frustum.id = idOf(held.now[i]);
+        frustum.slice.texel = texelOfStep(held.now[i].step);
+        frustum.slice.faded_in = held.now[i].came ? faded_in : 1.0;
+    }
+    addFading(input, held);
+    const auto order = [&](const GrownFrustum& one) {
+        return std::tuple(held.blockOf(one.part), !one.fades_out, one.part.octave, one.part.sector);
+    };
+    std::ranges::sort(std::span(frustums_).subspan(first), {}, order);
+    held.step();
+}
+
+void MultiPartition::addFading(const Input& input, const HeldFrustums& held)
+{
+    for (const HeldFrustum& one : held.before) {
+        const bool around = input.light.type == LightType::point;
+        const Slice way = around ? cubeFace(input.light, static_cast<int>(one.part.sector)) : wholeSlice(input.light);
+        const std::size_t count = frustums_.size();
+        addFrustum(input, inSector(depthsOf(input.camera, one.part, input.recipe.options.cascades.blend), way),
+                   one.part);
+        if (frustums_.size() > count) {
+            GrownFrustum& frustum = frustums_.back();
+            frustum.id = idOf(one);
+            frustum.side = one.side;
+            frustum.slice.texel = texelOfStep(one.step);
+            frustum.fades_out = true;
+        }
     }
 }
 

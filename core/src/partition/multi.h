@@ -5,10 +5,11 @@
 
 #include "auto/sight.h"
 #include "frustum_planner.h"
+#include "partition/depth_shells.h"
+#include "partition/held_frustums.h"
 #include "store/light_rows.h"
 #include "store/texel_shares.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,12 +20,15 @@ namespace gnomon {
 /// One frustum of a light in one frame.
 struct GrownFrustum {
     std::uint32_t id = 0; // of its light: the same from frame to frame for as long as it serves the same part
+    FrustumPart part;
     Slice slice;
-    double wanted = 0.0;              // texels on a side of its map
-    double sum = 0.0;                 // FacingTexels::sum_px, of a map of the largest side
-    std::uint32_t side_before = 0;    // of the frame before; 0: it was not there
-    std::uint32_t side = 0;           // that it gets
-    double strength = 0.0;            // of its warp, with fit auto
+    double size = 0.0;             // Prediction::size
+    double wanted = 0.0;           // texels on a side of its map
+    double sum = 0.0;              // FacingTexels::sum_px, of a map of the largest side
+    std::uint32_t side_before = 0; // of the frame before; 0: it was not there
+    std::uint32_t side = 0;        // that it gets
+    double strength = 0.0;         // of its warp, with fit auto
+    bool fades_out = false;
     std::uint32_t first_receiver = 0; // see MultiPartition::receiversOf()
     std::uint32_t receiver_count = 0;
 };
@@ -54,23 +58,6 @@ public:
     }
 
 private:
-    /// What some of the points of a light have in common: their rectangle across the light, and how fine it must be.
-    struct Cell {
-        LightRect rect;
-        double density = 0.0; // pixels a unit of length of the rectangle
-        bool used = false;
-        void add(const Cell& other);
-        [[nodiscard]] double texels() const;
-    };
-    static constexpr std::size_t kSectors = kCubeFaces;
-    /// Between two depths of the camera.
-    struct Shell {
-        int octave = 0; // begins at 2^octave metres
-        int end = 0;    // ends at 2^end
-        std::array<Cell, kSectors> cells;
-        void add(const Shell& other);
-        [[nodiscard]] double texels() const;
-    };
     struct Known {
         std::uint32_t id = 0;
         std::uint32_t side = 0;
@@ -78,20 +65,25 @@ private:
     };
     struct Memory {
         std::vector<Known> frustums;
-        bool divides = false; // into shells
+        std::vector<int> ends;      // DepthShells::find()
+        std::uint32_t patience = 0; // frames for which `ends` are kept although others were better
+        bool divides = false;       // into shells
+        HeldFrustums held;          // with motion snap
     };
     struct Range {
         std::size_t first = 0;
         std::size_t count = 0;
     };
 
-    void findShells(const Input& input);
-    void mergeShells();
+    void findFrustums(const Input& input, Memory& memory, std::size_t first, FrustumPlanner& frustums);
     void addShell(const Input& input, std::size_t shell);
+    void addSectors(const Input& input, const Slice& depths, FrustumPart part);
     std::optional<Slice> aimAt(const Input& input, const Slice& shell);
-    void addFrustum(const Input& input, const Slice& slice, std::uint32_t id);
+    void addFrustum(const Input& input, const Slice& slice, const FrustumPart& part);
     void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
     double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
+    void hold(const Input& input, HeldFrustums& held, std::size_t first);
+    void addFading(const Input& input, const HeldFrustums& held);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
@@ -102,7 +94,8 @@ private:
     // Scratch.
     TexelShares shares_;
     std::vector<TexelClaim> claims_;
-    std::vector<Shell> shells_;
+    DepthShells shells_;
+    std::vector<HeldFrustum> found_;
     ConvexBody body_;
 };
 

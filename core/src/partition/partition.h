@@ -20,6 +20,10 @@ struct Slice {
     std::uint32_t cut_count = 0;
     ViewSlice depth;   // of the camera that it serves
     ViewSector sector; // of the light's directions
+    /// Side of the texels of a map that holds still and shows no more than what is seen, as LightRect has it. 0: the
+    /// motion finds it.
+    double texel = 0.0;
+    double faded_in = 1.0; // View::faded_in
 };
 
 struct PartitionInput {

@@ -8,8 +8,6 @@ namespace {
 
 /// A side that is so little too small is good enough.
 constexpr double kTooSmall = 1.05;
-/// What a claim had in the frame before counts for so much more, because another side is a map drawn anew.
-constexpr double kHadBefore = 1.3;
 
 /// Of two that gain alike the first comes first.
 bool comesLater(const std::pair<double, std::uint32_t>& a, const std::pair<double, std::uint32_t>& b)
@@ -30,11 +28,11 @@ void TexelShares::enter(std::span<const TexelClaim> claims, std::uint32_t claim)
 {
     const TexelClaim& one = claims[claim];
     const bool had = one.before >= 2 * one.side;
-    if (2 * one.side > one.largest || one.wanted <= kTooSmall * one.side / (had ? kHadBefore : 1.0)) {
+    if (2 * one.side > one.largest || one.wanted <= kTooSmall * one.side / (had ? one.staying : 1.0)) {
         return;
     }
     constexpr double kLeastWeight = 1e-30;
-    const double gain = std::max(one.weight, kLeastWeight) * (had ? kHadBefore : 1.0) / (one.side * costOf(one));
+    const double gain = std::max(one.weight, kLeastWeight) * (had ? one.staying : 1.0) / (one.side * costOf(one));
     turns_.emplace_back(gain, claim);
     std::ranges::push_heap(turns_, comesLater);
 }

@@ -19,6 +19,7 @@ struct TexelClaim {
     std::uint32_t largest = 0; // side that it may have at most; what it gets is this, halved some times
     std::uint32_t maps = 1;    // of that side each
     std::uint32_t before = 0;  // side that it got in the frame before; 0: it was not there
+    double staying = 1.3;      // so much more that counts than another one, because another one is a map drawn anew
     std::uint32_t side = 0;    // that it gets
 };
 

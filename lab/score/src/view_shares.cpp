@@ -25,9 +25,7 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
         // The first that serves the point counts for all of it, and each after it for what has faded over so far.
         double share = 1.0;
         if (found) {
-            const double depth_m = glm::dot(view.slice.axis, glm::dvec4(point_ws, 1.0));
-            share = view.slice.blend_m > 0.0 ? std::clamp((depth_m - view.slice.begin_m) / view.slice.blend_m, 0.0, 1.0)
-                                             : 0.0;
+            share = view.shareAt(glm::dot(view.slice.axis, glm::dvec4(point_ws, 1.0)));
         }
         for (std::size_t before = 0; before < i; ++before) {
             shares[before] *= static_cast<float>(1.0 - share);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_memory.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+bool FrameMemory::holds(const Frame& frame) const
+{
+    return known_ && frame.objects != nullptr && frame.objects->identity() == objects_ &&
+           frame.objects->version() == version_ && frame.size_px == size_px_ && frame.camera == camera_ &&
+           std::ranges::equal(frame.lights, lights_);
+}
+
+void FrameMemory::note(const Frame& frame)
+{
+    known_ = frame.objects != nullptr;
+    camera_ = frame.camera;
+    size_px_ = frame.size_px;
+    lights_.assign(frame.lights.begin(), frame.lights.end());
+    objects_ = known_ ? frame.objects->identity() : 0;
+    version_ = known_ ? frame.objects->version() : 0;
+}
+
+} // namespace gnomon

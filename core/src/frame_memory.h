@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a planner was told last, so that a frame in which nothing moved costs next to nothing.
+#pragma once
+
+#include <gnomon/frame.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon {
+
+class FrameMemory {
+public:
+    /// Is all that a plan depends on as in the last frame that was noted? But for Frame::time_s, which only suns that
+    /// move in steps go by.
+    [[nodiscard]] bool holds(const Frame& frame) const;
+    void note(const Frame& frame);
+    void forget() { known_ = false; }
+
+private:
+    bool known_ = false;
+    Camera camera_;
+    glm::uvec2 size_px_{0};
+    std::vector<Light> lights_;
+    std::uint64_t objects_ = 0; // ObjectSet::identity()
+    std::uint64_t version_ = 0;
+};
+
+} // namespace gnomon

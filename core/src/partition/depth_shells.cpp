@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partition/depth_shells.h"
+
+#include "auto/map_error.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t kMostShells = 6;
+/// Two shells are one where that needs no more than so many times their texels: each is some passes.
+constexpr double kMergeCost = 1.3;
+/// What is nearer than all but so many of the points has no shell of its own. They may be guesses in a box around the
+/// eye, and so little of the picture may have texels that are too large.
+constexpr double kFewPoints = 0.02;
+/// The shells of the frame before are kept while they need no more than so many times the texels of the best ones.
+constexpr double kKeepCost = 1.6;
+
+int octaveOf(double depth_m)
+{
+    constexpr double kNearest_m = 1e-3;
+    constexpr double kFarthest_m = 1e6;
+    return static_cast<int>(std::floor(std::log2(std::clamp(depth_m, kNearest_m, kFarthest_m))));
+}
+
+Slice sectorOf(const Light& light, std::size_t sector)
+{
+    return light.type == LightType::point ? cubeFace(light, static_cast<int>(sector)) : wholeSlice(light);
+}
+
+} // namespace
+
+double depthOfOctave(int octave)
+{
+    return std::ldexp(1.0, octave);
+}
+
+std::size_t cubeFaceOf(const glm::dvec3& way)
+{
+    const glm::dvec3 a = glm::abs(way);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return static_cast<std::size_t>(2 * axis) + (way[axis] < 0.0 ? 1 : 0);
+}
+
+void ShellCell::add(const ShellCell& other)
+{
+    if (!other.used) {
+        return;
+    }
+    rect.low = used ? glm::min(rect.low, other.rect.low) : other.rect.low;
+    rect.high = used ? glm::max(rect.high, other.rect.high) : other.rect.high;
+    density = std::max(density, other.density);
+    points += other.points;
+    used = true;
+}
+
+double ShellCell::texels() const
+{
+    const glm::dvec2 size = rect.high - rect.low;
+    return used ? size.x * size.y * density * density : 0.0;
+}
+
+void DepthShell::add(const DepthShell& other)
+{
+    octave = std::min(octave, other.octave);
+    end = std::max(end, other.end);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        cells[i].add(other.cells[i]);
+    }
+}
+
+double DepthShell::texels() const
+{
+    double sum = 0.0;
+    for (const ShellCell& cell : cells) {
+        sum += cell.texels();
+    }
+    return sum;
+}
+
+double DepthShells::texelsOf(std::span<const DepthShell> shells)
+{
+    double sum = 0.0;
+    for (const DepthShell& shell : shells) {
+        sum += shell.texels();
+    }
+    return sum;
+}
+
+bool DepthShells::find(const Input& input, std::vector<int>& ends, KeepShells keep)
+{
+    gather(input);
+    shells_ = octaves_;
+    merge();
+    group(ends, kept_);
+    const bool filled = std::ranges::all_of(kept_, [](const DepthShell& shell) { return shell.texels() > 0.0; });
+    const bool suffices = filled && texelsOf(kept_) <= kKeepCost * texelsOf(shells_);
+    if (keep == KeepShells::all || (keep == KeepShells::good_enough && suffices)) {
+        std::swap(kept_, shells_);
+    }
+    ends.clear();
+    for (std::size_t i = 0; i + 1 < shells_.size(); ++i) {
+        ends.push_back(shells_[i].end);
+    }
+    return suffices;
+}
+
+void DepthShells::findAgain(const Input& input, std::span<const int> ends)
+{
+    gather(input);
+    group(ends, shells_);
+}
+
+void DepthShells::join()
+{
+    while (shells_.size() > 1) {
+        shells_[0].add(shells_[1]);
+        shells_.erase(shells_.begin() + 1);
+    }
+}
+
+/// Into shells that end there, whether a point is in them or not.
+void DepthShells::group(std::span<const int> ends, std::vector<DepthShell>& out) const
+{
+    out.assign(ends.size() + 1, {});
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        out[i].end = ends[i];
+        out[i + 1].octave = ends[i];
+    }
+    out.front().octave = ends.empty() ? octaves_.front().octave : std::min(octaves_.front().octave, ends.front() - 1);
+    out.back().end = std::max(octaves_.back().end, out.back().octave + 1);
+    for (const DepthShell& octave : octaves_) {
+        DepthShell& shell = out[static_cast<std::size_t>(std::ranges::upper_bound(ends, octave.octave) - ends.begin())];
+        for (std::size_t i = 0; i < kCubeFaces; ++i) {
+            shell.cells[i].add(octave.cells[i]);
+        }
+    }
+}
+
+void DepthShells::gather(const Input& input)
+{
+    octaves_.clear();
+    const Light& light = input.light;
+    const std::size_t sectors = light.type == LightType::point ? kCubeFaces : 1;
+    std::array<LightSpace, kCubeFaces> spaces;
+    for (std::size_t i = 0; i < sectors; ++i) {
+        const Slice slice = sectorOf(light, i);
+        spaces[i] = lightSpaceOf(light, slice.axis_ws, slice.half_angle_rad, input.camera.scene_ws);
+    }
+    for (const SightPoint& point : input.points) {
+        const std::size_t sector = sectors > 1 ? cubeFaceOf(point.p_ws - light.position_ws) : 0;
+        const std::optional<LitPoint> lit = litPoint(spaces[sector], point);
+        if (!lit || !(lit->facing > 0.0)) {
+            continue;
+        }
+        const int octave = input.camera.perspective ? octaveOf(point.depth_m) : 0;
+        auto shell = std::ranges::lower_bound(octaves_, octave, {}, &DepthShell::octave);
+        if (shell == octaves_.end() || shell->octave != octave) {
+            shell = octaves_.insert(shell, {octave, octave + 1, {}});
+        }
+        const glm::dvec2 half = 0.5 * lit->facing * input.cell_px;
+        shell->cells[sector].add({{lit->q - half, lit->q + half}, 1.0 / lit->facing, 1, true});
+    }
+    if (octaves_.empty()) {
+        octaves_.emplace_back();
+    }
+    joinFewNear();
+}
+
+void DepthShells::joinFewNear()
+{
+    const auto points = [](std::span<const DepthShell> shells) {
+        int sum = 0;
+        for (const DepthShell& shell : shells) {
+            for (const ShellCell& cell : shell.cells) {
+                sum += cell.points;
+            }
+        }
+        return sum;
+    };
+    const double few = kFewPoints * points(octaves_);
+    while (octaves_.size() > 1 && points(std::span(octaves_).first(1)) <= few) {
+        for (ShellCell& cell : octaves_[0].cells) {
+            cell.density = 0.0;
+        }
+        octaves_[1].add(octaves_[0]);
+        octaves_.erase(octaves_.begin());
+    }
+}
+
+void DepthShells::merge()
+{
+    while (shells_.size() > 1) {
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i + 1 < shells_.size(); ++i) {
+            DepthShell both = shells_[i];
+            both.add(shells_[i + 1]);
+            const double cost = both.texels() / (shells_[i].texels() + shells_[i + 1].texels());
+            if (cost < least) {
+                least = cost;
+                best = i;
+            }
+        }
+        if (least > kMergeCost && shells_.size() <= kMostShells) {
+            return;
+        }
+        shells_[best].add(shells_[best + 1]);
+        shells_.erase(shells_.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+    }
+}
+
+} // namespace gnomon

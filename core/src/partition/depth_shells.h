@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a light's receivers is seen at like depths of the camera, and so wants texels of like size.
+#pragma once
+
+#include "auto/sight.h"
+#include "light_space.h"
+#include "partition/partition.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// What some of the points of a light have in common: their rectangle across the light, and how fine it must be.
+struct ShellCell {
+    LightRect rect;
+    double density = 0.0; // pixels a unit of length of the rectangle
+    int points = 0;
+    bool used = false;
+
+    void add(const ShellCell& other);
+    [[nodiscard]] double texels() const;
+};
+
+/// Between two depths of the camera, octaves of metres.
+struct DepthShell {
+    int octave = 0; // begins at 2^octave
+    int end = 0;    // ends at 2^end
+    std::array<ShellCell, kCubeFaces> cells;
+
+    void add(const DepthShell& other);
+    [[nodiscard]] double texels() const;
+};
+
+/// Which of the shells of the frame before are kept.
+enum class KeepShells : std::uint8_t { none, good_enough, all };
+
+/// The shells of one light in one frame, near ones first. Keeps its memory.
+class DepthShells {
+public:
+    struct Input {
+        const Light& light;
+        const CameraView& camera;
+        std::span<const SightPoint> points;
+        glm::dvec2 cell_px; // of the picture, that each of the points stands for
+    };
+
+    /// A shell for each octave of depth that a lit point is in, those as one that cost little more so; one for
+    /// everything where there is no point. `ends` is where all but the last ended in the frame before, octaves, and
+    /// becomes what it is now. Returns whether those of the frame before are good enough.
+    bool find(const Input& input, std::vector<int>& ends, KeepShells keep);
+    /// Those that the ends say.
+    void findAgain(const Input& input, std::span<const int> ends);
+    /// Makes one of them.
+    void join();
+    [[nodiscard]] std::span<const DepthShell> shells() const { return shells_; }
+
+private:
+    void gather(const Input& input);
+    void group(std::span<const int> ends, std::vector<DepthShell>& out) const;
+    void joinFewNear();
+    void merge();
+    static double texelsOf(std::span<const DepthShell> shells);
+
+    std::vector<DepthShell> octaves_;
+    std::vector<DepthShell> shells_;
+    std::vector<DepthShell> kept_;
+};
+
+/// Where 2^octave metres begin.
+[[nodiscard]] double depthOfOctave(int octave);
+/// Which face of a cube around a light a direction leads through: as cubeFace() counts them.
+[[nodiscard]] std::size_t cubeFaceOf(const glm::dvec3& way);
+
+} // namespace gnomon
