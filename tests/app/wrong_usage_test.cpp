@@ -88,7 +88,7 @@ const std::vector<Wrong> kWrong{
     {"NoValue", {"render", "planes", "--filter"}, 2, "--filter needs a value"},
     {"SunAngleWithoutASun", {"render", "spotlit", "--sun-angle", "3"}, 2, "only on a directional light"},
     {"LightSizeWithoutALamp", {"plan", "sundial", "--light-size", "1"}, 2, "only on a spot or point light"},
-    {"MultiThatHoldsStill", {"render", "--partition", "multi", "--motion", "snap"}, 2, "it needs motion free"},
+    {"MultiUnderASteppingSun", {"render", "--partition", "multi", "--motion", "step-jump"}, 2, "it needs motion free or snap"},
     {"TexelsOfMultiElsewhere",
      {"render", "--partition", "cube", "--set", "multi.texels-per-pixel=2"},
      2,
