@@ -84,7 +84,7 @@ struct Planner::Impl {
     std::vector<std::uint32_t> first_tenants; // by light, and one past the last
     std::vector<std::uint32_t> wished_sides;  // by tenant, before they share what room there is
     std::vector<std::uint64_t> wished_texels; // by options
-    std::vector<std::uint64_t> square_texels; // of the squares that hold them
+    std::vector<double> square_areas;         // of the squares that hold them
     LightShares light_shares;
     TexelShares texel_shares;
     std::vector<TexelClaim> claims;

@@ -9,22 +9,43 @@
 #include <bit>
 
 namespace gnomon {
+namespace {
+
+/// Side of a page in what squares are measured by, whatever its texels: halved it is a whole number still.
+constexpr std::uint32_t kPageSide = 1U << 15U;
+
+std::uint32_t squareSide(const PageSquares& squares, std::uint32_t map_side)
+{
+    return kPageSide >> squares.levelOf(map_side);
+}
+
+double squareArea(const PageSquares& squares, const MapWish& wish)
+{
+    const double side = squareSide(squares, wish.side);
+    return side * side * wish.squares();
+}
+
+double areaOf(const PageSquares& squares)
+{
+    return static_cast<double>(kPageSide) * kPageSide * squares.mostPages();
+}
+
+} // namespace
 
 void Planner::Impl::shareRoom(const Frame& frame)
 {
     wished_sides.clear();
     wished_texels.assign(setups.size(), 0);
-    square_texels.assign(setups.size(), 0);
+    square_areas.assign(setups.size(), 0.0);
     for (const MapWish& wish : wishes) {
         wished_sides.push_back(wish.side);
         if (wish.count > 0) {
-            const std::uint64_t square = store.squareSide(wish);
             wished_texels[wish.options] += std::uint64_t{wish.side} * wish.side * wish.squares();
-            square_texels[wish.options] += square * square * wish.squares();
+            square_areas[wish.options] += squareArea(store.squaresOf(wish.options), wish);
         }
     }
     for (std::uint32_t options = 0; options < setups.size(); ++options) {
-        if (square_texels[options] > store.mostTexels(options)) {
+        if (square_areas[options] > areaOf(store.squaresOf(options))) {
             shrinkWishes(frame, options);
         }
     }
@@ -47,7 +68,7 @@ void Planner::Impl::shrinkWishes(const Frame& frame, std::uint32_t options)
             claimFor(light);
         }
     }
-    texel_shares.share(claims, static_cast<double>(store.mostTexels(options)));
+    texel_shares.share(claims, areaOf(store.squaresOf(options)));
     for (std::size_t i = 0; i < claims.size(); ++i) {
         MapWish& wish = wishes[claimants[i]];
         wish.side = std::max(wish.side / (claims[i].largest / claims[i].side), 1U);
@@ -72,10 +93,13 @@ void Planner::Impl::claimFor(std::uint32_t light)
         claimants.push_back(tenant);
         claim.weight = part * light_shares.shareOf(light);
         claim.maps = wish.squares();
-        claim.largest = store.squareSide(wish); // squares are what there is to share
+        const PageSquares& squares = store.squaresOf(wish.options);
+        claim.largest = squareSide(squares, wish.side);
+        claim.smallest = squareSide(squares, std::min(kSmallestMap, wish.side));
         claim.wanted = claim.largest;
         const MapWish& before = store.wishBefore(tenant);
-        claim.before = before.options == wish.options && before.count == wish.count ? before.side : 0;
+        claim.before =
+            before.options == wish.options && before.count == wish.count ? squareSide(squares, before.side) : 0;
     }
 }
 

@@ -77,21 +77,30 @@ TEST(LightRoom, IsWhatEachAskedForWhileThereIsEnough)
 TEST(LightRoom, HasNoLightWithoutAShadow)
 {
     for (const Partition partition : {Partition::cube, Partition::multi}) {
-        for (const std::uint64_t budget : {4U << 20U, 1U << 20U, 1U << 18U}) {
+        // Pages of all sides, and squares that come and go.
+        for (const std::uint64_t budget : {4U << 20U, 1700000U, 1U << 20U, 430001U, 1U << 18U}) {
             Street street(64);
+            street.options.map_size.reset();
+            street.options.max_texels = 6U << 16U;
             street.options.technique.partition = partition;
             street.options.budget_texels = budget;
             Planner planner(street.options);
-            for (int frame = 0; frame < 3; ++frame) {
+            int shadows = 0;
+            for (int frame = 0; frame < 40; ++frame) {
+                street.frame.camera =
+                    test::perspectiveCamera({0, 2, 42 - 1.5 * frame}, {0, 1, 42 - 1.5 * frame - 42}, 0.8);
+                street.lights[7 * frame % 64].range_m = frame % 3 == 0 ? 0.5 : 9.0;
                 const Plan& plan = street.plan(planner);
                 for (const LightPlan& light : plan.lights) {
-                    EXPECT_EQ(light.outcome.kind, OutcomeKind::ok) << light.outcome.reason;
-                    EXPECT_GT(light.view_count, 0U);
+                    ASSERT_NE(light.outcome.kind, OutcomeKind::atlas_full) << frame << ", budget " << budget;
+                    EXPECT_EQ(light.outcome.hasMap(), light.view_count > 0);
+                    shadows += light.view_count > 0 ? 1 : 0;
                 }
                 EXPECT_LE(plan.pages[0].given_texels, budget);
                 EXPECT_LE(texelsOf(plan), budget);
                 EXPECT_LE(std::uint64_t{plan.pages[0].width} * plan.pages[0].height * plan.pages[0].layers, budget);
             }
+            EXPECT_GT(shadows, 1000);
         }
     }
 }

@@ -220,6 +220,49 @@ TEST(Multi, DrawsNothingForLampsThatStandStill)
     }
 }
 
+// One walker among 64 lamps: the maps that it is or was in are drawn, and with a kept copy no more of them than where
+// it is or was.
+TEST(Multi, DrawsOnlyWhatAMoverTouches)
+{
+    for (const Partition partition : {Partition::cube, Partition::multi}) {
+        Hall hall;
+        for (int i = 0; i < 64; ++i) {
+            hall.addLamp({-14.0 + 4.0 * (i % 8), 2.5, -14.0 + 4.0 * (i / 8)}, 8.0);
+        }
+        const ObjectId walker = hall.set.add(test::boxAt({3, 0.9, 3}, {0.3, 0.9, 0.3}), {true, true, true});
+        hall.options.technique.partition = partition;
+        hall.options.max_texels = 65536;
+        hall.options.keep_still = KeepStill::always;
+        hall.look({25, 12, 25}, {0, 0, 0});
+        Planner planner(hall.options);
+        std::vector<MapId> touched;
+        std::uint64_t all = 0;
+        std::uint64_t drawn = 0;
+        for (int step = 0; step < 20; ++step) {
+            ASSERT_TRUE(hall.set.update(walker, test::boxAt({3 + 0.05 * step, 0.9, 3}, {0.3, 0.9, 0.3})));
+            const Plan& plan = planner.plan(hall.frame);
+            std::vector<MapId> now;
+            for (const View& view : plan.views) {
+                const auto first = plan.casters.begin() + view.first_caster;
+                const bool holds =
+                    std::find(first, first + view.caster_count, walker.index) != first + view.caster_count;
+                if (holds) {
+                    now.push_back(view.map);
+                }
+                if (step > 1) {
+                    const bool held = std::ranges::find(touched, view.map) != touched.end();
+                    EXPECT_TRUE(!view.redraw || holds || held);
+                    all += std::uint64_t{view.tile.width} * view.tile.height;
+                    drawn += view.redraw ? std::uint64_t{view.dirty.width} * view.dirty.height : 0;
+                }
+            }
+            touched = now;
+        }
+        EXPECT_GT(drawn, 0U);
+        EXPECT_LT(drawn, all / 40) << nameOf(partition);
+    }
+}
+
 // Sides of maps and shells stay while little changes: each change is a map drawn in other texels.
 TEST(Multi, ChangesLittleWhereLittleMoves)
 {

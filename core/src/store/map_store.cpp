@@ -41,12 +41,6 @@ void MapStore::follow(const ObjectSet& objects, std::span<const std::uint64_t> k
     }
 }
 
-std::uint64_t MapStore::mostTexels(std::uint32_t options) const
-{
-    const PageSquares& pages = pages_[options].maps;
-    return std::uint64_t{pages.side()} * pages.side() * pages.mostPages();
-}
-
 void MapStore::furnish(std::span<const MapWish> wishes)
 {
     for (std::size_t light = 0; light < wishes.size(); ++light) {

@@ -56,14 +56,8 @@ public:
     void follow(const ObjectSet& objects, std::span<const std::uint64_t> keys);
     /// What a light wanted in the frame before; after follow().
     [[nodiscard]] const MapWish& wishBefore(std::size_t light) const { return rooms_[rows_.rowOf(light)].wish; }
-    /// Side of the square that holds a map of a wish.
-    [[nodiscard]] std::uint32_t squareSide(const MapWish& wish) const
-    {
-        const PageSquares& pages = pages_[wish.options].maps;
-        return pages.side() >> pages.levelOf(wish.side);
-    }
-    /// That all pages would have.
-    [[nodiscard]] std::uint64_t mostTexels(std::uint32_t options) const;
+    /// Squares are what there is to share: a page is a whole one and has 4^level of a level.
+    [[nodiscard]] const PageSquares& squaresOf(std::uint32_t options) const { return pages_[options].maps; }
     /// What each wants. Where the squares that are left are too small, maps are smaller than is wanted, down to
     /// kSmallestMap.
     void furnish(std::span<const MapWish> wishes);

@@ -43,7 +43,7 @@ void TexelShares::share(std::span<TexelClaim> claims, double texels)
     for (std::uint32_t i = 0; i < claims.size(); ++i) {
         TexelClaim& claim = claims[i];
         claim.side = claim.largest;
-        while (claim.side >= 2 * kSmallestMap) {
+        while (claim.side >= 2 * claim.smallest) {
             claim.side /= 2;
         }
         texels -= costOf(claim) / 3.0;
