@@ -77,11 +77,11 @@ GN_FN real2 joined(real2 a, real2 b)
     return real2(min(a.x, b.x), max(a.y, b.y));
 }
 
-GN_FN RayRegion regionAround(RayCone cone, FilterInput f, real within, real nearest)
+GN_FN RayRegion regionAround(RayCone cone, FilterInput f, real within, real nearest, real end)
 {
     RayRegion r;
     real pad = real(0.5) * within + real(0.01);
-    r.texels = coneTexels(cone, coneReach(cone, nearest)) + real4(-pad, -pad, pad, pad);
+    r.texels = coneTexels(cone, coneReach(cone, nearest, end)) + real4(-pad, -pad, pad, pad);
     r.texels = real4(max(f.tile.x, r.texels.x), max(f.tile.y, r.texels.y), min(f.tile.z - real(0.01), r.texels.z),
                      min(f.tile.w - real(0.01), r.texels.w));
     real side = max(real(2.0), max(r.texels.z - r.texels.x, r.texels.w - r.texels.y));
@@ -131,16 +131,16 @@ struct Surroundings {
     real4 texels;    // where it may be, as RayRegion has it
 };
 
-// Rays start within a square of `within` texels around the receiver, on its plane.
-GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone, real within)
+// Rays start within a square of `within` texels around the receiver, on its plane. `end`: kRayEnd or kDiscEnd.
+GN_FN Surroundings lookAround(MapPoint point, FilterInput f, RayCone cone, real within, real end)
 {
     // The nearest surface bounds how far rays have to go, and so where they may lead, and so what surfaces there are.
-    RayRegion region = regionAround(cone, f, within, real(0.0));
+    RayRegion region = regionAround(cone, f, within, real(0.0), end);
     int left = kNarrowings;
     real before = real(0.0);
     do {
         before = region.nearest;
-        region = regionAround(cone, f, within, before);
+        region = regionAround(cone, f, within, before, end);
         --left;
     } while (left > 0 && region.nearest > before && region.nearest < point.depth);
     Surroundings around;

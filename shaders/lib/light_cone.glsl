@@ -54,15 +54,18 @@ GN_FN RayCone rayCone(MapPoint point, FilterInput f)
 
 // Before rays have come to a lamp their places on its map go to infinity. They are followed until w, the distance
 // along the lamp's axis, is this share of what it is at the receiver.
-GN_CONST real kRayEnd = real(0.05);
+GN_CONST real kRayEnd = real(0.008);
+// A filter that looks all over the cone's disc, and does not follow rays, ends sooner: the few taps of a wider disc miss
+// what is small.
+GN_CONST real kDiscEnd = real(0.05);
 
 // A ray's length in which the metric falls by `fall`, `rise` being what it falls over a length of 1; `w` and `w_way`: at
-// its beginning, and what it gains over a length of 1.
-GN_FN real rayLength(real fall, real rise, real w, real w_way)
+// its beginning, and what it gains over a length of 1. `end`: kRayEnd or kDiscEnd.
+GN_FN real rayLength(real fall, real rise, real w, real w_way, real end)
 {
     real s = max(fall, real(0.0)) / max(rise, real(1e-30));
 #ifndef GNOMON_ORTHOGRAPHIC_ONLY
-    s = min(s, (real(1.0) - kRayEnd) * w / max(-w_way, real(1e-30)));
+    s = min(s, (real(1.0) - end) * w / max(-w_way, real(1e-30)));
 #endif
     return s;
 }
@@ -71,10 +74,10 @@ GN_FN real rayLength(real fall, real rise, real w, real w_way)
 GN_CONST real kRayBeyond = real(1.001);
 
 // How far along the cone all of it is at least as near to the light as a depth.
-GN_FN real coneReach(RayCone c, real depth)
+GN_FN real coneReach(RayCone c, real depth, real end)
 {
     real slowest = max(c.rise - abs(c.rise_x) - abs(c.rise_y), real(0.25) * c.rise);
-    return rayLength(kRayBeyond * (c.metric - depth), slowest, c.start.z, c.axis.z);
+    return rayLength(kRayBeyond * (c.metric - depth), slowest, c.start.z, c.axis.z, end);
 }
 
 // Where the cone's cross-section at `s` has its point `at`, on the map.

@@ -56,7 +56,7 @@ GN_FN real coneWidth(RayCone cone, MapPoint point, real s)
 // How far along the cone the mean occluder is; 0: there is none.
 GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCone cone, ConeNoise noise)
 {
-    real widest = coneReach(cone, real(0.0));
+    real widest = coneReach(cone, real(0.0), kDiscEnd);
     real widest_texels = coneWidth(cone, point, widest);
     real sum = real(0.0);
     real found = real(0.0);
@@ -69,7 +69,7 @@ GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCo
         Occluders o = tapOccluders(filter_number, q, f);
         real depth = max(min(q.depth, real(1.0)) - o.height, real(0.0)); // nothing is drawn before 0
         real height = point.depth - depth;
-        real here = coneWidth(cone, point, coneReach(cone, depth));
+        real here = coneWidth(cone, point, coneReach(cone, depth, kDiscEnd));
         bool counts = length(at) * widest_texels <= here * real(1.25) + kTapReach;
         counts = counts && height > kLeastHeight * point.texel_depth;
         // By the share of the light that a tap stands for: its ring's area, which grows with the third power, over that
@@ -80,7 +80,7 @@ GN_FN real occluderReach(int filter_number, MapPoint point, FilterInput f, RayCo
         found += share;
         ++i;
     } while (i < kMomentSearchTaps);
-    return found > real(0.0) ? coneReach(cone, point.depth - sum / found) : real(0.0);
+    return found > real(0.0) ? coneReach(cone, point.depth - sum / found, kDiscEnd) : real(0.0);
 }
 
 // vsm or msm: one tap, or with penumbra light a disc of them. One loop for both, so that a tap is compiled once.

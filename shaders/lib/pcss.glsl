@@ -26,7 +26,7 @@ GN_FN bool tapBlocks(MapPoint point, FilterInput f, real2 texel, GN_OUT(real) st
 // Mean depth of what may block, of which nothing is nearer than `nearest`; the receiver's own: there is nothing.
 GN_FN real meanBlocker(MapPoint point, FilterInput f, RayCone cone, ConeNoise noise, real nearest)
 {
-    real widest = coneReach(cone, nearest);
+    real widest = coneReach(cone, nearest, kDiscEnd);
     real sum = real(0.0);
     real found = real(0.0);
     int i = 0;
@@ -35,7 +35,7 @@ GN_FN real meanBlocker(MapPoint point, FilterInput f, RayCone cone, ConeNoise no
         real stored = real(1.0);
         bool blocks = tapBlocks(point, f, coneTexel(cone, widest, at) + pointOfTexel(noise, i), stored);
         // At its depth the cone is narrower. A little wider counts, for texels are not points.
-        real here = coneReach(cone, stored) * real(1.25);
+        real here = coneReach(cone, stored, kDiscEnd) * real(1.25);
         blocks = blocks && length(at) * widest <= max(here, real(0.1) * widest);
         sum += blocks ? stored : real(0.0);
         found += blocks ? real(1.0) : real(0.0);
@@ -47,13 +47,13 @@ GN_FN real meanBlocker(MapPoint point, FilterInput f, RayCone cone, ConeNoise no
 GN_FN real filterPcss(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
-    Surroundings around = lookAround(point, f, cone, real(1.0));
+    Surroundings around = lookAround(point, f, cone, real(1.0), kDiscEnd);
     if (around.visibility >= real(0.0)) {
         return around.visibility;
     }
     ConeNoise noise = coneNoise(f.pixel);
     real blocker = meanBlocker(point, f, cone, noise, around.nearest);
-    real s = coneReach(cone, blocker);
+    real s = coneReach(cone, blocker, kDiscEnd);
     real lit = real(0.0);
     int i = 0;
     do {

@@ -88,7 +88,7 @@ GN_FN LightRay lightRay(MapPoint point, RayCone cone, real nearest, real2 offset
     LightRay ray;
     ray.from = (point.depth + dot(point.depth_slope, offset)) / w;
     ray.start = real3(point.texel.x + offset.x, point.texel.y + offset.y, real(1.0)) * (cone.start.z / w);
-    real s = rayLength(kRayBeyond * (ray.from - nearest), max(rise, real(0.05) * cone.rise), ray.start.z, way.z);
+    real s = rayLength(kRayBeyond * (ray.from - nearest), max(rise, real(0.05) * cone.rise), ray.start.z, way.z, kRayEnd);
     ray.end = ray.start + way * s;
     ray.to = ray.from - rise * s;
     ray.faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
@@ -342,7 +342,7 @@ GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real neare
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
-    Surroundings around = lookAround(point, f, cone, kStartsWithin);
+    Surroundings around = lookAround(point, f, cone, kStartsWithin, kRayEnd);
     if (around.visibility >= real(0.0)) {
         return GNOMON_SHOWS_RAYS ? kShowsDecided : around.visibility;
     }

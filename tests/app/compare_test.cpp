@@ -116,6 +116,21 @@ TEST(Compare, JsonHasWhatScriptsRelyOn)
     EXPECT_LE(result["results"][0]["error"]["rmse"], result["results"][1]["error"]["rmse"]);
 }
 
+// Bars of a cage that are a hundredth of the way from the lamp to what it shines on: their penumbra is all of the
+// picture, and rays that ended a twentieth before the lamp missed them.
+TEST(Compare, RaysFindWhatIsRightBeforeTheLamp)
+{
+    const Place place;
+    const test::Ran ran = place.run(compareOf("ring", {"--camera", "deck", "--light", "caged 20", "--samples", "32",
+                                                       "--techniques", "raymarch+cube,pcss+cube", "--json"}));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json results = json::parse(ran.out)["results"];
+    ASSERT_EQ(results.size(), 2U);
+    EXPECT_EQ(results[0]["choices"]["filter"], "raymarch");
+    EXPECT_LT(results[0]["error"]["rmse"].get<double>(), 0.16); // 0.37 before; pcss 0.154
+    EXPECT_LT(std::abs(results[0]["error"]["bias"].get<double>()), 0.02);
+}
+
 TEST(Compare, ItsOwnSettingsRepeatIt)
 {
     const Place place;

@@ -289,7 +289,7 @@ TEST(Raymarch, BlocksOnlySaveWork)
         for (int i = 0; i < 100; ++i) {
             const auto [point, f] = stage.receiver({3.0 * uniform(rng) - 1.5, uniform(rng), 0.0}, pixelOf(i));
             const RayCone cone = rayCone(point, f);
-            const double v = lookAround(point, f, cone, kStartsWithin).visibility;
+            const double v = lookAround(point, f, cone, kStartsWithin, kRayEnd).visibility;
             if (v >= 0.0) {
                 EXPECT_NEAR(traceRays(point, f, cone, 0.0, 64, 64, startSquare(1.0)).lit, v, 0.08)
                     << round << ", " << i;

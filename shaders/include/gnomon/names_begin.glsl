@@ -132,6 +132,7 @@
 #define kDepthBytes gnomon_kDepthBytes
 #define kDepthChannel gnomon_kDepthChannel
 #define kDepthLayers gnomon_kDepthLayers
+#define kDiscEnd gnomon_kDiscEnd
 #define kDiscPoints gnomon_kDiscPoints
 #define kEdgeFrom gnomon_kEdgeFrom
 #define kEdgeOn gnomon_kEdgeOn

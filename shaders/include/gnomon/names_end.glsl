@@ -132,6 +132,7 @@
 #undef kDepthBytes
 #undef kDepthChannel
 #undef kDepthLayers
+#undef kDiscEnd
 #undef kDiscPoints
 #undef kEdgeFrom
 #undef kEdgeOn
