@@ -7,6 +7,17 @@
 #include <cmath>
 
 namespace gnomon {
+namespace {
+
+bool isInView(const Light& light, const LightExtent& extent, const CameraView& camera)
+{
+    const glm::vec3 reach(static_cast<float>(extent.reach_m));
+    const glm::vec3 place(light.position_ws);
+    return light.type == LightType::directional ||
+           classify(camera.planes, {place - reach, place + reach}) != Containment::outside;
+}
+
+} // namespace
 
 double arrivesAt(const Light& light, const LightExtent& extent, const glm::dvec3& p_ws)
 {
@@ -25,18 +36,6 @@ double arrivesAt(const Light& light, const LightExtent& extent, const glm::dvec3
     return light.brightness / std::max(square, extent.near_m * extent.near_m);
 }
 
-namespace {
-
-bool isInView(const Light& light, const LightExtent& extent, const CameraView& camera)
-{
-    const glm::vec3 reach(static_cast<float>(extent.reach_m));
-    const glm::vec3 place(light.position_ws);
-    return light.type == LightType::directional ||
-           classify(camera.planes, {place - reach, place + reach}) != Containment::outside;
-}
-
-} // namespace
-
 void LightShares::find(std::span<const Light> lights, const CameraView& camera, std::span<const SightPoint> points)
 {
     constexpr double kLeastInView = 0.05; // of one of some hundred points
@@ -53,7 +52,8 @@ void LightShares::find(std::span<const Light> lights, const CameraView& camera, 
                 if (sums) {
                     all_[i] += here;
                 } else if (here > 0.0) {
-                    shares_[light] += std::min(here / all_[i], 1.0);
+                    const double part = here / all_[i];
+                    shares_[light] += part < 1.0 ? part : 1.0; // all of it where both are without end
                 }
             }
             if (!sums && shares_[light] < kLeastInView && isInView(lights[light], extent, camera)) {

@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 namespace gnomon {
@@ -119,6 +122,21 @@ TEST(LightRoom, GoesToWhatThePictureShows)
     const std::uint32_t before = sideOf(plan, 8);
     street.lights[8].brightness = 100.0;
     EXPECT_GT(sideOf(street.plan(planner), 8), before) << "and of two, the brighter one";
+}
+
+TEST(LightRoom, IsSharedWhateverBrightnessSays)
+{
+    Street street(16);
+    street.options.budget_texels = 1 << 19;
+    const double numbers[]{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -1.0, 0.0,
+                           1e308};
+    for (std::size_t i = 0; i < street.lights.size(); ++i) {
+        street.lights[i].brightness = numbers[i % std::size(numbers)];
+    }
+    Planner planner(street.options);
+    for (const LightPlan& light : street.plan(planner).lights) {
+        EXPECT_EQ(light.outcome.kind, OutcomeKind::ok);
+    }
 }
 
 TEST(LightRoom, IsFoundAgainWhenOthersGo)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Partition multi: which frustums a light has, how large their maps are, and what stays from frame to frame.
 #include "allocation_count.h"
-#include "worlds.h"
+#include "hall.h"
 
 #include <gnomon/planner.h>
 
@@ -14,44 +14,7 @@
 namespace gnomon {
 namespace {
 
-/// A floor of tiles, 40 m on a side, with posts on it.
-struct Hall {
-    ObjectSet set;
-    std::vector<Light> lights;
-    Frame frame;
-    ShadowOptions options{.technique = kPlainTechnique};
-
-    Hall()
-    {
-        for (int z = -20; z < 20; z += 2) {
-            for (int x = -20; x < 20; x += 2) {
-                set.add({{x, -0.1F, z}, {x + 2, 0.0F, z + 2}});
-            }
-        }
-        for (int z = -18; z <= 18; z += 6) {
-            for (int x = -18; x <= 18; x += 6) {
-                set.add(test::boxAt({x, 1.0, z}, {0.2, 1.0, 0.2}));
-            }
-        }
-        options.technique.partition = Partition::multi;
-        frame.objects = &set;
-        frame.size_px = {640, 400};
-    }
-    void addLamp(const glm::dvec3& at, double range_m)
-    {
-        Light lamp;
-        lamp.type = LightType::point;
-        lamp.position_ws = at;
-        lamp.range_m = range_m;
-        lamp.key = static_cast<std::uint32_t>(lights.size());
-        lights.push_back(lamp);
-        frame.lights = lights;
-    }
-    void look(const glm::dvec3& eye, const glm::dvec3& target)
-    {
-        frame.camera = test::perspectiveCamera(eye, target, 0.8);
-    }
-};
+using test::Hall;
 
 std::uint64_t texelsOf(const Plan& plan)
 {
@@ -125,7 +88,6 @@ TEST(Multi, GivesEachPartTheTexelsThatItsPixelsWant)
     EXPECT_GT(finest, 0.03);
 }
 
-// Nobody can shape one frustum for both: the near half of the picture is the far half of what the lamp shines on.
 /// How wide a texel is at a point of the floor below the lamp, in pixels.
 double texelBelow(Hall& hall)
 {
@@ -161,6 +123,7 @@ TEST(Multi, SeesTheWallsOfARoomThatIsOneBox)
     EXPECT_LT(texelInPixels(hall, *view, wall), 1.5);
 }
 
+// Nobody can shape one frustum for both: the near half of the picture is the far half of what the lamp shines on.
 TEST(Multi, DividesWhatIsSeenAgainstTheLight)
 {
     Hall hall;
@@ -316,161 +279,6 @@ TEST(Multi, HoldsWhatIsSeenFromEachPointOfALampThatConverges)
             EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w) << number << ", " << z;
         }
     }
-}
-
-/// Where a point is on a view's map, texels.
-glm::dvec2 texelOf(const View& view, const glm::dvec3& p)
-{
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
-    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(view.tile.width);
-}
-
-bool isOnMap(const View& view, const glm::dvec3& p)
-{
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
-    return clip.w > 0.0 && std::max(std::abs(clip.x), std::abs(clip.y)) <= clip.w;
-}
-
-/// A walk towards the lamp, along it and around a corner, in which shells come and go.
-glm::dvec3 onTheWay(int step)
-{
-    const double t = step / 240.0;
-    return {1.0 + 6.0 * t * t, 1.7, 18.0 - 26.0 * t};
-}
-
-/// Of one frustum: its directions, its shell and its texels.
-struct FrustumName {
-    glm::dvec4 sector;
-    double begin_m;
-    double end_m;
-    double texel_m;
-    bool operator==(const FrustumName&) const = default;
-};
-
-FrustumName nameOf(const View& view)
-{
-    return {view.sector.w, view.slice.begin_m, view.slice.end_m, view.texel_m};
-}
-
-TEST(MultiSnap, HoldsTexelsWhereTheyAre)
-{
-    for (const LightType type : {LightType::point, LightType::spot, LightType::directional}) {
-        Hall hall;
-        hall.addLamp({0, 3, -14}, 40.0);
-        hall.lights[0].type = type;
-        hall.lights[0].direction_ws = glm::normalize(glm::dvec3(0.1, -1.0, 0.5));
-        hall.lights[0].outer_half_angle_rad = 1.0;
-        hall.frame.lights = hall.lights;
-        hall.options.technique.motion = Motion::snap;
-        Planner planner(hall.options);
-        std::vector<std::pair<FrustumName, glm::dvec2>> known;
-        int compared = 0;
-        int pans = 0;
-        for (int step = 0; step < 240; ++step) {
-            hall.look(onTheWay(step), {0, 1, -14});
-            for (const View& view : planner.plan(hall.frame).views) {
-                // Where the middle of its texels is, in texels: another place only by whole ones.
-                const glm::dvec2 at = texelOf(view, {0.3, -0.05, -9.0});
-                const auto same = std::ranges::find(known, nameOf(view), &std::pair<FrustumName, glm::dvec2>::first);
-                if (same == known.end()) {
-                    known.emplace_back(nameOf(view), at);
-                    continue;
-                }
-                ++compared;
-                const glm::dvec2 gone = at - same->second;
-                pans += glm::length(gone) > 0.5 ? 1 : 0;
-                ASSERT_LT(glm::length(gone - glm::round(gone)), 1e-4) << step;
-            }
-        }
-        EXPECT_GT(compared, 400);
-        EXPECT_GT(pans, type == LightType::spot ? 0 : 100);
-        EXPECT_LT(known.size(), 80U) << "hardly ever other texels";
-    }
-}
-
-// What another frustum serves from now on fades over, and every place that is seen is on a map all the while.
-TEST(MultiSnap, FadesWhatItHasToChange)
-{
-    Hall hall;
-    hall.addLamp({0, 3, -14}, 40.0);
-    hall.options.technique.motion = Motion::snap;
-    hall.options.multi.fade_frames = 6;
-    Planner planner(hall.options);
-    int fading_frames = 0;
-    int came_at_once = 0;
-    std::vector<FrustumName> before;
-    for (int step = 0; step < 240; ++step) {
-        hall.look(onTheWay(step), {0, 1, -14});
-        const Plan& plan = planner.plan(hall.frame);
-        ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
-        bool fades = false;
-        std::vector<FrustumName> now;
-        for (const View& view : plan.views) {
-            ASSERT_GT(view.faded_in, 0.0);
-            ASSERT_LE(view.faded_in, 1.0);
-            fades = fades || view.faded_in < 1.0;
-            now.push_back(nameOf(view));
-            came_at_once +=
-                view.faded_in == 1.0 && step > 0 && std::ranges::find(before, now.back()) == before.end() ? 1 : 0;
-        }
-        fading_frames += fades ? 1 : 0;
-        before = now;
-        for (double z = hall.frame.camera.eye_ws.z - 4.0; z > -18.0; z -= 0.7) {
-            const glm::dvec3 p(0.2 * z, 0.0, z);
-            const glm::dvec4 seen = hall.frame.camera.clip_from_world * glm::dvec4(p, 1.0);
-            if (std::max(std::abs(seen.x), std::abs(seen.y)) > 0.99 * seen.w) {
-                continue;
-            }
-            // The share of what no map has.
-            double missing = 1.0;
-            for (const View& view : plan.views) {
-                if (view.slice.holds(p) && view.sector.holds(p) && isOnMap(view, p)) {
-                    const double depth_m = glm::dot(view.slice.axis, glm::dvec4(p, 1.0));
-                    missing *= missing == 1.0 ? 0.0 : 1.0 - view.shareAt(depth_m);
-                }
-            }
-            ASSERT_LT(missing, 1e-9) << step << ": " << z;
-        }
-    }
-    EXPECT_GT(fading_frames, 12);
-    EXPECT_LT(fading_frames, 160);
-    EXPECT_LT(came_at_once, 20) << "where nothing was before";
-}
-
-TEST(MultiSnap, TakesNothingFromTheHeapAndDrawsNothingAtRest)
-{
-    Hall hall;
-    for (int i = 0; i < 16; ++i) {
-        hall.addLamp({-14.0 + 8.0 * (i % 4), 2.5, -14.0 + 8.0 * (i / 4)}, 8.0);
-    }
-    hall.options.technique.motion = Motion::snap;
-    Planner planner(hall.options);
-    for (int step = 0; step < 60; ++step) {
-        hall.look(onTheWay(step), {0, 1, -14});
-        (void)planner.plan(hall.frame);
-    }
-    for (int rest = 0; rest < 40; ++rest) { // all fades are over
-        (void)planner.plan(hall.frame);
-    }
-    const std::uint64_t before = test::heapAllocations();
-    const Plan& plan = planner.plan(hall.frame);
-    EXPECT_EQ(test::heapAllocations(), before);
-    EXPECT_TRUE(std::ranges::none_of(plan.views, &View::redraw));
-    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.faded_in == 1.0; }));
-}
-
-TEST(MultiSnap, BeginsAnewAtACut)
-{
-    Hall hall;
-    hall.addLamp({0, 3, -14}, 40.0);
-    hall.options.technique.motion = Motion::snap;
-    Planner planner(hall.options);
-    hall.look(onTheWay(0), {0, 1, -14});
-    (void)planner.plan(hall.frame);
-    hall.look(onTheWay(220), {0, 1, -14});
-    hall.frame.cut = true;
-    const Plan& plan = planner.plan(hall.frame);
-    EXPECT_TRUE(std::ranges::all_of(plan.views, [](const View& view) { return view.faded_in == 1.0; }));
 }
 
 TEST(Multi, GoesWithSpotsAndSuns)

@@ -49,7 +49,8 @@ int stepFor(double size, double texels)
 {
     constexpr double kLeast = 1e-30;
     constexpr double kMost = 1e30;
-    return static_cast<int>(std::ceil(4.0 * std::log2(std::clamp(size / texels, kLeast, kMost))));
+    const double texel = std::min(std::max(kLeast, size / texels), kMost); // and what is no number is the least
+    return static_cast<int>(std::ceil(4.0 * std::log2(texel)));
 }
 
 void HeldFrustums::cut()

@@ -26,11 +26,12 @@ struct HeldFrustum {
     FrustumPart part;
     int step = 0;           // its texels have a side of 2^(step / 4), as LightRect has it
     std::uint32_t side = 0; // of its map, texels
+    double sum = 0.0;       // FacingTexels::sum_px: what its map is worth where room is scarce
     bool came = false;      // in place of others, which fade over into it
 };
 
 [[nodiscard]] double texelOfStep(int step);
-/// The smallest map of so many texels (border left out) that shows `size`, with a little room to move.
+/// The finest step of which so many texels show `size`.
 [[nodiscard]] int stepFor(double size, double texels);
 
 /// Of one light.

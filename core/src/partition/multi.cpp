@@ -315,7 +315,7 @@ void MultiPartition::hold(const Input& input, HeldFrustums& held, std::size_t fi
         // A texel less: that much the map may be off its place.
         const double texels = frustum.side - 2.0 * input.recipe.resolved.borderOf(frustum.side) - 1.0;
         const int step = held.stepOf(frustum.part, frustum.size, texels);
-        found_.push_back({frustum.part, step, frustum.side, false});
+        found_.push_back({frustum.part, step, frustum.side, frustum.sum, false});
     }
     held.take(found_, input.recipe.options.multi.fade_frames);
     const double faded_in = held.fadedIn(input.recipe.options.multi.fade_frames);
@@ -345,6 +345,7 @@ void MultiPartition::addFading(const Input& input, const HeldFrustums& held)
             GrownFrustum& frustum = frustums_.back();
             frustum.id = idOf(one);
             frustum.side = one.side;
+            frustum.sum = one.sum;
             frustum.slice.texel = texelOfStep(one.step);
             frustum.fades_out = true;
         }

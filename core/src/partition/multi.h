@@ -49,7 +49,8 @@ public:
     void follow(std::span<const Light> lights);
     /// Finds a light's frustums.
     void divide(const Input& input, std::size_t light, FrustumPlanner& frustums);
-    /// Near ones first; of one depth, by direction. Holds until the next divide().
+    /// In the order in which they fade over into each other: near ones first, what fades out before what comes in its
+    /// place, then by direction. Holds until the next divide().
     [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
     /// Of the receivers that were given, those that a frustum may serve.
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(const GrownFrustum& frustum) const

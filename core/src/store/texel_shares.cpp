@@ -32,7 +32,7 @@ void TexelShares::enter(std::span<const TexelClaim> claims, std::uint32_t claim)
         return;
     }
     constexpr double kLeastWeight = 1e-30;
-    const double gain = std::max(one.weight, kLeastWeight) * (had ? one.staying : 1.0) / (one.side * costOf(one));
+    const double gain = std::max(kLeastWeight, one.weight) * (had ? one.staying : 1.0) / (one.side * costOf(one));
     turns_.emplace_back(gain, claim);
     std::ranges::push_heap(turns_, comesLater);
 }
