@@ -59,7 +59,8 @@ public:
     {
         const auto pixel = [](double ndc, std::uint32_t size, double more) {
             const double at = (0.5 * ndc + 0.5) * size + more;
-            return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size)));
+            // Of a camera that is no number, nothing.
+            return at > 0.0 ? static_cast<std::uint32_t>(std::min(at, static_cast<double>(size))) : 0U;
         };
         if (low_.x > high_.x) {
             return {};
@@ -112,9 +113,10 @@ bool isFinite(const glm::dvec3& v)
 ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const Camera& camera, glm::uvec2 size_px)
 {
     const double reach_m = extent.reach_m;
-    const bool bounded = light.type != LightType::directional && isFinite(light.position_ws) &&
-                         isFinite(light.direction_ws) && std::isfinite(reach_m) &&
-                         (light.type == LightType::point || light.outer_half_angle_rad < 1.5);
+    const bool bounded =
+        light.type != LightType::directional && isFinite(light.position_ws) && isFinite(light.direction_ws) &&
+        std::isfinite(reach_m) &&
+        (light.type == LightType::point || (light.outer_half_angle_rad < 1.5 && glm::length(light.direction_ws) > 0.0));
     if (!bounded) {
         return {0, 0, size_px.x, size_px.y};
     }

@@ -2,6 +2,7 @@
 #include <gnomon/pack/mask_draws.h>
 
 #include "light_strip.h"
+#include "reach_cells.h"
 
 #include <gnomon/error.h>
 #include <gnomon/pack/shading_buffers.h>
@@ -130,8 +131,6 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
 {
     MaskDraw draw;
     draw.layer = layer;
-    draw.begin = strip.begin;
-    draw.end = strip.end;
     draw.options = options;
     draw.shown = strip.shown;
     for (const LightPlan& light : plan.lights) {
@@ -157,6 +156,66 @@ bool mayHaveBands(const Plan& plan)
     };
     return std::ranges::any_of(*plan.options, steps_in_bands) ||
            std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.steps.band > 0.0; });
+}
+
+// Where the lights of one layer reach, by mask channel. `frame` null: everywhere.
+LayerReach reachOf(const Frame* frame, const Plan& plan, const Aabb& scene_ws, std::uint32_t layer, glm::uvec2 size_px)
+{
+    LayerReach reach;
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        const LightPlan& light = plan.lights[i];
+        if (light.mask_layer == layer && light.outcome.hasMap()) {
+            const bool known = frame != nullptr && i < frame->lights.size();
+            reach.add(maskChannelsOf(light), known ? litPixels(frame->lights[i], frame->camera, scene_ws, size_px)
+                                                   : ScreenBounds{0, 0, size_px.x, size_px.y});
+        }
+    }
+    return reach;
+}
+
+// The draws of one strip by options, and of each its parts by where lights reach.
+void listStrip(const Plan& plan, std::uint32_t layer, const Strip& strip, const ReachCells& cells,
+               std::uint32_t first_light, std::vector<MaskDraw>& out)
+{
+    const std::size_t first_draw = out.size();
+    std::uint32_t drawn = 0; // options that have something to draw
+    for (std::uint32_t options = 0; options < plan.options->size(); ++options) {
+        MaskDraw draw = drawOf(plan, layer, strip, options);
+        draw.first_light = first_light;
+        const std::uint32_t channels = draw.channels;
+        drawn += channels != 0 ? 1 : 0;
+        for (const ReachCell& cell : cells) {
+            draw.channels = channels & cell.channels;
+            draw.pixels = cell.pixels;
+            if (draw.channels != 0) {
+                out.push_back(draw);
+            }
+        }
+    }
+    for (std::size_t i = first_draw; i < out.size(); ++i) {
+        out[i].shares = drawn > 1;
+    }
+}
+
+void listDraws(const Frame* frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
+{
+    out.clear();
+    const Aabb scene_ws = frame != nullptr && frame->objects != nullptr ? frame->objects->bounds() : Aabb{};
+    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
+    std::uint32_t next = layers * shared::kLightsPerLayer;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const Strips strips = stripsOf(plan, layer, size_px.x);
+        const LayerReach reach = reachOf(frame, plan, scene_ws, layer, size_px);
+        for (const Strip& strip : strips) {
+            std::uint32_t first_light = layer * shared::kLightsPerLayer;
+            if (strips.count > 1) { // of this strip alone
+                first_light = next;
+                next += shared::kLightsPerLayer;
+            }
+            const ReachCells cells(reach, {strip.begin, 0, strip.end, size_px.y});
+            listStrip(plan, layer, strip, cells, first_light, out);
+        }
+    }
 }
 
 } // namespace
@@ -200,32 +259,21 @@ std::uint32_t fewViews(const ResolvedOptions& options)
     return steps ? 0 : around || divided ? shared::kFewViews : 1;
 }
 
-void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out)
+void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
 {
-    out.clear();
-    const std::uint32_t layers = std::max(plan.mask_layers, 1U);
-    std::uint32_t next = layers * shared::kLightsPerLayer;
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const Strips strips = stripsOf(plan, layer, width_px);
-        for (const Strip& strip : strips) {
-            std::uint32_t first_light = layer * shared::kLightsPerLayer;
-            if (strips.count > 1) { // of this strip alone
-                first_light = next;
-                next += shared::kLightsPerLayer;
-            }
-            const std::size_t first_draw = out.size();
-            for (std::uint32_t options = 0; options < plan.options->size(); ++options) {
-                MaskDraw draw = drawOf(plan, layer, strip, options);
-                draw.first_light = first_light;
-                if (draw.channels != 0) {
-                    out.push_back(draw);
-                }
-            }
-            for (std::size_t i = first_draw; i < out.size(); ++i) {
-                out[i].shares = out.size() - first_draw > 1;
-            }
-        }
-    }
+    listDraws(nullptr, plan, size_px, out);
+}
+
+void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)
+{
+    listDraws(&frame, plan, size_px, out);
+}
+
+std::size_t mostMaskDraws(const Plan& plan)
+{
+    const std::size_t strips = mayHaveBands(plan) ? Strips::kMost : 1;
+    const std::size_t kinds = std::min<std::size_t>(plan.options->size(), shared::kLightsPerLayer);
+    return std::max(plan.mask_layers, 1U) * strips * ReachCells::kMost * kinds;
 }
 
 std::uint32_t maskLightCount(const Plan& plan)
@@ -241,14 +289,20 @@ void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDr
                     "give the frame that was planned");
     }
     std::ranges::fill(lights, shared::GpuLight{});
+    std::uint32_t place = 0;
+    std::uint32_t filled = 0; // channels of the lights at `place`, which draws of one strip share
     for (const MaskDraw& draw : draws) {
         if (draw.first_light + std::size_t{shared::kLightsPerLayer} > lights.size()) {
             throw Error("describe lights to the mask pass", "there is no room for those of all strips",
                         "give room for maskLightCount() lights");
         }
-        for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        filled = draw.first_light == place ? filled : 0;
+        place = draw.first_light;
+        const std::uint32_t wanted = draw.channels & ~filled;
+        filled |= draw.channels;
+        for (std::size_t i = 0; wanted != 0 && i < plan.lights.size(); ++i) {
             const LightPlan& light = plan.lights[i];
-            const std::uint32_t channels = maskChannelsOf(light) & draw.channels;
+            const std::uint32_t channels = maskChannelsOf(light) & wanted;
             for (std::uint32_t channel = 0; light.mask_layer == draw.layer && channels >> channel != 0; ++channel) {
                 if ((channels >> channel & 1U) != 0) {
                     fillLight(frame, plan, i, draw.shown[light.mask_channel], lights[draw.first_light + channel]);

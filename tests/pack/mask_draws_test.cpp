@@ -11,7 +11,7 @@ namespace {
 std::vector<pack::MaskDraw> drawsOf(const Plan& plan)
 {
     std::vector<pack::MaskDraw> draws;
-    pack::listMaskDraws(plan, 640, draws);
+    pack::listMaskDraws(plan, {640, 480}, draws);
     return draws;
 }
 
@@ -118,9 +118,9 @@ TEST(MaskDraws, HaveRoomForTheirLightsHoweverSunsStand)
     std::uint32_t end = 0;
     for (const pack::MaskDraw& draw : draws) {
         ASSERT_LE(draw.first_light + 4, lights.size());
-        EXPECT_TRUE(draw.begin == end || draw.begin == begin) << "strips follow each other";
-        begin = draw.begin;
-        end = draw.end;
+        EXPECT_TRUE(draw.pixels.x0 == end || draw.pixels.x0 == begin) << "strips follow each other";
+        begin = draw.pixels.x0;
+        end = draw.pixels.x1;
         for (std::uint32_t channel = 0; channel < 4; ++channel) {
             const bool drawn = (draw.channels >> channel & 1U) != 0;
             EXPECT_TRUE(!drawn || lights[draw.first_light + channel].views.y > 0);

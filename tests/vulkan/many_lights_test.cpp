@@ -79,6 +79,61 @@ TEST(ManyLights, EachIsMaskedAsAlone)
     expectSilence(gpu());
 }
 
+/// The lights that the test of reach has, of this range; 0: without one, so that they are drawn all over the mask.
+std::vector<std::vector<std::byte>> masksOfRange(double range_m, const glm::dvec3& eye)
+{
+    Bench bench(kPicture, MapFormat::d32f);
+    bench.look(eye, {0.0, 0.5, 0.0});
+    std::vector<Light> lights;
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        lights.push_back(lampAt(7 * i));
+        lights.back().range_m = range_m;
+        tiles.push_back(tileOf(i));
+    }
+    bench.setLights(lights, tiles, {8 * kSide, 8 * kSide, 1});
+    bench.prepare();
+    bench.record(1);
+    std::vector<std::vector<std::byte>> masks;
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        masks.push_back(bench.readMask(i));
+    }
+    return masks;
+}
+
+bool reaches(const Light& lamp, double range_m, const glm::dvec3& p)
+{
+    const glm::dvec3 ray = p - lamp.position_ws;
+    const double distance = glm::length(ray);
+    return distance <= range_m && glm::dot(ray, lamp.direction_ws) >= distance * std::cos(lamp.outer_half_angle_rad);
+}
+
+// What a light's range does not reach is 1, and every pixel that it reaches is what it would be without a range.
+TEST(ManyLights, AreMaskedWhereTheyReach)
+{
+    constexpr double kRange = 5.5;
+    std::size_t left_out = 0;
+    for (const glm::dvec3 eye : {glm::dvec3(9.0, 6.0, 11.0), glm::dvec3(2.0, 3.0, 3.0)}) {
+        const auto all_over = masksOfRange(0.0, eye);
+        const auto within = masksOfRange(kRange, eye);
+        const Scene scene = makeScene();
+        const Picture picture =
+            tracePicture(scene, makeCamera(eye, {0.0, 0.5, 0.0}, double(kPicture.width) / kPicture.height), kPicture);
+        for (std::uint32_t i = 0; i < within.size(); ++i) {
+            for (std::size_t pixel = 0; pixel < within[i].size(); ++pixel) {
+                const bool is_drawn = picture.object_plus_one[pixel] != 0;
+                if (within[i][pixel] != all_over[i][pixel]) {
+                    ASSERT_EQ(within[i][pixel], std::byte{255});
+                    ASSERT_TRUE(is_drawn && !reaches(lampAt(7 * i), kRange, picture.position[pixel])) << i;
+                    ++left_out;
+                }
+            }
+        }
+    }
+    EXPECT_GT(left_out, 100U) << "the lights reach everything";
+    expectSilence(gpu());
+}
+
 // A view that was made after its predecessor was destroyed may have the same handle: so handles that are the same as
 // before are no reason to leave descriptors as they are.
 TEST(HostHandles, AreWrittenInEveryFrame)

@@ -67,7 +67,7 @@ private:
 std::size_t stripsOf(const Plan& plan)
 {
     std::vector<pack::MaskDraw> draws;
-    pack::listMaskDraws(plan, kStepScreen.width, draws);
+    pack::listMaskDraws(plan, {kStepScreen.width, kStepScreen.height}, draws);
     return draws.size();
 }
 

@@ -104,6 +104,7 @@ void MaskPassRecorder::makeSets(std::uint32_t options)
 
 void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
+    draws_.reserve(pack::mostMaskDraws(plan));
     const auto options = static_cast<std::uint32_t>(plan.options->size());
     const std::uint32_t lights = pack::maskLightCount(plan);
     const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
@@ -131,7 +132,6 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
         slot.constants = HostBuffer(
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
     }
-    draws_.reserve(std::size_t{room_.lights} * room_.options);
     map_images_.resize(room_.options);
 }
 
@@ -231,8 +231,9 @@ void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuV
 void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot,
                                   const pack::MaskDraw& draw)
 {
-    const VkRect2D scissor{{static_cast<std::int32_t>(draw.begin), 0},
-                           {draw.end - draw.begin, mask_.info().extent.height}};
+    const pack::ScreenBounds& pixels = draw.pixels;
+    const VkRect2D scissor{{static_cast<std::int32_t>(pixels.x0), static_cast<std::int32_t>(pixels.y0)},
+                           {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0}};
     device_.vk.CmdSetScissor(commands, 0, 1, &scissor);
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(plan, draw, *shape_));
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1,
@@ -292,7 +293,7 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     shape_ =
         MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
     Slot& slot = slots_[slot_index];
-    pack::listMaskDraws(plan, inputs.extent.width, draws_);
+    pack::listMaskDraws(frame, plan, {inputs.extent.width, inputs.extent.height}, draws_);
     fill(slot, frame, plan, inputs, maps);
     if (CascadeFitter::fits(plan)) {
         fitter.recordViews(commands, slot_index, CascadeFitter::Reader::mask,

@@ -56,7 +56,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
 
 void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
 {
-    pack::listMaskDraws(plan, mask_.info().extent.width, draws_);
+    pack::listMaskDraws(plan, {mask_.info().extent.width, mask_.info().extent.height}, draws_);
     for (const pack::MaskDraw& draw : draws_) {
         (void)pipeline(plan, draw, shape);
     }

@@ -2,9 +2,11 @@
 // The draws of the pass that makes the mask. A pixel outside of the band that joins two positions of a stepping sun
 // must not pay for both, whatever a device makes of branches: so a layer of the mask is drawn in upright strips, each
 // with what it needs alone. And lights whose options differ are read by different filters: each has a draw of its own.
+// A lamp reaches a part of the screen: a layer is drawn in rectangles, each with the lights that reach it.
 #pragma once
 
 #include <gnomon/frame.h>
+#include <gnomon/pack/light_lists.h>
 #include <gnomon/plan.h>
 
 #include <gpu_structs.h>
@@ -18,12 +20,11 @@ namespace gnomon::pack {
 /// Which positions of a sun are seen.
 enum class SunShown : std::uint8_t { all, earlier, later };
 
-/// A triangle over a strip of one layer of the mask. Before the first draw the layer is 1 all over: lights without a
-/// map have no draw.
+/// A triangle over a rectangle of one layer of the mask. Before the first draw the layer is 1 all over: lights without
+/// a map have no draw, and others none where they do not reach.
 struct MaskDraw {
     std::uint32_t layer = 0;   // of the mask
-    std::uint32_t begin = 0;   // the strip: pixels, x
-    std::uint32_t end = 0;     // one past it
+    ScreenBounds pixels;       // never empty
     std::uint32_t options = 0; // of Plan::options: whose filter reads the maps
     /// Of fillMaskLights(): the place of the layer's channel 0.
     std::uint32_t first_light = 0;
@@ -31,15 +32,21 @@ struct MaskDraw {
     bool coloured = false;      // LightPlan::mask_coloured: all four channels are of one light
     std::array<SunShown, shared::kLightsPerLayer> shown{}; // by channel
     bool orthographic = true;                              // every view of its lights is
-    bool shares = false;                                   // another draw has further channels of the strip
+    bool shares = false;                                   // other draws may have further channels of these pixels
     std::uint32_t few_views = 0;                           // fewViews(), where the plan has one light
 };
 
 /// A light that is never seen from two positions, alone in a plan, may have few views: then the mask's shader is one
 /// that looks among so many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
 [[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
-/// The draws for a screen of this width, in order. Keeps what `out` has allocated.
-void listMaskDraws(const Plan& plan, std::uint32_t width_px, std::vector<MaskDraw>& out);
+/// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.
+void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
+/// The same of this frame: each light's within its screenBounds(). A light without a range reaches as far as the
+/// frame's objects, and everything where it has none. What such a draw needs, its options, kinds of views and shares,
+/// is what a draw of the other list needs.
+void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
+/// How many draws there are at most for a plan like this one, wherever its lights reach and however its suns stand.
+[[nodiscard]] std::size_t mostMaskDraws(const Plan& plan);
 /// How many places fillMaskLights() needs at most for a plan like this one, however its suns stand.
 [[nodiscard]] std::uint32_t maskLightCount(const Plan& plan);
 /// What the draws read: at MaskDraw::first_light + channel the light that has this channel, a coloured one four times.

@@ -250,7 +250,9 @@ public:
     void recordMaps(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const DrawCasters& draw, Profiler* profiler = nullptr);
     /// Records the mask: every layer, every channel. 1 = fully lit; background 1; lights without a map 1; a surface
-    /// that faces away from a light (or that it grazes, below 0.11 degrees) 0. Afterwards mask() is readable by
+    /// that faces away from a light (or that it grazes, below 0.11 degrees) 0. Pixels at which nothing can be in a
+    /// spot or point light's reach (pack::screenBounds()) are 1, whichever way their surface faces: it is not drawn
+    /// there. Without Frame::objects only a light with a range has such pixels. Afterwards mask() is readable by
     /// FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER.
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
