@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/light_lists.h>
 
+#include "reach_cells.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -128,11 +130,12 @@ namespace {
 
 /// Calls `each(tile, light)` for every tile of each light's bounds.
 template <class Each>
-void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, const LightLists& lists, const Each& each)
+void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, const LightLists& lists,
+              const Each& each)
 {
     for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
         const Light& light = frame.lights[i];
-        const ScreenBounds bounds = screenBounds(light, extentOf(light, scene_bounds_ws), frame.camera, frame.size_px);
+        const ScreenBounds bounds = litPixels(light, frame.camera, scene_bounds_ws, size_px);
         if (bounds.empty()) {
             continue;
         }
@@ -148,23 +151,29 @@ void forTiles(const Frame& frame, const Aabb& scene_bounds_ws, const LightLists&
 
 void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out)
 {
+    listLights(frame, scene_bounds_ws, frame.size_px, side_px, out);
+}
+
+void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
+                LightLists& out)
+{
     out.side_px = side_px;
-    if (side_px == 0 || frame.size_px.x == 0 || frame.size_px.y == 0) {
+    if (side_px == 0 || size_px.x == 0 || size_px.y == 0) {
         out.tiles = {0, 0};
         out.first.assign(1, 0);
         out.lights.clear();
         return;
     }
-    out.tiles = (frame.size_px + (side_px - 1U)) / side_px;
+    out.tiles = (size_px + (side_px - 1U)) / side_px;
     const std::size_t tiles = std::size_t{out.tiles.x} * out.tiles.y;
     // Counted first; then `first` walks on while lights are put in, and is moved back by one tile at the end.
     out.first.assign(tiles + 1, 0);
-    forTiles(frame, scene_bounds_ws, out, [&](std::size_t tile, std::uint32_t) { ++out.first[tile + 1]; });
+    forTiles(frame, scene_bounds_ws, size_px, out, [&](std::size_t tile, std::uint32_t) { ++out.first[tile + 1]; });
     for (std::size_t i = 0; i < tiles; ++i) {
         out.first[i + 1] += out.first[i];
     }
     out.lights.resize(out.first[tiles]);
-    forTiles(frame, scene_bounds_ws, out,
+    forTiles(frame, scene_bounds_ws, size_px, out,
              [&](std::size_t tile, std::uint32_t light) { out.lights[out.first[tile]++] = light; });
     for (std::size_t i = tiles; i > 0; --i) {
         out.first[i] = out.first[i - 1];

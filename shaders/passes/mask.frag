@@ -24,6 +24,8 @@ layout(constant_id = 11) const bool kTints = false; // some view has a map of ti
 layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
 layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: packSeen()
 layout(constant_id = 14) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
+layout(constant_id = 15) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
+layout(constant_id = 16) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -46,8 +48,8 @@ GpuConstants numbers;
 
 layout(push_constant) uniform Lights
 {
-    uint first_light; // of the layer's
-    uint channels;    // bit i: this draw writes channel i
+    uint first_light; // of the layer's; of a compact mask the layer
+    uint channels;    // bit i: this draw writes channel i; of a compact mask the draw's options
 };
 layout(set = 0, binding = 5) uniform sampler2D depths;
 layout(set = 0, binding = 6) uniform sampler2D normals;
@@ -56,6 +58,53 @@ layout(set = 0, binding = 10) uniform sampler2D smooth_surfaces;
 layout(set = 0, binding = 7) uniform usampler2D object_ids;
 #endif
 layout(location = 0) out vec4 visibility;
+
+#define GNOMON_TILES_BINDING 12
+#include "../include/gnomon/compact_mask.glsl"
+
+// The lights of a draw that are left to be looked at: bits of channels, or words of a tile.
+struct Left {
+    uint channels;
+    uint next;
+    uint end;
+};
+
+// Of a compact mask, those of the pixel's tile that have channels in this layer.
+Left lightsOf(ivec2 pixel)
+{
+    Left left = Left(kViewCount > 0 ? 1u : channels, 0u, 0u);
+    if (kTileChannels > 0u) {
+        GnomonTileLights tile = gnomonTileLights(pixel);
+        left.next = tile.first + min(4u * first_light, tile.masked);
+        left.end = tile.first + (first_light + 1u < kTileChannels / 4u ? min(4u * first_light + 4u, tile.masked) : tile.masked);
+    }
+    return left;
+}
+
+bool isLeft(Left left)
+{
+    return kTileChannels > 0u ? left.next < left.end : left.channels != 0u;
+}
+
+// The next one. A loop passes over those that other draws have, so that their maps are not read.
+GnomonTileLight nextLight(inout Left left)
+{
+    GnomonTileLight one = GnomonTileLight(0u, 0u, 0.0);
+    if (kTileChannels > 0u) {
+        bool is_own = true;
+        do {
+            one = gnomonTileLight(left.next);
+            is_own = !kTakesAway || gnomon_lights[one.light].options.x == channels;
+            ++left.next;
+        } while (!is_own && left.next < left.end);
+        one.weight = is_own ? one.weight : 0.0;
+    } else {
+        one.channel = uint(findLSB(left.channels));
+        one.light = (kViewCount > 0 ? 0u : first_light) + one.channel;
+        left.channels &= kColoured ? 0u : left.channels - 1u;
+    }
+    return one;
+}
 
 // Eye-relative position of a pixel, homogeneous.
 vec4 pointAt(ivec2 pixel, float depth)
@@ -118,19 +167,25 @@ void main()
         discard;
     }
 #endif
+    Left left = lightsOf(pixel);
+    if (kTileChannels > 0u && !isLeft(left)) {
+        discard;
+    }
     vec4 h = pointAt(pixel, depth);
     vec3 p = h.xyz / h.w;
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
     SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
-    uint first = kViewCount > 0 ? 0u : first_light;
-    uint left = kViewCount > 0 ? 1u : channels;
     do {
-        int channel = findLSB(left);
-        vec4 v = lightVisibility(first + channel, p, n, s, vec3(1.0), gl_FragCoord.xy, h.w);
+        GnomonTileLight one = nextLight(left);
+        vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), gl_FragCoord.xy, h.w);
         if (kConfidence && lookup_confidence >= 0.0) {
             v += packSeen(0.0, lookup_confidence);
         }
-        visibility = kColoured ? v : mix(visibility, vec4(v.a), equal(ivec4(channel), ivec4(0, 1, 2, 3)));
-        left &= kColoured ? 0u : left - 1u;
-    } while (left != 0u);
+        bvec4 channel = equal(uvec4(one.channel & 3u), uvec4(0, 1, 2, 3));
+        vec4 beside = kTileChannels > 0u ? visibility - one.weight * (1.0 - v.a) : vec4(v.a);
+        visibility = kColoured ? v : mix(visibility, beside, channel);
+    } while (isLeft(left));
+    if (kTakesAway) {
+        visibility = 1.0 - visibility;
+    }
 }

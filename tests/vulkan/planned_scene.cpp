@@ -3,7 +3,8 @@
 
 namespace gnomon::test {
 
-Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh) : renderer(gpu.view(), {}), drawer(gpu.view(), {})
+Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in)
+    : compact(compact_in), renderer(gpu.view(), {.compact = compact_in}), drawer(gpu.view(), {})
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
 }
@@ -80,8 +81,9 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, 
         drawing.renderer.recordMask(commands, slot, frame, plan, inputs_);
     });
     const vulkan::ImageRef mask = drawing.renderer.mask();
+    const std::uint32_t layers = drawing.compact.channels > 0 ? mask.layers : plan.mask_layers;
     std::vector<std::byte> all;
-    for (std::uint32_t layer = 0; layer < plan.mask_layers; ++layer) {
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const auto texels =
             gpu_.read(mask, layer, mask.format == VK_FORMAT_R8_UNORM ? 1 : 4, VK_IMAGE_ASPECT_COLOR_BIT);
         all.insert(all.end(), texels.begin(), texels.end());

@@ -12,8 +12,9 @@ namespace gnomon::test {
 
 /// A renderer and a drawer on a device.
 struct Drawing {
-    Drawing(Gpu& gpu, const SceneMesh& mesh);
+    Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {});
 
+    pack::CompactMaskRule compact;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;
 };

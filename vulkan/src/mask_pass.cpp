@@ -63,6 +63,7 @@ enum Binding : std::uint32_t {
     kBlocks,
     kSmooth,
     kTints,
+    kTiles,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -71,13 +72,14 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 } // namespace
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
     : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
-      pipelines_(device, options), slots_(options.frames_in_flight), shape_(options.mask_shape)
+      compact_(checkedRule(options.compact)), pipelines_(device, options), slots_(options.frames_in_flight), shape_(options.mask_shape)
 {
     makeLayouts();
 }
@@ -106,7 +108,7 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
     draws_.reserve(pack::mostMaskDraws(plan));
     const auto options = static_cast<std::uint32_t>(plan.options->size());
-    const std::uint32_t lights = pack::maskLightCount(plan);
+    const std::uint32_t lights = lightRoomFor(plan);
     const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
     if (options <= room_.options && lights <= room_.lights && views <= room_.views) {
         return;
@@ -139,21 +141,22 @@ void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
 {
     device_.retire(std::move(mask_));
     mask_ = Image(device_,
-                  {maskFormat(maskChannelCount(plan)), screen, std::max(plan.mask_layers, 1U),
+                  {maskFormat(channelsFor(plan)), screen, layersFor(plan),
                    VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                    VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
 }
 
 bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps)
 {
+    checkCompact(plan);
     makeBuffers(plan);
     tinted_.assign(maps.size(), 0);
     for (std::size_t i = 0; i < maps.size(); ++i) {
         tinted_[i] = maps[i] && maps[i]->tints.inUse() ? 1 : 0;
     }
     const ImageInfo& have = mask_.info();
-    const bool fits = mask_ && have.format == maskFormat(maskChannelCount(plan)) &&
-                      have.layers >= std::max(plan.mask_layers, 1U) && have.extent.width == screen.width &&
+    const bool fits = mask_ && have.format == maskFormat(channelsFor(plan)) && have.layers >= layersFor(plan) &&
+                      have.extent.width == screen.width &&
                       have.extent.height == screen.height;
     if (!fits) {
         makeMask(plan, screen);
@@ -192,7 +195,10 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
                           : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead),
         orDepth(kSmooth, inputs.smooth),
         DescriptorSets::image(kTints, sampler,
-                              maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead)};
+                              maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
+        isCompact() ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
+                    : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight),
+                                             room_.lights_at)};
     sets_.write(slot.sets[options], writes);
 }
 
@@ -201,6 +207,9 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
 {
     auto* const bytes = static_cast<std::byte*>(slot.constants.data());
     const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
+    if (isCompact()) {
+        fillTiles(slot, frame, plan, screen_px);
+    }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
         map_images_[i] = {};
         if (maps[i]) {
@@ -214,8 +223,12 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
             constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
         }
     }
-    pack::fillMaskLights(frame, plan, draws_,
-                         {reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights});
+    const std::span lights(reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights);
+    if (isCompact()) {
+        pack::fillLights(frame, plan, lights);
+    } else {
+        pack::fillMaskLights(frame, plan, draws_, lights);
+    }
     const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
     pack::fillViews(frame, plan, map_images_, views);
     placeTints(plan, maps, views);
@@ -293,7 +306,12 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     shape_ =
         MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
     Slot& slot = slots_[slot_index];
-    pack::listMaskDraws(frame, plan, {inputs.extent.width, inputs.extent.height}, draws_);
+    const glm::uvec2 size_px(inputs.extent.width, inputs.extent.height);
+    if (isCompact()) {
+        pack::listCompactMaskDraws(plan, compact_, size_px, draws_);
+    } else {
+        pack::listMaskDraws(frame, plan, size_px, draws_);
+    }
     fill(slot, frame, plan, inputs, maps);
     if (CascadeFitter::fits(plan)) {
         fitter.recordViews(commands, slot_index, CascadeFitter::Reader::mask,

@@ -21,6 +21,9 @@ struct MaskPush {
     std::uint32_t channels;
 };
 
+/// Throws Error for one that is wrong.
+const pack::CompactMaskRule& checkedRule(const pack::CompactMaskRule& rule);
+
 /// By options; null where no light has named them.
 using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 
@@ -45,10 +48,13 @@ public:
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
     [[nodiscard]] const Image& mask() const { return mask_; }
+    /// ShadowRenderer::maskTiles().
+    [[nodiscard]] BufferRef tiles(std::uint32_t slot) const;
 
 private:
     struct Slot {
         HostBuffer constants;              // GpuConstants by options, then lights and views
+        HostBuffer tiles;                  // of a compact mask
         std::vector<VkDescriptorSet> sets; // by options
     };
     // Of a slot's buffer.
@@ -60,6 +66,14 @@ private:
         VkDeviceSize lights_at = 0;
         VkDeviceSize views_at = 0;
     };
+
+    [[nodiscard]] bool isCompact() const { return compact_.channels != 0; }
+    /// Throws Error for a plan that a compact mask cannot hold.
+    void checkCompact(const Plan& plan) const;
+    [[nodiscard]] std::uint32_t layersFor(const Plan& plan) const;
+    [[nodiscard]] std::uint32_t channelsFor(const Plan& plan) const;
+    [[nodiscard]] std::uint32_t lightRoomFor(const Plan& plan) const;
+    void fillTiles(Slot& slot, const Frame& frame, const Plan& plan, glm::uvec2 size_px);
 
     void makeLayouts();
     void makeSets(std::uint32_t options);
@@ -83,6 +97,7 @@ private:
     Device& device_;
     std::uint32_t slot_count_;
     VkPipelineCache cache_;
+    pack::CompactMaskRule compact_;
     Image mask_;
     DescriptorSets sets_;
     PipelineLayout layout_;
@@ -94,6 +109,8 @@ private:
     std::vector<pack::MaskDraw> draws_;      // of the frame that is being recorded
     std::vector<pack::MapImage> map_images_; // likewise, by options
     std::vector<std::uint8_t> tinted_;       // by options: some view has a map of tints
+    pack::LightLists lists_;                 // of the frame, for a compact mask
+    pack::CompactMask tiles_;                // likewise
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
     std::optional<ConvergePass> converge_;   // likewise
     std::optional<MaskShape> shape_;         // of the inputs, as far as it is known

@@ -99,7 +99,8 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     state.stages = stages;
     state.layout = layout;
     state.colour_format = key.format;
-    state.keeps_least = key.shares; // what a draw has not to do with it writes as 1
+    state.takes_away = key.constants.takes_away == VK_TRUE;
+    state.keeps_least = key.shares && !state.takes_away; // what a draw has not to do with it writes as 1
     state.cache = cache_;
     state.name = "mask";
     return makeGraphicsPipeline(device_, state);

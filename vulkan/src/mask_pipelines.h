@@ -25,6 +25,8 @@ struct MaskConstants {
     VkBool32 shows_rays = VK_FALSE; // ShadowRendererOptions::shows_rays
     VkBool32 confidence = VK_FALSE; // for the pass that joins frames: FilterTraits::weighs_frames
     VkBool32 coloured = VK_FALSE;   // pack::MaskDraw::coloured
+    std::uint32_t tile_channels = 0;  // CompactMaskRule::channels
+    VkBool32 takes_away = VK_FALSE;   // of a compact mask, a draw that shares: what lights do not give
 
     bool operator==(const MaskConstants&) const = default;
 };

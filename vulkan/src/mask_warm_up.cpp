@@ -51,12 +51,19 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     key.constants.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
     key.constants.coloured = draw.coloured ? VK_TRUE : VK_FALSE;
+    key.constants.tile_channels = compact_.channels;
+    key.constants.takes_away = isCompact() && draw.shares ? VK_TRUE : VK_FALSE;
     return pipelines_.get(key, layout_.get());
 }
 
 void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
 {
-    pack::listMaskDraws(plan, {mask_.info().extent.width, mask_.info().extent.height}, draws_);
+    const glm::uvec2 size_px(mask_.info().extent.width, mask_.info().extent.height);
+    if (isCompact()) {
+        pack::listCompactMaskDraws(plan, compact_, size_px, draws_);
+    } else {
+        pack::listMaskDraws(plan, size_px, draws_);
+    }
     for (const pack::MaskDraw& draw : draws_) {
         (void)pipeline(plan, draw, shape);
     }
@@ -92,6 +99,17 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
         }
     };
     key.constants.confidence = to_converge && weighsFrames(options) ? VK_TRUE : VK_FALSE;
+    if (isCompact()) {
+        key.format = maskFormat(shared::kLightsPerLayer);
+        key.constants.tile_channels = compact_.channels;
+        make();
+        key.shares = true;
+        key.constants.takes_away = VK_TRUE;
+        if (what.several_options) {
+            make();
+        }
+        return;
+    }
     key.constants.coloured = isColoured(options) ? VK_TRUE : VK_FALSE;
     key.format = formatOf(channelsAlone(options));
     key.constants.few_views = pack::fewViews(options);

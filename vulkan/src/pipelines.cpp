@@ -50,6 +50,12 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     attachments[0].blendEnable = state.keeps_least ? VK_TRUE : VK_FALSE;
     attachments[0].colorBlendOp = state.keeps_least ? VK_BLEND_OP_MIN : VK_BLEND_OP_ADD;
     attachments[0].alphaBlendOp = attachments[0].colorBlendOp;
+    if (state.takes_away) {
+        attachments[0].blendEnable = VK_TRUE;
+        attachments[0].srcColorBlendFactor = attachments[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachments[0].srcAlphaBlendFactor = attachments[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        attachments[0].colorBlendOp = attachments[0].alphaBlendOp = VK_BLEND_OP_REVERSE_SUBTRACT;
+    }
     if (state.tints) {
         attachments[0].blendEnable = VK_TRUE;
         attachments[0].dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;

@@ -25,6 +25,7 @@ struct GraphicsState {
     VkColorComponentFlags colour_mask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                                         VK_COLOR_COMPONENT_A_BIT; // what is written of it
     bool keeps_least = false; // of what is there and what is drawn, the lesser one of each channel
+    bool takes_away = false;  // what is drawn is subtracted from what is there
     bool tints = false;       // colours multiply what is there, and of alpha the lesser one stays; depth is not written
     VkFormat depth_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;

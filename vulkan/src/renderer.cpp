@@ -190,6 +190,11 @@ ImageRef ShadowRenderer::mask() const
     return describe(impl_->parts->mask.mask());
 }
 
+BufferRef ShadowRenderer::maskTiles(std::uint32_t slot) const
+{
+    return impl_->parts->mask.tiles(slot);
+}
+
 ImageRef ShadowRenderer::maps(std::uint32_t options) const
 {
     const MapClass* const made = impl_->parts->classOf(options);

@@ -46,5 +46,8 @@ struct LightLists {
 /// Of a frame's lights, whether or not they cast. `scene_bounds_ws`: of all objects, for lights without a range
 /// (extentOf()). Keeps what `out` has allocated. No tiles of a picture, or of tiles, without size.
 void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out);
+/// The same for a picture of another size than Frame::size_px.
+void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
+                LightLists& out);
 
 } // namespace gnomon::pack

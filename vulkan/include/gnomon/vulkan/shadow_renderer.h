@@ -5,6 +5,7 @@
 
 #include <gnomon/frame.h>
 #include <gnomon/options.h>
+#include <gnomon/pack/compact_mask.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan.h>
 #include <gnomon/vulkan/device_view.h>
@@ -45,6 +46,10 @@ struct ShadowRendererOptions {
     /// what arrives, or its colour as well, as ShadowOptions::translucent says. prepare() asks for each caster of a
     /// plan. Null: nothing is blended, and nothing is spent on maps of tints.
     std::function<bool(std::uint32_t object)> is_blended;
+    /// With channels 4 or 8 the mask is compact: one or two layers of RGBA8, however many lights there are. Which light
+    /// of a tile of the screen is in which channel maskTiles() says. Suns that move in steps, lights whose frames
+    /// converge and lights in colour are refused (Error from prepare()), and so are more than 65,535 lights.
+    pack::CompactMaskRule compact;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
     /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were
     /// fewer or some ended early (lib/raymarch.glsl); between them where a pixel reads two cascades. Pixels that face
@@ -199,6 +204,7 @@ struct WarmUp {
 ///   a plan without options, or whose numbers point beyond its own lists or pages    Error
 ///   a plan recorded that needs other images than the last prepare() made            Error
 ///   views asked to have tints placed that are fewer than the plan's                 Error
+///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() without a mask, of another extent, of a frame with other lights    Error
@@ -257,6 +263,11 @@ public:
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
+    /// Which lights a tile of the mask has and where (shaders/include/gnomon/compact_mask.glsl), of the last
+    /// recordMask() with this slot: its buffer may be another one each time, so write descriptors after that. Lights
+    /// without a map are listed, too. Empty where the mask is not compact, or there is no such slot.
+    [[nodiscard]] BufferRef maskTiles(std::uint32_t slot) const;
+    /// With ShadowRendererOptions::compact RGBA8 with a layer for every four channels. Else
     /// R8 for one light, else RGBA8, one layer per four lights and one for each coloured light (LightPlan::mask_layer),
     /// with which a single light's is RGBA8 too; a 2D array in either case.
     [[nodiscard]] ImageRef mask() const;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only, for hosts: where a pixel's lights are in a compact mask (ShadowRendererOptions::compact). A host may define
+// GNOMON_TILES_SET and GNOMON_TILES_BINDING beforehand, a storage buffer: ShadowRenderer::maskTiles(), or what
+// pack::fillMaskTiles() wrote.
+#ifndef GNOMON_COMPACT_MASK_GLSL
+#define GNOMON_COMPACT_MASK_GLSL
+#ifndef GNOMON_TILES_SET
+#define GNOMON_TILES_SET 0
+#endif
+#ifndef GNOMON_TILES_BINDING
+#define GNOMON_TILES_BINDING 0
+#endif
+
+layout(set = GNOMON_TILES_SET, binding = GNOMON_TILES_BINDING, std430) restrict readonly buffer GnomonMaskTiles
+{
+    uvec2 gnomon_mask_tiles[];
+};
+
+// The lights that may reach a pixel, gnomonTileLight(first) to gnomonTileLight(first + count - 1).
+struct GnomonTileLights {
+    uint first;
+    uint masked; // how many of them have channels: the first ones
+    uint count;
+};
+GnomonTileLights gnomonTileLights(ivec2 pixel)
+{
+    uvec2 head = gnomon_mask_tiles[0];
+    uvec2 tile = uvec2(pixel) / head.x;
+    uvec2 here = gnomon_mask_tiles[1u + tile.y * head.y + tile.x];
+    return GnomonTileLights(here.x, here.y & 0xFFFFu, here.y >> 16);
+}
+
+struct GnomonTileLight {
+    uint light;   // of the frame
+    uint channel; // of the tile: layer * 4 + channel of the mask; 255: it has no map and is seen in full
+    float weight; // in that channel
+};
+GnomonTileLight gnomonTileLight(uint i)
+{
+    uvec2 words = gnomon_mask_tiles[i];
+    return GnomonTileLight(words.x & 0xFFFFFFu, words.x >> 24, uintBitsToFloat(words.y));
+}
+
+// Its visibility at the pixel, of 1; of a light that shares its channel, the mean of those that do.
+float gnomonTileVisibility(sampler2DArray mask, ivec2 pixel, GnomonTileLight light)
+{
+    return light.channel == 255u ? 1.0 : texelFetch(mask, ivec3(pixel, light.channel >> 2), 0)[light.channel & 3u];
+}
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mask pass does otherwise where the mask is compact.
+#include "mask_pass.h"
+#include "usage.h"
+
+#include <gnomon/pack/frame_passes.h>
+#include <gnomon/plan_views.h>
+
+#include <gpu_structs.h>
+
+#include <algorithm>
+
+namespace gnomon::vulkan {
+
+const pack::CompactMaskRule& checkedRule(const pack::CompactMaskRule& rule)
+{
+    if (const char* const wrong = pack::wrongOf(rule)) {
+        refuseUse("make a renderer with a compact mask", wrong, "choose others");
+    }
+    return rule;
+}
+
+void MaskPassRecorder::checkCompact(const Plan& plan) const
+{
+    if (!isCompact()) {
+        return;
+    }
+    constexpr const char* kTried = "prepare a compact mask";
+    constexpr const char* kInstead = "let each light have a channel of its own (compact.channels 0)";
+    for (const LightPlan& light : plan.lights) {
+        if (light.mask_coloured) {
+            refuseUse(kTried, "a light in colour needs four channels (translucent=colour)", kInstead);
+        }
+        if (light.steps.paired) {
+            refuseUse(kTried, "a sun that moves in steps is seen from two positions, and a tile has room for one",
+                      kInstead);
+        }
+        if (pack::joinsFrames(light)) {
+            refuseUse(kTried, "frames converge light by light, and a channel has another light in the next frame",
+                      kInstead);
+        }
+    }
+    if (plan.lights.size() > pack::kMostTileLights) {
+        refuseUse(kTried, "there are more than 65535 lights", kInstead);
+    }
+}
+
+std::uint32_t MaskPassRecorder::layersFor(const Plan& plan) const
+{
+    return isCompact() ? compact_.channels / shared::kLightsPerLayer : std::max(plan.mask_layers, 1U);
+}
+
+std::uint32_t MaskPassRecorder::channelsFor(const Plan& plan) const
+{
+    return isCompact() ? shared::kLightsPerLayer : maskChannelCount(plan);
+}
+
+std::uint32_t MaskPassRecorder::lightRoomFor(const Plan& plan) const
+{
+    return isCompact() ? std::max(static_cast<std::uint32_t>(plan.lights.size()), 1U) : pack::maskLightCount(plan);
+}
+
+void MaskPassRecorder::fillTiles(Slot& slot, const Frame& frame, const Plan& plan, glm::uvec2 size_px)
+{
+    pack::listCompactMask(frame, plan, compact_, size_px, lists_, tiles_);
+    const VkDeviceSize bytes = pack::maskTileWords(tiles_) * sizeof(glm::uvec2);
+    if (slot.tiles.size() < bytes) {
+        device_.retire(std::move(slot.tiles));
+        // With room for a while: the lists change from frame to frame.
+        slot.tiles = HostBuffer(device_, bytes + bytes / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "mask tiles");
+    }
+    pack::fillMaskTiles(tiles_, {static_cast<glm::uvec2*>(slot.tiles.data()), pack::maskTileWords(tiles_)});
+}
+
+BufferRef MaskPassRecorder::tiles(std::uint32_t slot) const
+{
+    const bool has = slot < slots_.size() && slots_[slot].tiles.buffer() != VK_NULL_HANDLE;
+    return has ? BufferRef{slots_[slot].tiles.buffer(), slots_[slot].tiles.size()} : BufferRef{};
+}
+
+} // namespace gnomon::vulkan
