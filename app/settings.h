@@ -64,6 +64,7 @@ struct Settings {
     glm::uvec2 size_px{0};
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
     host::BloomOptions bloom;
+    pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"
     bool ground = false;
     // camera

@@ -48,6 +48,9 @@ struct RenderOptions {
     /// Each frame looks at another point of its pixels (convergeSample()), so that what is averaged over frames is
     /// averaged over pixels too. The first looks at their middles.
     bool average_pixels = false;
+    /// vulkan::ShadowRendererOptions::compact. Then a frame's masks are no images of lights: Picture::masks cannot be
+    /// asked for (Error). Nothing where there are no shadows.
+    pack::CompactMaskRule compact_mask;
     bool shows_rays = false; // vulkan::ShadowRendererOptions::shows_rays
 };
 

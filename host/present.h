@@ -27,6 +27,7 @@ struct FinishedFrame {
     vulkan::ImageRef normals; // geometric and shading normal, octahedral
     vulkan::ImageRef ids;     // object + 1 in the second channel; 0 background
     vulkan::ImageRef masks;   // null where everything is lit
+    bool compact_masks = false; // `masks` has RenderOptions::compact_mask
     std::size_t light_count = 0;
     const Plan* plan = nullptr; // says where in `masks` a light's is; null: light i has layer i / 4, channel i % 4
 };

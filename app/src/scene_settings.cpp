@@ -45,6 +45,30 @@ void applyAntiAliasing(Settings& s, const Value& v)
     }
 }
 
+constexpr std::array<std::string_view, 3> kCompactMasks{"none", "4", "8"};
+
+std::vector<std::string_view> compactMaskNames()
+{
+    return {kCompactMasks.begin(), kCompactMasks.end()};
+}
+
+void applyCompactMask(Settings& s, const Value& v)
+{
+    s.compact_mask.channels = v.text == "4" ? 4 : v.text == "8" ? 8 : 0;
+}
+
+constexpr std::array<std::string_view, 2> kTileSides{"16", "32"};
+
+std::vector<std::string_view> tileSideNames()
+{
+    return {kTileSides.begin(), kTileSides.end()};
+}
+
+void applyTileSide(Settings& s, const Value& v)
+{
+    s.compact_mask.side_px = v.text == "32" ? 32 : 16;
+}
+
 void applySpot(Settings& s, const Value& v)
 {
     const SpotLight spot{vec3(v.numbers), vec3(v.numbers, 3), v.numbers[6]};
@@ -77,6 +101,18 @@ bool glows(const Settings& s)
 {
     return isPicture(s) && s.bloom.on;
 }
+/// A compact mask is for pictures, and for lights that need one channel of one frame (ShadowRendererOptions::compact).
+bool mayBeCompact(const Settings& s)
+{
+    const Technique& technique = s.shadow.technique;
+    const bool is_shadowed_picture = !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
+    return is_shadowed_picture && technique.soften == Soften::none && s.shadow.translucent == Translucent::grey &&
+           (technique.motion == Motion::free || technique.motion == Motion::snap);
+}
+bool isCompact(const Settings& s)
+{
+    return mayBeCompact(s) && s.compact_mask.channels > 0;
+}
 /// Does anybody look at how large a light is?
 bool lightHasSize(const Settings& s)
 {
@@ -94,6 +130,11 @@ const std::vector<Setting>& rows()
          .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
         {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "none", .choices = antiAliasingNames,
          .doc = "anti-aliasing of the picture: none, fxaa or ssaa4", .subcommands = kRender | kBench, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+        {.key = "compact-mask", .group = Group::picture, .type = choice, .form = "CHANNELS", .default_text = "none", .choices = compactMaskNames,
+         .doc = "channels of the mask for each tile of the picture, 4 or 8, instead of one for each light: none, 4 or 8", .subcommands = kRender | kBench, .own_option = false, .used = mayBeCompact,
+         .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, and translucent=grey", .apply = applyCompactMask},
+        {.key = "compact-mask.side", .group = Group::picture, .type = choice, .form = "PIXELS", .unit = "pixels", .default_text = "16", .choices = tileSideNames,
+         .doc = "side of such a tile, 16 or 32", .subcommands = kRender | kBench, .own_option = false, .used = isCompact, .used_when = "compact-mask=4 or 8", .apply = applyTileSide},
         {.key = "bloom", .group = Group::picture, .type = flag, .default_text = "0", .doc = "let what is very bright glow into its surroundings",
          .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.bloom.on = v.flag; }},
         {.key = "bloom.threshold", .group = Group::picture, .type = real, .form = "LIGHT", .default_text = "0.8", .min = 0, .max = 64,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deferred shading of every surface pixel: hemisphere light, and each light times its visibility.
+// Deferred shading of every surface pixel: hemisphere light, and each light times its visibility. With
+// HOST_COMPACT_MASK the lights are those of the pixel's tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
@@ -19,8 +20,22 @@ layout(set = 0, binding = 4) uniform sampler2D materials;
 layout(set = 0, binding = 6) uniform sampler2DArray mask;
 layout(set = 0, binding = 7) uniform sampler2DArray cookies;
 layout(location = 0) out vec4 out_light;
+#ifdef HOST_COMPACT_MASK
+#define GNOMON_TILES_SET 1
+#include "gnomon/compact_mask.glsl"
+#endif
 
-vec3 lightFrom(uint i, Lit s, ivec2 pixel)
+vec3 seenOf(uint i, ivec2 pixel)
+{
+    if (frame.counts.y == 0) {
+        return vec3(1.0);
+    }
+    int slot = int(frame.lights[i].right.w);
+    vec4 texel = texelFetch(mask, ivec3(pixel, slot >> 3), 0);
+    return (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
+}
+
+vec3 lightFrom(uint i, Lit s, vec3 seen)
 {
     vec3 l = frame.lights[i].place.xyz;
     vec3 e = frame.lights[i].colour.rgb;
@@ -28,12 +43,6 @@ vec3 lightFrom(uint i, Lit s, ivec2 pixel)
         e = arriving(frame.lights[i], s.p, cookies, l);
     }
     float n_l = max(dot(s.n, l), 0.0);
-    vec3 seen = vec3(1.0);
-    if (frame.counts.y != 0) {
-        int slot = int(frame.lights[i].right.w);
-        vec4 texel = texelFetch(mask, ivec3(pixel, slot >> 3), 0);
-        seen = (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
-    }
     return reflectance(s, l, n_l) * e * (n_l * seen);
 }
 
@@ -54,14 +63,22 @@ void main()
     float second = model == 1.0 ? exp2(numbers.g * 16.0) - 1.0 : numbers.g;
     Lit s = litSurface(p, n, base.rgb, numbers.r, second, model);
     vec3 sum = ambient(s, model == 1.0 ? 1.0 : numbers.g, base.a);
+#ifdef HOST_COMPACT_MASK
+    GnomonTileLights tile = gnomonTileLights(pixel);
+    for (uint i = tile.first; i < tile.first + tile.count; ++i) {
+        GnomonTileLight one = gnomonTileLight(i);
+        sum += lightFrom(one.light, s, vec3(gnomonTileVisibility(mask, pixel, one)));
+    }
+#else
     if (kFixedLights > 0) {
         for (uint i = 0; i < kFixedLights; ++i) {
-            sum += lightFrom(i, s, pixel);
+            sum += lightFrom(i, s, seenOf(i, pixel));
         }
     } else {
         for (uint i = 0; i < frame.counts.x; ++i) {
-            sum += lightFrom(i, s, pixel);
+            sum += lightFrom(i, s, seenOf(i, pixel));
         }
     }
+#endif
     out_light = vec4(sum, 1.0);
 }

@@ -172,6 +172,7 @@ void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const 
     const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
                                              [](const Light& l) { return l.type == LightType::directional; });
     shade = scene.pipelines.shadeFor(lights.size(), all_directional);
+    shade_compact = options.compact_mask.channels > 0 ? scene.pipelines.shadeCompact() : VK_NULL_HANDLE;
 }
 
 // Instances of a part are drawn in this order, so that near ones hide far ones before those are shaded.
@@ -255,6 +256,11 @@ void FrameRenderer::Impl::writeInstead(const std::vector<ImageF>& masks)
     }
 }
 
+bool FrameRenderer::Impl::hasTiles() const
+{
+    return plan != nullptr && instead == nullptr && shadows->tiles && !frame_lights.empty();
+}
+
 ForwardShadows* FrameRenderer::Impl::forwardShadows()
 {
     const bool wanted = plan != nullptr && !plan->views.empty() && draws.anyBlended();
@@ -275,6 +281,7 @@ void FrameRenderer::Impl::describeFrame()
     finished.ids = refOf(targets.ids(), kSampled);
     finished.light_count = frame_lights.size();
     finished.plan = plan;
+    finished.compact_masks = hasTiles();
     if (!frame_lights.empty() && (plan != nullptr || instead != nullptr)) {
         finished.masks = instead != nullptr ? refOf(*instead, kSampled) : shadows->renderer.mask();
     }

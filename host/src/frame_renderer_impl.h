@@ -52,6 +52,7 @@ struct FrameRenderer::Impl {
     FinishedFrame finished;
     VkDescriptorSet frame_set = VK_NULL_HANDLE;
     VkPipeline shade = VK_NULL_HANDLE;
+    VkPipeline shade_compact = VK_NULL_HANDLE; // in its place where the mask is compact
     Sight sight;
     Frame frame;
     FrameTimes times;
@@ -85,6 +86,8 @@ struct FrameRenderer::Impl {
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);
     void writeInstead(const std::vector<ImageF>& masks);
     void describeFrame();
+    /// Is this frame's mask compact?
+    [[nodiscard]] bool hasTiles() const;
     /// Where this frame's blended surfaces have their shadows from; null: it draws none, or there are no maps.
     [[nodiscard]] ForwardShadows* forwardShadows();
     void record(Present* present);

@@ -129,6 +129,23 @@ void Pipelines::makeLayouts(VkDescriptorSetLayout material)
     screen_layout = makeLayout(std::span(sets).first(1));
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout.get(), "scene");
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout.get(), "screen");
+    makeCompactLayout();
+}
+
+void Pipelines::makeCompactLayout()
+{
+    const VkDescriptorSetLayoutBinding tiles{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                             nullptr};
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = 1;
+    info.pBindings = &tiles;
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(gpu_.view().device, &info, nullptr, &layout), "making a descriptor set layout");
+    tiles_layout = {gpu_, layout};
+    names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, "mask tiles");
+    const std::array<VkDescriptorSetLayout, 2> sets{frame_layout.get(), layout};
+    compact_layout = makeLayout(sets);
+    names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, compact_layout.get(), "compact");
 }
 
 void Pipelines::makeShadowedLayout(VkDescriptorSetLayout material)
@@ -319,6 +336,23 @@ VkPipeline Pipelines::fxaa()
         fxaa_ = make(wish);
     }
     return fxaa_;
+}
+
+VkPipeline Pipelines::shadeCompact()
+{
+    if (shade_compact_ == VK_NULL_HANDLE) {
+        Wish wish;
+        wish.name = "shade compact";
+        wish.vertex = "fullscreen.vert";
+        wish.fragment = "shade_compact.frag";
+        wish.constants = {VK_FALSE, VK_FALSE, physical_only_, VK_FALSE};
+        wish.colours = {&kLightFormat, 1};
+        wish.depth = true;
+        wish.compare = VK_COMPARE_OP_LESS;
+        wish.layout = compact_layout.get();
+        shade_compact_ = make(wish);
+    }
+    return shade_compact_;
 }
 
 VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional)

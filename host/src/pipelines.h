@@ -65,18 +65,23 @@ public:
     [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
     [[nodiscard]] VkPipeline shadowedFor(Filter filter);
+    /// The same for a compact mask.
+    [[nodiscard]] VkPipeline shadeCompact();
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
     OwnedSetLayout frame_layout;
     OwnedPipelineLayout scene_layout;  // set 0 frame, set 1 material
     OwnedPipelineLayout screen_layout; // set 0 frame
+    OwnedSetLayout tiles_layout;        // of a compact mask: ShadowRenderer::maskTiles()
+    OwnedPipelineLayout compact_layout; // as screen_layout, and set 1 tiles
     // Null when the scene has no blended surface.
     OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
     OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);
+    void makeCompactLayout();
     void makeShadowedLayout(VkDescriptorSetLayout material);
     [[nodiscard]] OwnedPipelineLayout makeLayout(std::span<const VkDescriptorSetLayout> sets) const;
     [[nodiscard]] OwnedShader module(std::string_view name) const;
@@ -90,6 +95,7 @@ private:
     const DebugNames& names_;
     std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
     std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
+    VkPipeline shade_compact_ = VK_NULL_HANDLE;
     std::vector<std::pair<Filter, VkPipeline>> shadowed_;
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;

@@ -7,6 +7,8 @@
 #define GNOMON_REAL float
 #include "octahedral.h"
 
+#include <gnomon/error.h>
+
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -101,6 +103,9 @@ VkDeviceSize ReadBack::Impl::bytesFor(const FinishedFrame& frame) const
 void ReadBack::Impl::recordMasks(VkCommandBuffer commands, const FinishedFrame& frame)
 {
     const bool shadowed = wanted.masks && frame.masks.image != VK_NULL_HANDLE;
+    if (shadowed && frame.compact_masks) {
+        throw Error("reading masks", "a compact mask has no channel for each light", "let it not be compact");
+    }
     std::vector<const void*> layers;
     for (std::uint32_t layer = 0; shadowed && layer < frame.masks.layers; ++layer) {
         layers.push_back(copies.add(commands, frame.masks, layer));

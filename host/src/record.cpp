@@ -116,6 +116,9 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     if (!frame_lights.empty()) {
         renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
     }
+    if (hasTiles()) {
+        shadows->tiles->describe(slot, renderer.maskTiles(slot));
+    }
     if (ForwardShadows* const forward = forwardShadows()) {
         forward->recordViews(cmd, slot, *plan, renderer);
     }
@@ -143,11 +146,15 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
     beginRendering(cmd, targets.drawn, {&colour, 1}, &depth);
     setViewport(cmd, targets.drawn);
-    for (VkPipeline pipeline : {shade, pipelines.sky}) {
+    for (VkPipeline pipeline : {hasTiles() ? shade_compact : shade, pipelines.sky}) {
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout.get(), 0, 1, &frame_set,
-                                0, nullptr);
+        if (pipeline == shade_compact) {
+            shadows->tiles->bind(cmd, slot, frame_set);
+        } else {
+            vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.screen_layout.get(), 0, 1,
+                                    &frame_set, 0, nullptr);
+        }
         vkCmdDraw(cmd, 3, 1, 0, 0);
     }
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,

@@ -33,6 +33,7 @@ constexpr std::array kShaders{Shader{"bloom_down.comp", spirv::bloom_down_comp},
                               Shader{"gbuffer.frag", spirv::gbuffer_frag},
                               Shader{"scene.vert", spirv::scene_vert},
                               Shader{"shade.frag", spirv::shade_frag},
+                              Shader{"shade_compact.frag", spirv::shade_compact_frag},
                               Shader{"sky.frag", spirv::sky_frag},
                               Shader{"tone.frag", spirv::tone_frag}};
 

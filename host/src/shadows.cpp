@@ -17,6 +17,7 @@ vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const Rend
     wish.mask_shape = vulkan::MaskShape{true, true, true}; // recordShadows() gives all
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = scene.gpu.pipelineCache();
+    wish.compact = options.compact_mask;
     wish.shows_rays = options.shows_rays;
     return wish;
 }
@@ -41,6 +42,9 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);
+    if (options.compact_mask.channels > 0) {
+        tiles.emplace(scene, options.frames_in_flight);
+    }
     if (scene.pipelines.blended != VK_NULL_HANDLE) {
         forward.emplace(scene, resolvedOrThrow(options.shadow), options.frames_in_flight);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "forward_shadows.h"
+#include "mask_tiles.h"
 #include "scene_data.h"
 
 #include "host/frame_renderer.h"
@@ -24,6 +25,7 @@ struct Shadows {
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;
+    std::optional<MaskTiles> tiles;        // of a compact mask
     std::optional<ForwardShadows> forward; // of scenes with blended surfaces
     const Plan* plan = nullptr;            // the last one
 
