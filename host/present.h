@@ -18,15 +18,15 @@ namespace gnomon::host {
 /// The images of a frame once all its passes are recorded. Their writes have to be waited for as `layout` says them to
 /// be read: by copies for the picture, by shaders for all others. They hold until the next frame is recorded.
 struct FinishedFrame {
-    VkExtent2D drawn{};       // of all images but picture and glow: twice `shown` on each side with supersampling
-    VkExtent2D shown{};       // of the picture
-    vulkan::ImageRef picture; // sRGB-encoded, RGBA8
-    vulkan::ImageRef light;   // radiance before the tone curve, RGBA16F
-    vulkan::ImageRef glow;    // sum of the levels of bloom; null without it
-    vulkan::ImageRef depth;   // reversed z
-    vulkan::ImageRef normals; // geometric and shading normal, octahedral
-    vulkan::ImageRef ids;     // object + 1 in the second channel; 0 background
-    vulkan::ImageRef masks;   // null where everything is lit
+    VkExtent2D drawn{};         // of all images but picture and glow: twice `shown` on each side with supersampling
+    VkExtent2D shown{};         // of the picture
+    vulkan::ImageRef picture;   // sRGB-encoded, RGBA8
+    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F
+    vulkan::ImageRef glow;      // sum of the levels of bloom; null without it
+    vulkan::ImageRef depth;     // reversed z
+    vulkan::ImageRef normals;   // geometric and shading normal, octahedral
+    vulkan::ImageRef ids;       // object + 1 in the second channel; 0 background
+    vulkan::ImageRef masks;     // null where everything is lit
     bool compact_masks = false; // `masks` has RenderOptions::compact_mask
     std::size_t light_count = 0;
     const Plan* plan = nullptr; // says where in `masks` a light's is; null: light i has layer i / 4, channel i % 4

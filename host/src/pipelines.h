@@ -71,8 +71,8 @@ public:
     [[nodiscard]] VkPipeline fxaa();
 
     OwnedSetLayout frame_layout;
-    OwnedPipelineLayout scene_layout;  // set 0 frame, set 1 material
-    OwnedPipelineLayout screen_layout; // set 0 frame
+    OwnedPipelineLayout scene_layout;   // set 0 frame, set 1 material
+    OwnedPipelineLayout screen_layout;  // set 0 frame
     OwnedSetLayout tiles_layout;        // of a compact mask: ShadowRenderer::maskTiles()
     OwnedPipelineLayout compact_layout; // as screen_layout, and set 1 tiles
     // Null when the scene has no blended surface.

@@ -4,6 +4,7 @@
 #include "reach_cells.h"
 
 #include <gnomon/error.h>
+#include <gnomon/pack/mask_draws.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// The mask. Up to four lights of one layer of the mask, for the pixel's surface. Made for one filter (GNOMON_FILTER), for
+// The mask. Up to four lights of one layer of the mask, for the pixel's surface; of a compact mask the lights of the
+// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER), for
 // orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY) and with object ids (GNOMON_OBJECT_IDS).
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/choice_numbers.h"

@@ -4,6 +4,7 @@
 
 #include <gnomon/error.h>
 #include <gnomon/pack/compact_mask.h>
+#include <gnomon/pack/mask_draws.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -65,10 +65,7 @@ public:
         }
         return worst;
     }
-    [[nodiscard]] double darkest() const
-    {
-        return *std::ranges::min_element(compact_) == std::byte{0} ? 0.0 : 1.0;
-    }
+    [[nodiscard]] double darkest() const { return *std::ranges::min_element(compact_) == std::byte{0} ? 0.0 : 1.0; }
 
 private:
     [[nodiscard]] double valueOf(const std::vector<std::byte>& mask, std::uint32_t layer, std::uint32_t channel,

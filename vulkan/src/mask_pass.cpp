@@ -79,7 +79,8 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
 
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
     : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
-      compact_(checkedRule(options.compact)), pipelines_(device, options), slots_(options.frames_in_flight), shape_(options.mask_shape)
+      compact_(checkedRule(options.compact)), pipelines_(device, options), slots_(options.frames_in_flight),
+      shape_(options.mask_shape)
 {
     makeLayouts();
 }
@@ -156,8 +157,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
     }
     const ImageInfo& have = mask_.info();
     const bool fits = mask_ && have.format == maskFormat(channelsFor(plan)) && have.layers >= layersFor(plan) &&
-                      have.extent.width == screen.width &&
-                      have.extent.height == screen.height;
+                      have.extent.width == screen.width && have.extent.height == screen.height;
     if (!fits) {
         makeMask(plan, screen);
     }
@@ -196,9 +196,9 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         orDepth(kSmooth, inputs.smooth),
         DescriptorSets::image(kTints, sampler,
                               maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
-        isCompact() ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
-                    : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight),
-                                             room_.lights_at)};
+        isCompact()
+            ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
+            : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
     sets_.write(slot.sets[options], writes);
 }
 

@@ -17,8 +17,8 @@ namespace gnomon::vulkan {
 
 /// Push constants of mask.frag.
 struct MaskPush {
-    std::uint32_t first_light;
-    std::uint32_t channels;
+    std::uint32_t first_light; // of a compact mask the layer
+    std::uint32_t channels;    // of a compact mask the options
 };
 
 /// Throws Error for one that is wrong.

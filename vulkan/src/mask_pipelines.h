@@ -21,12 +21,12 @@ struct MaskConstants {
     std::uint32_t few_views = 0;   // pack::MaskDraw::few_views
     VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
     VkBool32 has_smooth = VK_FALSE;
-    VkBool32 tints = VK_FALSE;      // views of the draw's options have maps of tints
-    VkBool32 shows_rays = VK_FALSE; // ShadowRendererOptions::shows_rays
-    VkBool32 confidence = VK_FALSE; // for the pass that joins frames: FilterTraits::weighs_frames
-    VkBool32 coloured = VK_FALSE;   // pack::MaskDraw::coloured
-    std::uint32_t tile_channels = 0;  // CompactMaskRule::channels
-    VkBool32 takes_away = VK_FALSE;   // of a compact mask, a draw that shares: what lights do not give
+    VkBool32 tints = VK_FALSE;       // views of the draw's options have maps of tints
+    VkBool32 shows_rays = VK_FALSE;  // ShadowRendererOptions::shows_rays
+    VkBool32 confidence = VK_FALSE;  // for the pass that joins frames: FilterTraits::weighs_frames
+    VkBool32 coloured = VK_FALSE;    // pack::MaskDraw::coloured
+    std::uint32_t tile_channels = 0; // CompactMaskRule::channels
+    VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
 
     bool operator==(const MaskConstants&) const = default;
 };

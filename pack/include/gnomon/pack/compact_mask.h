@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gnomon/pack/light_lists.h>
-#include <gnomon/pack/mask_draws.h>
 #include <gnomon/plan.h>
 
 #include <glm/vec2.hpp>
@@ -14,6 +13,8 @@
 #include <vector>
 
 namespace gnomon::pack {
+
+struct MaskDraw;
 
 /// How a mask is compact.
 struct CompactMaskRule {
@@ -68,9 +69,9 @@ struct CompactMask {
 void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
                      LightLists& lists, CompactMask& out);
 
-/// The draws of a compact mask: for each layer one of each of the plan's options that has lights with maps, all over the
-/// screen. In them MaskDraw::first_light is the layer and `channels` the options; of draws that share, each takes what
-/// its lights do not give from what is there, which is 1 at first. Keeps what `out` has allocated.
+/// The draws of a compact mask: for each layer one of each of the plan's options that has lights with maps, all over
+/// the screen. In them MaskDraw::first_light is the layer and `channels` the options; of draws that share, each takes
+/// what its lights do not give from what is there, which is 1 at first. Keeps what `out` has allocated.
 void listCompactMaskDraws(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
                           std::vector<MaskDraw>& out);
 
