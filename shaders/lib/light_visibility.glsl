@@ -179,16 +179,18 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
     float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
-            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), bias, f, r.steps, r.p, r.n));
+            MapRows rows = rowsOf(viewAt(view));
+            MapPoint point = projectReceiver(rows, bias, r.p, r.n);
+            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), rows, point, f, r.steps, r.p, r.n));
 #ifdef GNOMON_TINTS
             if (GNOMON_TINTS) {
-                here *= viewTint(viewAt(view), bias, r.p, r.n, r.own_tint);
+                here *= viewTint(viewAt(view), point, r.own_tint);
             }
 #endif
             v = v * (1.0 - share) + here * share; // of the first one just what is there, which mix() does not promise
 #ifdef GNOMON_CONFIDENCE
             if (GNOMON_CONFIDENCE) {
-                float confidence = texelConfidence(projectReceiver(rowsOf(viewAt(view)), bias, r.p, r.n).texel);
+                float confidence = texelConfidence(point.texel);
                 lookup_confidence = lookup_confidence * (1.0 - share) + confidence * share;
             }
 #endif

@@ -15,17 +15,16 @@ vec3 tintTexel(vec2 texel, float layer, float depth, vec3 own)
     return depth > tint.a ? min(tint.rgb / own, 1.0) : vec3(1.0);
 }
 
-// What arrives of white light at the point `p`, whose surface has the normal `n`: red, green, blue, and their luminance
+// What arrives of white light at a receiver, projectReceiver() of it: red, green, blue, and their luminance
 // (ITU-R BT.709). Bilinear, each texel being compared on its own. `own_tint`: what the surface itself multiplies the
 // light behind it by. It is a factor of the product and has to come out again: 0 cannot, but what lets nothing of a
 // colour through reflects nothing of it either.
-vec4 viewTint(GpuView view, BiasRule rule, vec3 p, vec3 n, vec3 own_tint)
+vec4 viewTint(GpuView view, MapPoint point, vec3 own_tint)
 {
     float layer = view.more.w - 1.0;
     if (layer < 0.0) {
         return vec4(1.0);
     }
-    MapPoint point = projectReceiver(rowsOf(view), rule, p, n);
     vec2 first = floor(point.texel - 0.5);
     vec2 share = point.texel - 0.5 - first;
     vec2 low = max(first, view.whole.xy);

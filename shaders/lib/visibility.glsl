@@ -171,10 +171,11 @@ GN_FN real boundedVisibility(real v)
     return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));
 }
 
-// `p` eye-relative and inside the view, `n` its unit geometric normal. f.layer, what describes the view and the
-// footprint are filled in here; the latter is made of `steps` (pixelSteps()) where f.moments.sampling asks for it.
-GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, FilterInput f, PixelSteps steps, real3 p,
-                          real3 n)
+// Of a receiver inside the view: `rows` are rowsOf() it, `point` what projectReceiver() makes of it; `p` eye-relative,
+// `n` its unit geometric normal. f.layer, what describes the view and the footprint are filled in here; the latter is
+// made of `steps` (pixelSteps()) where f.moments.sampling asks for it.
+GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoint point, FilterInput f,
+                          PixelSteps steps, real3 p, real3 n)
 {
     FilterInput input_here = f;
     input_here.layer = real(view.scale.z);
@@ -185,10 +186,8 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
     input_here.near_over_far = real(view.more.z);
     input_here.footprint_x = real2(real(0.0));
     input_here.footprint_y = real2(real(0.0));
-    MapRows rows = rowsOf(view);
     input_here.rows = rows;
     input_here.n = n;
-    MapPoint point = projectReceiver(rows, rule, p, n);
     // It and what comes after it choose a mip level by the receiver's footprint.
     if (f.moments.sampling >= kSamplingTrilinear) {
         input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
@@ -204,7 +203,8 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
     steps.right = real4(real(0.0));
     steps.below = real4(real(0.0));
     steps.along = real4(real(0.0));
-    return viewVisibility(filter_number, view, rule, f, steps, p, n);
+    MapRows rows = rowsOf(view);
+    return viewVisibility(filter_number, view, rows, projectReceiver(rows, rule, p, n), f, steps, p, n);
 }
 
 GN_END
