@@ -24,8 +24,8 @@ std::span<const std::uint32_t> edgesOf(const LayerReach& reach, std::uint32_t fi
     }
     const auto all = std::span(edges).first(count);
     std::ranges::sort(all);
-    const auto left_over = std::ranges::unique(all);
-    return std::span<const std::uint32_t>(all).first(count - left_over.size());
+    // std::ranges::unique does not compile with Clang 14 beside libstdc++ 12.
+    return {all.begin(), std::unique(all.begin(), all.end())};
 }
 
 // `cell` has no edge of any bounds inside.
