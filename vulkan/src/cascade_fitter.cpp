@@ -102,11 +102,11 @@ void CascadeFitter::record(VkCommandBuffer commands, std::uint32_t slot_index, c
                                      nullptr);
     const bool ids = inputs.object_id != VK_NULL_HANDLE;
     const glm::uvec3 pixels(pack::groupsOver(screen_px), lights);
-    dispatch(commands, ids ? kDepthIds : kDepth, pixels);
+    dispatch(commands, ids ? kDepthIdsPass : kDepthPass, pixels);
     wait({kCompute, kWrite, kCompute, kRead | kWrite});
-    dispatch(commands, ids ? kBoundsIds : kBounds, pixels);
+    dispatch(commands, ids ? kBoundsIdsPass : kBoundsPass, pixels);
     wait({kCompute, kWrite, kCompute, kRead | kWrite});
-    dispatch(commands, kFinish, {1, 1, lights});
+    dispatch(commands, kFinishPass, {1, 1, lights});
     wait({kCompute, kWrite, kVertex | kCompute | VK_PIPELINE_STAGE_2_HOST_BIT,
           VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | kRead | VK_ACCESS_2_HOST_READ_BIT});
 }

@@ -49,7 +49,7 @@ private:
         VkDescriptorSet fit = VK_NULL_HANDLE;
         std::array<VkDescriptorSet, 2> complete{}; // by Reader
     };
-    enum Pass : std::uint32_t { kDepth, kDepthIds, kBounds, kBoundsIds, kFinish, kPassCount };
+    enum Pass : std::uint32_t { kDepthPass, kDepthIdsPass, kBoundsPass, kBoundsIdsPass, kFinishPass, kPassCount };
 
     void makePipelines();
     void makeSets();
