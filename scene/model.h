@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -121,6 +122,12 @@ struct Transform {
     [[nodiscard]] glm::mat4 matrix() const;
 };
 
+/// What cuts an object: where dot(plane.xyz, p) + plane.w < 0 for either plane, p in the space of its vertices, it is not
+/// there. It is not seen there, casts nothing and receives nothing. Normals are unit length.
+using ClipPlanes = std::array<glm::vec4, 2>;
+inline constexpr glm::vec4 kNoClipPlane{0.0F, 0.0F, 0.0F, 1.0F}; // cuts nothing
+inline constexpr ClipPlanes kNoClipPlanes{kNoClipPlane, kNoClipPlane};
+
 struct Node {
     std::string name;
     std::uint32_t parent = kNone; // always a smaller index than the node's own, or kNone
@@ -135,6 +142,9 @@ struct Node {
     std::vector<glm::mat4> instances; // node_from_instance; empty: the node's mesh once at the node
     bool casts = true;                // per-object flags of the shadow system
     bool receives = true;
+    /// Of the node's mesh, or of each of its instances, in their own space; of a skinned mesh in the world's, where its
+    /// vertices are. Children have their own. Nothing animates them.
+    ClipPlanes clip_planes = kNoClipPlanes;
     bool dynamic = false; // hint: moves by a procedural animator or an animation channel (filled by finishScene)
 };
 

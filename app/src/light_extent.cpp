@@ -2,12 +2,15 @@
 // Based on: C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5 (closest point on a triangle).
 #include "light_extent.h"
 
+#include "scene/clip.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace gnomon::app {
 namespace {
@@ -38,6 +41,19 @@ double distance2ToTriangle(const std::array<glm::dvec3, 3>& corners)
     return std::min({distance2ToSegment(a, b), distance2ToSegment(b, c), distance2ToSegment(c, a)});
 }
 
+/// Of the corners taken to where the origin is by `rel_from_object`.
+double distance2ToPolygon(const scene::Polygon& polygon, const glm::dmat4& rel_from_object)
+{
+    const auto corner = [&](std::size_t i) {
+        return glm::dvec3(rel_from_object * glm::dvec4(polygon.corners[i], 1.0));
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+        least = std::min(least, distance2ToTriangle({corner(0), corner(i - 1), corner(i)}));
+    }
+    return least;
+}
+
 bool meetsBounds(const Aabb& bounds_ws, const glm::dvec3& centre_ws, double radius2)
 {
     const glm::dvec3 to = glm::clamp(centre_ws, glm::dvec3(bounds_ws.min), glm::dvec3(bounds_ws.max)) - centre_ws;
@@ -60,11 +76,12 @@ bool holdsSurface(const scene::Scene& scene, const scene::State& state, const gl
             object.deformed == scene::kNone ? primitive.positions : state.deformed[object.deformed].positions;
         glm::dmat4 rel_from_object(object.world_from_object);
         rel_from_object[3] -= glm::dvec4(centre_ws, 0.0);
-        const auto corner = [&](std::size_t index) {
-            return glm::dvec3(rel_from_object * glm::dvec4(positions[primitive.indices[index]], 1.0));
-        };
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            if (distance2ToTriangle({corner(i), corner(i + 1), corner(i + 2)}) < radius2) {
+            scene::Polygon triangle;
+            for (std::size_t k = 0; k < 3; ++k) {
+                triangle.add(glm::dvec3(positions[primitive.indices[i + k]]));
+            }
+            if (distance2ToPolygon(scene::clipped(triangle, object.clip_planes), rel_from_object) < radius2) {
                 return true;
             }
         }

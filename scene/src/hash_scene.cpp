@@ -63,6 +63,13 @@ private:
         }
     }
 
+    void add(const ClipPlanes& planes)
+    {
+        for (const glm::vec4& plane : planes) {
+            add(plane);
+        }
+    }
+
     void add(const Aabb& box)
     {
         const auto& [min, max] = box;
@@ -130,10 +137,10 @@ private:
     void add(const Node& node)
     {
         const auto& [name, parent, transform, matrix, use_matrix, mesh, skin, camera, light, morph_weights, instances,
-                     casts, receives, dynamic] = node;
+                     casts, receives, clip_planes, dynamic] = node;
         addEach(parent, transform, matrix, use_matrix, mesh, skin, camera, light);
         addEach(morph_weights, instances);
-        addEach(casts, receives, dynamic);
+        addEach(casts, receives, clip_planes, dynamic);
     }
 
     void add(const Skin& skin)
@@ -184,10 +191,10 @@ private:
 
     void add(const Object& object)
     {
-        const auto& [node, mesh, primitive, instance, deformed, material, casts, receives, dynamic, world_from_object,
-                     bounds_ws] = object;
+        const auto& [node, mesh, primitive, instance, deformed, material, casts, receives, dynamic, clip_planes,
+                     world_from_object, bounds_ws] = object;
         addEach(node, mesh, primitive, instance, deformed, material, casts, receives, dynamic);
-        addEach(world_from_object, bounds_ws);
+        addEach(clip_planes, world_from_object, bounds_ws);
     }
 
     void add(const DeformedPrimitive& deformed)

@@ -4,6 +4,8 @@
 #include "animation.h"
 #include "deform.h"
 
+#include "scene/clip.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -38,6 +40,13 @@ const Primitive& primitiveOf(const Scene& scene, const Object& object)
     return scene.meshes[object.mesh].primitives[object.primitive];
 }
 
+/// `box`: around its vertices.
+void boundObject(Object& object, const Aabb& box)
+{
+    const Aabb left = clipped(box, object.clip_planes);
+    object.bounds_ws = left.empty() ? left : transform(object.world_from_object, left);
+}
+
 void deformObject(const Scene& scene, State& state, Object& object)
 {
     const Node& node = state.nodes[object.node];
@@ -52,8 +61,7 @@ void deformObject(const Scene& scene, State& state, Object& object)
         joint_matrices = std::span<const glm::mat4>(state.joint_matrices).first(skin.joints.size());
     }
     DeformedPrimitive& deformed = state.deformed[object.deformed];
-    const Aabb box = deform(primitiveOf(scene, object), node.morph_weights, joint_matrices, deformed);
-    object.bounds_ws = box.empty() ? box : transform(object.world_from_object, box);
+    boundObject(object, deform(primitiveOf(scene, object), node.morph_weights, joint_matrices, deformed));
 }
 
 void placeObject(const Scene& scene, State& state, std::uint32_t index)
@@ -70,8 +78,7 @@ void placeObject(const Scene& scene, State& state, std::uint32_t index)
     if (object.deformed != kNone) {
         deformObject(scene, state, object);
     } else {
-        const Aabb& box = primitiveOf(scene, object).bounds;
-        object.bounds_ws = box.empty() ? box : transform(object.world_from_object, box);
+        boundObject(object, primitiveOf(scene, object).bounds);
     }
 }
 
@@ -149,6 +156,7 @@ void addObjects(const Scene& scene, std::uint32_t node_index, State& state)
         Object object{.node = node_index, .mesh = node.mesh, .primitive = p, .material = primitive.material};
         object.casts = node.casts;
         object.receives = node.receives;
+        object.clip_planes = node.clip_planes;
         object.dynamic = dynamic;
         // Skinned vertices are in world space already, so there is one place only for them.
         const bool once = node.instances.empty() || (node.skin != kNone && deforms(node, primitive));

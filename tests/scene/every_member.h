@@ -174,6 +174,7 @@ inline const std::vector<Change<Node>> kNodeChanges{
     of("instances", &Node::instances),
     of("casts", &Node::casts),
     of("receives", &Node::receives),
+    of("clip_planes", &Node::clip_planes),
     of("dynamic", &Node::dynamic),
 };
 inline const std::vector<Change<Transform>> kTransformChanges{
@@ -249,7 +250,8 @@ inline const std::vector<Change<Object>> kObjectChanges{
     of("primitive", &Object::primitive), of("instance", &Object::instance),
     of("deformed", &Object::deformed),   of("material", &Object::material),
     of("casts", &Object::casts),         of("receives", &Object::receives),
-    of("dynamic", &Object::dynamic),     of("world_from_object", &Object::world_from_object),
+    of("dynamic", &Object::dynamic),     of("clip_planes", &Object::clip_planes),
+    of("world_from_object", &Object::world_from_object),
 };
 inline const std::vector<Change<DeformedPrimitive>> kDeformedChanges{
     of("object", &DeformedPrimitive::object),

@@ -3,6 +3,8 @@
 
 #include "scene_geometry.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -43,6 +45,23 @@ bool passes(const Part& part, const Hit& hit, const RayContext& context)
            (part.alpha && !part.alpha->isSolid(hit.triangle, hit.u, hit.v));
 }
 
+/// A clip plane has cut away the point that is hit.
+bool isCutAway(const Part& part, const Hit& hit)
+{
+    if (part.clip_planes == scene::kNoClipPlanes) {
+        return false;
+    }
+    const std::uint32_t* corners = part.primitive->indices.data() + std::size_t{hit.triangle} * 3;
+    const auto corner = [&](std::size_t k) {
+        return glm::dvec3((*part.positions)[corners[k]]);
+    };
+    const glm::dvec3 a = corner(0);
+    const glm::dvec3 p = a + (corner(1) - a) * double{hit.u} + (corner(2) - a) * double{hit.v};
+    return std::ranges::any_of(part.clip_planes, [&](const glm::vec4& plane) {
+        return glm::dot(glm::dvec3(plane), p) + double{plane.w} < 0.0;
+    });
+}
+
 /// Takes away from the ray's light what a blended surface does not let through.
 void tint(const RTCFilterFunctionNArguments& args, unsigned lane, const Part& part, const Hit& hit)
 {
@@ -71,6 +90,10 @@ void filterNearest(const RTCFilterFunctionNArguments* args)
         }
         const Hit hit = hitOf(*args, lane);
         const Part& part = parts[hit.object];
+        if (isCutAway(part, hit)) {
+            args->valid[lane] = 0;
+            continue;
+        }
         tint(*args, lane, part, hit);
         const bool culled = context.from_camera && !part.double_sided && isBehind(*args, lane, part);
         if (culled || passes(part, hit, context)) {
@@ -89,6 +112,10 @@ void filterAny(const RTCFilterFunctionNArguments* args)
         }
         const Hit hit = hitOf(*args, lane);
         const Part& part = parts[hit.object];
+        if (isCutAway(part, hit)) {
+            args->valid[lane] = 0;
+            continue;
+        }
         tint(*args, lane, part, hit);
         if (passes(part, hit, context)) {
             args->valid[lane] = 0;

@@ -106,6 +106,7 @@ void SceneGeometry::describe(const scene::Scene& scene, const scene::State& stat
         Part& part = parts_[i];
         part.casts = object.casts;
         part.receives = object.receives;
+        part.clip_planes = object.clip_planes;
         part.double_sided = material.double_sided;
         part.blended = material.alpha_mode == scene::AlphaMode::blend;
         part.rel_from_object = glm::dmat4(object.world_from_object);

@@ -76,6 +76,7 @@ struct Part {
     const std::vector<glm::vec3>* normals = nullptr; // of the vertices
     glm::dmat4 rel_from_object{1.0};                 // relative to SceneGeometry::originWs()
     std::optional<AlphaTest> alpha;                  // masked and blended materials
+    scene::ClipPlanes clip_planes = scene::kNoClipPlanes; // in the space of `positions`
     bool blended = false;                            // not seen; shadow rays go through and are tinted
     bool mirrored = false;
     bool double_sided = false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon::scene::gltf {
 
@@ -169,6 +170,41 @@ void readTransform(const JsonView& view, Node& node)
     }
 }
 
+void readClipPlane(const JsonView& view, glm::vec4& plane)
+{
+    view.numbers({glm::value_ptr(plane), 4});
+    const double length = glm::length(glm::dvec3(plane));
+    if (length == 0.0) {
+        view.fail("a clip plane's first three numbers must not all be zero");
+    }
+    const glm::dvec4 unit = glm::dvec4(plane) / length;
+    if (!(std::abs(unit.w) <= double{std::numeric_limits<float>::max()})) {
+        view.fail("the clip plane is too far away");
+    }
+    plane = glm::vec4(unit);
+}
+
+/// What glTF leaves to applications. Ours: {"clip_planes": [[a, b, c, d]]} leaves of the node's mesh what has
+/// a x + b y + c z + d >= 0, for each of up to two planes.
+void readExtras(const JsonView& view, Node& node)
+{
+    const std::optional<JsonView> extras = view.find("extras");
+    if (!extras || !extras->value().is_object()) { // glTF allows any value, and others' are not ours to judge
+        return;
+    }
+    const std::optional<JsonView> planes = extras->find("clip_planes");
+    if (!planes || (planes->value().is_array() && planes->value().empty())) {
+        return;
+    }
+    const std::size_t count = planes->size();
+    if (count > node.clip_planes.size()) {
+        planes->failFound("a node has at most two clip planes", std::to_string(count));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        readClipPlane(planes->element(i), node.clip_planes[i]);
+    }
+}
+
 Node readNode(Document& document, const JsonView& view)
 {
     checkExtensions(view, Place::node);
@@ -201,6 +237,7 @@ Node readNode(Document& document, const JsonView& view)
         }
     }
     node.instances = readInstances(document, view);
+    readExtras(view, node);
     return node;
 }
 
