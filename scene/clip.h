@@ -18,8 +18,8 @@ struct Polygon {
 
 /// What `planes` leave of a polygon of at most four corners; of none where that is nothing.
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const ClipPlanes& planes);
-/// The smallest box around what they leave of `box`, empty where that is nothing. A box that is not finite comes back as
-/// it is.
+/// The smallest box around what they leave of `box`, empty where that is nothing. A box that is not finite comes back
+/// as it is.
 [[nodiscard]] Aabb clipped(const Aabb& box, const ClipPlanes& planes);
 
 } // namespace gnomon::scene

@@ -122,8 +122,8 @@ struct Transform {
     [[nodiscard]] glm::mat4 matrix() const;
 };
 
-/// What cuts an object: where dot(plane.xyz, p) + plane.w < 0 for either plane, p in the space of its vertices, it is not
-/// there. It is not seen there, casts nothing and receives nothing. Normals are unit length.
+/// What cuts an object: where dot(plane.xyz, p) + plane.w < 0 for either plane, p in the space of its vertices, it is
+/// not there. It is not seen there, casts nothing and receives nothing. Normals are unit length.
 using ClipPlanes = std::array<glm::vec4, 2>;
 inline constexpr glm::vec4 kNoClipPlane{0.0F, 0.0F, 0.0F, 1.0F}; // cuts nothing
 inline constexpr ClipPlanes kNoClipPlanes{kNoClipPlane, kNoClipPlane};

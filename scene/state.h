@@ -21,10 +21,10 @@ struct Object {
     std::uint32_t material = kNone;
     bool casts = true;
     bool receives = true;
-    bool dynamic = false;              // may move or deform over time
+    bool dynamic = false;                   // may move or deform over time
     ClipPlanes clip_planes = kNoClipPlanes; // in the space of its vertices
-    glm::mat4 world_from_object{1.0F}; // identity for skinned objects: their vertices are in world space
-    Aabb bounds_ws; // of what the planes leave; empty where they leave nothing
+    glm::mat4 world_from_object{1.0F};      // identity for skinned objects: their vertices are in world space
+    Aabb bounds_ws;                         // of what the planes leave; empty where they leave nothing
 };
 
 /// Vertices of a skinned or morphed primitive now, as long as the primitive's positions. Skinned: world space.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every drawn surface. Instances carry their transform, because instance-rate attributes cost a software rasteriser far
-// less than a gather per vertex.
+// less than a gather per vertex. CLIPPED: with two planes in the objects' own space, beyond which nothing is drawn.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
+#include "lib/caster.glsl"
 #include "shared/smooth_surface.h"
 
 layout(constant_id = 2) const bool kAllTextures = false;
@@ -25,12 +26,20 @@ layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_colour;
 layout(location = 4) flat out uvec3 out_ids;
 invariant gl_Position; // drawn again with depth compared for equality
+#ifdef CLIPPED
+layout(push_constant) uniform Cut { vec4 clip_planes[2]; };
+out float gl_ClipDistance[2];
+#endif
 
 void main()
 {
     vec4 p = vec4(position, 1.0);
     vec4 q = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
     gl_Position = frame.clip_from_eye * q;
+#ifdef CLIPPED
+    gl_ClipDistance[0] = casterInside(position, clip_planes[0]);
+    gl_ClipDistance[1] = casterInside(position, clip_planes[1]);
+#endif
     // The cofactors take normals along whatever the transform is.
     vec3 c_x = cross(row_y.xyz, row_z.xyz);
     vec3 c_y = cross(row_z.xyz, row_x.xyz);

@@ -6,8 +6,11 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace gnomon::host {
 
@@ -16,6 +19,35 @@ namespace {
 // Of caster_batches: what is opaque, and of that what may go without the triangles of one side.
 constexpr std::uint32_t kOpaque = 0;
 constexpr std::uint32_t kOpaqueClosed = 1;
+
+/// Batches of casters that are cut, made when the first one is.
+class CutBatches {
+public:
+    CutBatches(std::vector<vulkan::CasterBatch>& batches, const std::vector<scene::ClipPlanes>& cuts)
+        : batches_(batches), cuts_(cuts)
+    {
+    }
+
+    /// As `batch`, by the planes of `cut`.
+    std::uint32_t of(std::uint32_t batch, std::uint32_t cut)
+    {
+        if (cut == 0) {
+            return batch;
+        }
+        const auto [found, fresh] = ids_.emplace(std::pair(batch, cut), static_cast<std::uint32_t>(batches_.size()));
+        if (fresh) {
+            vulkan::CasterBatch made = batches_[batch];
+            made.clip_planes = cuts_[cut];
+            batches_.push_back(made);
+        }
+        return found->second;
+    }
+
+private:
+    std::vector<vulkan::CasterBatch>& batches_;
+    const std::vector<scene::ClipPlanes>& cuts_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> ids_; // by batch and cut
+};
 
 } // namespace
 
@@ -32,11 +64,13 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     std::map<Batch, std::uint32_t> batch_ids;
     std::vector<Key> keys;
     keys.reserve(state.objects.size());
-    for (const scene::Object& object : state.objects) {
+    const std::vector<std::uint32_t> cut_ids = numberCuts(state);
+    for (std::size_t i = 0; i < state.objects.size(); ++i) {
+        const scene::Object& object = state.objects[i];
         const std::uint32_t material = materials.indexOf(object.material);
         const MaterialFacts& facts = materials.all()[material];
         const bool mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0F;
-        const Batch batch{facts.kind, facts.two_sided, mirrored, material};
+        const Batch batch{facts.kind, facts.two_sided, mirrored, material, cut_ids[i]};
         batch_ids.emplace(batch, 0);
         keys.emplace_back(batch, object.mesh, object.primitive, object.deformed);
     }
@@ -46,6 +80,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
     const std::vector<bool> closed = closedMeshes(scene);
+    CutBatches cut_batches(caster_batches, cuts);
     std::map<Key, std::uint32_t> part_ids;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const Batch& batch = std::get<0>(keys[i]);
@@ -55,7 +90,8 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
             parts.push_back({range, batch_ids[batch]});
             const bool one_sided =
                 caster_ids[batch.material] == kOpaque && closed[state.objects[i].mesh] && !batch.mirrored;
-            caster_parts.push_back({range, one_sided ? kOpaqueClosed : caster_ids[batch.material]});
+            const std::uint32_t caster_batch = one_sided ? kOpaqueClosed : caster_ids[batch.material];
+            caster_parts.push_back({range, cut_batches.of(caster_batch, batch.cut)});
         }
         objects.push_back({part->second, 1U});
         // Maps of averages draw receivers, too, and what is blended is none.
@@ -64,6 +100,28 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         blended.push_back(is_blended && state.objects[i].casts ? 1 : 0);
         transforms.push_back(rowsOf(state.objects[i].world_from_object));
     }
+}
+
+/// Of each object.
+std::vector<std::uint32_t> DrawTable::numberCuts(const scene::State& state)
+{
+    using Numbers = std::array<float, 8>; // which have an order
+    std::map<Numbers, std::uint32_t> known;
+    std::vector<std::uint32_t> ids;
+    ids.reserve(state.objects.size());
+    const auto number = [&](const scene::ClipPlanes& planes) {
+        const auto [found, fresh] =
+            known.emplace(std::bit_cast<Numbers>(planes), static_cast<std::uint32_t>(cuts.size()));
+        if (fresh) {
+            cuts.push_back(planes);
+        }
+        return found->second;
+    };
+    (void)number(scene::kNoClipPlanes);
+    for (const scene::Object& object : state.objects) {
+        ids.push_back(number(object.clip_planes));
+    }
+    return ids;
 }
 
 /// Two for everything opaque, one for each masked or blended material. Returns each material's.

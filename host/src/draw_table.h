@@ -17,6 +17,7 @@ struct Batch {
     bool two_sided = false;
     bool mirrored = false;
     std::uint32_t material = 0;
+    std::uint32_t cut = 0;                          // DrawTable::cuts; 0: nothing cuts it
     auto operator<=>(const Batch&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
@@ -27,6 +28,7 @@ struct DrawTable {
               const scene::State& state);
 
     std::vector<Batch> batches;
+    std::vector<scene::ClipPlanes> cuts; // the first cuts nothing
     std::vector<vulkan::DrawPart> parts;
     std::vector<vulkan::DrawObject> objects;
     std::vector<vulkan::Rows3x4> transforms; // per object, as `state` has them
@@ -37,6 +39,7 @@ struct DrawTable {
     std::vector<std::uint8_t> blended; // per object: it tints the light instead of blocking it
 
 private:
+    std::vector<std::uint32_t> numberCuts(const scene::State& state);
     std::vector<std::uint32_t> makeCasterBatches(const Materials& materials, const scene::Scene& scene);
 };
 

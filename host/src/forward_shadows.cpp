@@ -18,7 +18,7 @@ constexpr const char* kPurpose = "host shadows of blended surfaces";
 
 ForwardShadows::ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots)
     : gpu_(scene.gpu), pipelines_(scene.pipelines), memory_(scene.gpu),
-      pipeline_(scene.pipelines.shadowedFor(options.filter())),
+      of_surfaces_(scene.pipelines.shadowedFor(options.filter())),
       map_sampler_(scene.textures.mipSampler(options.filterable())), texel_sampler_(scene.textures.mipSampler(false)),
       slots_(slots)
 {
@@ -120,7 +120,6 @@ void ForwardShadows::recordViews(VkCommandBuffer commands, std::uint32_t slot, c
 
 void ForwardShadows::bind(VkCommandBuffer commands, std::uint32_t slot) const
 {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.shadowed_layout.get(), 2, 1,
                             &slots_[slot].set, 0, nullptr);
 }

@@ -24,8 +24,9 @@ public:
     /// Outside of rendering, after ShadowRenderer::recordBounds().
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
                      vulkan::ShadowRenderer& renderer) const;
-    /// Inside rendering: the pipeline and set 2. Sets 0 and 1 are the scene's.
+    /// Inside rendering: set 2. Sets 0 and 1 are the scene's.
     void bind(VkCommandBuffer commands, std::uint32_t slot) const;
+    [[nodiscard]] const SurfacePipelines& pipelines() const { return of_surfaces_; }
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
 
 private:
@@ -41,7 +42,7 @@ private:
     const Gpu& gpu_;
     const Pipelines& pipelines_;
     Memory memory_;
-    VkPipeline pipeline_;
+    SurfacePipelines of_surfaces_;
     VkSampler map_sampler_;
     VkSampler texel_sampler_; // nearest, of blocks and tints
     OwnedDescriptorPool pool_;

@@ -87,7 +87,7 @@ std::string refusalOf(VkInstance instance, VkPhysicalDevice device)
     view.physical_device = device;
     view.get_instance_proc_addr = vkGetInstanceProcAddr;
     std::array<char, 1024> missing{};
-    vulkan::missingFeatures(view, missing.data(), missing.size());
+    vulkan::missingFeatures(view, missing.data(), missing.size(), {.clip_planes = true});
     if (missing[0] != '\0') {
         return std::string("it lacks ") + missing.data();
     }
@@ -239,7 +239,7 @@ void Gpu::Impl::makeDevice()
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     view.layered = vulkan::supportsLayered(view);
-    info.pNext = &vulkan::requiredFeatures({.layered = view.layered});
+    info.pNext = &vulkan::requiredFeatures({.layered = view.layered, .clip_planes = true});
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     const char* const opening = "opening the Vulkan device";

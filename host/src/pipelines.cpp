@@ -99,7 +99,8 @@ struct Pipelines::Wish {
     VkPipelineLayout layout = VK_NULL_HANDLE; // null: that of the scene or of the screen
 };
 
-Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials) : gpu_(gpu), names_(names)
+Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table)
+    : gpu_(gpu), names_(names), table_(table)
 {
     makeLayouts(materials.layout());
     physical_only_ =
@@ -125,7 +126,7 @@ void Pipelines::makeLayouts(VkDescriptorSetLayout material)
     frame_layout = {gpu_, frame};
     names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, frame, "frame");
     const std::array<VkDescriptorSetLayout, 2> sets{frame, material};
-    scene_layout = makeLayout(sets);
+    scene_layout = makeLayout(sets, true);
     screen_layout = makeLayout(std::span(sets).first(1));
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, scene_layout.get(), "scene");
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, screen_layout.get(), "screen");
@@ -162,15 +163,18 @@ void Pipelines::makeShadowedLayout(VkDescriptorSetLayout material)
     maps_layout = {gpu_, maps};
     names_.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, maps, "maps");
     const std::array<VkDescriptorSetLayout, 3> sets{frame_layout.get(), material, maps};
-    shadowed_layout = makeLayout(sets);
+    shadowed_layout = makeLayout(sets, true);
     names_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shadowed_layout.get(), "shadowed");
 }
 
-OwnedPipelineLayout Pipelines::makeLayout(std::span<const VkDescriptorSetLayout> sets) const
+OwnedPipelineLayout Pipelines::makeLayout(std::span<const VkDescriptorSetLayout> sets, bool of_scene) const
 {
+    const VkPushConstantRange cut{VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(scene::ClipPlanes)};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
     info.pSetLayouts = sets.data();
+    info.pushConstantRangeCount = of_scene ? 1 : 0;
+    info.pPushConstantRanges = &cut;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(vkCreatePipelineLayout(gpu_.view().device, &info, nullptr, &layout), "making a pipeline layout");
     return {gpu_, layout};
@@ -234,13 +238,29 @@ VkPipeline Pipelines::make(const Wish& wish)
     return pipeline;
 }
 
+SurfacePipelines Pipelines::makeSurface(Wish wish, bool cut)
+{
+    SurfacePipelines pipelines;
+    wish.vertex = "scene.vert";
+    pipelines.whole = make(wish);
+    if (cut) {
+        wish.vertex = "scene_clipped.vert";
+        pipelines.cut = make(wish);
+    }
+    return pipelines;
+}
+
 void Pipelines::makeScene(const Materials& materials)
 {
     const auto any = [&materials](auto&& says) {
         return std::any_of(materials.all().begin(), materials.all().end(), says);
     };
+    const auto anyCut = [&](auto&& says) {
+        return std::ranges::any_of(table_.batches, [&](const Batch& batch) {
+            return batch.cut != 0 && says(materials.all()[batch.material]);
+        });
+    };
     Wish wish;
-    wish.vertex = "scene.vert";
     wish.scene = true;
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -250,22 +270,32 @@ void Pipelines::makeScene(const Materials& materials)
     wish.name = "g-buffer";
     for (std::size_t i = 0; i < gbuffer_.size(); ++i) {
         const auto kind = static_cast<SurfaceKind>(i);
-        if (any([kind](const MaterialFacts& m) { return m.kind == kind && !m.blended; })) {
+        const auto isOpaque = [kind](const MaterialFacts& m) {
+            return m.kind == kind && !m.blended;
+        };
+        if (any(isOpaque)) {
             const bool full = kind == SurfaceKind::full || kind == SurfaceKind::full_masked;
             const bool masked = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
             wish.constants = {kind != SurfaceKind::plain, masked, full, VK_FALSE};
-            gbuffer_[i] = make(wish);
+            gbuffer_[i] = makeSurface(wish, anyCut(isOpaque));
         }
     }
     wish = blendedWish();
-    if (any([](const MaterialFacts& m) { return m.blended; })) {
-        blended = make(wish);
+    const auto isBlended = [](const MaterialFacts& m) {
+        return m.blended;
+    };
+    if (any(isBlended)) {
+        blended_is_cut_ = anyCut(isBlended);
+        blended = makeSurface(wish, blended_is_cut_);
         makeShadowedLayout(materials.layout());
     }
-    if (any([](const MaterialFacts& m) { return m.emits && !m.blended; })) {
+    const auto emitsOnly = [](const MaterialFacts& m) {
+        return m.emits && !m.blended;
+    };
+    if (any(emitsOnly)) {
         wish.name = "emissive";
         wish.constants = {VK_FALSE, VK_FALSE, VK_FALSE, VK_TRUE};
-        emissive = make(wish);
+        emissive = makeSurface(wish, anyCut(emitsOnly));
     }
 }
 
@@ -273,7 +303,6 @@ Pipelines::Wish Pipelines::blendedWish()
 {
     Wish wish;
     wish.name = "blended";
-    wish.vertex = "scene.vert";
     wish.fragment = "forward.frag";
     wish.constants = {VK_TRUE, VK_FALSE, VK_TRUE, VK_FALSE};
     wish.colours = {&kLightFormat, 1};
@@ -284,9 +313,9 @@ Pipelines::Wish Pipelines::blendedWish()
     return wish;
 }
 
-VkPipeline Pipelines::shadowedFor(Filter filter)
+SurfacePipelines Pipelines::shadowedFor(Filter filter)
 {
-    const auto found = std::ranges::find(shadowed_, filter, &std::pair<Filter, VkPipeline>::first);
+    const auto found = std::ranges::find(shadowed_, filter, &std::pair<Filter, SurfacePipelines>::first);
     if (found != shadowed_.end()) {
         return found->second;
     }
@@ -294,7 +323,7 @@ VkPipeline Pipelines::shadowedFor(Filter filter)
     Wish wish = blendedWish();
     wish.fragment = fragment;
     wish.layout = shadowed_layout.get();
-    return shadowed_.emplace_back(filter, make(wish)).second;
+    return shadowed_.emplace_back(filter, makeSurface(wish, blended_is_cut_)).second;
 }
 
 void Pipelines::makeSky()

@@ -2,7 +2,7 @@
 // The graphics pipelines that draw a scene, shared by all who do: each is made once, and only where it is needed.
 #pragma once
 
-#include "materials.h"
+#include "draw_table.h"
 
 #include <array>
 #include <span>
@@ -48,55 +48,71 @@ struct ToneFacts {
     bool operator==(const ToneFacts&) const = default;
 };
 
+/// For objects that nothing cuts, and for those that clip planes do; null where the scene has none.
+struct SurfacePipelines {
+    VkPipeline whole = VK_NULL_HANDLE;
+    VkPipeline cut = VK_NULL_HANDLE;
+
+    [[nodiscard]] VkPipeline of(const Batch& batch) const { return batch.cut != 0 ? cut : whole; }
+};
+
 class Pipelines {
 public:
-    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials);
+    Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table);
     ~Pipelines() = default;
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
-    [[nodiscard]] VkPipeline gbuffer(SurfaceKind kind) const { return gbuffer_[static_cast<std::size_t>(kind)]; }
-    VkPipeline blended = VK_NULL_HANDLE;  // lit without shadow; null when the scene has no such surface
-    VkPipeline emissive = VK_NULL_HANDLE; // likewise
+    [[nodiscard]] VkPipeline gbuffer(const Batch& batch) const
+    {
+        return gbuffer_[static_cast<std::size_t>(batch.kind)].of(batch);
+    }
+    SurfacePipelines blended; // lit without shadow
+    SurfacePipelines emissive;
     VkPipeline sky = VK_NULL_HANDLE;
 
     // Compiled when first asked for, which is not to be while a frame is recorded.
     /// The shading pass made for this many lights. Phong and unlit surfaces are left out where the scene has none.
     [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
-    [[nodiscard]] VkPipeline shadowedFor(Filter filter);
+    [[nodiscard]] SurfacePipelines shadowedFor(Filter filter);
     /// The same for a compact mask.
     [[nodiscard]] VkPipeline shadeCompact();
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
     OwnedSetLayout frame_layout;
-    OwnedPipelineLayout scene_layout;   // set 0 frame, set 1 material
+    OwnedPipelineLayout scene_layout;   // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
     OwnedPipelineLayout screen_layout;  // set 0 frame
     OwnedSetLayout tiles_layout;        // of a compact mask: ShadowRenderer::maskTiles()
     OwnedPipelineLayout compact_layout; // as screen_layout, and set 1 tiles
     // Null when the scene has no blended surface.
     OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
-    OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps
+    OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps; pushed as there
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);
     void makeCompactLayout();
     void makeShadowedLayout(VkDescriptorSetLayout material);
-    [[nodiscard]] OwnedPipelineLayout makeLayout(std::span<const VkDescriptorSetLayout> sets) const;
+    [[nodiscard]] OwnedPipelineLayout makeLayout(std::span<const VkDescriptorSetLayout> sets,
+                                                 bool of_scene = false) const;
     [[nodiscard]] OwnedShader module(std::string_view name) const;
     struct Wish;
     [[nodiscard]] static Wish blendedWish();
     VkPipeline make(const Wish& wish);
+    /// `cut`: some are.
+    SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
     void makeSky();
 
     const Gpu& gpu_;
     const DebugNames& names_;
-    std::array<VkPipeline, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
+    const DrawTable& table_;
+    std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
     std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
     VkPipeline shade_compact_ = VK_NULL_HANDLE;
-    std::vector<std::pair<Filter, VkPipeline>> shadowed_;
+    std::vector<std::pair<Filter, SurfacePipelines>> shadowed_;
+    bool blended_is_cut_ = false; // somewhere
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;

@@ -172,12 +172,12 @@ std::uint32_t FrameRenderer::Impl::recordBlended(VkCommandBuffer cmd)
     if (!draws.anyBlended()) {
         return 0;
     }
-    if (const ForwardShadows* const forward = forwardShadows()) {
+    const ForwardShadows* const forward = forwardShadows();
+    if (forward != nullptr) {
         forward->bind(cmd, slot);
-    } else {
-        vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.blended);
     }
-    return draws.recordBlended(cmd, scene.pipelines);
+    return draws.recordBlended(cmd, scene.pipelines,
+                               forward != nullptr ? forward->pipelines() : scene.pipelines.blended);
 }
 
 void FrameRenderer::Impl::recordBloom(VkCommandBuffer cmd)

@@ -14,6 +14,15 @@ bool same(const vulkan::Rows3x4& a, const vulkan::Rows3x4& b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/// Binds `pipeline` unless it is `bound` already.
+void bind(VkCommandBuffer commands, VkPipeline pipeline, VkPipeline& bound)
+{
+    if (pipeline != bound) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        bound = pipeline;
+    }
+}
+
 } // namespace
 
 SceneDraws::SceneDraws(Memory& memory, const DrawTable& table, const Geometry& geometry, const Materials& materials,
@@ -109,19 +118,23 @@ void SceneDraws::bindStreams(VkCommandBuffer commands) const
     vkCmdBindIndexBuffer(commands, geometry_.indices.handle, 0, VK_INDEX_TYPE_UINT32);
 }
 
-void SceneDraws::setSides(VkCommandBuffer commands, const Batch& batch) const
+void SceneDraws::setBatch(VkCommandBuffer commands, const Pipelines& pipelines, const Batch& batch) const
 {
+    VkPipelineLayout layout = pipelines.scene_layout.get();
     vkCmdSetCullMode(commands, batch.two_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
     vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
+                            &materials_.all()[batch.material].set, 0, nullptr);
+    if (batch.cut != 0) {
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(scene::ClipPlanes),
+                           &table_.cuts[batch.cut]);
+    }
 }
 
 std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
                                       const vulkan::BatchDraws& some) const
 {
-    const Batch& batch = table_.batches[some.batch];
-    setSides(commands, batch);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 1, 1,
-                            &materials_.all()[batch.material].set, 0, nullptr);
+    setBatch(commands, pipelines, table_.batches[some.batch]);
     vkCmdDrawIndexedIndirect(commands, now_->commands.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
                              some.command_count, sizeof(VkDrawIndexedIndirectCommand));
     return some.command_count;
@@ -139,10 +152,7 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
             continue;
         }
         const bool first = bound == VK_NULL_HANDLE;
-        if (pipelines.gbuffer(batch.kind) != bound) {
-            bound = pipelines.gbuffer(batch.kind);
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bound);
-        }
+        bind(commands, pipelines.gbuffer(batch), bound);
         if (first) { // not before the pipeline: llvmpipe 22.3 crashes on a set that no pipeline was ever bound for
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1,
                                     &frame_set, 0, nullptr);
@@ -156,28 +166,28 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
 std::uint32_t SceneDraws::recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const
 {
     std::uint32_t draws = 0;
+    VkPipeline bound = VK_NULL_HANDLE;
     for (const vulkan::BatchDraws& some : lists_.batches) {
         const Batch& batch = table_.batches[some.batch];
         const MaterialFacts& facts = materials_.all()[batch.material];
         if (facts.blended || !facts.emits) {
             continue;
         }
-        if (draws == 0) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emissive);
-        }
+        bind(commands, pipelines.emissive.of(batch), bound);
         draws += recordBatch(commands, pipelines, some);
     }
     return draws;
 }
 
-std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipelines& pipelines) const
+std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
+                                        const SurfacePipelines& blended) const
 {
+    VkPipeline bound = VK_NULL_HANDLE;
     for (const Blended& one : blended_) {
         const vulkan::DrawPart& part = table_.parts[table_.objects[one.object].first_part];
         const Batch& batch = table_.batches[part.batch];
-        setSides(commands, batch);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 1, 1,
-                                &materials_.all()[batch.material].set, 0, nullptr);
+        bind(commands, blended.of(batch), bound);
+        setBatch(commands, pipelines, batch);
         vkCmdDrawIndexed(commands, part.mesh.index_count, 1, part.mesh.first_index, part.mesh.vertex_offset,
                          one.instance);
     }

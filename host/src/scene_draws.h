@@ -26,10 +26,11 @@ public:
                std::span<const std::uint32_t> visible);
 
     /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set and the vertex streams
-    /// itself; before the others they are bound, and before recordBlended the pipeline is.
+    /// itself; before the others they are bound. recordBlended draws with `blended`.
     std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, VkDescriptorSet frame_set) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
-    std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
+                                const SurfacePipelines& blended) const;
     [[nodiscard]] bool anyBlended() const { return !blended_.empty(); } // in what was built last
     void bindStreams(VkCommandBuffer commands) const;
 
@@ -49,7 +50,8 @@ private:
     void writeInstance(InstanceData& out, std::uint32_t object, bool receives, const glm::dvec3& eye_ws) const;
     std::uint32_t recordBatch(VkCommandBuffer commands, const Pipelines& pipelines,
                               const vulkan::BatchDraws& some) const;
-    void setSides(VkCommandBuffer commands, const Batch& batch) const;
+    /// What a batch's draws need besides the pipeline.
+    void setBatch(VkCommandBuffer commands, const Pipelines& pipelines, const Batch& batch) const;
 
     const DrawTable& table_;
     const Geometry& geometry_;

@@ -9,7 +9,7 @@ SceneData::SceneData(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
     : gpu(the_gpu), scene(the_scene), memory(the_gpu), uploader(std::make_unique<Uploader>(the_gpu, memory)),
       textures(the_gpu, memory, *uploader, the_scene), materials(the_gpu, memory, *uploader, textures, the_scene),
       geometry(memory, *uploader, the_scene, state), table(geometry, materials, the_scene, state),
-      pipelines(the_gpu, memory.names(), materials)
+      pipelines(the_gpu, memory.names(), materials, table)
 {
     uploader->submit(); // the GPU has time while the first renderer makes its pipelines
 }

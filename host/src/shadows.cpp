@@ -45,7 +45,7 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     if (options.compact_mask.channels > 0) {
         tiles.emplace(scene, options.frames_in_flight);
     }
-    if (scene.pipelines.blended != VK_NULL_HANDLE) {
+    if (scene.pipelines.blended.whole != VK_NULL_HANDLE) {
         forward.emplace(scene, resolvedOrThrow(options.shadow), options.frames_in_flight);
     }
 }

@@ -58,8 +58,8 @@ Polygon clipped(const Polygon& polygon, const ClipPlanes& planes)
     return cutBy(planes[1], cutBy(planes[0], polygon));
 }
 
-// Two planes meet in a line, which leaves the box through its faces. So all corners of what is left are on the faces, and
-// these are cut instead of the body, which may be flat.
+// Two planes meet in a line, which leaves the box through its faces. So all corners of what is left are on the faces,
+// and these are cut instead of the body, which may be flat.
 Aabb clipped(const Aabb& box, const ClipPlanes& planes)
 {
     if (planes == kNoClipPlanes || box.empty() || !isFinite(box.min) || !isFinite(box.max)) {

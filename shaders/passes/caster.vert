@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws casters into a map. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
+// CLIPPED: what lies outside two planes in the object's own space is not drawn.
 // LAYERED: several views are drawn in one pass, and an instance says to which of their layers it belongs.
 #extension GL_GOOGLE_include_directive : require
 #ifdef LAYERED
@@ -39,14 +40,20 @@ layout(location = 0) out float metric; // for fragment shaders that store it
 layout(location = UV_LOCATION) in vec2 uv_in;
 layout(location = 1) out vec2 uv;
 #endif
-#if defined(MASKED) || (defined(LAYERED) && defined(PLACED))
+#if defined(MASKED) || defined(CLIPPED) || (defined(LAYERED) && defined(PLACED))
 layout(push_constant) uniform Material
 {
     vec4 uv_u; // rows of the texture's transform: u = dot(uv_u.xyz, (uv, 1))
     vec4 uv_v;
     float cutoff;
     int first_view; // of those that are drawn in one pass
+#ifdef CLIPPED
+    layout(offset = 64) vec4 clip_planes[2];
+#endif
 };
+#endif
+#ifdef CLIPPED
+out float gl_ClipDistance[2];
 #endif
 
 void main()
@@ -59,6 +66,10 @@ void main()
     metric = dot(row_metric, p);
 #elif defined(METRIC)
     metric = clip.z;
+#endif
+#ifdef CLIPPED
+    gl_ClipDistance[0] = casterInside(position, clip_planes[0]);
+    gl_ClipDistance[1] = casterInside(position, clip_planes[1]);
 #endif
 #ifdef LAYERED
     gl_Layer = int(layer);

@@ -246,11 +246,16 @@ inline const std::vector<Change<Scene>> kSceneChanges{
 };
 
 inline const std::vector<Change<Object>> kObjectChanges{
-    of("node", &Object::node),           of("mesh", &Object::mesh),
-    of("primitive", &Object::primitive), of("instance", &Object::instance),
-    of("deformed", &Object::deformed),   of("material", &Object::material),
-    of("casts", &Object::casts),         of("receives", &Object::receives),
-    of("dynamic", &Object::dynamic),     of("clip_planes", &Object::clip_planes),
+    of("node", &Object::node),
+    of("mesh", &Object::mesh),
+    of("primitive", &Object::primitive),
+    of("instance", &Object::instance),
+    of("deformed", &Object::deformed),
+    of("material", &Object::material),
+    of("casts", &Object::casts),
+    of("receives", &Object::receives),
+    of("dynamic", &Object::dynamic),
+    of("clip_planes", &Object::clip_planes),
     of("world_from_object", &Object::world_from_object),
 };
 inline const std::vector<Change<DeformedPrimitive>> kDeformedChanges{

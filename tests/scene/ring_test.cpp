@@ -237,6 +237,10 @@ TEST(Ring, EverythingOfTheStationStaysInsideItsHull)
                 EXPECT_FALSE(object.casts || object.receives) << name;
                 continue;
             }
+            if (object.bounds_ws.empty()) {
+                EXPECT_NE(object.clip_planes, kNoClipPlanes) << name;
+                continue;
+            }
             const glm::vec3 centre = object.bounds_ws.centre();
             EXPECT_LT(std::abs(centre.z), World::half_width_m + 0.5) << name;
             if (!name.starts_with("beam/") && !name.starts_with("rail/") && !name.starts_with("line/")) {
@@ -306,6 +310,35 @@ TEST(Ring, EveryViewHasAHundredObjectsInFront)
             EXPECT_LT(std::abs(view.eye.z), World::half_width_m) << view.name;
         }
     }
+}
+
+/// Deck, hull and all other rooms are whole. What hangs on the front goes with it.
+TEST(Ring, TheFrontOfOneRoomIsCutAway)
+{
+    std::size_t walls = 0;
+    std::size_t posts = 0;
+    std::size_t gone = 0;
+    for (const Object& object : ringAtZero().objects) {
+        const std::string& name = ring().nodes[object.node].name;
+        if (object.clip_planes == kNoClipPlanes) {
+            EXPECT_FALSE(object.bounds_ws.empty()) << name;
+            continue;
+        }
+        walls += name.starts_with("wall/-") ? 1 : 0;
+        posts += name.starts_with("post/-") ? 1 : 0;
+        if (object.bounds_ws.empty()) {
+            ++gone;
+            continue;
+        }
+        for (int corner = 0; corner < 8; ++corner) { // boxes along the axes are a little higher than what they hold
+            EXPECT_GT(fromAxis(object.bounds_ws.corner(corner)), World::radius_m - 2.2) << name;
+        }
+        EXPECT_LT(object.bounds_ws.max.z, 0.0F) << name;
+        EXPECT_LT(object.bounds_ws.min.x, 0.0F) << name;
+    }
+    EXPECT_EQ(walls, std::size_t{World::sector_tiles});
+    EXPECT_GE(posts, 2U);
+    EXPECT_EQ(gone, 4U) << "the walls over two doors, and a sign of two materials";
 }
 
 TEST(Ring, TheSeedMovesWalkersAndLeavesTheStation)

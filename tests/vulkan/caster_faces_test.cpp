@@ -106,6 +106,55 @@ TEST_P(CasterFacesOnGpu, anObjectsOwnBiasMovesItAlone)
     EXPECT_THROW(bench.drawer.setBiases(wrong), Error);
 }
 
+// Cut at 5 m the box is open above, so one sees its bottom; whichever of its triangles would be left out of a closed
+// one.
+TEST_P(CasterFacesOnGpu, aBoxThatIsCutIsOpen)
+{
+    for (const CasterFaces faces : {CasterFaces::nearest, CasterFaces::back, CasterFaces::midpoint}) {
+        Bench bench = makeBench(faces);
+        setScene(bench);
+        bench.mesh.batches[1].clip_planes[0] = {0.0F, -2.0F, 0.0F, 0.0F}; // its own space: the cube from -1 to 1
+        bench.prepare();
+        bench.record(1);
+        expectHeights(bench, faces == CasterFaces::midpoint ? 2.0 : 4.0, 0.0); // or midway from there to the ground
+    }
+}
+
+TEST_P(CasterFacesOnGpu, eachPlaneCutsAndTogetherTheyMayLeaveNothing)
+{
+    for (const bool masked : {false, true}) {
+        Bench bench = makeBench(CasterFaces::nearest);
+        setScene(bench);
+        if (masked) {
+            bench.mesh.batches.pop_back();
+            bench.maskBoxes();
+        }
+        vulkan::CasterBatch& batch = bench.mesh.batches.back();
+        batch.cutoff = 0.0F; // all is solid
+        batch.clip_planes[1] = {1.0F, 0.0F, 0.0F, 0.0F};
+        bench.prepare();
+        bench.record(1);
+        const auto map = bench.readMap(0);
+        constexpr std::size_t kTexel = 8; // 1.5 m
+        const std::array sides{map[kMiddle - kTexel], map[kMiddle + kTexel]};
+        EXPECT_NEAR(std::min(sides[0], sides[1]), sunDepth(6.0), tolerance()) << "the half that is left";
+        EXPECT_NEAR(std::max(sides[0], sides[1]), sunDepth(0.0), tolerance()) << "the half that is cut away";
+        batch.clip_planes[0] = {-1.0F, 0.0F, 0.0F, -0.5F};
+        bench.prepare();
+        bench.record(1);
+        EXPECT_NEAR(bench.readMap(0)[kMiddle - kTexel], sunDepth(0.0), tolerance());
+        EXPECT_NEAR(bench.readMap(0)[kMiddle + kTexel], sunDepth(0.0), tolerance());
+    }
+}
+
+TEST_P(CasterFacesOnGpu, aPlaneThatIsNotFiniteIsRefused)
+{
+    Bench bench = makeBench(CasterFaces::nearest);
+    setScene(bench);
+    bench.mesh.batches[1].clip_planes[1].w = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(bench.prepare(), Error);
+}
+
 TEST_P(CasterFacesOnGpu, pagesGrowUnderTheMidpoint)
 {
     Bench bench = makeBench(CasterFaces::midpoint);

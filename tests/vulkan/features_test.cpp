@@ -77,6 +77,11 @@ TEST(Features, areThoseOfWhatIsUsed)
     uses = kMaskAlone;
     uses.layered = true;
     EXPECT_EQ(missingFor(uses), "dynamicRendering, synchronization2, maintenance4, shaderOutputLayer");
+    uses = kMaskAlone;
+    uses.clip_planes = true;
+    EXPECT_EQ(missingFor(uses), "shaderClipDistance, dynamicRendering, synchronization2, maintenance4");
+    EXPECT_EQ(vulkan::requiredFeatures(uses).features.shaderClipDistance, VK_TRUE);
+    EXPECT_EQ(vulkan::requiredFeatures().features.shaderClipDistance, VK_FALSE);
     EXPECT_EQ(vulkan::requiredFeatures(kMaskAlone).features.multiDrawIndirect, VK_FALSE);
     EXPECT_EQ(vulkan::requiredFeatures().features.multiDrawIndirect, VK_TRUE);
 }

@@ -169,7 +169,7 @@ void Gpu::makeDevice()
     vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     physical_device_ = devices[0];
     char missing[256];
-    vulkan::missingFeatures(view(), missing, sizeof missing);
+    vulkan::missingFeatures(view(), missing, sizeof missing, {.clip_planes = true});
     if (missing[0] != '\0') {
         throw std::runtime_error(std::string("the device lacks ") + missing);
     }
@@ -178,7 +178,8 @@ void Gpu::makeDevice()
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures({.layered = layered_})};
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                              &vulkan::requiredFeatures({.layered = layered_, .clip_planes = true})};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     require(vkCreateDevice(physical_device_, &create, nullptr, &device_), "vkCreateDevice");

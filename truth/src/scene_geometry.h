@@ -73,11 +73,11 @@ struct RayContext {
 struct Part {
     const scene::Primitive* primitive = nullptr;
     const std::vector<glm::vec3>* positions = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr; // of the vertices
-    glm::dmat4 rel_from_object{1.0};                 // relative to SceneGeometry::originWs()
-    std::optional<AlphaTest> alpha;                  // masked and blended materials
+    const std::vector<glm::vec3>* normals = nullptr;      // of the vertices
+    glm::dmat4 rel_from_object{1.0};                      // relative to SceneGeometry::originWs()
+    std::optional<AlphaTest> alpha;                       // masked and blended materials
     scene::ClipPlanes clip_planes = scene::kNoClipPlanes; // in the space of `positions`
-    bool blended = false;                            // not seen; shadow rays go through and are tinted
+    bool blended = false;                                 // not seen; shadow rays go through and are tinted
     bool mirrored = false;
     bool double_sided = false;
     bool casts = true;

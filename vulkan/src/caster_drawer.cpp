@@ -29,7 +29,15 @@ CasterMaterial material(const CasterBatch& batch)
             batch.cutoff,
             0,
             {},
-            batch.tint};
+            batch.tint,
+            batch.clip_planes};
+}
+
+bool isFinite(const CasterBatch& batch)
+{
+    return std::ranges::all_of(batch.clip_planes, [](const glm::vec4& plane) {
+        return std::isfinite(plane.x) && std::isfinite(plane.y) && std::isfinite(plane.z) && std::isfinite(plane.w);
+    });
 }
 
 } // namespace
@@ -46,6 +54,9 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
 {
     if (std::ranges::any_of(parts, [&](const DrawPart& part) { return part.batch >= batches.size(); })) {
         refuseUse("list what objects draw", "a part names a batch that there is not", "hand in all batches");
+    }
+    if (!std::ranges::all_of(batches, isFinite)) {
+        refuseUse("list what objects draw", "a clip plane of a batch is not finite", "give four numbers");
     }
     // All of the scene or, when memory runs out, none of it.
     DrawBatcher batcher;
@@ -145,12 +156,19 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
 
 VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPassFormats& formats) const
 {
-    if (batch.two_sided) {
+    if (batch.two_sided || isClipped(batch)) {
         return VK_CULL_MODE_NONE;
     }
     return formats.back_faces        ? VK_CULL_MODE_FRONT_BIT
            : options.cull_back_faces ? VK_CULL_MODE_BACK_BIT
                                      : VK_CULL_MODE_NONE;
+}
+
+void CasterDrawer::Impl::setBatch(CasterPipelineKey& key, const CasterBatch& batch) const
+{
+    key.masked = batch.texture != VK_NULL_HANDLE;
+    key.clipped = isClipped(batch);
+    key.cull = cullOf(batch, key.formats);
 }
 
 /// For its map of tints: what blocks light before the blended casters, and these.
@@ -169,8 +187,7 @@ void CasterDrawer::Impl::ensureBatches(CasterPipelineKey key)
         if (batch.blended != key.formats.blended) {
             continue;
         }
-        key.masked = batch.texture != VK_NULL_HANDLE;
-        key.cull = cullOf(batch, key.formats);
+        setBatch(key, batch);
         pipelines.ensure(key);
     }
 }

@@ -18,6 +18,11 @@ namespace gnomon::vulkan {
 
 inline constexpr VkDeviceSize kCommandBytes = sizeof(VkDrawIndexedIndirectCommand);
 
+[[nodiscard]] inline bool isClipped(const CasterBatch& batch)
+{
+    return batch.clip_planes[0] != kNoClipPlane || batch.clip_planes[1] != kNoClipPlane;
+}
+
 struct CasterDrawer::Impl {
     // Written by beginFrame() and draw(), read by the GPU until the slot comes round again.
     struct Slot {
@@ -42,6 +47,8 @@ struct CasterDrawer::Impl {
     void ensureTints(CasterPipelineKey key);
     void ensureBatches(CasterPipelineKey key);
     void ensureAllPasses(CasterPipelineKey key, const ResolvedOptions& resolved);
+    /// What of `key` says how a batch is drawn.
+    void setBatch(CasterPipelineKey& key, const CasterBatch& batch) const;
     [[nodiscard]] VkCullModeFlags cullOf(const CasterBatch& batch, const MapPassFormats& formats) const;
     void makePlaces(const Plan& plan);
     [[nodiscard]] std::span<const std::uint32_t> listOf(const MapPass& pass);

@@ -78,8 +78,7 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
     if (batch.blended != key.formats.blended) {
         return 0;
     }
-    key.masked = batch.texture != VK_NULL_HANDLE;
-    key.cull = cullOf(batch, key.formats);
+    setBatch(key, batch);
     if (const VkPipeline pipeline = pipelines.get(key); pipeline == VK_NULL_HANDLE) {
         refuseUse(kDrawing, "it has formats that the plan of beginFrame() has not", kAsGiven);
     } else if (pipeline != bound) {
@@ -97,8 +96,14 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
         device.vk.CmdBindDescriptorSets(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0, 1,
                                         &batch.texture, 0, nullptr);
         device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages, 0,
-                                   batch.blended ? sizeof(CasterMaterial) : offsetof(CasterMaterial, first_view),
+                                   batch.blended ? offsetof(CasterMaterial, clip_planes)
+                                                 : offsetof(CasterMaterial, first_view),
                                    &materials[draws.batch]);
+    }
+    if (key.clipped) {
+        device.vk.CmdPushConstants(pass.commands, pipelines.layout(), kMaterialStages,
+                                   offsetof(CasterMaterial, clip_planes), sizeof(CasterMaterial::clip_planes),
+                                   &materials[draws.batch].clip_planes);
     }
     device.vk.CmdDrawIndexedIndirect(pass.commands, slot->commands.buffer(),
                                      commands_used + draws.first_command * kCommandBytes, draws.command_count,

@@ -16,46 +16,46 @@
 namespace gnomon::vulkan {
 namespace {
 
-// What the key's other members choose from.
+using Code = std::span<const std::uint32_t>;
+
+/// Plain, masked, clipped, both.
 struct VertexCodes {
-    std::span<const std::uint32_t> orthographic, orthographic_masked;
-    std::span<const std::uint32_t> metric, metric_masked;
-    std::span<const std::uint32_t> perspective, perspective_masked;
+    std::array<Code, 4> orthographic, metric, perspective;
 };
 
+#define GNOMON_MASKED_AND_CLIPPED(name)                                                                                \
+    {                                                                                                                  \
+        spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_clipped_vert, spirv::name##_masked_clipped_vert   \
+    }
+#define GNOMON_VERTEX_CODES(name)                                                                                      \
+    {                                                                                                                  \
+        GNOMON_MASKED_AND_CLIPPED(name##_orthographic), GNOMON_MASKED_AND_CLIPPED(name##_orthographic_metric),         \
+            GNOMON_MASKED_AND_CLIPPED(name##_perspective)                                                              \
+    }
 VertexCodes vertexCodes(const CasterPipelineKey& key)
 {
-    using namespace spirv;
     if (key.layered && key.placed) {
-        return {caster_layered_placed_orthographic_vert,        caster_layered_placed_orthographic_masked_vert,
-                caster_layered_placed_orthographic_metric_vert, caster_layered_placed_orthographic_metric_masked_vert,
-                caster_layered_placed_perspective_vert,         caster_layered_placed_perspective_masked_vert};
+        return GNOMON_VERTEX_CODES(caster_layered_placed);
     }
     if (key.layered) {
-        return {caster_layered_orthographic_vert,        caster_layered_orthographic_masked_vert,
-                caster_layered_orthographic_metric_vert, caster_layered_orthographic_metric_masked_vert,
-                caster_layered_perspective_vert,         caster_layered_perspective_masked_vert};
+        return GNOMON_VERTEX_CODES(caster_layered);
     }
     if (key.placed) {
-        return {caster_placed_orthographic_vert,        caster_placed_orthographic_masked_vert,
-                caster_placed_orthographic_metric_vert, caster_placed_orthographic_metric_masked_vert,
-                caster_placed_perspective_vert,         caster_placed_perspective_masked_vert};
+        return GNOMON_VERTEX_CODES(caster_placed);
     }
-    return {caster_orthographic_vert,        caster_orthographic_masked_vert,
-            caster_orthographic_metric_vert, caster_orthographic_metric_masked_vert,
-            caster_perspective_vert,         caster_perspective_masked_vert};
+    return GNOMON_VERTEX_CODES(caster);
 }
+#undef GNOMON_VERTEX_CODES
+#undef GNOMON_MASKED_AND_CLIPPED
 
-std::span<const std::uint32_t> vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
+Code vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
 {
     const VertexCodes codes = vertexCodes(key);
+    const std::size_t which = (key.masked ? 1U : 0U) + (key.clipped ? 2U : 0U);
     if (key.perspective) {
-        return key.masked ? codes.perspective_masked : codes.perspective;
+        return codes.perspective[which];
     }
-    if (formats.colour != VK_FORMAT_UNDEFINED) {
-        return key.masked ? codes.metric_masked : codes.metric;
-    }
-    return key.masked ? codes.orthographic_masked : codes.orthographic;
+    return formats.colour != VK_FORMAT_UNDEFINED ? codes.metric[which] : codes.orthographic[which];
 }
 
 // Empty where the rasteriser alone does the work.

@@ -15,7 +15,8 @@ struct CasterPipelineKey {
     MapPassFormats formats;
     bool perspective = false;
     bool masked = false;
-    bool clamp = true; // casters before the near plane are clamped onto it
+    bool clipped = false; // CasterBatch::clip_planes
+    bool clamp = true;    // casters before the near plane are clamped onto it
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     TexelPart part = TexelPart::whole;
     bool placed = false;  // MapPass::placement
@@ -32,8 +33,9 @@ struct CasterMaterial {
     std::int32_t first_view = 0; // of several that the GPU has placed; pushed apart from the rest
     glm::vec2 unused{0.0F};
     glm::vec4 tint{1.0F}; // caster_tint.frag
+    std::array<glm::vec4, 2> clip_planes{kNoClipPlane, kNoClipPlane};
 };
-static_assert(sizeof(CasterMaterial) == 64);
+static_assert(sizeof(CasterMaterial) == 96);
 inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Vertex buffer of MapPass::placement.

@@ -27,7 +27,7 @@ struct Chain {
     Chain& operator=(const Chain&) = delete;
 };
 
-enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered };
+enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered, clip_planes };
 
 bool isNeeded(Need need, const FeatureUses& uses)
 {
@@ -40,6 +40,8 @@ bool isNeeded(Need need, const FeatureUses& uses)
         return uses.profiler;
     case Need::layered:
         return uses.layered;
+    case Need::clip_planes:
+        return uses.clip_planes;
     default:
         return true;
     }
@@ -68,6 +70,7 @@ constexpr Feature kFeatures[] = {
     {"drawIndirectFirstInstance", Need::caster_drawer, GNOMON_CORE(drawIndirectFirstInstance)},
     // Casters clamped onto the near plane.
     {"depthClamp", Need::caster_drawer, GNOMON_CORE(depthClamp)},
+    {"shaderClipDistance", Need::clip_planes, GNOMON_CORE(shaderClipDistance)},
     {"pipelineStatisticsQuery", Need::profiler, GNOMON_CORE(pipelineStatisticsQuery)},
     // The linear metric of perspective views in each sample, not only in each texel.
     {"sampleRateShading", Need::filterable, GNOMON_CORE(sampleRateShading)},
@@ -129,10 +132,10 @@ void query(const DeviceView& view, Chain& chain)
 
 const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
 {
-    static std::array<Chain, 16> chains;
+    static std::array<Chain, 32> chains;
     static const bool filled = [] {
         for (std::size_t i = 0; i < chains.size(); ++i) {
-            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0, (i & 4U) != 0, (i & 8U) != 0};
+            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0, (i & 4U) != 0, (i & 8U) != 0, (i & 16U) != 0};
             for (const Feature& feature : kFeatures) {
                 bitIn(chains[i], feature) = isNeeded(feature.need, combination) ? VK_TRUE : VK_FALSE;
             }
@@ -141,7 +144,7 @@ const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
     }();
     (void)filled;
     return chains[(uses.filterable ? 1U : 0U) | (uses.caster_drawer ? 2U : 0U) | (uses.profiler ? 4U : 0U) |
-                  (uses.layered ? 8U : 0U)]
+                  (uses.layered ? 8U : 0U) | (uses.clip_planes ? 16U : 0U)]
         .core;
 }
 

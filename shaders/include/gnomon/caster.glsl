@@ -5,6 +5,8 @@
 //   colour is not UNDEFINED   gnomonCasterTexel() to attachment 0; `holding` is 2 for R8G8B8A8_UNORM, else 0
 //   write_frag_depth          gnomonCasterDepth() to gl_FragDepth; with several samples the metric's input is `sample`
 //   else                      nothing: the rasteriser's depth is the metric
+// Of an object that clip planes cut the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each plane;
+// or passes them on, and the fragment shader discards where one is negative.
 // In a pass of several views (MapPass::view_count) the vertex shader also writes the view's number to gl_Layer.
 // Every name that this declares begins with gnomon or GNOMON.
 #ifndef GNOMON_PUBLIC_CASTER_GLSL
@@ -22,6 +24,13 @@ float gnomonCasterMetric(vec3 p_ws, vec4 metric_ws)
 vec4 gnomonCasterPlaced(vec4 clip, vec4 place)
 {
     return casterPlaced(clip, place);
+}
+
+// How far inside a clip plane a point is, negative where it is cut away: dot(clip_plane.xyz, p) + clip_plane.w, both in
+// one space. Affine in the point as well.
+float gnomonCasterInside(vec3 p, vec4 clip_plane)
+{
+    return casterInside(p, clip_plane);
 }
 
 // The depth that is stored, 0 .. 1.

@@ -17,6 +17,10 @@ enum class Room : std::uint8_t { bar, lounge, garden, market, berths, lab, store
 /// Gardens and markets are open.
 [[nodiscard]] bool isWalled(Room room);
 
+/// Clip planes cut away the upper part of the room's front and what hangs there, as the game did where a wall stood
+/// between the camera and a room: the view `overview` looks into it.
+[[nodiscard]] bool isFrontCutAway(int sector, int side);
+
 struct RoomColours {
     glm::vec4 floor;
     glm::vec4 trim; // of the floor, towards the promenade

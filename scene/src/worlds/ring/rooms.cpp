@@ -6,6 +6,7 @@
 #include "deck.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,8 @@ constexpr double kWall_m = 2.8;   // height
 constexpr double kThick_m = 0.22; // thick enough for every map's bias
 constexpr double kBelow_m = -0.1; // no light passes between wall and deck
 constexpr double kDoor_m = 2.25;
+constexpr double kCut_m = 1.05;     // what is left of a front that is cut away
+constexpr double kPostCut_m = 1.22; // and of its posts: the top of their rings
 
 const glm::vec4 kSteel = rgb(0x9AA0AA);
 const glm::vec4 kOutside = rgb(0x9C958C); // of rooms, as the promenade sees them
@@ -49,6 +52,13 @@ std::string_view frontOf(Room room)
         break;
     }
     return "........";
+}
+
+/// Cuts a node whose vertices are in world space down to `height_m` above the deck at tile `t`.
+void cutDown(Node& node, double t, double height_m)
+{
+    const glm::vec3 up = World::up(t);
+    node.clip_planes[0] = glm::vec4(-up, glm::dot(up, World::place(t, height_m, 0.0)));
 }
 
 /// A tile's length of wall along the ring, its middle at `across_m`.
@@ -113,7 +123,24 @@ private:
     BentPart part_;
 };
 
-void addPanel(Scene& scene, const RingPalette& palette, int tile, int side, Room room, char kind)
+std::uint32_t addPart(Scene& scene, const std::string& name, BentPart& part, std::uint32_t material)
+{
+    return addNode(scene, name, addMesh(scene, part.take(name, material)), {});
+}
+
+/// A bar along the edge at which a tile's wall is cut, where it is not open.
+void addCutEdge(Scene& scene, const RingPalette& palette, int tile, int side)
+{
+    const glm::vec4 mark = rgb(0xD9A441);
+    const double z = side * World::promenade_m;
+    const double half_m = kThick_m / 2 + 0.03;
+    BentPart part;
+    part.box({{static_cast<double>(tile), tile + 1.0}, {kCut_m - 0.03, kCut_m + 0.04}, {z - half_m, z + half_m}},
+             {mark, mark, mark}, 2);
+    (void)addPart(scene, std::string("wall/cut ") + (side < 0 ? "-" : "+") + std::to_string(tile), part, palette.metal);
+}
+
+void addPanel(Scene& scene, const RingPalette& palette, int tile, int side, Room room, char kind, bool is_cut)
 {
     if (kind == '.') {
         return;
@@ -142,7 +169,13 @@ void addPanel(Scene& scene, const RingPalette& palette, int tile, int side, Room
         panel.trim(0.0, 1.0, kWall_m, kWall_m + 0.12, kThick_m + 0.10);
     }
     const std::string name = std::string("wall/") + (side < 0 ? "-" : "+") + std::to_string(tile);
-    addNode(scene, name, addMesh(scene, panel.part().take(name, palette.wall)), {});
+    const std::uint32_t node = addPart(scene, name, panel.part(), palette.wall);
+    if (is_cut) {
+        cutDown(scene.nodes[node], tile + 0.5, kCut_m);
+        if (kind != 'D') {
+            addCutEdge(scene, palette, tile, side);
+        }
+    }
 }
 
 /// From the promenade to the hull at tile `t`, in pieces of a tile's width. The last one goes into the hull.
@@ -159,7 +192,7 @@ void addCrossWall(Scene& scene, const RingPalette& palette, int t, int side, con
         part.box({{t - kCoping, t + kCoping}, {kWall_m, kWall_m + 0.12}, across}, {kSteel, kSteel, kSteel}, 1);
         const std::string name =
             std::string("wall/across ") + (side < 0 ? "-" : "+") + std::to_string(t) + "," + std::to_string(piece);
-        addNode(scene, name, addMesh(scene, part.take(name, palette.wall)), {});
+        (void)addPart(scene, name, part, palette.wall);
     }
 }
 
@@ -225,12 +258,20 @@ void addPosts(Scene& scene, std::uint32_t mesh, int sector, int side)
         const bool corner = i == 0 && (isWalled(room) || isWalled(previous));
         if (corner || (isWalled(room) && i > 0 && needsPost(room, i))) {
             const std::string name = std::string("post/") + (side < 0 ? "-" : "+") + std::to_string(first + i);
-            addNode(scene, name, mesh, onRing(first + i, side * World::promenade_m));
+            const std::uint32_t node = addNode(scene, name, mesh, onRing(first + i, side * World::promenade_m));
+            if (isFrontCutAway(sector, side) && i > 0) { // corners stand
+                scene.nodes[node].clip_planes[0] = {0.0F, -1.0F, 0.0F, static_cast<float>(kPostCut_m)};
+            }
         }
     }
 }
 
 } // namespace
+
+bool isFrontCutAway(int sector, int side)
+{
+    return sector == World::sectors - 1 && side < 0;
+}
 
 void addRooms(Scene& scene, const RingPalette& palette)
 {
@@ -244,7 +285,8 @@ void addRooms(Scene& scene, const RingPalette& palette)
             const Room previous = roomOf((sector + World::sectors - 1) % World::sectors, side);
             const std::string_view front = frontOf(room);
             for (int i = 0; i < World::sector_tiles; ++i) {
-                addPanel(scene, palette, first + i, side, room, front[static_cast<std::size_t>(i)]);
+                addPanel(scene, palette, first + i, side, room, front[static_cast<std::size_t>(i)],
+                         isFrontCutAway(sector, side));
             }
             if (isWalled(room) || isWalled(previous)) {
                 addCrossWall(scene, palette, first, side, {coloursOf(previous).wall, coloursOf(room).wall, kOutside});

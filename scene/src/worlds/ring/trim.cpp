@@ -109,8 +109,12 @@ void addSigns(Scene& scene, const RingPalette& palette)
             }
             const float facing = side > 0 ? kPi : 0.0F; // hangs over the promenade
             const std::string name = std::string("sign/") + (side < 0 ? "-" : "+") + std::to_string(sector);
-            addNode(scene, name, meshes[static_cast<std::size_t>(hueOf(room))],
-                    onRing(World::sector_tiles * sector - 1.5, side * (World::promenade_m - 0.65), facing, 2.55));
+            const std::uint32_t node =
+                addNode(scene, name, meshes[static_cast<std::size_t>(hueOf(room))],
+                        onRing(World::sector_tiles * sector - 1.5, side * (World::promenade_m - 0.65), facing, 2.55));
+            if (isFrontCutAway(sector, side)) { // all of it is as high as what has been cut away
+                scene.nodes[node].clip_planes[0] = {0.0F, -1.0F, 0.0F, -1.0F};
+            }
         }
     }
 }

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -17,6 +18,9 @@
 namespace gnomon::vulkan {
 
 using pack::Rows3x4;
+
+/// A plane that cuts nothing.
+inline constexpr glm::vec4 kNoClipPlane{0.0F, 0.0F, 0.0F, 1.0F};
 
 /// A batch of DrawParts, by DrawPart::batch.
 struct CasterBatch {
@@ -35,6 +39,11 @@ struct CasterBatch {
     /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
     glm::vec4 tint{1.0F};
+    /// What cuts its objects, in the space of their vertices, before world_from_object: a point is not drawn where
+    /// dot(plane.xyz, p) + plane.w < 0 for either plane. Finite; those here by default cut nothing. A mesh that is cut
+    /// is open, so all its triangles cast, whatever `two_sided` says. Bounds in the ObjectSet may be those of what is
+    /// left. With others the device must have the feature shaderClipDistance on (FeatureUses::clip_planes).
+    std::array<glm::vec4, 2> clip_planes{kNoClipPlane, kNoClipPlane};
 };
 
 /// One attribute of the host's vertices.
@@ -76,6 +85,7 @@ struct CasterDrawerOptions {
 
 /// What becomes of a wrong call, in every build:
 ///   a part that names no batch, an object that names no part                        Error
+///   a clip plane that is not finite                                                 Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a plan whose numbers point beyond its own lists or pages                        Error
 ///   fewer transforms than the scene has objects, null positions or indices          Error

@@ -60,6 +60,7 @@ struct FeatureUses {
     bool caster_drawer = true; // CasterDrawer; a callback of the host's own that clamps needs depthClamp all the same
     bool profiler = true;      // Profiler
     bool layered = false;      // CascadePass::layered; supportsLayered() says whether the device can
+    bool clip_planes = false;  // CasterBatch::clip_planes
 };
 
 /// The features that these uses rely on, chained for VkDeviceCreateInfo::pNext: for a host that wants no others. Static
