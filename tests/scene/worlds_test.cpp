@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -179,9 +180,8 @@ TEST_P(Worlds, ObjectBoundsHoldTheirVertices)
         const Primitive& primitive = scene_.meshes[object.mesh].primitives[object.primitive];
         const glm::vec3 slack(1e-3F);
         const auto isCutAway = [&](const glm::vec3& p) {
-            return std::ranges::any_of(object.clip_planes, [&](const glm::vec4& plane) {
-                return glm::dot(plane, glm::vec4(p, 1.0F)) < 0.0F;
-            });
+            return std::ranges::any_of(
+                object.clip_planes, [&](const glm::vec4& plane) { return glm::dot(plane, glm::vec4(p, 1.0F)) < 0.0F; });
         };
         for (std::size_t v = 0; v < primitive.positions.size(); v += 7) {
             if (isCutAway(primitive.positions[v])) {

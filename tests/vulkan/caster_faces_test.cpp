@@ -2,6 +2,8 @@
 // What a map holds of a box over a plane by each CasterFaces, under sun and spot, in both depth formats.
 #include "fixture.h"
 
+#include <gnomon/error.h>
+
 #include <gtest/gtest.h>
 
 #include <array>
