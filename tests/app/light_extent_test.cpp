@@ -16,7 +16,8 @@ struct OneTriangle {
     scene::State state;
 
     explicit OneTriangle(const glm::mat4& world_from_object = glm::mat4(1.0F),
-                         scene::AlphaMode alpha = scene::AlphaMode::opaque)
+                         scene::AlphaMode alpha = scene::AlphaMode::opaque,
+                         const scene::ClipPlanes& clip_planes = scene::kNoClipPlanes)
     {
         scene::Primitive primitive;
         primitive.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
@@ -28,6 +29,7 @@ struct OneTriangle {
         node.mesh = 0;
         node.use_matrix = true;
         node.matrix = world_from_object;
+        node.clip_planes = clip_planes;
         scene.nodes.push_back(node);
         scene::finishScene(scene);
         state = scene::evaluate(scene, 0.0);
@@ -77,6 +79,17 @@ TEST(LightExtent, PassesOverWhatIsBlended)
 {
     const OneTriangle there(glm::mat4(1.0F), scene::AlphaMode::blend);
     EXPECT_FALSE(app::holdsSurface(there.scene, there.state, {0.5, 0.5, 0.0}, 50.0));
+}
+
+TEST(LightExtent, PassesOverWhatIsCutAway)
+{
+    const glm::vec4 right(1, 0, 0, -1); // x >= 1 of its own: a smaller triangle from (1, 0, 0) on
+    const glm::mat4 moved = glm::translate(glm::mat4(1.0F), {10, 0, 0});
+    const OneTriangle part(moved, scene::AlphaMode::opaque, {right, scene::kNoClipPlane});
+    EXPECT_NEAR(part.distanceTo({10.5, 0.5, 0.0}), 0.5, 1e-6);
+    EXPECT_NEAR(part.distanceTo({7.0, -3.0, 0.0}), 5.0, 1e-6);
+    const OneTriangle none(moved, scene::AlphaMode::opaque, {right, glm::vec4(-1, 0, 0, 0.5F)});
+    EXPECT_FALSE(app::holdsSurface(none.scene, none.state, {10.5, 0.5, 0.0}, 50.0));
 }
 
 } // namespace

@@ -60,8 +60,8 @@ TEST(Clip, ABoxCutInHalfCastsHalfAShadow)
 /// By light from aside the cut shape's shadow is that of a cube of another form: the slab method in double precision.
 TEST(Clip, TheShadowIsExactUnderSunAndLamp)
 {
-    // What is left reaches from -1 to 0 in x, and from -1 to 0.5 in the cube's y. It is open there, so the light comes from
-    // where no ray enters by one opening and leaves by the other.
+    // What is left reaches from -1 to 0 in x, and from -1 to 0.5 in the cube's y. It is open there, so the light comes
+    // from where no ray enters by one opening and leaves by the other.
     const scene::ClipPlanes planes{kLeftHalf, glm::vec4(0.0F, -1.0F, 0.0F, 0.5F)};
     for (const Light& light : {sun({-0.4, -1.0, 0.3}), lamp({3.0, 6.0, 1.0}, 0.0)}) {
         scene::Scene scene = cubeOverGround(planes);
