@@ -63,13 +63,13 @@ std::string nameOfView(const View& view, std::uint32_t index)
 {
     std::string name = fmt::format("map {}: ", index);
     if (std::isfinite(view.slice.begin_m)) {
-        name += fmt::format("from {:.1f} ", view.slice.begin_m);
+        name += fmt::format("from {:.3g} ", view.slice.begin_m);
     }
     if (std::isfinite(view.slice.end_m)) {
-        name += fmt::format("to {:.1f} ", view.slice.end_m);
+        name += fmt::format("to {:.3g} ", view.slice.end_m);
     }
-    return fmt::format("{}{}texel {:.3g} m{}", name, view.slice.bounded() ? "m, " : "", view.texel_m,
-                       view.parallel ? "" : " at 1 m");
+    const std::string_view unit = !view.slice.bounded() ? "" : view.slice.isRatio() ? "of the lamp's, " : "m, ";
+    return fmt::format("{}{}texel {:.3g} m{}", name, unit, view.texel_m, view.parallel ? "" : " at 1 m");
 }
 
 } // namespace

@@ -220,6 +220,9 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     json.value("end_m", view.slice.end_m);
     json.value("blend_m", view.slice.blend_m);
     json.vector("axis", view.slice.axis, 4);
+    if (view.slice.isRatio()) {
+        json.vector("over", view.slice.over, 4);
+    }
     json.closeLine('}');
     if (view.faded_in < 1.0) {
         json.value("faded_in", view.faded_in);

@@ -76,17 +76,20 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
     std::vector<Plane> planes(frustum.planes.begin(), frustum.planes.end());
     const glm::dvec3 forward = forwardOf(frame.camera);
-    const auto addDepth = [&](double depth_m, double sign) {
-        planes.push_back({forward * sign, -sign * (glm::dot(forward, frame.camera.eye_ws) + depth_m)});
+    const auto add = [&](const glm::dvec4& row) {
+        if (const double length = glm::length(glm::dvec3(row)); length > 1e-9) {
+            planes.push_back({glm::dvec3(row) / length, row.w / length});
+        }
     };
-    if (std::isfinite(view.slice.begin_m)) {
-        addDepth(view.slice.begin_m, 1.0);
+    const ViewSlice& slice = view.slice;
+    if (std::isfinite(slice.begin_m)) {
+        add(slice.axis - slice.begin_m * slice.over);
     }
-    if (std::isfinite(view.slice.end_m)) {
-        addDepth(view.slice.end_m, -1.0);
+    if (std::isfinite(slice.end_m)) {
+        add(slice.end_m * slice.over - slice.axis);
     }
     if (const double end_m = optionsOf(plan, view).fadeEnd_m(); end_m > 0.0) {
-        addDepth(end_m, -1.0);
+        add({-forward, glm::dot(forward, frame.camera.eye_ws) + end_m});
     }
     const Light& light = frame.lights[view.light];
     if (light.type != LightType::directional && light.range_m > 0.0) {
@@ -100,8 +103,7 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     }
     if (view.sector.bounded()) {
         for (const glm::dvec4& side : {view.sector.x, -view.sector.x, view.sector.y, -view.sector.y}) {
-            const glm::dvec4 row = (view.sector.w + side) / glm::length(glm::dvec3(view.sector.w + side));
-            planes.push_back({glm::dvec3(row), row.w});
+            add(view.sector.w + side);
         }
         return planes;
     }

@@ -78,8 +78,9 @@ std::string sliceOf(const View& view)
         return "all";
     }
     const std::string begin = std::isfinite(view.slice.begin_m) ? numberOf(view.slice.begin_m) : "0";
-    return std::isfinite(view.slice.end_m) ? begin + " to " + numberOf(view.slice.end_m) + " m"
-                                           : "from " + begin + " m";
+    const std::string unit = view.slice.isRatio() ? " of the lamp's" : " m";
+    return std::isfinite(view.slice.end_m) ? begin + " to " + numberOf(view.slice.end_m) + unit
+                                           : "from " + begin + unit;
 }
 
 std::string texelOf(const glm::dvec2& texel)

@@ -47,13 +47,12 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     // A shader need not know infinities.
     constexpr double kEndless = 1e30;
     constexpr double kAtOnce = 1e6; // one over the width of a blend that is next to none
-    // Depths count from the eye for which the plan was made, which need not be the one that looks now.
-    const double gone_m = glm::dot(slice.axis, world_from_eye[3]);
-    gpu.slice = glm::dvec4(std::max(slice.begin_m - gone_m, -kEndless), std::min(slice.end_m - gone_m, kEndless),
+    gpu.slice = glm::dvec4(std::max(slice.begin_m, -kEndless), std::min(slice.end_m, kEndless),
                            slice.blend_m > 0.0   ? 1.0 / slice.blend_m
                            : view.faded_in < 1.0 ? kAtOnce
                                                  : 0.0,
                            view.faded_in);
+    gpu.slice_axis = slice.axis * world_from_eye; // whichever eye the plan was made for
     gpu.sector_x = view.sector.x * world_from_eye;
     gpu.sector_y = view.sector.y * world_from_eye;
     gpu.sector_w = view.sector.w * world_from_eye;
@@ -130,6 +129,7 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
     for (std::size_t i = plan.views.size(); i < few; ++i) { // a shader may look at as many: they serve no depth
         views[i] = {};
         views[i].slice = {1.0F, -1.0F, 0.0F, 0.0F};
+        views[i].sector_w = {0.0F, 0.0F, 0.0F, 1.0F};
     }
 }
 
@@ -153,19 +153,15 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     screen.eye_z = glm::row(eye_from_ndc, 2);
     screen.eye_w = glm::row(eye_from_ndc, 3);
     screen.clip_w = glm::row(clip_from_eye, 3);
-    screen.view_axis = {0.0F, 0.0F, 0.0F, camera.reversed_z ? 0.0F : 1.0F};
-    for (const View& view : plan.views) {
-        if (view.slice.bounded() || view.gpu_cascade != kNoIndex) { // all of them along the one camera's view
-            screen.view_axis = glm::vec4(glm::vec3(view.slice.axis), screen.view_axis.w);
-        }
-    }
     const ResolvedOptions& options = (*plan.options)[index];
     const double begin_m = options.fadeBegin_m();
     const double fade_m = options.fadeEnd_m() - begin_m;
     constexpr double kLeastFade = 1e-5; // of the distance
-    screen.fade = options.fadeEnd_m() > 0.0
-                      ? glm::vec4(begin_m, 1.0 / std::max(fade_m, kLeastFade * options.fadeEnd_m()), 0.0F, 0.0F)
-                      : glm::vec4(0.0F);
+    screen.fade = glm::vec4(0.0F, 0.0F, camera.reversed_z ? 0.0F : 1.0F, 0.0F);
+    if (options.fadeEnd_m() > 0.0) {
+        screen.fade.x = static_cast<float>(begin_m);
+        screen.fade.y = static_cast<float>(1.0 / std::max(fade_m, kLeastFade * options.fadeEnd_m()));
+    }
     const glm::vec2 size(screen_px);
     screen.size = {size, 1.0F / size};
     fillRule(options, out.rule);

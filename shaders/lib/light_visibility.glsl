@@ -84,7 +84,6 @@ struct Receiver {
     vec3 p; // eye-relative
     vec3 n;
     vec3 own_tint;
-    float depth; // of the camera
     PixelSteps steps;
 };
 
@@ -117,12 +116,12 @@ GpuView viewAt(uint i)
     return gnomon_views[i];
 }
 
-// A bit for each view that serves this depth.
-uint slicesAt(float depth)
+// A bit for each view whose slice holds the point.
+uint slicesAt(vec3 p)
 {
     uint slices = 0u;
     for (uint i = 0u; i < GNOMON_FEW_VIEWS; ++i) {
-        slices |= inSlice(gnomon_few_views[i], depth) ? 1u << i : 0u;
+        slices |= inSlice(gnomon_few_views[i], p) ? 1u << i : 0u;
     }
     return slices;
 }
@@ -134,7 +133,7 @@ GpuView viewAt(uint i)
     return gnomon_views[i];
 }
 
-uint slicesAt(float depth)
+uint slicesAt(vec3 p)
 {
     return 0u;
 }
@@ -161,8 +160,8 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
         view = GNOMON_FEW_VIEWS > 1 ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
         s.slices &= s.slices - 1u;
         ++s.next;
-        share = is_first ? 1.0 : viewShare(viewAt(view), r.depth);
-        share = viewContains(viewAt(view), r.p, r.depth) ? share : 0.0;
+        share = is_first ? 1.0 : viewShare(viewAt(view), r.p);
+        share = viewContains(viewAt(view), r.p) ? share : 0.0;
     } while (share == 0.0 && isLeft(s));
     return share;
 }
@@ -175,7 +174,7 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
 {
     vec4 v = vec4(1.0);
     uint view = first;
-    Search s = Search(first, end, slicesAt(r.depth));
+    Search s = Search(first, end, slicesAt(r.p));
     float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
@@ -226,7 +225,6 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     r.p = at.p;
     r.n = at.n;
     r.own_tint = own_tint;
-    r.depth = dot(GNOMON_NUMBERS.screen.view_axis.xyz, p);
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
     FilterInput f = filterInput(pixel);

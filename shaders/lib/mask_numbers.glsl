@@ -11,17 +11,16 @@
     DO(1, screen.eye_y)                                                                                                \
     DO(2, screen.eye_z)                                                                                                \
     DO(3, screen.eye_w)                                                                                                \
-    DO(4, screen.view_axis)                                                                                            \
-    DO(5, screen.fade)                                                                                                 \
-    DO(6, screen.size)                                                                                                 \
-    DO(7, rule.bias)                                                                                                   \
-    DO(8, rule.bias_more)                                                                                              \
-    DO(9, rule.kernel)                                                                                                 \
-    DO(10, rule.disc)                                                                                                  \
-    DO(11, rule.moment_warp)                                                                                           \
-    DO(12, rule.moment_variance)                                                                                       \
-    DO(13, rule.moment_shape)
-const int kLightPlace = 14; // of a draw with few views (light_visibility.glsl)
-const int kMaskNumbers = 15;
+    DO(4, screen.fade)                                                                                                 \
+    DO(5, screen.size)                                                                                                 \
+    DO(6, rule.bias)                                                                                                   \
+    DO(7, rule.bias_more)                                                                                              \
+    DO(8, rule.kernel)                                                                                                 \
+    DO(9, rule.disc)                                                                                                   \
+    DO(10, rule.moment_warp)                                                                                           \
+    DO(11, rule.moment_variance)                                                                                       \
+    DO(12, rule.moment_shape)
+const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
+const int kMaskNumbers = 14;
 
 #endif

@@ -122,10 +122,12 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     return rule;
 }
 
-// Does this view serve this depth of the camera, dot(GpuScreen::view_axis, p)?
-GN_FN bool inSlice(GpuView view, real depth)
+// Does this view's slice hold this point?
+GN_FN bool inSlice(GpuView view, real3 p)
 {
-    return !(depth < real(view.slice.x) || depth > real(view.slice.y));
+    real depth = dotRow(real4(view.slice_axis), p);
+    real w = dotRow(real4(view.sector_w), p);
+    return !(depth < real(view.slice.x) * w || depth > real(view.slice.y) * w);
 }
 
 // Does this view, of several side by side, serve this point?
@@ -135,11 +137,10 @@ GN_FN bool inSector(GpuView view, real3 p)
     return abs(dotRow(real4(view.sector_x), p)) <= w && abs(dotRow(real4(view.sector_y), p)) <= w;
 }
 
-// Does this view serve a point at this depth of the camera, and is the point in the
-// map, so far from its tile's edge that no tap leaves the tile?
-GN_FN bool viewContains(GpuView view, real3 p, real depth)
+// Does this view serve a point, and is the point in the map, so far from its tile's edge that no tap leaves the tile?
+GN_FN bool viewContains(GpuView view, real3 p)
 {
-    if (!inSlice(view, depth) || !inSector(view, p)) {
+    if (!inSlice(view, p) || !inSector(view, p)) {
         return false;
     }
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
@@ -154,8 +155,9 @@ GN_FN bool viewContains(GpuView view, real3 p, real depth)
 }
 
 // What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
-GN_FN real viewShare(GpuView view, real depth)
+GN_FN real viewShare(GpuView view, real3 p)
 {
+    real depth = dotRow(real4(view.slice_axis), p) / dotRow(real4(view.sector_w), p);
     return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0)) * real(view.slice.w);
 }
 

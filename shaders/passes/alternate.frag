@@ -29,7 +29,7 @@ void main()
     visibility = now;
     distance_now = 0.0; // the background: no surface
     float depth = texelFetch(depths, pixel, 0).r;
-    if (depth == gnomon.screen.view_axis.w) {
+    if (depth == gnomon.screen.fade.z) {
         return;
     }
     vec4 ndc = vec4((vec2(pixel) + 0.5) * gnomon.screen.size.zw * 2.0 - 1.0, depth, 1.0);

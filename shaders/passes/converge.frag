@@ -204,7 +204,7 @@ void main()
     ivec3 at = ivec3(ivec2(gl_FragCoord.xy), layer);
     Seen now = seenAt(at);
     float depth = texelFetch(depths, at.xy, 0).r;
-    bool sees = depth != gnomon.screen.view_axis.w;
+    bool sees = depth != gnomon.screen.fade.z;
     if (kAtRest) {
         joinAtRest(at, now, sees);
         return;

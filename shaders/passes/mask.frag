@@ -160,7 +160,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(depths, pixel, 0).r;
     // What is not drawn stays lit. Nor is the shader compiled twice by lavapipe, where no pixel is known to be drawn.
-    if (depth == numbers.screen.view_axis.w) {
+    if (depth == numbers.screen.fade.z) {
         discard;
     }
 #ifdef GNOMON_OBJECT_IDS

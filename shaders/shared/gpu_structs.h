@@ -39,10 +39,10 @@ struct GpuView {
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
                   // near / far, w: one past its layer of the maps of tints; 0: no blended caster is in it
-    // Depths of the camera that it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has
-    // faded in over views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its
-    // number in the plan
+    // What of ViewSlice it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has faded in over
+    // views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its number in the plan
     GN_VEC4 slice;
+    GN_VEC4 slice_axis; // row that takes an eye-relative point to a depth, of which `slice` is in units of sector_w's
     GN_VEC4 sector_x; // rows that take an eye-relative point to its place among views side by side: ViewSector
     GN_VEC4 sector_y;
     GN_VEC4 sector_w;
@@ -87,9 +87,8 @@ struct GpuScreen {
     GN_VEC4 eye_z;
     GN_VEC4 eye_w;
     GN_VEC4 clip_w; // the row that takes an eye-relative point to clip space's w
-    GN_VEC4
-    view_axis;    // xyz: unit, along the camera's view: depth is the dot product with it; w: the background's depth
-    GN_VEC4 fade; // distance from the eye: x: where shadows begin to fade, y: one over the way
+    // Distance from the eye: x: where shadows begin to fade, y: one over the way; z: the background's depth
+    GN_VEC4 fade;
     GN_VEC4 size; // xy: in pixels, zw: one over it
 };
 
@@ -100,8 +99,8 @@ struct GpuConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuView) == 240 && sizeof(GpuLight) == 80 && sizeof(GpuDepthLayers) == 128 &&
-              sizeof(GpuRule) == 144 + 32 * 16 && sizeof(GpuScreen) == 128 && sizeof(GpuConstants) == 784);
+static_assert(sizeof(GpuView) == 256 && sizeof(GpuLight) == 80 && sizeof(GpuDepthLayers) == 128 &&
+              sizeof(GpuRule) == 144 + 32 * 16 && sizeof(GpuScreen) == 112 && sizeof(GpuConstants) == 768);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -46,7 +46,7 @@ Plan tinyPlan()
     view.metric.far_m = 5.0;
     view.texel_m = 0.25;
     view.texel_xy_m = {0.25, 0.125};
-    view.slice = {{0.0, 0.0, -1.0, 5.0}, 2.0, std::numeric_limits<double>::infinity(), 0.5};
+    view.slice = {{0.0, 0.0, -1.0, 5.0}, 2.0, std::numeric_limits<double>::infinity(), 0.5, {0.0, -1.0, 0.0, 3.0}};
     view.fit = {4.0, {0.0625, 0.03125}, {0.25, 0.125}};
     view.light_place_ws = {1.0, 2.0, 3.0};
     view.tile = {0, 0, 0, 1024, 1024};
@@ -88,7 +88,7 @@ constexpr const char* kGolden = R"({
       "texel_m": 0.25,
       "texel_xy_m": [0.25, 0.125],
       "fit": {"strength": 4, "finest_texel": [0.0625, 0.03125], "coarsest_texel": [0.25, 0.125]},
-      "slice": {"begin_m": 2, "end_m": null, "blend_m": 0.5, "axis": [0, 0, -1, 5]},
+      "slice": {"begin_m": 2, "end_m": null, "blend_m": 0.5, "axis": [0, 0, -1, 5], "over": [0, -1, 0, 3]},
       "light_place_ws": [1, 2, 3],
       "clip_from_world_rows": [
         [0.1, 0, 0, 0],

@@ -104,7 +104,10 @@ struct DepthMetric {
     double far_m = 1.0;
 };
 
-/// The share of the camera's depth that a view serves. Depth is dot(axis, (p, 1)): metres from the eye along its view.
+/// The share of what is seen that a view serves. Of most views that is a range of the camera's depth: metres from the
+/// eye along its view, dot(axis, (p, 1)). Of a lamp's views by partition multi it is a range of that depth over the
+/// depth along the light's axis, dot(over, (p, 1)): the lower, the finer the map has to be. Then the numbers below have
+/// no unit.
 struct ViewSlice {
     glm::dvec4 axis{0.0};
     double begin_m = -std::numeric_limits<double>::infinity();
@@ -112,18 +115,28 @@ struct ViewSlice {
     /// Where the view before it, which serves as far as here too, fades over into this one: from begin_m to begin_m +
     /// blend_m. 0: there is none before it.
     double blend_m = 0.0;
+    glm::dvec4 over{0.0, 0.0, 0.0, 1.0}; // 1 everywhere, or the row `w` of the view's sector
 
     [[nodiscard]] bool bounded() const { return std::isfinite(begin_m) || std::isfinite(end_m); }
+    /// It counts depth over depth.
+    [[nodiscard]] bool isRatio() const { return glm::dvec3(over) != glm::dvec3(0.0); }
+    /// Of a point in the view's sector.
+    [[nodiscard]] double depthAt(const glm::dvec3& p_ws) const
+    {
+        return glm::dot(axis, glm::dvec4(p_ws, 1.0)) / glm::dot(over, glm::dvec4(p_ws, 1.0));
+    }
+    /// Of any point; behind a lamp that it counts from, none.
     [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
     {
         const double depth_m = glm::dot(axis, glm::dvec4(p_ws, 1.0));
-        return depth_m >= begin_m && depth_m <= end_m;
+        const double unit = glm::dot(over, glm::dvec4(p_ws, 1.0));
+        return !bounded() || (unit > 0.0 && depth_m >= begin_m * unit && depth_m <= end_m * unit);
     }
 };
 
 /// Where views of one light stand side by side, the part of its directions that one of them serves: the points p with
 /// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)), p in world space. A map shows more, for filters
-/// to read, but not all that casts there. By default it is everything.
+/// to read, but not all that casts there. By default it is everything. Where w is a lamp's, it is metres along an axis.
 struct ViewSector {
     glm::dvec4 x{0.0};
     glm::dvec4 y{0.0};
@@ -197,7 +210,7 @@ struct View {
     /// How far it has faded in over the light's views before it, where they serve the same place: 0 .. 1. Less than 1
     /// only while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
     double faded_in = 1.0;
-    /// What it counts for at a depth of the camera where a view before it serves the place, too: 0 .. 1.
+    /// What it counts for at a depth (ViewSlice::depthAt()) where a view before it serves the place, too: 0 .. 1.
     [[nodiscard]] double shareAt(double depth_m) const
     {
         const bool fades = slice.blend_m > 0.0;

@@ -63,7 +63,9 @@ void lightPoints(const LightSpace& space, std::span<const SightPoint> points, co
                  const ViewSector& sector, std::vector<LitPoint>& out)
 {
     for (const SightPoint& point : points) {
-        if (point.depth_m < depths.begin_m || point.depth_m >= depths.end_m || !sector.holds(point.p_ws)) {
+        const double unit = glm::dot(depths.over, glm::dvec4(point.p_ws, 1.0));
+        if (point.depth_m < depths.begin_m * unit || point.depth_m >= depths.end_m * unit ||
+            !sector.holds(point.p_ws)) {
             continue;
         }
         if (const std::optional<LitPoint> lit = litPoint(space, point)) {

@@ -21,21 +21,16 @@ constexpr double kFewPoints = 0.02;
 /// The shells of the frame before are kept while they need no more than so many times the texels of the best ones.
 constexpr double kKeepCost = 1.6;
 
-int octaveOf(double depth_m)
+int octaveOf(double depth)
 {
-    constexpr double kNearest_m = 1e-3;
-    constexpr double kFarthest_m = 1e6;
-    return static_cast<int>(std::floor(std::log2(std::clamp(depth_m, kNearest_m, kFarthest_m))));
-}
-
-Slice sectorOf(const Light& light, std::size_t sector)
-{
-    return light.type == LightType::point ? cubeFace(light, static_cast<int>(sector)) : wholeSlice(light);
+    constexpr double kLeast = 1e-6;
+    constexpr double kMost = 1e6;
+    return static_cast<int>(std::floor(std::log2(std::clamp(depth, kLeast, kMost))));
 }
 
 } // namespace
 
-double depthOfOctave(int octave)
+double beginOfOctave(int octave)
 {
     return std::ldexp(1.0, octave);
 }
@@ -146,19 +141,19 @@ void DepthShells::gather(const Input& input)
 {
     octaves_.clear();
     const Light& light = input.light;
-    const std::size_t sectors = light.type == LightType::point ? kCubeFaces : 1;
     std::array<LightSpace, kCubeFaces> spaces;
-    for (std::size_t i = 0; i < sectors; ++i) {
-        const Slice slice = sectorOf(light, i);
-        spaces[i] = lightSpaceOf(light, slice.axis_ws, slice.half_angle_rad, input.camera.scene_ws);
+    for (std::size_t i = 0; i < input.ways.size(); ++i) {
+        spaces[i] =
+            lightSpaceOf(light, input.ways[i].axis_ws, input.ways[i].half_angle_rad, input.camera.scene_ws);
     }
     for (const SightPoint& point : input.points) {
-        const std::size_t sector = sectors > 1 ? cubeFaceOf(point.p_ws - light.position_ws) : 0;
+        const std::size_t sector = input.ways.size() > 1 ? cubeFaceOf(point.p_ws - light.position_ws) : 0;
         const std::optional<LitPoint> lit = litPoint(spaces[sector], point);
         if (!lit || !(lit->facing > 0.0)) {
             continue;
         }
-        const int octave = input.camera.perspective ? octaveOf(point.depth_m) : 0;
+        const double unit = glm::dot(input.ways[sector].depth.over, glm::dvec4(point.p_ws, 1.0));
+        const int octave = input.camera.perspective ? octaveOf(point.depth_m / unit) : 0;
         auto shell = std::ranges::lower_bound(octaves_, octave, {}, &DepthShell::octave);
         if (shell == octaves_.end() || shell->octave != octave) {
             shell = octaves_.insert(shell, {octave, octave + 1, {}});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a light's receivers is seen at like depths of the camera, and so wants texels of like size.
+// What of a light's receivers wants texels of like size: of a sun's what is seen at like depths of the camera, of a
+// lamp's what is seen at like depths of the camera for its depth from the lamp (ViewSlice).
 #pragma once
 
 #include "auto/sight.h"
@@ -25,7 +26,7 @@ struct ShellCell {
     [[nodiscard]] double texels() const;
 };
 
-/// Between two depths of the camera, octaves of metres.
+/// Between two of ViewSlice's numbers, octaves.
 struct DepthShell {
     int octave = 0; // begins at 2^octave
     int end = 0;    // ends at 2^end
@@ -44,12 +45,13 @@ public:
     struct Input {
         const Light& light;
         const CameraView& camera;
+        std::span<const Slice> ways; // the directions among which the light is divided: one, or a cube's faces
         std::span<const SightPoint> points;
         glm::dvec2 cell_px; // of the picture, that each of the points stands for
     };
 
-    /// A shell for each octave of depth that a lit point is in, those as one that cost little more so; one for
-    /// everything where there is no point. `ends` is where all but the last ended in the frame before, octaves, and
+    /// A shell for each octave that a lit point is in, those as one that cost little more so; one for everything where
+    /// there is no point. `ends` is where all but the last ended in the frame before, octaves, and
     /// becomes what it is now. Returns whether those of the frame before are good enough.
     bool find(const Input& input, std::vector<int>& ends, KeepShells keep);
     /// Those that the ends say.
@@ -70,8 +72,8 @@ private:
     std::vector<DepthShell> kept_;
 };
 
-/// Where 2^octave metres begin.
-[[nodiscard]] double depthOfOctave(int octave);
+/// Where an octave begins: 2^octave.
+[[nodiscard]] double beginOfOctave(int octave);
 /// Which face of a cube around a light a direction leads through: as cubeFace() counts them.
 [[nodiscard]] std::size_t cubeFaceOf(const glm::dvec3& way);
 

@@ -12,7 +12,7 @@ namespace gnomon {
 
 /// Which part of the world a frustum serves.
 struct FrustumPart {
-    int octave = 0; // of the camera's depth: from 2^octave metres, or from the eye with kFromEye,
+    int octave = 0; // of what ViewSlice counts: from 2^octave, or all that is less with kFromEye,
     int end = 0;    // to 2^end, or without end with kToEnd
     std::uint32_t sector = 0;
 

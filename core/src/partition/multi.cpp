@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multi-frustum partitioning. What of a light's receivers is seen at like distances from the eye needs like texels, so
-// it is cut into shells of the camera's depth, each at most twice as far as it is near; and what of a shell the light
-// sees all around it, into the faces of a cube. Near ones first, shells grow together where that costs few texels. Each
-// frustum has a map of the size that its part of the picture asks for.
+// Multi-frustum partitioning. A texel of a lamp's map is as large as it is far from the lamp, a pixel as it is far from
+// the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into shells of
+// the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all around it is cut
+// into the faces of a cube. Fine ones first, shells grow together where that costs few texels. Each frustum has a map of
+// the size that its part of the picture asks for.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
 // Departures: receivers are cut where what they need halves, and not each given to one frustum, so that a floor needs
 // no pieces made by hand and nothing pops when an object goes from one to another; frustums fade into each other
@@ -34,34 +35,41 @@ constexpr double kWidestHalfAngle_rad = 0.87;
 /// Of a map of which nobody can tell how fine it should be.
 constexpr double kUnknownSide = 64.0;
 
-/// What a part's depths of the camera are. Where it begins it fades in over a share of the octave before.
-Slice depthsOf(const CameraView& camera, const FrustumPart& part, double blend)
+/// Keeps what is on the row's positive side. A row that is next to nothing has no sides that anyone could tell.
+void cutBy(const glm::dvec4& row, Slice& slice)
 {
-    Slice depths;
-    depths.depth.axis = glm::dvec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.eye_ws));
-    const bool begins = part.octave != kFromEye;
-    const bool ends = part.end != kToEnd;
-    if (begins) {
-        depths.depth.blend_m = blend * depthOfOctave(part.octave - 1);
-        depths.depth.begin_m = depthOfOctave(part.octave) - depths.depth.blend_m;
+    constexpr double kLeast = 1e-9;
+    if (const double length = glm::length(glm::dvec3(row)); length > kLeast) {
+        slice.cut[slice.cut_count++] = {glm::dvec3(row) / length, row.w / length};
     }
-    if (ends) {
-        depths.depth.end_m = depthOfOctave(part.end);
-    }
-    depths.cut[depths.cut_count++] =
-        depthPlane(camera, begins ? depths.depth.begin_m : camera.near_m - camera.pad_m, true);
-    depths.cut[depths.cut_count++] = depthPlane(camera, ends ? depths.depth.end_m : camera.far_m + camera.pad_m, false);
-    return depths;
 }
 
-Slice inSector(const Slice& depths, const Slice& way)
+/// A part of what a light shines on in one of its directions. Where it begins it fades in over a share of the octave
+/// before.
+Slice sliceOf(const CameraView& camera, const Slice& way, const FrustumPart& part, double blend)
 {
-    Slice slice = depths;
-    slice.axis_ws = way.axis_ws;
-    slice.half_angle_rad = way.half_angle_rad;
-    slice.near_share = way.near_share;
-    slice.sector = way.sector;
+    Slice slice = way;
+    slice.depth.axis = glm::dvec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.eye_ws));
+    slice.cut[slice.cut_count++] = depthPlane(camera, camera.near_m - camera.pad_m, true);
+    slice.cut[slice.cut_count++] = depthPlane(camera, camera.far_m + camera.pad_m, false);
+    if (part.octave != kFromEye) {
+        slice.depth.blend_m = blend * beginOfOctave(part.octave - 1);
+        slice.depth.begin_m = beginOfOctave(part.octave) - slice.depth.blend_m;
+        cutBy(slice.depth.axis - slice.depth.begin_m * slice.depth.over, slice);
+    }
+    if (part.end != kToEnd) {
+        slice.depth.end_m = beginOfOctave(part.end);
+        cutBy(slice.depth.end_m * slice.depth.over - slice.depth.axis, slice);
+    }
     return slice;
+}
+
+/// A lamp's depths are counted along the direction's axis.
+Slice countedAlong(const Light& light, Slice way)
+{
+    way.sector.w = glm::dvec4(way.axis_ws, -glm::dot(way.axis_ws, light.position_ws));
+    way.depth.over = way.sector.w;
+    return way;
 }
 
 /// Of its light: the same from frame to frame, wherever a frustum that is refitted in each frame ends.
@@ -129,7 +137,8 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
 {
     const glm::dvec2 cell_px(static_cast<double>(input.frame.size_px.x) / Sight::kColumns,
                              static_cast<double>(input.frame.size_px.y) / Sight::kRows);
-    const DepthShells::Input seen{input.light, input.camera, input.sight.points(), cell_px};
+    findWays(input);
+    const DepthShells::Input seen{input.light, input.camera, ways_, input.sight.points(), cell_px};
     if (memory.held.fading()) { // one change after the other
         shells_.findAgain(seen, memory.divides ? std::span<const int>(memory.ends) : std::span<const int>());
         (void)addShells(input, memory, frustums);
@@ -188,7 +197,7 @@ double MultiPartition::addShells(const Input& input, const Memory& memory, Frust
     return texels;
 }
 
-/// The first shell serves what is nearer than all points, the last what is farther.
+/// The first shell serves what wants finer texels than all points, the last what wants coarser ones.
 void MultiPartition::addShell(const Input& input, std::size_t shell)
 {
     const std::span<const DepthShell> shells = shells_.shells();
@@ -199,36 +208,45 @@ void MultiPartition::addShell(const Input& input, std::size_t shell)
     if (shell + 1 < shells.size()) {
         part.end = shells[shell].end;
     }
-    addSectors(input, depthsOf(input.camera, part, input.recipe.options.cascades.blend), part);
+    for (std::size_t way = 0; way < ways_.size(); ++way) {
+        part.sector = aimed_ ? kCubeFaces : static_cast<std::uint32_t>(way);
+        addFrustum(input, sliceOf(input.camera, ways_[way], part, input.recipe.options.cascades.blend), part);
+    }
 }
 
-void MultiPartition::addSectors(const Input& input, const Slice& depths, FrustumPart part)
+/// The directions among which the light is divided.
+void MultiPartition::findWays(const Input& input)
 {
-    const auto add = [&](const Slice& way, std::size_t sector) {
-        part.sector = static_cast<std::uint32_t>(sector);
-        addFrustum(input, inSector(depths, way), part);
-    };
-    if (input.light.type != LightType::point) {
-        add(wholeSlice(input.light), 0);
+    ways_.clear();
+    aimed_ = false;
+    if (input.light.type == LightType::directional) {
+        ways_.push_back(wholeSlice(input.light));
+        return;
+    }
+    if (input.light.type == LightType::spot) {
+        ways_.push_back(countedAlong(input.light, wholeSlice(input.light)));
         return;
     }
     // One whose axis follows what is seen holds nothing still.
-    const std::optional<Slice> aimed = input.recipe.steady() ? std::nullopt : aimAt(input, depths);
-    if (aimed) {
-        add(*aimed, kCubeFaces);
+    if (const std::optional<Slice> aimed = input.recipe.steady() ? std::nullopt : aim(input)) {
+        ways_.push_back(countedAlong(input.light, *aimed));
+        aimed_ = true;
         return;
     }
-    for (std::size_t sector = 0; sector < kCubeFaces; ++sector) {
-        add(cubeFace(input.light, static_cast<int>(sector)), sector);
+    for (int face = 0; face < static_cast<int>(kCubeFaces); ++face) {
+        ways_.push_back(countedAlong(input.light, cubeFace(input.light, face)));
     }
 }
 
-/// One frustum for all that is seen of a shell, if the light sees it within a narrow enough cone.
-std::optional<Slice> MultiPartition::aimAt(const Input& input, const Slice& shell)
+/// One direction for all that is seen, if the light sees it within a narrow enough cone.
+std::optional<Slice> MultiPartition::aim(const Input& input)
 {
-    body_.reset(grown(reachBox(input.light, input.camera.scene_ws), input.camera.pad_m));
-    body_.clip(input.camera.planes);
-    body_.clip(std::span(shell.cut).first(shell.cut_count));
+    const CameraView& camera = input.camera;
+    const std::array<Plane, 2> depths{depthPlane(camera, camera.near_m - camera.pad_m, true),
+                                      depthPlane(camera, camera.far_m + camera.pad_m, false)};
+    body_.reset(grown(reachBox(input.light, camera.scene_ws), camera.pad_m));
+    body_.clip(camera.planes);
+    body_.clip(depths);
     if (body_.empty()) {
         return std::nullopt;
     }
@@ -336,11 +354,10 @@ void MultiPartition::hold(const Input& input, HeldFrustums& held, std::size_t fi
 void MultiPartition::addFading(const Input& input, const HeldFrustums& held)
 {
     for (const HeldFrustum& one : held.before) {
-        const bool around = input.light.type == LightType::point;
-        const Slice way = around ? cubeFace(input.light, static_cast<int>(one.part.sector)) : wholeSlice(input.light);
         const std::size_t count = frustums_.size();
-        addFrustum(input, inSector(depthsOf(input.camera, one.part, input.recipe.options.cascades.blend), way),
-                   one.part);
+        addFrustum(
+            input,
+            sliceOf(input.camera, ways_[one.part.sector], one.part, input.recipe.options.cascades.blend), one.part);
         if (frustums_.size() > count) {
             GrownFrustum& frustum = frustums_.back();
             frustum.id = idOf(one);

@@ -78,8 +78,8 @@ private:
 
     void findFrustums(const Input& input, Memory& memory, std::size_t first, FrustumPlanner& frustums);
     void addShell(const Input& input, std::size_t shell);
-    void addSectors(const Input& input, const Slice& depths, FrustumPart part);
-    std::optional<Slice> aimAt(const Input& input, const Slice& shell);
+    void findWays(const Input& input);
+    std::optional<Slice> aim(const Input& input);
     void addFrustum(const Input& input, const Slice& slice, const FrustumPart& part);
     void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
     double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
@@ -93,6 +93,8 @@ private:
     std::vector<GrownFrustum> frustums_;
     std::vector<std::uint32_t> receivers_;
     // Scratch.
+    std::vector<Slice> ways_; // of the light that is being divided
+    bool aimed_ = false;      // one that follows what is seen
     TexelShares shares_;
     std::vector<TexelClaim> claims_;
     DepthShells shells_;

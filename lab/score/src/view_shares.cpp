@@ -25,7 +25,7 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
         // The first that serves the point counts for all of it, and each after it for what has faded over so far.
         double share = 1.0;
         if (found) {
-            share = view.shareAt(glm::dot(view.slice.axis, glm::dvec4(point_ws, 1.0)));
+            share = view.shareAt(view.slice.depthAt(point_ws));
         }
         for (std::size_t before = 0; before < i; ++before) {
             shares[before] *= static_cast<float>(1.0 - share);
