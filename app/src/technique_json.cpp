@@ -168,6 +168,7 @@ Json sharedUnitsJson()
 {
     return {{"frame_ratio", "median frame / median frame without shadows"},
             {"texel_density", "shadow texels per screen pixel along the worse axis"},
+            {"texel_density.facing", "the same, if surfaces faced eye and light; share of pixels with 1 to 4"},
             {"fit_efficiency", "texels read / texels rendered"},
             {"eye.near_m", "metres; 0: a 20000th of the scene's diagonal"},
             {"eye.far_m", "metres; 0: behind everything"},
@@ -253,6 +254,11 @@ Json densityJson(const lab::TexelDensity& density)
     return {{"p01", percentile(density.p01)},
             {"p50", percentile(density.p50)},
             {"p99", percentile(density.p99)},
+            {"facing",
+             {{"p01", percentile(density.facing.p01)},
+              {"p50", percentile(density.facing.p50)},
+              {"p99", percentile(density.facing.p99)},
+              {"one_to_four", percentile(density.facing.one_to_four)}}},
             {"pixels", {{"counted", density.counted}, {"left_out", density.left_out}}}};
 }
 

@@ -20,12 +20,21 @@ struct Sight {
     const ImageF& normals; // three channels: geometric, world space, unit; anything at background
 };
 
+/// What TexelDensity has, as it were if each surface faced both eye and light: by how far it is from the two alone.
+struct FacingDensity {
+    double p01 = 0.0;
+    double p50 = 0.0;
+    double p99 = 0.0;
+    double one_to_four = 0.0; // share of the pixels with 1 to 4 texels: what T. Forsyth (GDC 2006) wants of a frustum
+};
+
 /// Percentiles over the counted pixels that lie in one of the light's maps; by linear interpolation, as quantile().
 struct TexelDensity {
     double p01 = 0.0;
     double p50 = 0.0;
     double p99 = 0.0;
     std::uint64_t counted = 0;
+    FacingDensity facing;
     std::uint64_t left_out = 0; // other pixels that see a surface
     ImageF map;                 // shadow texels per screen pixel of each pixel; 0 where left out
 };

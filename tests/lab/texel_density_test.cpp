@@ -105,6 +105,22 @@ TEST(TexelDensity, ASlantedLightStretchesTexels)
     expectDensity(Above(0.1), planOf(glm::radians(60.0), 0.0, {0.05, 0.05}, 512, 512), 1.0);
 }
 
+TEST(TexelDensity, OfFacingSurfacesKnowsNoSlant)
+{
+    const Above above(0.1);
+    for (const double tilt_deg : {0.0, 30.0, 60.0}) {
+        const auto densityOf = [&](glm::dvec2 texel_m) {
+            const Plan plan = planOf(glm::radians(tilt_deg), 0.3, texel_m, 1024, 1024);
+            return texelDensity(above.picture, above.all, above.camera, plan, 0, 1.0).facing;
+        };
+        const FacingDensity twice = densityOf({0.05, 0.05});
+        EXPECT_NEAR(twice.p50, 2.0, 0.05) << "farther from the middle a pixel's rays are longer";
+        EXPECT_EQ(twice.one_to_four, 1.0);
+        EXPECT_EQ(densityOf({0.2, 0.05}).one_to_four, 0.0) << "the longer side counts";
+        EXPECT_EQ(densityOf({0.02, 0.02}).one_to_four, 0.0) << "five are too many";
+    }
+}
+
 TEST(TexelDensity, LeavesOutWhatDoesNotCountAndWhatNoMapHas)
 {
     Above above(0.1);

@@ -17,8 +17,43 @@
 namespace gnomon::lab {
 namespace {
 
-/// With J = d(texel)/d(pixel), one texel step along axis i moves the pixel by column i of J^-1.
-std::optional<double> densityIn(const PixelRays& rays, const View& view, glm::dvec2 pixel, const Surface& surface,
+struct Densities {
+    double of_surface = 0.0;
+    double facing = 0.0;
+};
+
+/// With J = d(texel)/d(pixel), one texel step along axis i moves the pixel by column i of J^-1. Nothing where J has no
+/// inverse.
+std::optional<double> densityOf(const glm::dmat2& texel_from_pixel)
+{
+    if (!(std::abs(glm::determinant(texel_from_pixel)) >= 1e-12)) {
+        return std::nullopt;
+    }
+    const glm::dmat2 pixel_from_texel = glm::inverse(texel_from_pixel);
+    return 1.0 / std::max(glm::length(pixel_from_texel[0]), glm::length(pixel_from_texel[1]));
+}
+
+/// On a square of a pixel's size that faces the light: the texel's gradients are both across its rays.
+double facingDensity(const PixelRays& rays, const View& view, glm::dvec2 pixel, const glm::dvec3& point_ws)
+{
+    const glm::dmat4 rows = glm::transpose(view.clip_from_world);
+    const glm::dvec4 p(point_ws, 1.0);
+    const double w = glm::dot(rows[3], p);
+    const auto gradient = [&](int axis, double size) {
+        return glm::dvec3(rows[axis] - rows[3] * (glm::dot(rows[axis], p) / w)) * (0.5 * size / w);
+    };
+    const glm::dvec3 x = gradient(0, view.tile.width);
+    const glm::dvec3 y = gradient(1, view.tile.height);
+    const double length = glm::length(x);
+    const glm::dvec3 along = x / length;
+    const glm::dvec3 across = y - along * glm::dot(along, y);
+    const double side_m = rays.facingPixel_m(pixel, point_ws);
+    const glm::dmat2 texel_from_pixel(glm::dvec2(length, glm::dot(along, y)) * side_m,
+                                      glm::dvec2(0.0, glm::length(across)) * side_m);
+    return densityOf(texel_from_pixel).value_or(0.0);
+}
+
+std::optional<Densities> densitiesIn(const PixelRays& rays, const View& view, glm::dvec2 pixel, const Surface& surface,
                                 double reach_texels)
 {
     const auto here = texelOf(view, surface.point_ws);
@@ -31,24 +66,37 @@ std::optional<double> densityIn(const PixelRays& rays, const View& view, glm::dv
     if (!right || !down) {
         return std::nullopt;
     }
-    const glm::dmat2 texel_from_pixel((*right - *here) / kStep, (*down - *here) / kStep);
-    if (std::abs(glm::determinant(texel_from_pixel)) < 1e-12) {
+    const auto of_surface = densityOf({(*right - *here) / kStep, (*down - *here) / kStep});
+    if (!of_surface) {
         return std::nullopt;
     }
-    const glm::dmat2 pixel_from_texel = glm::inverse(texel_from_pixel);
-    return 1.0 / std::max(glm::length(pixel_from_texel[0]), glm::length(pixel_from_texel[1]));
+    return Densities{*of_surface, facingDensity(rays, view, pixel, surface.point_ws)};
 }
 
 /// In the first of the light's views that has the surface.
-std::optional<double> densityOf(const PixelRays& rays, std::span<const View> views, glm::dvec2 pixel,
-                                const Surface& surface, double reach_texels)
+std::optional<Densities> densitiesOf(const PixelRays& rays, std::span<const View> views, glm::dvec2 pixel,
+                                     const Surface& surface, double reach_texels)
 {
     for (const View& view : views) {
-        if (const auto density = densityIn(rays, view, pixel, surface, reach_texels)) {
-            return density;
+        if (const auto found = densitiesIn(rays, view, pixel, surface, reach_texels)) {
+            return found;
         }
     }
     return std::nullopt;
+}
+
+FacingDensity summaryOf(std::vector<double>& densities)
+{
+    FacingDensity summary;
+    if (!densities.empty()) {
+        std::sort(densities.begin(), densities.end());
+        summary.p01 = quantile(densities, 0.01);
+        summary.p50 = quantile(densities, 0.50);
+        summary.p99 = quantile(densities, 0.99);
+        const auto counts = std::ranges::count_if(densities, [](double d) { return d >= 1.0 && d <= 4.0; });
+        summary.one_to_four = static_cast<double>(counts) / static_cast<double>(densities.size());
+    }
+    return summary;
 }
 
 template <typename Holds>
@@ -77,31 +125,32 @@ TexelDensity texelDensity(const Sight& seen, const Counted& counted, const Plan&
     TexelDensity result;
     result.map = ImageF(counted.width, counted.height, 1);
     std::vector<double> densities;
+    std::vector<double> facing;
     for (std::uint32_t y = 0; y < counted.height; ++y) {
         for (std::uint32_t x = 0; x < counted.width; ++x) {
             const auto surface = rays.surfaceAt(x, y);
             if (!surface) {
                 continue;
             }
-            std::optional<double> density;
+            std::optional<Densities> found;
             if (*counted.pixel(x, y) != 0) {
-                density = densityOf(rays, views, {x + 0.5, y + 0.5}, *surface, reach_texels);
+                found = densitiesOf(rays, views, {x + 0.5, y + 0.5}, *surface, reach_texels);
             }
-            if (density) {
-                densities.push_back(*density);
-                *result.map.pixel(x, y) = static_cast<float>(*density);
+            if (found) {
+                densities.push_back(found->of_surface);
+                facing.push_back(found->facing);
+                *result.map.pixel(x, y) = static_cast<float>(found->of_surface);
             } else {
                 ++result.left_out;
             }
         }
     }
     result.counted = densities.size();
-    if (!densities.empty()) {
-        std::sort(densities.begin(), densities.end());
-        result.p01 = quantile(densities, 0.01);
-        result.p50 = quantile(densities, 0.50);
-        result.p99 = quantile(densities, 0.99);
-    }
+    const FacingDensity of_surfaces = summaryOf(densities);
+    result.p01 = of_surfaces.p01;
+    result.p50 = of_surfaces.p50;
+    result.p99 = of_surfaces.p99;
+    result.facing = summaryOf(facing);
     return result;
 }
 
