@@ -76,7 +76,7 @@ struct Settings {
     // lights
     std::optional<glm::dvec3> sun_ws; // unit, the way light travels
     std::optional<SpotLight> spot;
-    std::optional<PointLight> point;
+    std::vector<PointLight> points;
     std::optional<double> sun_angle_deg; // of every directional light; else the light's own
     std::optional<double> light_size_m;  // diameter of every spot and point light; else the light's own
     // technique
@@ -122,6 +122,9 @@ struct Settings {
     std::map<std::string, bool, std::less<>> given;
     /// Keys that the command line or a preset named: not left at their defaults.
     std::set<std::string, std::less<>> named;
+
+    /// Lights of its own, and not the scene's.
+    [[nodiscard]] bool placesLights() const { return sun_ws || spot || !points.empty(); }
 };
 
 enum class SettingType : std::uint8_t { flag, integer, real, choice, numbers, size, range, text };

@@ -25,6 +25,8 @@ void requireMap(const Drawn& drawn, std::string_view what);
 [[nodiscard]] Image8 densityView(const Drawn& drawn);
 /// Which of the light's maps serves a pixel; of a stepping sun, whichever of its positions the map is of.
 [[nodiscard]] Image8 viewsView(const Drawn& drawn);
+/// With partition multi and motion snap: what is shadowed from maps that fade in, and what from those they fade over.
+[[nodiscard]] Image8 fadedView(const Drawn& drawn);
 /// How many of all lights reach a pixel and have maps; whatever light the settings name.
 [[nodiscard]] Image8 lightCountView(const Drawn& drawn);
 /// How filter raymarch fared: where blocks knew the answer, where rays did, and where they came to their ceiling.

@@ -123,6 +123,30 @@ Image8 viewsView(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, joined, legend);
 }
 
+Image8 fadedView(const Drawn& drawn)
+{
+    requireMap(drawn, "faded");
+    const LightPlan& light = lightOf(drawn);
+    const std::span<const View> views = std::span(drawn.plan.views).subspan(light.first_view, light.view_count);
+    const ImageF shares = sharesOf(drawn);
+    ImageF joined(shares.width, shares.height, 2);
+    for (std::uint32_t y = 0; y < shares.height; ++y) {
+        for (std::uint32_t x = 0; x < shares.width; ++x) {
+            for (std::size_t i = 0; i < views.size(); ++i) {
+                joined.pixel(x, y)[views[i].faded_in < 1.0 ? 1 : 0] += shares.pixel(x, y)[i];
+            }
+        }
+    }
+    lab::TintLegend legend;
+    legend.title = "What fades in";
+    legend.subtitle = "mixed by what each counts for; grey: no map";
+    legend.kinds = {"maps that were there", "maps that fade in over them"};
+    const auto coming =
+        std::count_if(views.begin(), views.end(), [](const View& view) { return view.faded_in < 1.0; });
+    notice(fmt::format("light {}: {} of {} maps fade in", drawn.shot.lights[drawn.light].name, coming, views.size()));
+    return lab::tintedPicture(drawn.picture.colour, joined, legend);
+}
+
 Image8 lightCountView(const Drawn& drawn)
 {
     const Camera camera = cameraOf(drawn);

@@ -28,7 +28,7 @@ std::uint32_t viewOf(const Plan& plan, std::uint32_t light, const glm::dvec3& po
     for (const View& view : viewsOf(plan, light, strongerPosition(plan.lights[light].steps))) {
         const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
         const bool inside = clip.w > 0.0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
-        if (inside && view.slice.holds(point_ws)) {
+        if (inside && view.slice.holds(point_ws) && view.sector.holds(point_ws)) {
             return static_cast<std::uint32_t>(&view - plan.views.data());
         }
     }
@@ -142,6 +142,12 @@ bool always(const Settings&)
     return true;
 }
 
+bool fades(const Settings& s)
+{
+    const Technique& technique = s.shadow.technique;
+    return technique.partition == Partition::multi && technique.motion == Motion::snap && s.shadow.multi.fade_frames > 0;
+}
+
 bool steps(const Settings& s)
 {
     const Motion motion = s.shadow.technique.motion;
@@ -150,6 +156,7 @@ bool steps(const Settings& s)
 
 constexpr std::array kViews{
     DebugView{"density", always, "a technique that has a map", densityView},
+    DebugView{"faded", fades, "partition multi, motion snap and multi.fade not 0", fadedView},
     DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"light-count", always, "a technique that has a map", lightCountView},

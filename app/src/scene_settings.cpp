@@ -80,12 +80,22 @@ void applySpot(Settings& s, const Value& v)
     s.spot = spot;
 }
 
+constexpr std::uint32_t kNumbersOfPoint = 4;
+constexpr std::uint32_t kMostPoints = 64; // beside a sun and a spot
+
 void applyPoint(Settings& s, const Value& v)
 {
-    if (!(v.numbers[3] > 0.0)) {
-        throw UsageError(fmt::format("--point: its range of {} m is not above 0", v.numbers[3]));
+    if (v.numbers.size() % kNumbersOfPoint != 0) {
+        throw UsageError(fmt::format("--point: {} numbers are not four for each light", v.numbers.size()));
     }
-    s.point = PointLight{vec3(v.numbers), v.numbers[3]};
+    s.points.clear();
+    for (std::size_t i = 0; i < v.numbers.size(); i += kNumbersOfPoint) {
+        const double range_m = v.numbers[i + 3];
+        if (!(range_m > 0.0)) {
+            throw UsageError(fmt::format("--point: its range of {} m is not above 0", range_m));
+        }
+        s.points.push_back({vec3(v.numbers, i), range_m});
+    }
 }
 
 /// The ray tracer's mask is written as it is.
@@ -175,8 +185,8 @@ const std::vector<Setting>& rows()
          .apply = [](Settings& s, const Value& v) { s.sun_ws = direction("sun", vec3(v.numbers)); }},
         {.key = "spot", .group = Group::light, .type = numbers, .form = "x,y,z,tx,ty,tz,DEG", .unit = "m, degrees", .min = -kFarthest, .max = kFarthest, .count = 7,
          .doc = "spot light: place, target, whole cone; likewise", .apply = applySpot},
-        {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = 4,
-         .doc = "point light: place and reach; likewise", .apply = applyPoint},
+        {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE,...", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = kNumbersOfPoint * kMostPoints, .min_count = kNumbersOfPoint,
+         .doc = "point lights, four numbers each: place and reach; likewise", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
          .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge",
          .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},

@@ -85,13 +85,16 @@ std::vector<host::ShadedLight> givenLights(const Settings& settings)
     if (settings.spot) {
         lights.push_back(spotLight(*settings.spot));
     }
-    if (settings.point) {
-        lights.push_back(pointLight(*settings.point));
+    for (const PointLight& point : settings.points) {
+        lights.push_back(pointLight(point));
     }
     for (const host::ShadedLight& light : lights) {
         if (const auto reason = refusalOf(light, settings)) {
             throw UsageError(fmt::format("--{}: {}", light.name, *reason));
         }
+    }
+    for (std::size_t i = 0; settings.points.size() > 1 && i < settings.points.size(); ++i) {
+        lights[lights.size() - settings.points.size() + i].name = fmt::format("point {}", i);
     }
     for (std::size_t i = 0; i < lights.size(); ++i) {
         lights[i].caster.key = static_cast<std::uint32_t>(i);
@@ -217,7 +220,7 @@ void startPath(Shot& shot, const Settings& settings)
     if (glm::length(glm::cross(forward, glm::normalize(shot.eye.up_ws))) < 1e-6) {
         path.start.up_ws = glm::cross(path.right_ws, forward); // the picture's: turning about the line of sight is none
     }
-    const bool from_scene = !settings.sun_ws && !settings.spot && !settings.point && !shot.scene.lights.empty();
+    const bool from_scene = !settings.placesLights() && !shot.scene.lights.empty();
     path.scene_moves_sun = path.kind == PathKind::day && from_scene && lightsMove(shot.scene, shot.state, settings);
     if (path.movesSun()) {
         const auto sun = std::find_if(shot.lights.begin(), shot.lights.end(), [](const host::ShadedLight& light) {

@@ -23,7 +23,7 @@ std::size_t lightIndex(const Shot& shot, const Settings& settings)
     // glTF names the node that holds a light as well; lights are in the order of those nodes.
     std::size_t index = 0;
     for (const scene::Node& node : shot.state.nodes) {
-        const bool from_file = !settings.sun_ws && !settings.spot && !settings.point;
+        const bool from_file = !settings.placesLights();
         if (node.light != scene::kNone && from_file) {
             if (node.name == settings.light) {
                 return index;

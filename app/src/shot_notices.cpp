@@ -22,7 +22,7 @@ void noteFrames(Shot& shot, const Settings& settings)
 /// What people should know of the lights: said once, not for every frame.
 void noteLights(Shot& shot, const Settings& settings)
 {
-    if (shot.scene.lights.empty() && !settings.sun_ws && !settings.spot && !settings.point) {
+    if (shot.scene.lights.empty() && !settings.placesLights()) {
         shot.notices.push_back("the scene has no light; a sun is put in");
     }
     std::uint32_t refused = 0;

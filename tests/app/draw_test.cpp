@@ -166,6 +166,28 @@ TEST(DebugViews, LightCountHasTheLightsThatReachAPixel)
     EXPECT_NE(ran.err.find("--light has an effect only with"), std::string::npos) << ran.err;
 }
 
+TEST(DebugViews, FadedShowsWhatComes)
+{
+    const test::Folder folder;
+    // A camera that goes through all shells of a lamp.
+    const std::vector<std::string> shot{"render",      "planes", "--point",  "0,3,0,30", "--partition", "multi", "--motion", "snap",
+                                        "--path",      "dolly",  "--path-speed", "8",    "--frames",    "0-5",   "--debug",  "faded"};
+    const test::Ran refused = inFolder(folder, {"render", "planes", "--point", "0,3,0,30", "--debug", "faded"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("motion snap"), std::string::npos) << refused.err;
+    const ImageF view = drawn(folder, shot);
+    std::size_t orange = 0;
+    std::size_t blue = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            orange += isOrange(view.pixel(x, y)) ? 1 : 0;
+            blue += isBlue(view.pixel(x, y)) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(orange, 1000U) << "maps that were there";
+    EXPECT_GT(blue, 1000U) << "maps that come";
+}
+
 TEST(DebugViews, ViewsAreGreyWhereALampDoesNotReach)
 {
     const test::Folder folder;

@@ -94,6 +94,18 @@ TEST(Settings, SizesOfLightsAreWhatWasSaid)
     EXPECT_EQ(lamp.lights[0].caster.radius_m, 0.25); // the size is the diameter
 }
 
+TEST(Settings, SeveralLampsAreToldApart)
+{
+    const app::Shot shot = app::makeShot(
+        settingsOf({"render", "planes", "--sun", "0,-1,0", "--point", "0,5,0,20,1,2,3,4", "--mask", "--light", "point 1"}));
+    ASSERT_EQ(shot.lights.size(), 3U);
+    EXPECT_EQ(shot.lights[1].name, "point 0");
+    EXPECT_EQ(shot.lights[2].name, "point 1");
+    EXPECT_EQ(shot.lights[2].caster.position_ws, glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(shot.lights[2].caster.range_m, 4.0);
+    EXPECT_NE(shot.lights[1].caster.key, shot.lights[2].caster.key);
+}
+
 TEST(Settings, ATruthOfAPresetPassesOverItsTechnique)
 {
     const test::Folder folder;

@@ -249,6 +249,8 @@ const std::vector<Wrong> kWrong{
     {"SpotAtItsTarget", {"render", "--spot", "1,2,3,1,2,3,40"}, 2, "direction is zero"},
     {"SpotTooWide", {"render", "--spot", "0,5,0,0,0,0,150"}, 2, "0.1 to 120"},
     {"PointWithoutReach", {"render", "--point", "0,5,0,0"}, 2, "not above 0"},
+    {"PointAndABit", {"render", "--point", "0,5,0,20,1"}, 2, "not four for each light"},
+    {"SecondPointWithoutReach", {"render", "--point", "0,5,0,20,1,5,0,0"}, 2, "not above 0"},
     {"PointInOneFrustum", {"render", "--point", "0,5,0,20", "--partition", "single"}, 2, "--point"},
     {"EyeIsTarget", {"render", "--eye", "1,2,3", "--target", "1,2,3"}, 2, "same point"},
     {"EyeNan", {"render", "--eye", "nan,2,3", "--target", "1,2,3"}, 2, "finite"},

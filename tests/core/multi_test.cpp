@@ -88,6 +88,39 @@ TEST(Multi, GivesEachPartTheTexelsThatItsPixelsWant)
     EXPECT_GT(finest, 0.03);
 }
 
+/// How many times as wide as the finest the coarsest texel of the floor is, in pixels.
+double spreadOf(const Hall& hall, const Plan& plan)
+{
+    double finest = 1e9;
+    double coarsest = 0.0;
+    for (double z = 12.0; z > -13.9; z -= 0.25) {
+        for (double x = -3.0; x <= 3.0; x += 0.5) {
+            const View* const view = viewOf(plan, {x, 0.0, z});
+            const double texel_px = view != nullptr ? texelInPixels(hall, *view, {x, 0.0, z}) : 1e9;
+            finest = std::min(finest, texel_px);
+            coarsest = std::max(coarsest, texel_px);
+        }
+    }
+    return coarsest / finest;
+}
+
+TEST(Multi, KeepsTexelsAlikeWhereItIsAskedTo)
+{
+    Hall hall;
+    hall.options.max_texels = 64U << 20U;
+    hall.addLamp({0, 1, -14}, 40.0);
+    hall.look({1, 1.7, 16}, {0, 1, -14}); // into the lamp, which all but touches the floor
+    Planner saving(hall.options);
+    hall.options.multi.most_times = 4.0;
+    Planner alike(hall.options);
+    // Four times, and what sides of maps are rounded by.
+    EXPECT_LT(spreadOf(hall, alike.plan(hall.frame)), 10.0);
+    EXPECT_GT(spreadOf(hall, saving.plan(hall.frame)), 12.0);
+    for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_LT(spreadOf(hall, alike.plan(hall.frame)), 10.0);
+    }
+}
+
 /// How wide a texel is at a point of the floor below the lamp, in pixels.
 double texelBelow(Hall& hall)
 {

@@ -86,6 +86,12 @@ std::uint32_t idOf(const HeldFrustum& held)
     return idOf(held.part) | end << 10U | step << 17U | 1U << 27U;
 }
 
+/// Octaves of what a shell's places need; 0: any.
+int widestShell(const MultiOptions& options)
+{
+    return options.most_times > 0.0 ? std::max(1, static_cast<int>(std::floor(std::log2(options.most_times)))) : 0;
+}
+
 std::uint32_t largestSide(const MultiPartition::Input& input)
 {
     const std::uint32_t largest = input.recipe.resolved.largest_side();
@@ -138,7 +144,8 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
     const glm::dvec2 cell_px(static_cast<double>(input.frame.size_px.x) / Sight::kColumns,
                              static_cast<double>(input.frame.size_px.y) / Sight::kRows);
     findWays(input);
-    const DepthShells::Input seen{input.light, input.camera, ways_, input.sight.points(), cell_px};
+    const DepthShells::Input seen{input.light, input.camera, ways_, input.sight.points(), cell_px,
+                                  widestShell(input.recipe.options.multi)};
     if (memory.held.fading()) { // one change after the other
         shells_.findAgain(seen, memory.divides ? std::span<const int>(memory.ends) : std::span<const int>());
         (void)addShells(input, memory, frustums);
@@ -152,7 +159,9 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
                                               : KeepShells::good_enough);
     const double of_shells = addShells(input, memory, frustums);
     bool pays = false;
-    if (shells_.shells().size() > 1) {
+    if (seen.widest > 0) {
+        pays = shells_.shells().size() > 1;
+    } else if (shells_.shells().size() > 1) {
         const auto one = static_cast<std::ptrdiff_t>(frustums_.size());
         shells_.join();
         pays = of_shells < (memory.divides ? kKeepShells : kTakeShells) * addShells(input, memory, frustums);
