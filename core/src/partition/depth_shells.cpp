@@ -93,7 +93,11 @@ bool DepthShells::find(const Input& input, std::vector<int>& ends, KeepShells ke
 {
     gather(input);
     shells_ = octaves_;
-    merge(input.widest);
+    if (input.widest > 0) {
+        mergeUpTo(input.widest);
+    } else {
+        mergeWhereItPays();
+    }
     group(ends, kept_);
     const bool filled = std::ranges::all_of(kept_, [](const DepthShell& shell) { return shell.texels() > 0.0; });
     const bool suffices = filled && texelsOf(kept_) <= kKeepCost * texelsOf(shells_);
@@ -116,8 +120,7 @@ void DepthShells::findAgain(const Input& input, std::span<const int> ends)
 void DepthShells::join()
 {
     while (shells_.size() > 1) {
-        shells_[0].add(shells_[1]);
-        shells_.erase(shells_.begin() + 1);
+        mergeNext(0);
     }
 }
 
@@ -190,27 +193,43 @@ void DepthShells::joinFewNear()
     }
 }
 
-void DepthShells::merge(int widest)
+void DepthShells::mergeNext(std::size_t shell)
+{
+    shells_[shell].add(shells_[shell + 1]);
+    shells_.erase(shells_.begin() + static_cast<std::ptrdiff_t>(shell) + 1);
+}
+
+/// From the fine end on. The last one takes what is left, which is coarse.
+void DepthShells::mergeUpTo(int octaves)
+{
+    for (std::size_t i = 0; i + 1 < shells_.size();) {
+        const bool joins = i + 1 == kMostShells || shells_[i + 1].end - shells_[i].octave <= octaves;
+        if (joins) {
+            mergeNext(i);
+        } else {
+            ++i;
+        }
+    }
+}
+
+void DepthShells::mergeWhereItPays()
 {
     while (shells_.size() > 1) {
-        const bool too_many = shells_.size() > kMostShells;
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < shells_.size(); ++i) {
             DepthShell both = shells_[i];
             both.add(shells_[i + 1]);
             const double cost = both.texels() / (shells_[i].texels() + shells_[i + 1].texels());
-            const bool may = too_many || widest == 0 || both.end - both.octave <= widest;
-            if (may && cost < least) {
+            if (cost < least) {
                 least = cost;
                 best = i;
             }
         }
-        if (least == std::numeric_limits<double>::infinity() || (least > kMergeCost && !too_many)) {
+        if (least > kMergeCost && shells_.size() <= kMostShells) {
             return;
         }
-        shells_[best].add(shells_[best + 1]);
-        shells_.erase(shells_.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+        mergeNext(best);
     }
 }
 

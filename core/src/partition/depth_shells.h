@@ -48,7 +48,7 @@ public:
         std::span<const Slice> ways; // the directions among which the light is divided: one, or a cube's faces
         std::span<const SightPoint> points;
         glm::dvec2 cell_px; // of the picture, that each of the points stands for
-        int widest = 0;     // of a shell, octaves, as long as there are not too many; 0: as wide as it pays
+        int widest = 0;     // of a shell but the last, octaves; 0: as wide as it pays
     };
 
     /// A shell for each octave that a lit point is in, those as one that cost little more so; one for everything where
@@ -65,7 +65,9 @@ private:
     void gather(const Input& input);
     void group(std::span<const int> ends, std::vector<DepthShell>& out) const;
     void joinFewNear();
-    void merge(int widest);
+    void mergeWhereItPays();
+    void mergeUpTo(int octaves);
+    void mergeNext(std::size_t shell);
     static double texelsOf(std::span<const DepthShell> shells);
 
     std::vector<DepthShell> octaves_;

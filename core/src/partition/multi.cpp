@@ -159,7 +159,7 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
                                               : KeepShells::good_enough);
     const double of_shells = addShells(input, memory, frustums);
     bool pays = false;
-    if (seen.widest > 0) {
+    if (seen.widest > 0) { // not asked for to save texels
         pays = shells_.shells().size() > 1;
     } else if (shells_.shells().size() > 1) {
         const auto one = static_cast<std::ptrdiff_t>(frustums_.size());
