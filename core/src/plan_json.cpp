@@ -137,6 +137,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     json.flag("mask_coloured", light.mask_coloured);
     json.value("options", light.options);
     json.value("halved", light.halved);
+    json.value("waited", light.waited);
     writeSteps(json, light.steps);
     writeChoice(json, light.choice);
     writeSample(json, light.sample);
@@ -152,6 +153,8 @@ void writePages(JsonWriter& json, const MapPages& pages)
     json.value("kept_layers", pages.kept_layers);
     json.value("wanted_texels", pages.wanted_texels);
     json.value("given_texels", pages.given_texels);
+    json.value("drawn_texels", pages.drawn_texels);
+    json.value("longest_wait", pages.longest_wait);
     json.closeLine('}');
 }
 

@@ -63,6 +63,18 @@ std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition
     return {first, end};
 }
 
+std::uint64_t texelsToDraw(const View& view)
+{
+    if (!view.redraw) {
+        return 0;
+    }
+    const std::uint64_t whole = std::uint64_t{view.tile.width} * view.tile.height;
+    if (view.kept_layer == kNoIndex) {
+        return whole;
+    }
+    return std::uint64_t{view.dirty.width} * view.dirty.height + (view.redraw_kept ? whole : 0);
+}
+
 std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all)
 {
     const View& view = plan.views[first];

@@ -70,6 +70,8 @@ Planner::Impl::Impl(std::span<const ShadowOptions> options, Outcome why_unusable
         resolved->push_back(setups.emplace_back(one).recipe.resolved);
     }
     addPages(store);
+    takes_turns =
+        std::ranges::any_of(setups, [](const Setup& one) { return one.recipe.options.draw_budget_texels > 0; });
     plan.options = std::move(resolved);
 }
 
@@ -84,6 +86,7 @@ void Planner::reset()
         impl_->settled = false;
         impl_->chooser = {};
         impl_->multi = {};
+        impl_->turns.forget();
     }
 }
 
@@ -121,6 +124,7 @@ const Plan& Planner::plan(const Frame& given)
         s.chooser = {};
         s.multi = {};
         s.moved.forget();
+        s.turns.forget();
         s.spoilt = false;
     }
     Frame frame = given;
@@ -138,8 +142,10 @@ const Plan& Planner::plan(const Frame& given)
     s.makePlan(frame);
     s.told.note(frame);
     // What remembers (AutoChooser, MultiPartition) has had its say on the same frame twice.
-    s.settled = again &&
-                std::ranges::none_of(s.plan.views, [](const View& view) { return view.redraw || view.faded_in < 1.0; });
+    s.settled =
+        again &&
+        std::ranges::none_of(s.plan.views, [](const View& view) { return view.redraw || view.faded_in < 1.0; }) &&
+        std::ranges::none_of(s.plan.lights, [](const LightPlan& light) { return light.waited > 0; });
     s.spoilt = false;
     return s.plan;
 }
@@ -183,11 +189,14 @@ void Planner::Impl::makePlan(const Frame& frame)
     listReceivers(frame);
     store.follow(*frame.objects, keys);
     shareRoom(frame);
+    keepRoomOfTurns();
     suns.begin();
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
         planLight(frame, light);
     }
     suns.end();
+    takeTurns(frame);
+    drawViews(frame);
     reportRoom();
     ++frames;
     ++converging;
@@ -197,8 +206,13 @@ void Planner::Impl::begin(const Frame& frame)
 {
     plan.frame = frame.index;
     plan.lights.clear();
+    if (takes_turns) {
+        std::swap(plan.views, turns.views);
+        std::swap(plan.casters, turns.casters);
+    }
     plan.views.clear();
     plan.casters.clear();
+    view_maps.clear();
     for (Setup& setup : setups) {
         setup.looked = false;
     }
@@ -218,10 +232,8 @@ void Planner::Impl::noteMovement(const Frame& frame)
 
 void Planner::Impl::admit(const Frame& frame)
 {
-    keys.clear();
-    wishes.clear();
     look(frame, setups[0]);
-    first_tenants.clear();
+    own_wishes.assign(frame.lights.size(), {});
     in_reach.clear();
     reach_ends.clear();
     chooser.follow(frame.lights);
@@ -229,7 +241,6 @@ void Planner::Impl::admit(const Frame& frame)
     for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
         const Light& light = frame.lights[index];
         LightPlan& planned = plan.lights.emplace_back();
-        first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
         reach_ends.push_back(static_cast<std::uint32_t>(in_reach.size()));
         if (fault.kind != OutcomeKind::ok) {
             planned.outcome = fault;
@@ -249,13 +260,42 @@ void Planner::Impl::admit(const Frame& frame)
         listInReach(frame, light);
         reach_ends.back() = static_cast<std::uint32_t>(in_reach.size());
         if (setup.recipe.grows()) {
-            decideFrustums(frame, index);
-            continue;
+            divide(frame, index);
+        } else {
+            own_wishes[index] = decide(frame, index);
         }
-        keys.push_back(tenantKey(light, 0));
-        wishes.push_back(decide(frame, index));
+    }
+    foreseeTurns(frame);
+    listTenants(frame);
+}
+
+/// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
+void Planner::Impl::listTenants(const Frame& frame)
+{
+    keys.clear();
+    wishes.clear();
+    first_tenants.clear();
+    for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
+        const Light& light = frame.lights[index];
+        first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+        if (own_wishes[index].count > 0) {
+            keys.push_back(tenantKey(light, 0));
+            wishes.push_back(own_wishes[index]);
+        }
+        for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
+            keys.push_back(tenantKey(light, frustum.id));
+            wishes.push_back(wishOf(light, frustum));
+        }
     }
     first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+}
+
+MapWish Planner::Impl::wishOf(const Light& light, const GrownFrustum& frustum) const
+{
+    const Recipe& recipe = setups[light.options].recipe;
+    MapWish wish = recipe.wishOf(light, light.options, *recipe.partition, 0);
+    wish.side = frustum.side;
+    return wish;
 }
 
 /// Many lamps reach few objects each, so each of them asks for its own.
@@ -294,20 +334,13 @@ std::span<const std::uint32_t> Planner::Impl::receiversOf(std::uint32_t index, c
     return std::span(in_reach).subspan(first, reach_ends[index] - first);
 }
 
-/// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
-void Planner::Impl::decideFrustums(const Frame& frame, std::uint32_t index)
+void Planner::Impl::divide(const Frame& frame, std::uint32_t index)
 {
     const Light light = sampledLight(frame.lights[index], sampleAt(frame, index)); // where its maps are drawn from
     const Setup& setup = setups[light.options];
-    if (setup.camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
-        return;
-    }
-    multi.divide({frame, setup.recipe, setup.camera, receiversOf(index, light), setup.sight, light}, index, frustums);
-    for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
-        keys.push_back(tenantKey(light, frustum.id));
-        MapWish& wish = wishes.emplace_back();
-        wish = setup.recipe.wishOf(light, light.options, *setup.recipe.partition, 0);
-        wish.side = frustum.side;
+    if (setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty()) {
+        multi.divide({frame, setup.recipe, setup.camera, receiversOf(index, light), setup.sight, light}, index,
+                     frustums);
     }
 }
 

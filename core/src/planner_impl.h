@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a planner keeps, and its steps: those of all lights together are in planner.cpp, how they share what room there
-// is in planner_room.cpp, and those of one light in planner_light.cpp.
+// is in planner_room.cpp, whose turn it is to be drawn in planner_turns.cpp, and those of one light in
+// planner_light.cpp.
 #pragma once
 
 #include "auto/auto_choice.h"
@@ -8,6 +9,7 @@
 #include "frame_memory.h"
 #include "frustum_planner.h"
 #include "light_shares.h"
+#include "light_turns.h"
 #include "motion/sun_steps.h"
 #include "partition/multi.h"
 #include "recipe.h"
@@ -68,6 +70,8 @@ struct Planner::Impl {
     std::uint64_t frames = 0; // planned so far: whose turn it is
     bool spoilt = false;      // a plan ended half way, because something threw
     MovedBoxes moved;
+    bool takes_turns = false; // some lights: their options bound what is drawn in a frame
+    LightTurns turns;
     std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
 
     Plan plan;
@@ -81,6 +85,8 @@ struct Planner::Impl {
     /// Of the store's tenants: a light, or of partition multi each of its frustums, after each other.
     std::vector<std::uint64_t> keys;
     std::vector<MapWish> wishes;
+    std::vector<MapWish> own_wishes;          // by light, of those that `multi` does not divide
+    std::vector<ViewMap> view_maps;           // by view
     std::vector<std::uint32_t> first_tenants; // by light, and one past the last
     std::vector<std::uint32_t> wished_sides;  // by tenant, before they share what room there is
     std::vector<std::uint64_t> wished_texels; // by options
@@ -108,11 +114,26 @@ struct Planner::Impl {
     void listInReach(const Frame& frame, const Light& light);
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(std::uint32_t index, const Light& light) const;
     MapWish decide(const Frame& frame, std::uint32_t index);
-    void decideFrustums(const Frame& frame, std::uint32_t index);
+    void divide(const Frame& frame, std::uint32_t index);
+    void listTenants(const Frame& frame);
+    [[nodiscard]] MapWish wishOf(const Light& light, const GrownFrustum& frustum) const;
     void shareRoom(const Frame& frame);
+    void findShares(const Frame& frame, std::uint32_t options);
     void shrinkWishes(const Frame& frame, std::uint32_t options);
     void claimFor(std::uint32_t light);
     void reportRoom();
+    void foreseeTurns(const Frame& frame);
+    void foreseeTurns(const Frame& frame, std::uint32_t options);
+    [[nodiscard]] bool canKeepViews(const Frame& frame, std::uint32_t index) const;
+    [[nodiscard]] std::uint64_t texelsWanted(const Light& light, std::uint32_t index) const;
+    void keepRoomOfTurns();
+    [[nodiscard]] bool isKeptBack(std::uint32_t index) const;
+    [[nodiscard]] std::uint64_t texelsDue(const Frame& frame, std::uint32_t index);
+    void takeTurns(const Frame& frame);
+    void takeTurns(const Frame& frame, std::uint32_t options);
+    void putViewsBack(const Frame& frame);
+    void noteTurns(const Frame& frame);
+    void drawViews(const Frame& frame);
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;
     Outcome prospect(std::uint32_t index, const Setup& setup) const;
@@ -123,7 +144,7 @@ struct Planner::Impl {
     void listSlices(const Stand& stand, const Setup& setup);
     const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
     Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice);
-    void addView(const Frame& frame, const Stand& stand, const MapPlace& place, const View& planned);
+    void addView(const Stand& stand, const MapPlace& place, const View& planned);
 };
 
 } // namespace gnomon

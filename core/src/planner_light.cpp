@@ -28,6 +28,9 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     LightPlan& planned = plan.lights[index];
     const Setup& setup = setups[planned.options];
     planned.first_view = static_cast<std::uint32_t>(plan.views.size());
+    if (isKeptBack(index)) {
+        return; // its views are those of the plan before
+    }
     const std::uint32_t earlier_slot = followSun(frame, setup.recipe, light, planned.steps);
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = prospect(index, setup);
@@ -188,30 +191,42 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
         return outcome;
     }
     if (!on_gpu) {
-        addView(frame, stand, place, planned);
+        addView(stand, place, planned);
         return outcome;
     }
     // A base map: one view for each cascade that the GPU will fit to a part of it.
     for (planned.gpu_cascade = 0; planned.gpu_cascade < recipe.mapsOf(partitionOf(setup, stand));
          ++planned.gpu_cascade) {
-        addView(frame, stand, store.placeOf(slice.tenant, stand.slot, planned.gpu_cascade), planned);
+        addView(stand, store.placeOf(slice.tenant, stand.slot, planned.gpu_cascade), planned);
     }
     return outcome;
 }
 
-/// Says where a view's map is, and what of it has to be drawn.
-void Planner::Impl::addView(const Frame& frame, const Stand& stand, const MapPlace& place, const View& planned)
+/// Says where a view's map is. What of it has to be drawn is said when all views are known.
+void Planner::Impl::addView(const Stand& stand, const MapPlace& place, const View& planned)
 {
     View& view = plan.views.emplace_back(planned);
     view.map = place.map;
     view.tile = place.tile;
     view.part = place.part;
-    if (view.gpu_cascade != kNoIndex) {
-        store.drawAnew(view);
-    } else if (stand.read) {
-        store.draw(view, place, std::span(plan.casters).subspan(view.first_caster, view.caster_count), *frame.objects);
-    } else {
-        view.redraw = false;
+    view_maps.push_back({&place, stand.read});
+}
+
+void Planner::Impl::drawViews(const Frame& frame)
+{
+    for (std::size_t i = 0; i < plan.views.size(); ++i) {
+        View& view = plan.views[i];
+        if (view_maps[i].place == nullptr) {
+            continue; // of a light that waits
+        }
+        if (view.gpu_cascade != kNoIndex) {
+            store.drawAnew(view);
+        } else if (view_maps[i].read) {
+            store.draw(view, *view_maps[i].place, std::span(plan.casters).subspan(view.first_caster, view.caster_count),
+                       *frame.objects);
+        } else {
+            view.redraw = false;
+        }
     }
 }
 

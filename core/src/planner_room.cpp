@@ -3,6 +3,7 @@
 // smaller maps that the picture owes least to. None is left out for that.
 #include "planner_impl.h"
 
+#include <gnomon/plan_views.h>
 #include <gnomon/planner.h>
 
 #include <algorithm>
@@ -54,13 +55,7 @@ void Planner::Impl::shareRoom(const Frame& frame)
 
 void Planner::Impl::shrinkWishes(const Frame& frame, std::uint32_t options)
 {
-    Setup& setup = setups[options];
-    const bool sees = setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty();
-    if (sees && !setup.sighted) {
-        setup.sight.look(frame, setup.camera, setup.receivers);
-        setup.sighted = true;
-    }
-    light_shares.find(frame.lights, setup.camera, sees ? setup.sight.points() : std::span<const SightPoint>());
+    findShares(frame, options);
     claims.clear();
     claimants.clear();
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
@@ -73,6 +68,18 @@ void Planner::Impl::shrinkWishes(const Frame& frame, std::uint32_t options)
         MapWish& wish = wishes[claimants[i]];
         wish.side = std::max(wish.side / (claims[i].largest / claims[i].side), 1U);
     }
+}
+
+/// What the picture owes to each light, by what is seen with one of the options.
+void Planner::Impl::findShares(const Frame& frame, std::uint32_t options)
+{
+    Setup& setup = setups[options];
+    const bool sees = setup.camera.outcome.kind == OutcomeKind::ok && !setup.receivers.empty();
+    if (sees && !setup.sighted) {
+        setup.sight.look(frame, setup.camera, setup.receivers);
+        setup.sighted = true;
+    }
+    light_shares.find(frame.lights, setup.camera, sees ? setup.sight.points() : std::span<const SightPoint>());
 }
 
 /// What a light's maps claim. Frustums that it was divided among share what it is worth by what they err.
@@ -103,14 +110,19 @@ void Planner::Impl::claimFor(std::uint32_t light)
     }
 }
 
-/// Of each light, how much smaller its maps are than it wanted them.
+/// Of each light, how much smaller its maps are than it wanted them; of all, what is drawn and who waits.
 void Planner::Impl::reportRoom()
 {
     store.report(plan);
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         plan.pages[i].wanted_texels = wished_texels[i];
     }
+    for (const View& view : plan.views) {
+        plan.pages[plan.lights[view.light].options].drawn_texels += texelsToDraw(view);
+    }
     for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
+        MapPages& pages = plan.pages[plan.lights[light].options];
+        pages.longest_wait = std::max(pages.longest_wait, plan.lights[light].waited);
         for (std::uint32_t tenant = first_tenants[light]; tenant < first_tenants[light + 1]; ++tenant) {
             if (store.hasRoom(tenant)) {
                 const std::uint32_t times = wished_sides[tenant] / store.sideOf(tenant);

@@ -33,7 +33,10 @@ Plan tinyPlan()
     plan.pages[0].kept_layers = 2;
     plan.pages[0].wanted_texels = 4096 * 4096;
     plan.pages[0].given_texels = 1024 * 1024;
+    plan.pages[0].drawn_texels = 512 * 1024;
+    plan.pages[0].longest_wait = 5;
     plan.lights[0].halved = 2;
+    plan.lights[0].waited = 5;
     plan.mask_layers = 1;
     plan.casters = {4, 1}; // what moves comes last
     plan.receivers = {0, 4};
@@ -65,13 +68,13 @@ constexpr const char* kGolden = R"({
   "frame": 7,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576}
+    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576, "drawn_texels": 524288, "longest_wait": 5}
   ],
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
   "lights": [
-    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "mask_coloured": false, "options": 0, "halved": 2, "steps": null, "sample": null},
-    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "mask_coloured": false, "options": 1, "halved": 0, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}, "sample": {"position_ws": [1, 2, 3], "direction_ws": [0, -1, 0]}}
+    {"outcome": "ok", "reason": "", "first_view": 0, "view_count": 1, "mask_layer": 0, "mask_channel": 0, "mask_coloured": false, "options": 0, "halved": 2, "waited": 5, "steps": null, "sample": null},
+    {"outcome": "no_caster", "reason": "nothing \"casts\"", "first_view": 1, "view_count": 0, "mask_layer": 0, "mask_channel": 1, "mask_coloured": false, "options": 1, "halved": 0, "waited": 0, "steps": {"paired": true, "earlier_ws": [0, -1, 0], "later_ws": [0.6, -0.8, 0], "share": 0.25, "smooth": true, "band": 0.5, "edge": 0.375, "alternate": false, "read": "earlier"}, "sample": {"position_ws": [1, 2, 3], "direction_ws": [0, -1, 0]}}
   ],
   "views": [
     {
@@ -139,7 +142,7 @@ TEST(PlanJson, EmptyPlan)
   "frame": 0,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0}
+    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0, "drawn_texels": 0, "longest_wait": 0}
   ],
   "mask_layers": 0,
   "fade": {"begin_m": 0, "end_m": 0},

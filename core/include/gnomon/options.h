@@ -144,6 +144,14 @@ struct ShadowOptions {
     /// the picture owes least to for their texels (LightPlan::halved). Those that find no room for maps of 16 texels
     /// get Outcome atlas_full.
     std::uint64_t budget_texels = 0;
+    /// Texels that the maps of all lights with these options may have drawn in one frame, 0 .. 2^35; 0: no bound. Where
+    /// more are out of date, lights take turns: those are drawn that the picture owes most to and that waited longest,
+    /// each with all its maps, at least one of them. The others keep the views that they had (LightPlan::waited). A
+    /// light that has no maps to keep does not wait, whatever the bound is.
+    std::uint64_t draw_budget_texels = 0;
+    /// With draw_budget_texels: frames for which a light waits at most, 1 .. 64. Then it is drawn whatever the bound
+    /// is.
+    std::uint32_t longest_wait = 8;
     PcfOptions pcf; // filter pcf
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds

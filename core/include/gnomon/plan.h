@@ -301,6 +301,10 @@ struct LightPlan {
     /// How many times the side of its maps was halved, or of that one where it was most often, so that all lights have
     /// room (ShadowOptions::budget_texels).
     std::uint32_t halved = 0;
+    /// For how many frames its maps have been out of date, this one included: its turn has not come
+    /// (ShadowOptions::draw_budget_texels). Its views are those that it had before, with nothing to draw: the place is
+    /// in shadow as it was, and what these maps do not show is lit. 0: its maps are what they should be.
+    std::uint32_t waited = 0;
     Outcome outcome;
     SunSteps steps;
     AutoChoice choice;
@@ -317,6 +321,9 @@ struct MapPages {
     /// Texels of all its lights' maps, in sight or not: as they want them, and as they have them.
     std::uint64_t wanted_texels = 0;
     std::uint64_t given_texels = 0;
+    /// Texels of its lights' maps that this plan draws (texelsToDraw()), and the longest LightPlan::waited of them.
+    std::uint64_t drawn_texels = 0;
+    std::uint32_t longest_wait = 0;
 };
 
 struct Plan {

@@ -39,6 +39,9 @@ namespace gnomon {
 /// the first that has it. Empty where there is no map.
 [[nodiscard]] std::span<const View> viewsOf(const Plan& plan, std::uint32_t light, SunPosition sun);
 
+/// Texels of its tile, and of the kept layer beside, that a view has drawn: none where its map holds what it should.
+[[nodiscard]] std::uint64_t texelsToDraw(const View& view);
+
 /// How many views from `first` on one pass can draw that says for each caster which layer it goes to, 1 to
 /// kMaxCascades: cascades of one light that are drawn whole and at once, at one place of consecutive layers and by the
 /// same pipelines. `all`: views that say they need not be drawn again are drawn too. 1 also where `first` itself is not

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -108,8 +109,10 @@ void MultiPartition::follow(std::span<const Light> lights)
     }
     rows_.follow(keys_);
     memories_.resize(std::max<std::size_t>(memories_.size(), rows_.end()));
+    before_.resize(memories_.size());
     for (const std::uint32_t row : rows_.gone()) {
         memories_[row] = {};
+        before_[row] = {};
     }
     ranges_.assign(lights.size(), {});
     frustums_.clear();
@@ -124,6 +127,9 @@ std::span<const GrownFrustum> MultiPartition::frustumsOf(std::size_t light) cons
 void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanner& frustums)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
+    if (takesTurns(input)) {
+        before_[rows_.rowOf(light)] = memory;
+    }
     Range& range = ranges_[light];
     range.first = frustums_.size();
     if (input.frame.cut) {
@@ -135,6 +141,32 @@ void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanne
         hold(input, memory.held, range.first);
     }
     range.count = frustums_.size() - range.first;
+    if (takesTurns(input)) {
+        const std::span<const GrownFrustum> found = frustumsOf(light);
+        memory.last.assign(found.begin(), found.end());
+    }
+}
+
+bool MultiPartition::differs(std::size_t light) const
+{
+    return !std::ranges::equal(
+        frustumsOf(light), before_[rows_.rowOf(light)].last,
+        [](const GrownFrustum& a, const GrownFrustum& b) { return a.id == b.id && a.side == b.side; });
+}
+
+void MultiPartition::takeBack(std::size_t light)
+{
+    std::swap(memories_[rows_.rowOf(light)], before_[rows_.rowOf(light)]);
+}
+
+void MultiPartition::takeBack(const Input& input, std::size_t light)
+{
+    takeBack(light);
+    const std::vector<GrownFrustum>& last = memories_[rows_.rowOf(light)].last;
+    ranges_[light] = {frustums_.size(), last.size()};
+    for (const GrownFrustum& one : last) {
+        listReceivers(input, frustums_.emplace_back(one));
+    }
 }
 
 /// Points tell which shells may pay. Whether they do is told by what the frustums have to hold: of a receiver no more
@@ -290,10 +322,19 @@ void MultiPartition::addFrustum(const Input& input, const Slice& slice, const Fr
     frustum.id = idOf(part);
     frustum.part = part;
     frustum.slice = slice;
+    listReceivers(input, frustum);
+    if (frustum.receiver_count > 0) {
+        frustums_.push_back(frustum);
+    }
+}
+
+/// Those of a frustum's receivers that the light reaches.
+void MultiPartition::listReceivers(const Input& input, GrownFrustum& frustum)
+{
     frustum.first_receiver = static_cast<std::uint32_t>(receivers_.size());
     const Aabb reach = grown(reachBox(input.light, input.camera.scene_ws), input.camera.pad_m);
     const std::span<const Aabb> bounds = input.frame.objects->allBounds();
-    const std::span cut = std::span(slice.cut).first(slice.cut_count);
+    const std::span cut = std::span(frustum.slice.cut).first(frustum.slice.cut_count);
     for (const std::uint32_t object : input.receivers) {
         const Aabb& box = bounds[object];
         const bool reached =
@@ -303,9 +344,6 @@ void MultiPartition::addFrustum(const Input& input, const Slice& slice, const Fr
         }
     }
     frustum.receiver_count = static_cast<std::uint32_t>(receivers_.size()) - frustum.first_receiver;
-    if (frustum.receiver_count > 0) {
-        frustums_.push_back(frustum);
-    }
 }
 
 /// Halves of halves of the largest side, which fill squares of the pages.

@@ -49,6 +49,13 @@ public:
     void follow(std::span<const Light> lights);
     /// Finds a light's frustums.
     void divide(const Input& input, std::size_t light, FrustumPlanner& frustums);
+    // Of a light that takes turns (ShadowOptions::draw_budget_texels), after divide():
+
+    /// Its frustums, or the sides of their maps, are not those of the last time.
+    [[nodiscard]] bool differs(std::size_t light) const;
+    /// It is as if it had not been divided in this frame: what it remembers, and given the input its frustums too.
+    void takeBack(std::size_t light);
+    void takeBack(const Input& input, std::size_t light);
     /// In the order in which they fade over into each other: near ones first, what fades out before what comes in its
     /// place, then by direction. Holds until the next divide().
     [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
@@ -66,11 +73,13 @@ private:
     };
     struct Memory {
         std::vector<Known> frustums;
-        std::vector<int> ends;      // DepthShells::find()
-        std::uint32_t patience = 0; // frames for which `ends` are kept although others were better
-        bool divides = false;       // into shells
-        HeldFrustums held;          // with motion snap
+        std::vector<int> ends;          // DepthShells::find()
+        std::uint32_t patience = 0;     // frames for which `ends` are kept although others were better
+        bool divides = false;           // into shells
+        HeldFrustums held;              // with motion snap
+        std::vector<GrownFrustum> last; // of a light that takes turns: what divide() came to
     };
+    [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.options.draw_budget_texels > 0; }
     struct Range {
         std::size_t first = 0;
         std::size_t count = 0;
@@ -81,6 +90,7 @@ private:
     void findWays(const Input& input);
     std::optional<Slice> aim(const Input& input);
     void addFrustum(const Input& input, const Slice& slice, const FrustumPart& part);
+    void listReceivers(const Input& input, GrownFrustum& frustum);
     void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
     double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
     void hold(const Input& input, HeldFrustums& held, std::size_t first);
@@ -88,6 +98,7 @@ private:
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
+    std::vector<Memory> before_;   // as they were before this frame, of lights that take turns
     std::vector<std::uint64_t> keys_;
     std::vector<Range> ranges_; // of frustums_, by light
     std::vector<GrownFrustum> frustums_;

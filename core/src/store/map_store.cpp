@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store/map_store.h"
 
+#include <gnomon/plan_views.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -196,7 +198,11 @@ void MapStore::report(Plan& plan) const
     for (std::size_t i = 0; i < pages_.size(); ++i) {
         const PageSquares& maps = pages_[i].maps;
         const std::uint32_t side = maps.pages() == 0 ? 0 : maps.side();
-        plan.pages[i] = {side, side, maps.pages(), pages_[i].kept.pages(), 0, 0};
+        plan.pages[i] = {};
+        plan.pages[i].width = side;
+        plan.pages[i].height = side;
+        plan.pages[i].layers = maps.pages();
+        plan.pages[i].kept_layers = pages_[i].kept.pages();
     }
     for (const Room& room : rooms_) {
         MapPages& pages = plan.pages[room.wish.options];
@@ -231,12 +237,49 @@ void MapStore::fill(Map& map, const MapProjection& now, std::span<const std::uin
 
 void MapStore::draw(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects)
 {
-    if (place.kept_map) {
-        drawOverKept(view, place, casters, objects);
-    } else {
-        drawAtOnce(view, maps_[view.map.index], casters, objects);
+    const Due due = dueOf(view, place, casters, objects);
+    Map& map = maps_[place.map.index];
+    const MapProjection projection = projectionOf(view);
+    if (view.kept_layer != kNoIndex) {
+        Map& kept = maps_[place.kept_map.index];
+        if (view.redraw_kept) {
+            fill(kept, projection, still_, objects);
+        }
+        view.kept_makes = kept.number;
+        std::ranges::copy(still_, casters.begin());
+        std::ranges::transform(moving_, casters.begin() + view.still_count,
+                               [](const Mover& mover) { return mover.object; });
     }
+    if (due.map) {
+        fill(map, projection, due.over_kept ? std::span<const std::uint32_t>(still_) : casters, objects);
+        if (due.over_kept) {
+            map.contents.moving.assign(moving_.begin(), moving_.end());
+        }
+    }
+    view.makes = map.number;
     view.redraw = view.makes != view.presumes;
+}
+
+std::uint64_t MapStore::wouldDraw(View view, const MapPlace& place, std::span<const std::uint32_t> casters,
+                                  const ObjectSet& objects)
+{
+    view.redraw = dueOf(view, place, casters, objects).map;
+    return texelsToDraw(view);
+}
+
+bool MapStore::holds(const View& view) const
+{
+    const auto shows = [&](const MapId& id, ContentNumber content) {
+        return content != 0 && id.index < maps_.size() && maps_[id.index].generation == id.generation &&
+               maps_[id.index].number == content;
+    };
+    return shows(view.map, view.makes) && (view.kept_layer == kNoIndex || shows(view.kept_map, view.kept_makes));
+}
+
+bool MapStore::owns(std::size_t light, const MapId& map) const
+{
+    return std::ranges::any_of(rooms_[rows_.rowOf(light)].places,
+                               [&](const MapPlace& place) { return place.map == map; });
 }
 
 void MapStore::drawAnew(View& view)
@@ -247,16 +290,19 @@ void MapStore::drawAnew(View& view)
     view.redraw = true;
 }
 
-void MapStore::drawAtOnce(View& view, Map& map, std::span<const std::uint32_t> casters, const ObjectSet& objects)
+/// Compares what a map holds with what it should. Says so in the view, but for what it will hold; `still_` and
+/// `moving_` are its casters where there is a kept copy.
+MapStore::Due MapStore::dueOf(View& view, const MapPlace& place, std::span<const std::uint32_t> casters,
+                              const ObjectSet& objects)
 {
-    const MapProjection projection = projectionOf(view);
-    const bool holds =
-        map.number != 0 && map.contents.show(projection, casters, objects.allChanges()) && map.contents.moving.empty();
-    view.presumes = holds ? map.number : 0;
-    if (!holds) {
-        fill(map, projection, casters, objects);
+    if (place.kept_map) {
+        return {dueOverKept(view, place, casters, objects), true};
     }
-    view.makes = map.number;
+    const Map& map = maps_[place.map.index];
+    const bool holds = map.number != 0 && map.contents.show(projectionOf(view), casters, objects.allChanges()) &&
+                       map.contents.moving.empty();
+    view.presumes = holds ? map.number : 0;
+    return {!holds, false};
 }
 
 void MapStore::split(std::span<const std::uint32_t> casters, const ObjectSet& objects)
@@ -272,14 +318,15 @@ void MapStore::split(std::span<const std::uint32_t> casters, const ObjectSet& ob
     }
 }
 
-void MapStore::drawOverKept(View& view, const MapPlace& place, std::span<std::uint32_t> casters,
-                            const ObjectSet& objects)
+/// Is the map to be drawn?
+bool MapStore::dueOverKept(View& view, const MapPlace& place, std::span<const std::uint32_t> casters,
+                           const ObjectSet& objects)
 {
     static const MapContents kNothing;
     split(casters, objects);
     view.still_count = static_cast<std::uint32_t>(still_.size());
-    Map& map = maps_[place.map.index];
-    Map& kept = maps_[place.kept_map.index];
+    const Map& map = maps_[place.map.index];
+    const Map& kept = maps_[place.kept_map.index];
     const MapProjection projection = projectionOf(view);
     const bool map_holds = map.number != 0 && map.contents.show(projection, still_, objects.allChanges());
     const bool kept_holds = kept.number != 0 && kept.contents.show(projection, still_, objects.allChanges());
@@ -294,22 +341,11 @@ void MapStore::drawOverKept(View& view, const MapPlace& place, std::span<std::ui
         view.kept_map = place.kept_map;
         view.kept_presumes = kept_holds ? kept.number : 0;
         view.redraw_kept = draws && !kept_holds;
-        if (view.redraw_kept) {
-            fill(kept, projection, still_, objects);
-        }
-        view.kept_makes = kept.number;
         if (draws) {
             view.dirty = map_holds && kept_holds ? changed : TexelRect{0, 0, view.tile.width, view.tile.height};
         }
-        std::ranges::copy(still_, casters.begin());
-        std::ranges::transform(moving_, casters.begin() + view.still_count,
-                               [](const Mover& mover) { return mover.object; });
     }
-    if (draws) {
-        fill(map, projection, still_, objects);
-        map.contents.moving.assign(moving_.begin(), moving_.end());
-    }
-    view.makes = map.number;
+    return draws;
 }
 
 } // namespace gnomon

@@ -76,6 +76,13 @@ public:
     /// Says what of a view has to be drawn, and takes it for granted that it is. The view's `casters` are reordered,
     /// those that stand still first, where the map is made of a kept copy.
     void draw(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects);
+    /// Texels that draw() would have drawn.
+    [[nodiscard]] std::uint64_t wouldDraw(View view, const MapPlace& place, std::span<const std::uint32_t> casters,
+                                          const ObjectSet& objects);
+    /// Its map and its kept copy still hold what a view of an earlier plan made of them.
+    [[nodiscard]] bool holds(const View& view) const;
+    /// A map is one of a light's; after furnish().
+    [[nodiscard]] bool owns(std::size_t light, const MapId& map) const;
     /// A view of which nothing is known beforehand: drawn in each frame.
     void drawAnew(View& view);
 
@@ -111,8 +118,13 @@ private:
     MapId freshMap();
     void giveUp(const MapId& id);
     void fill(Map& map, const MapProjection& now, std::span<const std::uint32_t> casters, const ObjectSet& objects);
-    void drawAtOnce(View& view, Map& map, std::span<const std::uint32_t> casters, const ObjectSet& objects);
-    void drawOverKept(View& view, const MapPlace& place, std::span<std::uint32_t> casters, const ObjectSet& objects);
+    struct Due {
+        bool map = false;       // is to be drawn
+        bool over_kept = false; // there is a kept copy
+    };
+    Due dueOf(View& view, const MapPlace& place, std::span<const std::uint32_t> casters, const ObjectSet& objects);
+    bool dueOverKept(View& view, const MapPlace& place, std::span<const std::uint32_t> casters,
+                     const ObjectSet& objects);
     void split(std::span<const std::uint32_t> casters, const ObjectSet& objects);
 
     LightRows rows_;
