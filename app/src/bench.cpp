@@ -7,12 +7,15 @@
 #include "progress.h"
 #include "streams.h"
 #include "subcommands.h"
+#include "wait_notes.h"
 
 #include "files/files.h"
 #include "lab/texel_density.h"
 #include "lab/timing.h"
 
 #include <gnomon/error.h>
+
+#include <fmt/format.h>
 
 namespace gnomon::app {
 namespace {
@@ -116,6 +119,11 @@ int runBench(const Settings& settings)
     }
     BenchResult result = measure(*gpu, shot, settings, techniques);
     requireSilence(*gpu);
+    for (const BenchedTechnique& technique : result.techniques) {
+        if (const std::optional<std::string> waits = waitNote(technique.reused.waits)) {
+            notice(fmt::format("{}: {}", describeTechnique(technique.settings), *waits));
+        }
+    }
     result.device = gpu->properties().deviceName;
     result.driver = gpu->driver();
     if (settings.json.empty()) {

@@ -8,6 +8,7 @@
 #include "result_json.h"
 #include "streams.h"
 #include "subcommands.h"
+#include "wait_notes.h"
 
 #include "lab/plan_picture.h"
 
@@ -92,6 +93,8 @@ public:
     [[nodiscard]] const Frame& frame() const { return frame_; }
     [[nodiscard]] const Plan& plan() const { return *plan_; }
     [[nodiscard]] const ObjectSet& objects() const { return objects_; }
+    /// Of all but the first.
+    [[nodiscard]] const lab::Waits& waits() const { return waits_; }
 
 private:
     void planOne(std::uint32_t index)
@@ -104,12 +107,16 @@ private:
         frame_.lights = lights_;
         frame_.objects = &objects_;
         plan_ = &planner_.plan(frame_);
+        if (index != settings_.frames.value_or(FrameRange{}).first) { // in which all maps are drawn
+            waits_.take(*plan_);
+        }
     }
 
     Shot& shot_;
     const Settings& settings_;
     ObjectSet objects_;
     Planner planner_;
+    lab::Waits waits_;
     std::vector<Light> lights_;
     Frame frame_;
     const Plan* plan_ = nullptr;
@@ -153,6 +160,9 @@ int runPlan(const Settings& settings)
     PlanLayers layers(settings, shot);
     PlannedFrames planned(shot, settings);
     planned.planAll(layers);
+    if (const std::optional<std::string> waits = waitNote(planned.waits())) {
+        notice(*waits);
+    }
     if (!settings.draw.empty()) {
         drawPlan(settings, shot, planned);
         if (settings.json.empty()) {

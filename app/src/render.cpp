@@ -9,6 +9,7 @@
 #include "streams.h"
 #include "subcommands.h"
 #include "truth_masks.h"
+#include "wait_notes.h"
 
 #include "files/files.h"
 #include "host/gpu.h"
@@ -105,6 +106,7 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
     {
         const host::SceneOnGpu scene(*gpu, shot.scene, shot.state);
         host::FrameRenderer renderer(scene, renderOptions(settings));
+        lab::Waits waits;
         forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
             for (std::uint32_t frame = 1; frame < settings.converge; ++frame) {
                 renderer.draw(shot.state, shot.eye, shot.lights);
@@ -112,6 +114,9 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
             }
             renderer.draw(shot.state, shot.eye, shot.lights);
             requireSilence(*gpu);
+            if (!first) { // in which all maps are drawn
+                waits.take(renderer.plan());
+            }
             if (first) {
                 const Outcome& outcome = renderer.plan().lights[light].outcome;
                 if (settings.mask && !outcome.hasMap()) {
@@ -132,6 +137,9 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
                 writePicture(*file, renderer, settings, light);
             }
         });
+        if (const std::optional<std::string> note = waitNote(waits)) {
+            notice(*note);
+        }
     }
     requireSilence(*gpu);
     return describeTechnique(settings);

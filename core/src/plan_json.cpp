@@ -154,6 +154,7 @@ void writePages(JsonWriter& json, const MapPages& pages)
     json.value("wanted_texels", pages.wanted_texels);
     json.value("given_texels", pages.given_texels);
     json.value("drawn_texels", pages.drawn_texels);
+    json.value("waiting_lights", pages.waiting_lights);
     json.value("longest_wait", pages.longest_wait);
     json.closeLine('}');
 }

@@ -122,6 +122,7 @@ void Planner::Impl::reportRoom()
     }
     for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
         MapPages& pages = plan.pages[plan.lights[light].options];
+        pages.waiting_lights += plan.lights[light].waited > 0 ? 1 : 0;
         pages.longest_wait = std::max(pages.longest_wait, plan.lights[light].waited);
         for (std::uint32_t tenant = first_tenants[light]; tenant < first_tenants[light + 1]; ++tenant) {
             if (store.hasRoom(tenant)) {

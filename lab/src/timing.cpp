@@ -63,6 +63,7 @@ void drawInTurn(std::vector<Turn>& turns, const SubjectAt& subject_at, const Tim
             if (round >= options.warmup) {
                 turn.timed.samples.push_back(times);
                 addTexels(turn.timed, countersOf(times, turn.renderer->plan(), !turn.options.reuse_maps));
+                turn.timed.waits.take(turn.renderer->plan());
             }
         }
     }

@@ -34,6 +34,7 @@ Plan tinyPlan()
     plan.pages[0].wanted_texels = 4096 * 4096;
     plan.pages[0].given_texels = 1024 * 1024;
     plan.pages[0].drawn_texels = 512 * 1024;
+    plan.pages[0].waiting_lights = 1;
     plan.pages[0].longest_wait = 5;
     plan.lights[0].halved = 2;
     plan.lights[0].waited = 5;
@@ -68,7 +69,7 @@ constexpr const char* kGolden = R"({
   "frame": 7,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576, "drawn_texels": 524288, "longest_wait": 5}
+    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576, "drawn_texels": 524288, "waiting_lights": 1, "longest_wait": 5}
   ],
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
@@ -142,7 +143,7 @@ TEST(PlanJson, EmptyPlan)
   "frame": 0,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0, "drawn_texels": 0, "longest_wait": 0}
+    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0, "drawn_texels": 0, "waiting_lights": 0, "longest_wait": 0}
   ],
   "mask_layers": 0,
   "fade": {"begin_m": 0, "end_m": 0},

@@ -321,8 +321,10 @@ struct MapPages {
     /// Texels of all its lights' maps, in sight or not: as they want them, and as they have them.
     std::uint64_t wanted_texels = 0;
     std::uint64_t given_texels = 0;
-    /// Texels of its lights' maps that this plan draws (texelsToDraw()), and the longest LightPlan::waited of them.
+    /// Texels of its lights' maps that this plan draws (texelsToDraw()), how many of its lights wait, and the longest
+    /// LightPlan::waited.
     std::uint64_t drawn_texels = 0;
+    std::uint32_t waiting_lights = 0;
     std::uint32_t longest_wait = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a Frame to a Plan. Keeps which maps the lights have and what these hold, how far suns that move in steps have
-// got, what partition and fit auto came to, for soften=converge where every object was, and its scratch memory;
-// nothing else.
+// got, what partition and fit auto came to, where lights take turns the views of the plan before, for soften=converge
+// where every object was, and its scratch memory; nothing else.
 #pragma once
 
 #include <gnomon/frame.h>
