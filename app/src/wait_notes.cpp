@@ -10,10 +10,10 @@ std::optional<std::string> waitNote(const lab::Waits& waits)
     if (waits.longest_frames == 0) {
         return std::nullopt;
     }
-    return fmt::format(
-        "up to {} lights of a frame keep the maps that they had until their turn comes, for {} frame{} at "
-        "the longest; a frame draws {} texels at most",
-        waits.most_lights, waits.longest_frames, waits.longest_frames == 1 ? "" : "s", waits.most_texels);
+    return fmt::format("lights keep the maps that they had until their turn comes: up to {} of a frame, for {} frame{} "
+                       "at the longest; a frame draws {} texels at most",
+                       waits.most_lights, waits.longest_frames, waits.longest_frames == 1 ? "" : "s",
+                       waits.most_texels);
 }
 
 } // namespace gnomon::app

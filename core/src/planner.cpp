@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame's way to its plan: what the camera sees, what each light wants, who has which maps; then one light after the
 // other (planner_light.cpp).
+#include "light_reach.h"
 #include "planner_impl.h"
 #include "soften/light_sample.h"
 
@@ -48,12 +49,6 @@ void placeInMask(Plan& plan)
         light.mask_layer = shared_layer;
         light.mask_channel = next_channel++;
     }
-}
-
-/// Of a light's own maps, or of one of its frustums.
-std::uint64_t tenantKey(const Light& light, std::uint32_t frustum)
-{
-    return std::uint64_t{light.key} << 32U | frustum;
 }
 
 } // namespace
@@ -267,35 +262,6 @@ void Planner::Impl::admit(const Frame& frame)
     }
     foreseeTurns(frame);
     listTenants(frame);
-}
-
-/// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
-void Planner::Impl::listTenants(const Frame& frame)
-{
-    keys.clear();
-    wishes.clear();
-    first_tenants.clear();
-    for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
-        const Light& light = frame.lights[index];
-        first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
-        if (own_wishes[index].count > 0) {
-            keys.push_back(tenantKey(light, 0));
-            wishes.push_back(own_wishes[index]);
-        }
-        for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
-            keys.push_back(tenantKey(light, frustum.id));
-            wishes.push_back(wishOf(light, frustum));
-        }
-    }
-    first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
-}
-
-MapWish Planner::Impl::wishOf(const Light& light, const GrownFrustum& frustum) const
-{
-    const Recipe& recipe = setups[light.options].recipe;
-    MapWish wish = recipe.wishOf(light, light.options, *recipe.partition, 0);
-    wish.side = frustum.side;
-    return wish;
 }
 
 /// Many lamps reach few objects each, so each of them asks for its own.

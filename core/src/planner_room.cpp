@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the lights of a frame share what room there is: when they want more texels than their budget has, those get
-// smaller maps that the picture owes least to. None is left out for that.
+// Which maps the lights of a frame want, and how they share what room there is: when they want more texels than their
+// budget has, those get smaller maps that the picture owes least to. None is left out for that.
 #include "planner_impl.h"
 
 #include <gnomon/plan_views.h>
@@ -31,7 +31,42 @@ double areaOf(const PageSquares& squares)
     return static_cast<double>(kPageSide) * kPageSide * squares.mostPages();
 }
 
+/// Of a light's own maps, or of one of its frustums.
+std::uint64_t tenantKey(const Light& light, std::uint32_t frustum)
+{
+    return std::uint64_t{light.key} << 32U | frustum;
+}
+
 } // namespace
+
+/// Each frustum is a tenant of its own, so that the others keep their maps when one comes, goes or is sized anew.
+void Planner::Impl::listTenants(const Frame& frame)
+{
+    keys.clear();
+    wishes.clear();
+    first_tenants.clear();
+    for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
+        const Light& light = frame.lights[index];
+        first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+        if (own_wishes[index].count > 0) {
+            keys.push_back(tenantKey(light, 0));
+            wishes.push_back(own_wishes[index]);
+        }
+        for (const GrownFrustum& frustum : multi.frustumsOf(index)) {
+            keys.push_back(tenantKey(light, frustum.id));
+            wishes.push_back(wishOf(light, frustum));
+        }
+    }
+    first_tenants.push_back(static_cast<std::uint32_t>(keys.size()));
+}
+
+MapWish Planner::Impl::wishOf(const Light& light, const GrownFrustum& frustum) const
+{
+    const Recipe& recipe = setups[light.options].recipe;
+    MapWish wish = recipe.wishOf(light, light.options, *recipe.partition, 0);
+    wish.side = frustum.side;
+    return wish;
+}
 
 void Planner::Impl::shareRoom(const Frame& frame)
 {

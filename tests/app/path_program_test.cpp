@@ -227,6 +227,30 @@ TEST(PathProgram, BenchTimesTheFrames)
     EXPECT_EQ(result["results"][0]["static_mean_texels_rendered"], 2 * 64.0 * 64.0); // sun and spot
 }
 
+// Of sun and spot one is drawn in a frame, by turns.
+TEST(PathProgram, SaysThatLightsWait)
+{
+    const Place place;
+    const std::string said = "until their turn comes: up to 1 of a frame, for ";
+    const std::vector<std::vector<std::string>> runs{{"plan", "planes"},
+                                                     {"render", "planes", "-o", "a.png"},
+                                                     {"bench", "planes", "--json=-"},
+                                                     {"compare", "planes", "--truth", "hard", "--techniques", "hard"}};
+    for (std::vector<std::string> run : runs) {
+        for (const char* const more : {"--size", "160x90", "--map-size", "64", "--partition", "single", "--fit",
+                                       "uniform", "--path", "pan", "--frames", "0-5"}) {
+            run.emplace_back(more);
+        }
+        const test::Ran free = place.run(run);
+        ASSERT_EQ(free.status, 0) << free.err;
+        EXPECT_EQ(free.err.find("until their turn comes"), std::string::npos) << free.err;
+        run.insert(run.end(), {"--set", "draw-budget=4096"});
+        const test::Ran ran = place.run(run);
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        EXPECT_NE((ran.err + ran.out).find(said), std::string::npos) << run[0] << ": " << ran.err;
+    }
+}
+
 TEST(PathProgram, PlanFollows)
 {
     const Place place;
