@@ -78,7 +78,7 @@ struct Timed {
     Plan plan;         // of the last frame; without shadows: empty
     MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose
-    Waits waits;                                                     // of the frames of the samples
+    Waits waits;                                                     // of timeInTurn()'s samples; else nothing
     double mean_texels_rendered = 0.0; // Counters::texels_rendered over the samples: less where maps are kept
     double baseline_ms = 0.0;          // median frame without shadows among the turns that these samples took
 };

@@ -2,7 +2,6 @@
 #include "compare_notes.h"
 
 #include "compare_text.h"
-#include "wait_notes.h"
 
 #include <fmt/format.h>
 
@@ -48,16 +47,6 @@ void noteOutcomes(const CompareResult& result, Notes& notes)
                                                       : "no shadow map, so the mask is all lit";
         notes.push_back(
             fmt::format("light {} with {}: {}: {}", result.light().name, one.who, what, one.outcome.reason));
-    }
-}
-
-/// Along a path.
-void noteWaits(const CompareResult& result, Notes& notes)
-{
-    for (const ComparedTechnique& technique : result.techniques) {
-        if (const std::optional<std::string> waits = waitNote(technique.timed.waits)) {
-            notes.push_back(fmt::format("{}: {}", technique.name, *waits));
-        }
     }
 }
 
@@ -146,7 +135,6 @@ std::vector<std::string> compareNotes(const CompareResult& result, const Json& j
     noteSize(result, json, notes);
     if (result.path) {
         notePath(result, notes);
-        noteWaits(result, notes);
     }
     if (result.sweep) {
         const SweepPlan& plan = result.sweep->plan;

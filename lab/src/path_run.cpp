@@ -93,7 +93,6 @@ void PathRun::Impl::draw(const Subject& subject)
         }
         walker.timed.samples.push_back(times);
         addTexels(walker.timed, countersOf(times, walker.renderer->plan(), !walker.options.reuse_maps));
-        walker.timed.waits.take(walker.renderer->plan());
     }
     if (frames == 0) { // before anything is read back, which takes memory
         baseline_bytes = totalBytes(*walkers.front().renderer);
