@@ -8,14 +8,20 @@ namespace {
 
 bool goesAround(Partition partition)
 {
-    return partition == Partition::cube || partition == Partition::multi || partition == Partition::automatic;
+    return partition == Partition::cube || partition == Partition::paraboloid || partition == Partition::multi ||
+           partition == Partition::automatic;
+}
+
+bool isParaboloid(const Technique& technique)
+{
+    return technique.partition == Partition::paraboloid;
 }
 
 constexpr std::array kRules{
     ChoiceRule{
         [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
-        "light point with every partition but cube, multi and auto",
-        "a point light shines all around, and no one frustum does; it needs partition cube, multi or auto"},
+        "light point with every partition but cube, paraboloid, multi and auto",
+        "a point light shines all around, and no one frustum does; it needs partition cube, paraboloid, multi or auto"},
     ChoiceRule{
         [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
         "partition cube with every light but point",
@@ -31,6 +37,31 @@ constexpr std::array kRules{
                "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
                "not the "
                "same; it needs motion free or snap"},
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return isParaboloid(t) && light != LightType::point; },
+        "partition paraboloid with every light but point",
+        "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, or "
+        "auto"},
+    ChoiceRule{
+        [](LightType, const Technique& t) {
+            return isParaboloid(t) && t.filter != Filter::hard && t.filter != Filter::pcf &&
+                   t.filter != Filter::automatic;
+        },
+        "partition paraboloid with every filter but hard, pcf and auto",
+        "paraboloid bends straight lines, and other filters follow rays or averages along straight ones; it needs "
+        "filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return isParaboloid(t) && t.fit != Fit::uniform && t.fit != Fit::automatic;
+               },
+               "partition paraboloid with every fit but uniform and auto",
+               "paraboloid has no frustum that a fit could shape; it needs fit uniform or auto, which is uniform then"},
+    ChoiceRule{[](LightType, const Technique& t) { return isParaboloid(t) && t.motion != Motion::free; },
+               "partition paraboloid with every motion but free",
+               "paraboloid is no more than a baseline, and nothing of it is held still; it needs motion free"},
+    ChoiceRule{[](LightType, const Technique& t) { return isParaboloid(t) && t.soften == Soften::converge; },
+               "partition paraboloid with soften converge",
+               "paraboloid cannot move its texels over what it shows, as converge does from frame to frame; it needs "
+               "soften none"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

@@ -54,6 +54,9 @@ constexpr std::array kValues{
     ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), true, "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
     ChoiceValue{kPartition, "cube", number(Partition::cube), true, "six faces around a point light", kForsyth},
+    ChoiceValue{
+        kPartition, "paraboloid", number(Partition::paraboloid), true, "two half spaces around a point light",
+        "S. Brabec, T. Annen, H.-P. Seidel, Shadow Mapping for Hemispherical and Omnidirectional Light Sources, 2002"},
     ChoiceValue{kPartition, "multi", number(Partition::multi), true,
                 "as many frustums as what is seen asks for, each with a map of its own size", kForsyth},
     ChoiceValue{kPartition, "auto", number(Partition::automatic), true,

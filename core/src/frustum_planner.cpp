@@ -17,6 +17,8 @@ namespace {
 constexpr double kLeastTangent = 1e-4;
 constexpr double kLeastPads = 32.0;
 
+} // namespace
+
 bool isFinite(const View& view)
 {
     double sum = view.texel_m + view.metric.near_m + view.metric.far_m;
@@ -31,8 +33,6 @@ bool isFinite(const View& view)
     }
     return std::isfinite(sum) && view.texel_m > 0.0 && view.metric.far_m > view.metric.near_m;
 }
-
-} // namespace
 
 FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
 {
@@ -96,7 +96,9 @@ void FrustumPlanner::outlinePlaces(const FrustumInput& input, const Lie& lie)
 
 Prediction FrustumPlanner::predict(const FrustumInput& input, const Sight& sight, double& strength)
 {
-    constexpr double kFeature_px = 300.0;
+    if (input.slice.paraboloid) {
+        return predictHalf(input, sight);
+    }
     const Lie lie = lieOf(input);
     if (lie.outcome.kind != OutcomeKind::ok) {
         return {};
@@ -151,6 +153,9 @@ FacingTexels FrustumPlanner::facingAmid(const FrustumInput& input, const Sight& 
 
 Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters)
 {
+    if (input.slice.paraboloid) {
+        return planHalf(input, view, casters);
+    }
     const Recipe& recipe = input.recipe;
     const CameraView& camera = input.camera;
     const ObjectSet& objects = *input.frame.objects;

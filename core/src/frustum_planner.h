@@ -33,6 +33,11 @@ struct Prediction {
     double size = 0.0;        // longer side of what the map has to show, as LightRect has it
 };
 
+/// Of the shadow by which a map's error is told, pixels of the picture.
+inline constexpr double kFeature_px = 300.0;
+
+[[nodiscard]] bool isFinite(const View& view);
+
 class FrustumPlanner {
 public:
     /// ok or fallback: fills in all of `view` but whose it is, where its map is and what of it is to be drawn, and
@@ -60,6 +65,18 @@ private:
                                           const Warp& warp, const MapFrame& frame);
     void outlinePlaces(const FrustumInput& input, const Lie& lie);
     [[nodiscard]] Outcome widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie);
+    /// Of a half space around a light (Slice::paraboloid), hemisphere_plan.cpp: what is seen of it and who casts there.
+    struct SeenHalf {
+        glm::dvec3 low_ws{0.0}; // box around that and the light
+        glm::dvec3 high_ws{0.0};
+        double near_m = 0.0; // distances from the light: of the nearest caster,
+        double far_m = 0.0;  // and of the farthest place that is seen
+    };
+    [[nodiscard]] Outcome seeHalf(const FrustumInput& input, const LightSpace& space, SeenHalf& seen);
+    [[nodiscard]] Outcome gatherHalf(const FrustumInput& input, const LightSpace& space, double texel, SeenHalf& seen,
+                                     std::vector<std::uint32_t>& casters);
+    Outcome planHalf(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters);
+    [[nodiscard]] Prediction predictHalf(const FrustumInput& input, const Sight& sight);
     void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;
@@ -68,6 +85,8 @@ private:
     std::vector<glm::dvec2> places_; // outlinePlaces()
     std::vector<glm::dvec2> scratch_;
     std::vector<double> texels_px_;
+    ConvexBody half_body_; // planHalf()
+    std::vector<Plane> planes_;
 };
 
 } // namespace gnomon

@@ -211,6 +211,9 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     writeKept(json, view);
     json.flag("orthographic", view.orthographic);
     json.flag("parallel", view.parallel);
+    if (view.paraboloid) {
+        json.flag("paraboloid", true);
+    }
     json.flag("clamp_near", view.clamp_near);
     json.value("texel_m", view.texel_m);
     json.vector("texel_xy_m", view.texel_xy_m, 2);

@@ -2,6 +2,8 @@
 #define GNOMON_REAL double
 #include <gnomon/plan_views.h>
 
+#include <glm/geometric.hpp>
+#include <paraboloid.h>
 #include <sun_steps.h>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace {
 
 bool isDrawnAtOnce(const View& view, bool all)
 {
-    return (view.redraw || all) && view.kept_layer == kNoIndex && view.part == TexelPart::whole;
+    return (view.redraw || all) && view.kept_layer == kNoIndex && view.part == TexelPart::whole && !view.paraboloid;
 }
 
 /// Can one pass draw `next`, `above` layers above `view`?
@@ -73,6 +75,24 @@ std::uint64_t texelsToDraw(const View& view)
         return whole;
     }
     return std::uint64_t{view.dirty.width} * view.dirty.height + (view.redraw_kept ? whole : 0);
+}
+
+std::optional<glm::dvec2> placeOnMap(const View& view, const glm::dvec3& p_ws)
+{
+    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p_ws, 1.0);
+    if (view.paraboloid) {
+        const glm::dvec3 q(clip);
+        const bool is_behind = !(q.z + glm::length(q) > 0.0);
+        return is_behind ? std::nullopt : std::optional(shared::paraboloidPlace(q) / clip.w);
+    }
+    return clip.w > 0.0 ? std::optional(glm::dvec2(clip) / clip.w) : std::nullopt;
+}
+
+double depthOnMap(const View& view, const glm::dvec3& p_ws)
+{
+    const glm::dvec4 p(p_ws, 1.0);
+    return view.paraboloid ? glm::length(glm::dvec3(view.clip_from_world * p)) + view.metric.metric_ws.w
+                           : glm::dot(view.metric.metric_ws, p);
 }
 
 std::uint32_t viewsTogether(const Plan& plan, std::uint32_t first, bool all)

@@ -180,7 +180,9 @@ std::string opening(double height_px)
 
 std::string planSvg(const Frame& frame, const Plan& plan, std::uint32_t light, const PlanCaption& caption)
 {
-    const PlanScene scene = sceneOf(frame, plan, light);
+    const std::vector<std::uint32_t> shown = shownViews(plan, light);
+    const bool bent = !shown.empty() && plan.views[shown.front()].paraboloid;
+    const PlanScene scene = bent ? PlanScene{} : sceneOf(frame, plan, light);
     const Outcome& outcome = plan.lights[light].outcome;
     std::string body = "<title>" + svgText(caption.title, caption.title.size()) + "</title>\n" +
                        "<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#15181d\"/>\n" +
@@ -188,8 +190,10 @@ std::string planSvg(const Frame& frame, const Plan& plan, std::uint32_t light, c
                        textAt(kMargin_px, 54.0, " class=\"f\"", caption.subtitle, kColumns);
     if (scene.maps.empty()) {
         constexpr double kHeight_px = 160.0;
-        const std::string why = std::string("no map: ") + std::string(nameOf(outcome.kind)) +
-                                (outcome.reason.empty() ? "" : ": ") + std::string(outcome.reason);
+        const std::string bends = "not drawn: a paraboloid shows a half space, which no plane across the light holds";
+        const std::string why = bent ? bends
+                                     : std::string("no map: ") + std::string(nameOf(outcome.kind)) +
+                                           (outcome.reason.empty() ? "" : ": ") + std::string(outcome.reason);
         return opening(kHeight_px) + body + textAt(kWidth_px / 2.0, 108.0, " class=\"m\"", why, kColumns) + "</svg>\n";
     }
     body += textAt(kAcross.x, kAcross.y - 7.0, " class=\"h\"",

@@ -253,8 +253,8 @@ std::uint32_t fewViews(const ResolvedOptions& options)
 {
     const Technique& technique = options.technique();
     const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
-    const bool around = technique.partition == Partition::cube || technique.partition == Partition::multi ||
-                        technique.partition == Partition::automatic;
+    const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
+                        technique.partition == Partition::multi || technique.partition == Partition::automatic;
     const bool divided = technique.partition != Partition::single && options.cascades().count > 1;
     return steps ? 0 : around || divided ? shared::kFewViews : 1;
 }

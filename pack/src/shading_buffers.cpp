@@ -17,6 +17,19 @@
 namespace gnomon::pack {
 namespace {
 
+/// Where its map has a point, in the place of the rows of other views: gpu_structs.h.
+void placeParaboloid(const View& view, const glm::dmat4& clip_from_eye, shared::GpuView& gpu)
+{
+    gpu.x = glm::row(clip_from_eye, 0);
+    gpu.y = glm::row(clip_from_eye, 1);
+    gpu.w = glm::row(clip_from_eye, 2);
+    const glm::dvec2 half = 0.5 * glm::dvec2(view.tile.width, view.tile.height);
+    const glm::dvec2 radius = half / view.clip_from_world[3][3];
+    gpu.plane_x = glm::dvec4(radius, glm::dvec2(view.tile.x, view.tile.y) + half);
+    gpu.plane_y = {0.0F, 0.0F, 0.0F, 1.0F};
+    gpu.plane_w = {};
+}
+
 shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, double margin)
 {
     const glm::dmat4 clip_from_eye = view.clip_from_world * world_from_eye;
@@ -57,6 +70,9 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     gpu.sector_y = view.sector.y * world_from_eye;
     gpu.sector_w = view.sector.w * world_from_eye;
     gpu.more.z = static_cast<float>(view.parallel ? 1.0 : view.metric.near_m / view.metric.far_m);
+    if (view.paraboloid) {
+        placeParaboloid(view, clip_from_eye, gpu);
+    }
     return gpu;
 }
 

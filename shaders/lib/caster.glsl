@@ -5,10 +5,13 @@
 // kDepthAlone for all others; of a depth-only map that says MapPassFormats::write_frag_depth, write casterStored() to
 // gl_FragDepth; else nothing, because the rasteriser's depth is the metric then. In a pass of several views (MapPass::
 // view_count) write the view's number to gl_Layer, too.
+// Of a paraboloid's map (MapPassFormats::paraboloid) edges are straight from vertex to vertex, where they should be bent, but
+// depths are exact: each texel's ray of light is met with the triangle's plane.
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"
 #include "../shared/paired_depth.h"
+#include "../shared/paraboloid.h"
 GN_BEGIN
 
 // Affine in the point, so interpolation over a triangle is exact.
@@ -30,6 +33,34 @@ GN_FN real4 casterPlaced(real4 clip, real4 place)
 GN_FN real casterInside(real3 p, real4 clip_plane)
 {
     return dot(real3(clip_plane.x, clip_plane.y, clip_plane.z), p) + clip_plane.w;
+}
+
+// What the fragment shader of a paraboloid needs to be interpolated besides clip.xyz: xy: the place in the disc, z: less
+// than 0 farther behind the light than the map's border shows.
+GN_FN real3 casterRim(real4 clip)
+{
+    real3 q = real3(clip.x, clip.y, clip.z);
+    real rim = real(2.0) * clip.w - real(1.0); // twice the border
+    real behind = (rim * rim - real(1.0)) / (rim * rim + real(1.0));
+    return real3(paraboloidPlace(q), q.z / max(length(q), real(1e-30)) + behind);
+}
+
+// Of a paraboloid: gl_Position, `clip` being clip_from_world * p. Its z makes of the near plane the border's end: what is
+// farther behind the rasteriser cuts.
+GN_FN real4 casterParaboloid(real4 clip)
+{
+    real3 rim = casterRim(clip);
+    return real4(rim.x / clip.w, rim.y / clip.w, real(0.5) * rim.z, real(1.0));
+}
+
+// The metric of a fragment of a paraboloid; less than 0: discard it. `rim`: casterRim() and `q`: clip.xyz, interpolated,
+// `right` and `below` how q changes to the next fragments (dFdx, dFdy); `near`: DepthMetric::metric_ws.w. Where q is on
+// the triangle's plane, the texel's own ray may meet the plane elsewhere, or only behind the light.
+GN_FN real casterRadial(real3 rim, real3 q, real3 right, real3 below, real near)
+{
+    real3 normal = cross(right, below);
+    real l = dot(normal, q) / dot(normal, paraboloidDirection(real2(rim.x, rim.y)));
+    return rim.z >= real(0.0) && l > real(0.0) ? l + near : real(-1.0);
 }
 
 GN_FN real casterStored(real metric)

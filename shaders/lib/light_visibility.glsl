@@ -178,7 +178,7 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
     float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
-            MapRows rows = rowsOf(viewAt(view));
+            MapRows rows = rowsAt(viewAt(view), r.p);
             MapPoint point = projectReceiver(rows, bias, r.p, r.n);
             vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), rows, point, f, r.steps, r.p, r.n));
 #ifdef GNOMON_TINTS

@@ -7,6 +7,15 @@
 #include "../shared/smooth_surface.h"
 #include "filters.glsl"
 #include "receiver_footprint.glsl"
+#include "../shared/paraboloid.h"
+// Whether views may be paraboloids, a constant. The includer may know.
+#ifndef GNOMON_PARABOLOID
+#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || (defined(GNOMON_FILTER) && GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
+#define GNOMON_PARABOLOID false
+#else
+#define GNOMON_PARABOLOID true
+#endif
+#endif
 GN_BEGIN
 
 GN_FN MapRows rowsOf(GpuView view)
@@ -23,6 +32,16 @@ GN_FN MapRows rowsOf(GpuView view)
     rows.plane_y = real4(view.plane_y);
     rows.plane_w = real4(view.plane_w);
 #endif
+    return rows;
+}
+
+// By which a receiver at `p` is on the view's map. A paraboloid's rows are of that point alone.
+GN_FN MapRows rowsAt(GpuView view, real3 p)
+{
+    MapRows rows = rowsOf(view);
+    if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
+        rows = paraboloidRows(rows, real4(view.plane_x), p);
+    }
     return rows;
 }
 
@@ -143,13 +162,10 @@ GN_FN bool viewContains(GpuView view, real3 p)
     if (!inSlice(view, p) || !inSector(view, p)) {
         return false;
     }
-#ifdef GNOMON_ORTHOGRAPHIC_ONLY
-    real w = real(1.0);
-#else
-    real w = dotRow(real4(view.w), p);
-#endif
-    real x = dotRow(real4(view.x), p);
-    real y = dotRow(real4(view.y), p);
+    MapRows rows = rowsAt(view, p);
+    real w = mapW(rows, p);
+    real x = dotRow(rows.x, p);
+    real y = dotRow(rows.y, p);
     real4 tile = real4(view.tile) * w;
     return w > real(0.0) && x >= tile.x && y >= tile.y && x <= tile.z && y <= tile.w;
 }
@@ -173,7 +189,7 @@ GN_FN real boundedVisibility(real v)
     return v >= real(0.0) ? min(v, real(1.0)) : (v < real(0.0) ? real(0.0) : real(1.0));
 }
 
-// Of a receiver inside the view: `rows` are rowsOf() it, `point` what projectReceiver() makes of it; `p` eye-relative,
+// Of a receiver inside the view: `rows` are rowsAt() its place, `point` what projectReceiver() makes of it; `p` eye-relative,
 // `n` its unit geometric normal. f.layer, what describes the view and the footprint are filled in here; the latter is
 // made of `steps` (pixelSteps()) where f.moments.sampling asks for it.
 GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoint point, FilterInput f,
@@ -205,7 +221,7 @@ GN_FN real viewVisibility(int filter_number, GpuView view, BiasRule rule, Filter
     steps.right = real4(real(0.0));
     steps.below = real4(real(0.0));
     steps.along = real4(real(0.0));
-    MapRows rows = rowsOf(view);
+    MapRows rows = rowsAt(view, p);
     return viewVisibility(filter_number, view, rows, projectReceiver(rows, rule, p, n), f, steps, p, n);
 }
 

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // What a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where the
-// rasteriser's depth is not the metric; MASKED: with holes where its texture's alpha is low; BEHIND: only what lies behind the
+// rasteriser's depth is not the metric; PARABOLOID: of such a
+// map; MASKED: with holes where its texture's alpha is low; BEHIND: only what lies behind the
 // first surface.
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/caster.glsl"
@@ -13,7 +14,12 @@
 #else
 #define AT
 #endif
+#ifdef PARABOLOID
+layout(location = 0) in vec4 ray; // caster.vert
+layout(location = 2) in vec3 rim;
+#else
 layout(location = 0) AT in float metric;
+#endif
 #ifdef BEHIND
 layout(set = 2, binding = 0) uniform sampler2D first_surface;
 layout(constant_id = 1) const float kQuantum = 0.0;
@@ -35,6 +41,12 @@ layout(push_constant) uniform Material
 
 void main()
 {
+#ifdef PARABOLOID
+    float metric = casterRadial(rim, ray.xyz, dFdx(ray.xyz), dFdy(ray.xyz), ray.w);
+    if (metric < 0.0) {
+        discard;
+    }
+#endif
 #ifdef MASKED
     // The finest level, whatever the texel's size: coarser ones hold means, which for sparse leaves all fall below the cutoff,
     // and the shadow would vanish as texels grow. A texel in or out by one sample is right on average.

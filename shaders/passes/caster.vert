@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws casters into a map. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
-// CLIPPED: what lies outside two planes in the object's own space is not drawn.
+// CLIPPED: what lies outside two planes in the object's own space is not drawn. PARABOLOID: the map is one (caster.glsl).
 // LAYERED: several views are drawn in one pass, and an instance says to which of their layers it belongs.
 #extension GL_GOOGLE_include_directive : require
 #ifdef LAYERED
@@ -33,7 +33,10 @@ layout(set = 1, binding = 0, std430) readonly buffer Places
 #elif defined(PLACED)
 layout(location = 7) in vec4 place; // the same for all
 #endif
-#ifdef METRIC
+#ifdef PARABOLOID
+layout(location = 0) out vec4 ray; // xyz: from the light, w: minus the near distance, both in lengths of far - near
+layout(location = 2) out vec3 rim;
+#elif defined(METRIC)
 layout(location = 0) out float metric; // for fragment shaders that store it
 #endif
 #ifdef MASKED
@@ -63,6 +66,11 @@ void main()
     clip = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
 #ifdef PERSPECTIVE
     clip.w = dot(row_w, p);
+#endif
+#ifdef PARABOLOID
+    ray = vec4(clip.xyz, dot(row_metric, p));
+    rim = casterRim(clip);
+#elif defined(PERSPECTIVE)
     metric = dot(row_metric, p);
 #elif defined(METRIC)
     metric = clip.z;
@@ -74,7 +82,9 @@ void main()
 #ifdef LAYERED
     gl_Layer = int(layer);
 #endif
-#if defined(LAYERED) && defined(PLACED)
+#ifdef PARABOLOID
+    gl_Position = casterParaboloid(clip);
+#elif defined(LAYERED) && defined(PLACED)
     gl_Position = casterPlaced(clip, fitted[first_view + int(layer)].place);
 #elif defined(PLACED)
     gl_Position = casterPlaced(clip, place);

@@ -5,7 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/caster.glsl"
 
+#ifdef PARABOLOID
+layout(location = 0) in vec4 ray; // caster.vert
+layout(location = 2) in vec3 rim;
+#else
 layout(location = 0) in float metric;
+#endif
 layout(location = 1) in vec2 uv;
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
@@ -20,6 +25,12 @@ layout(location = 0) out vec4 stored;
 
 void main()
 {
+#ifdef PARABOLOID
+    float metric = casterRadial(rim, ray.xyz, dFdx(ray.xyz), dFdy(ray.xyz), ray.w);
+    if (metric < 0.0) {
+        discard;
+    }
+#endif
     vec4 colour = clamp(texture(base_colour, uv) * tint, 0.0, 1.0);
     float depth = casterStored(metric);
     stored = vec4(1.0 - colour.a * (1.0 - colour.rgb), depth);

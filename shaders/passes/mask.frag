@@ -27,6 +27,12 @@ layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: p
 layout(constant_id = 14) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
 layout(constant_id = 15) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
 layout(constant_id = 16) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
+#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || (GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
+#define GNOMON_PARABOLOID false
+#else
+layout(constant_id = 17) const bool kParaboloid = false; // views may be paraboloids
+#define GNOMON_PARABOLOID kParaboloid
+#endif
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers

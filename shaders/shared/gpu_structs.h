@@ -32,8 +32,11 @@ struct GpuView {
     GN_VEC4 w;
     GN_VEC4 metric;
     GN_VEC4 tile; // first and one-past-last texel a receiver may be at: x0, y0, x1, y1; the kernel's reach is taken off
-    GN_VEC4 scale;   // x: texel_m, y: range_m, z: layer, w: part of a texel with two maps (paired_depth.h): 0 or 1
-    GN_VEC4 plane_x; // of an orthographic view, see MapRows
+    GN_VEC4 scale; // x: texel_m, y: range_m, z: layer, w: part of a texel with two maps (paired_depth.h): 0 or 1
+    // Of an orthographic view, see MapRows. Of a paraboloid x, y and w take an eye-relative point to q (paraboloid.h),
+    // metric.w is minus near in lengths of far - near, plane_x is `places` of paraboloidRows(), and plane_y.w is 1; of
+    // others that is 0
+    GN_VEC4 plane_x;
     GN_VEC4 plane_y;
     GN_VEC4 plane_w;
     GN_VEC4 whole; // all of its tile, as `tile`

@@ -24,7 +24,7 @@ TEST(Choices, NamesAreUniqueAndRowsComplete)
     }
     EXPECT_EQ(next_value,
               (std::map<std::string_view, unsigned>{
-                  {"light", 3}, {"partition", 6}, {"fit", 6}, {"filter", 12}, {"soften", 4}, {"motion", 6}}));
+                  {"light", 3}, {"partition", 7}, {"fit", 6}, {"filter", 12}, {"soften", 4}, {"motion", 6}}));
 }
 
 TEST(Choices, NamesRoundTrip)
@@ -69,7 +69,8 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
             light = static_cast<LightType>(row.value);
         else if (row.choice == "partition") {
             technique.partition = static_cast<Partition>(row.value);
-            light = technique.partition == Partition::cube ? LightType::point : light;
+            const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid;
+            light = around ? LightType::point : light;
         } else if (row.choice == "fit")
             technique.fit = static_cast<Fit>(row.value);
         else if (row.choice == "filter")
@@ -100,13 +101,13 @@ TEST(Choices, RefusalsAreSentences)
 
 TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
 {
-    ASSERT_EQ(choiceRules().size(), 5U);
+    ASSERT_EQ(choiceRules().size(), 10U);
     const ChoiceRule& rule = choiceRules()[2];
     EXPECT_EQ(rule.refuses, "partition sdsm with every motion but free");
     for (const ChoiceValue& partition : choiceValues())
         for (const ChoiceValue& motion : choiceValues()) {
             if (partition.choice != "partition" || motion.choice != "motion" || !partition.available ||
-                partition.name == "cube" || partition.name == "multi")
+                partition.name == "cube" || partition.name == "paraboloid" || partition.name == "multi")
                 continue;
             const Technique technique{.partition = static_cast<Partition>(partition.value),
                                       .motion = static_cast<Motion>(motion.value)};
@@ -116,20 +117,45 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
         }
 }
 
-TEST(Choices, APointLightGoesWithCubeMultiAndAutoAndCubeWithNoOther)
+TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoOther)
 {
-    EXPECT_EQ(choiceRules()[0].refuses, "light point with every partition but cube, multi and auto");
+    EXPECT_EQ(choiceRules()[0].refuses, "light point with every partition but cube, paraboloid, multi and auto");
     EXPECT_EQ(choiceRules()[1].refuses, "partition cube with every light but point");
     for (const ChoiceValue& partition : choiceValues()) {
         if (partition.choice != "partition" || !partition.available)
             continue;
         const Technique technique{.partition = static_cast<Partition>(partition.value)};
-        const bool around = partition.name == "cube" || partition.name == "multi" || partition.name == "auto";
+        const bool around = partition.name == "cube" || partition.name == "paraboloid" || partition.name == "multi" ||
+                            partition.name == "auto";
         EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
         for (const LightType other : {LightType::directional, LightType::spot})
-            EXPECT_EQ(refusal(other, technique),
-                      partition.name == "cube" ? std::optional(choiceRules()[1].reason) : std::nullopt);
+            EXPECT_EQ(refusal(other, technique), partition.name == "cube" ? std::optional(choiceRules()[1].reason)
+                                                 : partition.name == "paraboloid"
+                                                     ? std::optional(choiceRules()[4].reason)
+                                                     : std::nullopt);
     }
+}
+
+TEST(Choices, AParaboloidIsABaselineAndSaysWhatItGoesWith)
+{
+    using enum Partition;
+    const auto said = [](const Technique& technique) {
+        return std::string(refusal(LightType::point, technique).value_or(""));
+    };
+    for (const Filter filter : {Filter::hard, Filter::pcf, Filter::automatic})
+        for (const Fit fit : {Fit::uniform, Fit::automatic})
+            EXPECT_EQ(said({paraboloid, fit, filter}), "");
+    for (const Filter filter :
+         {Filter::pcss, Filter::raymarch, Filter::vsm, Filter::lvsm, Filter::esm, Filter::evsm, Filter::msm})
+        EXPECT_NE(said({paraboloid, Fit::uniform, filter}).find("needs filter hard, pcf or auto"), std::string::npos);
+    for (const Fit fit : {Fit::lispsm, Fit::lispsm_simple, Fit::tsm, Fit::psm})
+        EXPECT_NE(said({paraboloid, fit, Filter::pcf}).find("needs fit uniform"), std::string::npos);
+    for (const Motion motion :
+         {Motion::snap, Motion::step_jump, Motion::step_band, Motion::step_blend, Motion::step_alternate})
+        EXPECT_NE(said({paraboloid, Fit::uniform, Filter::pcf, Soften::none, motion}).find("needs motion free"),
+                  std::string::npos);
+    EXPECT_NE(said({paraboloid, Fit::uniform, Filter::pcf, Soften::converge}).find("needs soften none"),
+              std::string::npos);
 }
 
 TEST(Choices, WhatConvergesIsNotHeldStill)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan_judge.h"
 
+#include <gnomon/plan_views.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,32 +104,38 @@ void checkFinite(const View& view)
 /// A point that is seen and lit must be in the map, inside its border, at a depth the map can tell.
 void checkInMap(const RandomScene& scene, const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
-    ASSERT_GT(c.w, 0.0);
+    const auto place = placeOnMap(view, p);
+    ASSERT_TRUE(place.has_value());
     const double border = std::min(resolvedOrThrow(scene.options).border_texels(), 0.25 * largestSide(scene.options));
     const double edge = 1.0 - 2.0 * border / largestSide(scene.options) + 1e-6;
-    ASSERT_LE(std::abs(c.x), c.w * edge);
-    ASSERT_LE(std::abs(c.y), c.w * edge);
-    ASSERT_LE(c.z, c.w);
-    ASSERT_LE(glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0)), 1.0);
+    ASSERT_LE(std::abs(place->x), edge);
+    ASSERT_LE(std::abs(place->y), edge);
+    if (view.paraboloid) { // whose depth the rasteriser does not know
+        ASSERT_LE(glm::length(*place), edge);
+    } else {
+        const glm::dvec4 c = view.clip_from_world * glm::dvec4(p, 1.0);
+        ASSERT_LE(c.z, c.w);
+    }
+    ASSERT_LE(depthOnMap(view, p), 1.0);
 }
 
 /// A caster between p and the light at q must be drawn at the place of p, and be stored before it. A fit that turns a
 /// ray round puts it where it shades nothing.
 void checkOnRay(const View& view, const glm::dvec3& p, const glm::dvec3& q)
 {
-    const glm::dvec4 of_p = view.clip_from_world * glm::dvec4(p, 1.0);
     const glm::dvec4 of_q = view.clip_from_world * glm::dvec4(q, 1.0);
-    ASSERT_GT(of_q.w, 0.0);
-    ASSERT_LE(of_q.z, of_q.w); // before the far plane
-    const glm::dvec2 apart = glm::dvec2(of_q) / of_q.w - glm::dvec2(of_p) / of_p.w;
+    const auto place_of_p = placeOnMap(view, p);
+    const auto place_of_q = placeOnMap(view, q);
+    ASSERT_TRUE(place_of_p && place_of_q);
+    ASSERT_TRUE(view.paraboloid || of_q.z <= of_q.w); // before the far plane
+    const glm::dvec2 apart = *place_of_q - *place_of_p;
     ASSERT_LE(std::max(std::abs(apart.x), std::abs(apart.y)), 1e-6);
-    const double stored = glm::dot(view.metric.metric_ws, glm::dvec4(q, 1.0));
-    const double own = glm::dot(view.metric.metric_ws, glm::dvec4(p, 1.0));
+    const double stored = depthOnMap(view, q);
+    const double own = depthOnMap(view, p);
     ASSERT_GE(own, 0.0); // not clamped together with what shades it
     ASSERT_LE(stored, own + 1e-9);
     if (!view.clamp_near) { // then the rasteriser cuts what is before the near plane
-        ASSERT_GE(of_q.z, 0.0);
+        ASSERT_TRUE(view.paraboloid || of_q.z >= 0.0);
         ASSERT_GE(stored, 0.0);
     }
 }
@@ -293,7 +301,7 @@ std::string bytesOf(const Plan& plan)
     for (const View& v : plan.views) {
         append(out, v.light, v.clip_from_world, v.metric, v.orthographic, v.clamp_near, v.texel_m, v.tile, v.part);
         append(out, v.first_caster, v.caster_count, v.still_count, v.redraw, v.kept_layer, v.texel_xy_m);
-        append(out, v.fit, v.slice, v.sector, v.gpu_cascade, v.parallel, v.light_place_ws);
+        append(out, v.fit, v.slice, v.sector, v.gpu_cascade, v.parallel, v.paraboloid, v.light_place_ws);
     }
     for (const std::vector<std::uint32_t>* objects : {&plan.casters, &plan.receivers})
         for (const std::uint32_t object : *objects)

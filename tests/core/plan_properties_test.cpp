@@ -127,8 +127,9 @@ TEST_P(PlanProperties, HoldForRandomScenes)
     EXPECT_GT(tally.blocked, 15 * kScenes);
     EXPECT_GT(tally.count(OutcomeKind::ok) + tally.count(OutcomeKind::fallback), kScenes / 2);
     EXPECT_GT(tally.count(OutcomeKind::no_receiver), kScenes / 30);
+    const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid;
     // Around a point light there is hardly ever nothing that casts.
-    EXPECT_GT(tally.count(OutcomeKind::no_caster), kScenes / (technique.partition == Partition::cube ? 200 : 100));
+    EXPECT_GT(tally.count(OutcomeKind::no_caster), kScenes / (around ? 200 : 100));
     EXPECT_EQ(tally.count(OutcomeKind::degenerate), 0);
     for (int i = 0; i < test::kAwkwardCount; ++i) {
         EXPECT_GT(tally.seen_awkward[i], kScenes / 100) << nameOf(static_cast<Awkward>(i));
@@ -205,6 +206,10 @@ INSTANTIATE_TEST_SUITE_P(FitsOfCascades, PlanProperties, testing::ValuesIn(allFi
 INSTANTIATE_TEST_SUITE_P(FitsOfSdsm, PlanProperties, testing::ValuesIn(allFits(Partition::sdsm, Filter::hard)), fitOf);
 INSTANTIATE_TEST_SUITE_P(FitsOfMulti, PlanProperties, testing::ValuesIn(allFits(Partition::multi, Filter::hard)),
                          fitOf);
+INSTANTIATE_TEST_SUITE_P(Paraboloid, PlanProperties,
+                         testing::Values(Technique{Partition::paraboloid, Fit::uniform, Filter::hard},
+                                         Technique{Partition::paraboloid, Fit::uniform, Filter::pcf}),
+                         [](const auto& technique) { return std::string(nameOf(technique.param.filter)); });
 INSTANTIATE_TEST_SUITE_P(FitsOfCube, PlanProperties, testing::ValuesIn(allFits(Partition::cube, Filter::hard)), fitOf);
 // Maps of filterable texels are not clamped at the near plane, hold receivers too and measure depth otherwise.
 INSTANTIATE_TEST_SUITE_P(

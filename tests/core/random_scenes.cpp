@@ -197,7 +197,8 @@ RandomScene randomScene(std::uint64_t seed, const Technique& technique)
     }
     addObjects(random, scene, origin);
     addLights(random, scene, origin);
-    if (technique.partition == Partition::cube || (technique.partition == Partition::multi && random.below(2) == 0))
+    if (technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
+        (technique.partition == Partition::multi && random.below(2) == 0))
         shineAllAround(scene, origin);
     scene.camera = randomCamera(random, scene, origin);
     scene.options.map_size = 16U << random.below(8);

@@ -77,6 +77,25 @@ TEST(BlendedCaster, TintsTheMaskOfEveryFilterAndPartition)
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
+// Whose maps of tints are drawn by shaders of their own.
+TEST(BlendedCaster, TintsTheMaskOfAParaboloid)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    scene::Scene scene = panes({Pane{2.0F}});
+    for (scene::Light& light : scene.lights) {
+        light.type = scene::LightType::point;
+    }
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f, MapFormat::rg16}) {
+        ShadowOptions shadow = plainWith(Filter::pcf, Partition::paraboloid);
+        shadow.format = format;
+        for (const Sides& sides : sidesOf(gpu, scene, shadow)) {
+            EXPECT_NEAR(sides.free, 1.0F, kStep);
+            EXPECT_NEAR(sides.under, luminance(through()), kStep);
+        }
+    }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
 bool usesTints(std::span<const vulkan::MemoryUse> uses)
 {
     return std::ranges::any_of(

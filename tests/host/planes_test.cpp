@@ -6,6 +6,8 @@
 #include "scene/state.h"
 #include "scene/worlds.h"
 
+#include <gnomon/plan_views.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +45,8 @@ bool shadowedExactly(const Light& light, const glm::dvec3& p)
 
 glm::dvec2 texelOf(const View& view, const glm::dvec3& p)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(p, 1.0);
-    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+    const glm::dvec2 place = placeOnMap(view, p).value_or(glm::dvec2(-1.0));
+    return (place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
 }
 
 // The exact answers met within one texel of `p`, along the ground: bit 0 lit, bit 1 shadowed.
@@ -146,16 +148,64 @@ void shineAllAround(std::vector<ShadedLight>& lights)
     }
 }
 
+/// Each triangle in four, so often.
+void divideTriangles(scene::Scene& scene, int times)
+{
+    for (scene::Mesh& mesh : scene.meshes) {
+        for (scene::Primitive& part : mesh.primitives) {
+            for (int i = 0; i < times; ++i) {
+                scene::Primitive finer = part;
+                const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+                    const auto index = static_cast<std::uint32_t>(finer.positions.size());
+                    const auto add = [&](auto& values) {
+                        if (!values.empty()) {
+                            const auto one = values[a];
+                            const auto other = values[b];
+                            values.push_back(one);
+                            values.back() += (other - one) * 0.5F;
+                        }
+                    };
+                    add(finer.positions);
+                    add(finer.normals); // of flat faces, as are the next
+                    add(finer.tangents);
+                    add(finer.uv0);
+                    add(finer.uv1);
+                    add(finer.colours);
+                    if (!finer.creased.empty()) {
+                        finer.creased.push_back(finer.creased[a]);
+                    }
+                    return index;
+                };
+                finer.indices.clear();
+                for (std::size_t t = 0; t + 2 < part.indices.size(); t += 3) {
+                    const std::uint32_t a = part.indices[t];
+                    const std::uint32_t b = part.indices[t + 1];
+                    const std::uint32_t c = part.indices[t + 2];
+                    const std::uint32_t ab = middle(a, b);
+                    const std::uint32_t bc = middle(b, c);
+                    const std::uint32_t ca = middle(c, a);
+                    finer.indices.insert(finer.indices.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
+                }
+                part = finer;
+            }
+        }
+    }
+}
+
 class PlanesEdge : public testing::TestWithParam<EdgeCase> {};
 
 TEST_P(PlanesEdge, LiesWithinOneTexelOfWhereGeometryPutsIt)
 {
-    const scene::Scene scene = scene::makePlanes(1);
+    scene::Scene scene = scene::makePlanes(1);
+    const bool paraboloid = GetParam().technique.partition == Partition::paraboloid;
+    if (paraboloid) {
+        divideTriangles(scene, 4); // a straight edge of 2 m would be seven texels off
+    }
     const scene::State state = scene::evaluate(scene, 0.0);
     std::vector<ShadedLight> lights = lightsOf(scene, state);
     const bool cube = GetParam().technique.partition == Partition::cube;
     const bool multi = GetParam().technique.partition == Partition::multi;
-    if (cube || multi) {
+    if (cube || multi || paraboloid) {
         shineAllAround(lights);
     }
     RenderOptions options;
@@ -212,6 +262,8 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"cube", 256, {Partition::cube, Fit::uniform, Filter::hard}, 4},
                     EdgeCase{"cube_pcf", 256, {Partition::cube, Fit::uniform, Filter::pcf}, 4},
                     EdgeCase{"cube_lispsm", 256, {Partition::cube, Fit::lispsm, Filter::hard}, 4},
+                    EdgeCase{"paraboloid", 256, {Partition::paraboloid, Fit::uniform, Filter::hard}, 1},
+                    EdgeCase{"paraboloid_pcf", 256, {Partition::paraboloid, Fit::uniform, Filter::pcf}, 1},
                     EdgeCase{"multi", 256, {Partition::multi, Fit::uniform, Filter::hard}, 0},
                     EdgeCase{"multi_pcf", 256, {Partition::multi, Fit::uniform, Filter::pcf}, 0},
                     EdgeCase{"multi_lispsm", 256, {Partition::multi, Fit::lispsm, Filter::hard}, 0},
@@ -223,6 +275,38 @@ INSTANTIATE_TEST_SUITE_P(
                     EdgeCase{"snap", 256, of(Fit::uniform, Partition::single, Motion::snap), 1},
                     EdgeCase{"cascades_snap", 128, of(Fit::uniform, Partition::cascades, Motion::snap), 3}),
     [](const auto& edge) { return edge.param.name; });
+
+// What its page says goes wrong: edges are straight from vertex to vertex, where the map has them bent.
+TEST(EdgesOfAParaboloid, AreOffWhereTrianglesAreLarge)
+{
+    RenderOptions options;
+    options.width = 480;
+    options.height = 360;
+    options.shadow.map_size = 256;
+    options.shadow.technique = {.partition = Partition::paraboloid, .fit = Fit::uniform, .filter = Filter::hard};
+    const Eye eye{.position_ws = {1.0, 14.0, 9.0}, .target_ws = {0.8, 0.0, 0.0}, .fov_y_rad = 0.7};
+    std::array<int, 2> wrong{};
+    for (const int times : {0, 4}) {
+        scene::Scene scene = scene::makePlanes(1);
+        divideTriangles(scene, times);
+        const scene::State state = scene::evaluate(scene, 0.0);
+        std::vector<ShadedLight> lights = lightsOf(scene, state);
+        shineAllAround(lights);
+        Gpu gpu({.gpu = "software", .validate = true});
+        const SceneOnGpu uploaded(gpu, scene, state);
+        FrameRenderer renderer(uploaded, options);
+        renderer.draw(state, eye, lights);
+        const Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
+        const Camera camera = cameraOf(eye, options.width, options.height, state.bounds_ws);
+        const Tally tally =
+            tallyGround(picture, glm::inverse(camera.clip_from_world), renderer.plan(), lights[1].caster, 1);
+        wrong[times == 0 ? 0 : 1] = tally.wrong;
+        EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+    }
+    RecordProperty("wrong_pixels_of_a_box", wrong[0]);
+    EXPECT_GT(wrong[0], 100);
+    EXPECT_EQ(wrong[1], 0);
+}
 
 // Such a map's range of depth is that of a plane across its axis: next to nothing, beside which all rounding is large.
 TEST(FlatFloor, AloneInAFaceOfALampsCubeIsLit)

@@ -150,6 +150,18 @@ TEST(PlanPicture, ShowsEachMapOfALampAlongItsOwnAxis)
     EXPECT_NE(svg.find("From above"), std::string::npos);
 }
 
+TEST(PlanPicture, SaysThatItDrawsNoParaboloid)
+{
+    Row row;
+    lightALamp(row);
+    row.options.technique.partition = Partition::paraboloid;
+    const std::string svg = row.svg();
+    expectSound(svg);
+    ASSERT_FALSE(row.planner->plan(row.frame).views.empty());
+    EXPECT_NE(svg.find("not drawn: a paraboloid shows a half space"), std::string::npos);
+    EXPECT_EQ(pathsIn(svg, "edge"), 0U);
+}
+
 TEST(PlanShapes, WhatIsSeenOfALampIsInItsPyramids)
 {
     Row row;

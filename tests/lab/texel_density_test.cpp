@@ -121,6 +121,36 @@ TEST(TexelDensity, OfFacingSurfacesKnowsNoSlant)
     }
 }
 
+// Below the lamp at angle a from the axis a texel of the disc is 2 / (1 + tan(a/2)^2) radians wide.
+TEST(TexelDensity, OfAParaboloidIsThatOfItsPlaces)
+{
+    constexpr double kHeight_m = 2.0;
+    constexpr std::uint32_t kSide = 256;
+    const double pixel_m = 0.2;
+    const Above above(pixel_m);
+    View view;
+    view.paraboloid = true;
+    view.parallel = false;
+    view.sector.w = {0.0, -1.0, 0.0, kHeight_m};
+    view.clip_from_world =
+        glm::transpose(glm::dmat4({1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, kHeight_m}, {0, 0, 0, 1.0 / 0.9}));
+    view.tile = {.width = kSide, .height = kSide};
+    Plan plan;
+    plan.views.push_back(view);
+    plan.lights.push_back({.first_view = 0, .view_count = 1});
+    const TexelDensity density = texelDensity(above.picture, above.all, above.camera, plan, 0, 1.0);
+    EXPECT_EQ(density.left_out, 0U);
+    const double away_m = 15.5 * pixel_m; // along x, the way in which the floor leaves the lamp
+    const double angle = std::atan(away_m / kHeight_m);
+    const double half = std::cos(0.5 * angle);
+    const double texels_per_radian = 0.9 * 0.5 * kSide * 0.5 / (half * half);
+    const double radians_per_m = std::cos(angle) * std::cos(angle) / kHeight_m;
+    const double expected = texels_per_radian * radians_per_m * pixel_m;
+    EXPECT_NEAR(*density.map.pixel(31, 15), expected, 0.02 * expected);
+    EXPECT_NEAR(*density.map.pixel(0, 16), expected, 0.02 * expected);
+    EXPECT_GT(fitEfficiency(above.picture, above.all, above.camera, plan, 0, 0.5), 0.0);
+}
+
 TEST(TexelDensity, LeavesOutWhatDoesNotCountAndWhatNoMapHas)
 {
     Above above(0.1);

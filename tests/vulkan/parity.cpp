@@ -5,6 +5,7 @@
 #include "moment_numbers.h"
 #include "write_pgm.h"
 
+#include <glm/gtc/matrix_access.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,6 +98,41 @@ void setPoint(Rendered& r)
     r.plan.lights[0].view_count = 6;
 }
 
+/// The same lamp, with the half spaces above it and below.
+void setParaboloid(Rendered& r)
+{
+    constexpr std::uint32_t kSide = 512;
+    constexpr double kNear_m = 0.5;
+    constexpr double kFar_m = 45.0;
+    setPoint(r);
+    const glm::dvec3 lamp = r.lights[0].position_ws;
+    std::vector<View> views;
+    for (const double sign : {1.0, -1.0}) {
+        const std::uint32_t at = views.empty() ? 0 : kSide;
+        View view;
+        view.tile = {0, at, 0, kSide, kSide};
+        view.sector.w = {0.0, sign, 0.0, -sign * lamp.y};
+        view.parallel = false;
+        view.orthographic = false;
+        view.clamp_near = false;
+        view.paraboloid = true;
+        view.light_place_ws = lamp;
+        view.texel_m = 4.0 / kSide;
+        view.metric = {{0.0, 0.0, 0.0, -kNear_m / (kFar_m - kNear_m)}, kNear_m, kFar_m};
+        const glm::dvec3 axes[] = {{-sign, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, sign, 0.0}};
+        for (int i = 0; i < 3; ++i) {
+            view.clip_from_world =
+                glm::row(view.clip_from_world, i, glm::dvec4(axes[i], -glm::dot(axes[i], lamp)) / (kFar_m - kNear_m));
+        }
+        view.clip_from_world[3][3] = kSide / (kSide - 2.0 * 8.0); // a border of 8 texels
+        view.caster_count = static_cast<std::uint32_t>(r.plan.casters.size());
+        views.push_back(view);
+    }
+    r.plan.views = views;
+    r.plan.pages[0] = {2 * kSide, kSide, 1};
+    r.plan.lights[0].view_count = 2;
+}
+
 void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
 {
     if (lights == ParityLights::stepping_sun || lights == ParityLights::stepping_band) {
@@ -105,6 +141,10 @@ void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
     }
     if (lights == ParityLights::point) {
         setPoint(r);
+        return;
+    }
+    if (lights == ParityLights::paraboloid) {
+        setParaboloid(r);
         return;
     }
     Light sun = makeSun({0.8, -0.9, -0.35});

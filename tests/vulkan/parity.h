@@ -16,6 +16,7 @@ enum class ParityLights : std::uint8_t {
     sun_and_spot, // on a layer each, the spot's tile amid room to spare, so tile offsets count
     sun_alone,    // then the mask is drawn by pipelines for orthographic views
     point,        // six views with a tile each of the same layer, side by side
+    paraboloid,   // the same lamp with two half spaces
     one_layer,    // a sun, a spot and a second sun, each with a tile of the same layer
     // A sun between two positions, each with a layer of its own or, where the format has two maps a texel, with half of
     // one; they are blended all over, or in

@@ -3,9 +3,12 @@
 #include "fixture.h"
 #include "parity.h"
 
+#include <gnomon/plan_views.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace gnomon::test {
@@ -82,6 +85,78 @@ TEST(ParityOfPoints, maskIsThatOfTheCpu)
             off += std::abs(std::to_integer<int>(r.masks[0][i]) - 255.0 * wrong[i]) > 1.001 ? 1 : 0;
         }
         EXPECT_GT(off, wrong.size() / 500); // twice what parity lets pass
+    }
+    expectSilence(gpu());
+}
+
+// A paraboloid's two views are of half spaces, and rows of each receiver's own.
+TEST(ParityOfParaboloids, maskIsThatOfTheCpu)
+{
+    for (const auto& [filter, kernel, format] : {std::tuple{Filter::hard, PcfKernel::bilinear_2x2, MapFormat::d32f},
+                                                 std::tuple{Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d32f},
+                                                 std::tuple{Filter::pcf, PcfKernel::gaussian_7x7, MapFormat::d16},
+                                                 std::tuple{Filter::pcf, PcfKernel::vogel, MapFormat::r32f}}) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.technique.partition = Partition::paraboloid;
+        options.technique.filter = filter;
+        options.pcf.kernel = kernel;
+        options.format = format;
+        const std::string name = "paraboloid_" + std::string(nameOf(filter)) + "_" + std::string(nameOf(kernel));
+        SCOPED_TRACE(name);
+        const Rendered r = renderParity(options, ParityLights::paraboloid);
+        expectParity(r, options, name);
+        // The reference can tell views that are swapped.
+        Plan other = r.plan;
+        std::swap(other.views[0].sector, other.views[1].sector);
+        const std::vector<double> wrong = referenceMask({r.picture, r.camera, r.lights, other, r.maps}, 0, options, {});
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < wrong.size(); ++i) {
+            off += std::abs(std::to_integer<int>(r.masks[0][i]) - 255.0 * wrong[i]) > 1.001 ? 1 : 0;
+        }
+        EXPECT_GT(off, wrong.size() / 500); // twice what parity lets pass
+    }
+    expectSilence(gpu());
+}
+
+// Edges are where straight lines between their ends are, but what is within them has its exact distance from the light.
+TEST(MapsOfParaboloids, holdExactDistancesWithinBentEdges)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.partition = Partition::paraboloid;
+    options.technique.filter = Filter::hard;
+    const Rendered r = renderParity(options, ParityLights::paraboloid);
+    for (const View& view : r.plan.views) {
+        const glm::dvec2 half = 0.5 * glm::dvec2(view.tile.width, view.tile.height);
+        const glm::dmat4 rows = glm::transpose(view.clip_from_world);
+        std::size_t ground = 0;
+        std::size_t exact = 0;
+        std::size_t seen = 0;
+        std::size_t other = 0;
+        for (std::uint32_t y = 0; y < view.tile.height; ++y) {
+            for (std::uint32_t x = 0; x < view.tile.width; ++x) {
+                const glm::dvec2 place = (glm::dvec2(x + 0.5, y + 0.5) / half - 1.0) * view.clip_from_world[3][3];
+                const double r2 = glm::dot(place, place);
+                if (r2 > 0.36) { // beyond 0.64 the ground's own straight edges pass
+                    continue;
+                }
+                const glm::dvec3 d = glm::dvec3(2.0 * place, 1.0 - r2) / (1.0 + r2);
+                const glm::dvec3 ray =
+                    glm::normalize(glm::dvec3(rows[0]) * d.x + glm::dvec3(rows[1]) * d.y + glm::dvec3(rows[2]) * d.z);
+                const auto hit = r.scene.trace(view.light_place_ws, ray);
+                const double expected = hit ? std::min(depthOnMap(view, view.light_place_ws + ray * hit->t), 1.0) : 1.0;
+                const double stored = r.maps[view.tile.layer].depth(view.tile.x + x, view.tile.y + y);
+                const bool is_exact = std::abs(stored - expected) < 2e-5;
+                ground += hit && hit->object == 0 ? 1 : 0;
+                exact += hit && hit->object == 0 && is_exact ? 1 : 0;
+                seen += 1;
+                other += is_exact ? 0 : 1;
+            }
+        }
+        const bool below = view.sector.w.y < 0.0;
+        EXPECT_EQ(ground > 0, below);
+        EXPECT_GE(exact, ground * 97 / 100);
+        EXPECT_LE(other, seen / 20) << "edges of boxes";
+        EXPECT_EQ(other > 0, below) << "nothing is above the lamp, and edges below are bent";
     }
     expectSilence(gpu());
 }

@@ -4,6 +4,8 @@
 
 #include "moment_numbers.h"
 
+#include <gnomon/plan_views.h>
+
 #include <shared/discs.h>
 #include <shared/map_blocks.h>
 #include <shared/paired_depth.h>
@@ -144,6 +146,39 @@ MapRows rowsOf(const View& view)
     rows.metric = view.metric.metric_ws;
     rows.texel_m = view.texel_m;
     rows.range_m = view.metric.far_m - view.metric.near_m;
+    return rows;
+}
+
+/// Of a paraboloid, at a point: the perspective map whose axis is the ray to it, its slopes from differences.
+MapRows rowsAt(const View& view, const glm::dvec3& p)
+{
+    MapRows rows = rowsOf(view);
+    if (!view.paraboloid) {
+        return rows;
+    }
+    const auto texel = [&](const glm::dvec3& at) {
+        const glm::dvec2 place = placeOnMap(view, at).value_or(glm::dvec2(0.0));
+        return glm::dvec2(view.tile.x, view.tile.y) +
+               (place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+    };
+    const glm::dvec3 ray = p - view.light_place_ws;
+    const double distance = glm::length(ray);
+    const double h = 1e-4 * distance;
+    glm::dvec3 across(0.0);
+    glm::dvec3 down(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 step(0.0);
+        step[axis] = h;
+        const glm::dvec2 slope = (texel(p + step) - texel(p - step)) * (distance / (2.0 * h));
+        across[axis] = slope.x;
+        down[axis] = slope.y;
+    }
+    const glm::dvec2 here = texel(p);
+    rows.w = glm::dvec4(ray / distance, -glm::dot(ray / distance, view.light_place_ws));
+    rows.x = glm::dvec4(across, -glm::dot(across, p)) + rows.w * here.x;
+    rows.y = glm::dvec4(down, -glm::dot(down, p)) + rows.w * here.y;
+    rows.metric = rows.w / rows.range_m;
+    rows.metric.w -= view.metric.near_m / rows.range_m;
     return rows;
 }
 
@@ -322,7 +357,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
         std::ranges::transform(scene.maps, std::back_inserter(current_blocks), blocksOf);
     }
     const Picture& picture = scene.picture;
-    const MapRows rows = rowsOf(view);
+    MapRows rows = rowsOf(view);
     const BiasRule rule = ruleOf(options);
     const Footprint footprint(scene, rows);
     FilterInput input = inputOf(scene, view, options);
@@ -338,6 +373,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
         } else if (!shared::facesDirection(n, to_light)) {
             mask.push_back(0.0);
         } else {
+            rows = rowsAt(view, p);
             const double w = shared::dotRow(rows.w, p);
             const double x = shared::dotRow(rows.x, p) / w - view.tile.x;
             const double y = shared::dotRow(rows.y, p) / w - view.tile.y;

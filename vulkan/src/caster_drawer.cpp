@@ -175,9 +175,10 @@ void CasterDrawer::Impl::setBatch(CasterPipelineKey& key, const CasterBatch& bat
 void CasterDrawer::Impl::ensureTints(CasterPipelineKey key)
 {
     key.part = TexelPart::whole;
-    key.formats = blockerFormats(!key.perspective);
+    const bool paraboloid = key.formats.paraboloid;
+    key.formats = blockerFormats(!key.perspective, paraboloid);
     ensureBatches(key);
-    key.formats = tintFormats();
+    key.formats = tintFormats(paraboloid);
     ensureBatches(key);
 }
 

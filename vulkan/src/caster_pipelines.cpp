@@ -46,21 +46,38 @@ VertexCodes vertexCodes(const CasterPipelineKey& key)
     return GNOMON_VERTEX_CODES(caster);
 }
 #undef GNOMON_VERTEX_CODES
-#undef GNOMON_MASKED_AND_CLIPPED
 
 Code vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
 {
-    const VertexCodes codes = vertexCodes(key);
     const std::size_t which = (key.masked ? 1U : 0U) + (key.clipped ? 2U : 0U);
+    if (formats.paraboloid) {
+        return std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_paraboloid)[which];
+    }
+    const VertexCodes codes = vertexCodes(key);
     if (key.perspective) {
         return codes.perspective[which];
     }
     return formats.colour != VK_FORMAT_UNDEFINED ? codes.metric[which] : codes.orthographic[which];
 }
+#undef GNOMON_MASKED_AND_CLIPPED
+
+std::span<const std::uint32_t> paraboloidFragmentCode(const MapPassFormats& formats, bool masked)
+{
+    if (formats.blended) {
+        return spirv::caster_tint_paraboloid_frag;
+    }
+    if (formats.colour != VK_FORMAT_UNDEFINED) {
+        return masked ? spirv::caster_paraboloid_colour_masked_frag : spirv::caster_paraboloid_colour_frag;
+    }
+    return masked ? spirv::caster_paraboloid_masked_frag : spirv::caster_paraboloid_frag;
+}
 
 // Empty where the rasteriser alone does the work.
 std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked)
 {
+    if (formats.paraboloid) {
+        return paraboloidFragmentCode(formats, masked);
+    }
     if (formats.blended) {
         return spirv::caster_tint_frag;
     }

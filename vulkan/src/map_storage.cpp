@@ -43,7 +43,12 @@ MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
         return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
                 !orthographic, back_faces};
     }
-    return {storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic, back_faces};
+    const bool paraboloid = options.technique().partition == Partition::paraboloid;
+    MapPassFormats formats{storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic,
+                           back_faces};
+    formats.paraboloid = paraboloid;
+    formats.write_frag_depth = formats.write_frag_depth || paraboloid; // the rasteriser's own says nothing
+    return formats;
 }
 
 float depthRounding(VkFormat depth)

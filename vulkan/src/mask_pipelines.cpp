@@ -68,6 +68,7 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
                      0,
                      VK_FALSE,
                      shape.smooth ? VK_TRUE : VK_FALSE};
+    key.constants.paraboloid = options.technique().partition == Partition::paraboloid ? VK_TRUE : VK_FALSE;
     key.ids = shape.ids;
     return key;
 }

@@ -27,6 +27,7 @@ struct MaskConstants {
     VkBool32 coloured = VK_FALSE;    // pack::MaskDraw::coloured
     std::uint32_t tile_channels = 0; // CompactMaskRule::channels
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
+    VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
 
     bool operator==(const MaskConstants&) const = default;
 };

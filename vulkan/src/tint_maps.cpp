@@ -19,14 +19,18 @@ constexpr VkFormat kBlockerFormat = VK_FORMAT_D32_SFLOAT;
 
 } // namespace
 
-MapPassFormats blockerFormats(bool orthographic)
+MapPassFormats blockerFormats(bool orthographic, bool paraboloid)
 {
-    return {VK_FORMAT_UNDEFINED, kBlockerFormat, VK_SAMPLE_COUNT_1_BIT, !orthographic};
+    return {.depth = kBlockerFormat, .write_frag_depth = !orthographic, .paraboloid = paraboloid};
 }
 
-MapPassFormats tintFormats()
+MapPassFormats tintFormats(bool paraboloid)
 {
-    return {.colour = kTintFormat, .depth = kBlockerFormat, .write_frag_depth = true, .blended = true};
+    return {.colour = kTintFormat,
+            .depth = kBlockerFormat,
+            .write_frag_depth = true,
+            .blended = true,
+            .paraboloid = paraboloid};
 }
 
 void TintMaps::makeImages(const MapPages& pages, std::uint32_t layers)
@@ -118,13 +122,13 @@ void TintMaps::draw(const MapJob& job, std::uint32_t index)
     beginViewLabel(device_, job.commands, job.plan, index);
     MapPass pass = passOf(job.commands, job.plan, index, 0);
     pass.casters = castersOf(job.plan, view, CasterShare::all);
-    pass.formats = blockerFormats(view.orthographic);
+    pass.formats = blockerFormats(view.orthographic, view.paraboloid);
     beginRendering(job.commands, view.tile, VK_NULL_HANDLE);
     job.draw(pass);
     device_.vk.CmdEndRendering(job.commands);
     depth.old_layout = depth.new_layout;
     recordBarrier(device_, job.commands, depth);
-    pass.formats = tintFormats();
+    pass.formats = tintFormats(view.paraboloid);
     pass.colour_mask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     beginRendering(job.commands, view.tile, tints_.image().layer(layer));

@@ -97,7 +97,8 @@ using ContentNumber = std::uint64_t;
 /// How a view measures depth: d' = dot(metric_ws, (p, 1)) = (d - near) / (far - near). Under parallel light d is metres
 /// along the ray, from a plane across it or one that leans with the receivers (ShadowOptions::level_depth): along each
 /// ray d' grows by 1 / (far - near) per metre. Of a light with a place d is metres along its axis, the map's middle:
-/// along a ray at an angle from that, d' grows by the angle's cosine / (far - near) per metre.
+/// along a ray at an angle from that, d' grows by the angle's cosine / (far - near) per metre. Of a paraboloid d is
+/// metres from the light, and no row gives it: depthOnMap() (plan_views.h) does.
 struct DepthMetric {
     glm::dvec4 metric_ws{0.0};
     double near_m = 0.0;
@@ -142,7 +143,10 @@ struct ViewSector {
     glm::dvec4 y{0.0};
     glm::dvec4 w{0.0, 0.0, 0.0, 1.0};
 
-    [[nodiscard]] bool bounded() const { return x != glm::dvec4(0.0) || y != glm::dvec4(0.0); }
+    [[nodiscard]] bool bounded() const
+    {
+        return x != glm::dvec4(0.0) || y != glm::dvec4(0.0) || w != glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    }
     [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
     {
         const glm::dvec4 p(p_ws, 1.0);
@@ -223,6 +227,11 @@ struct View {
     std::uint32_t gpu_cascade = kNoIndex;
     /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one.
     bool parallel = true;
+    /// The map is a paraboloid, of the half space that `sector` has. Then clip_from_world takes a point to (q, 1 / s):
+    /// q is from the light to the point, in axes of the map (x right, y down, z along its axis) and in lengths of far -
+    /// near; and the map has it at s q.xy / (q.z + |q|), of -1 .. 1 over its tile, with depth |q| + metric.metric_ws.w
+    /// (placeOnMap(), depthOnMap()). The half space is a disc of radius s, beside which there is room for kernels.
+    bool paraboloid = false;
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
     glm::dvec3 light_place_ws{0.0};

@@ -6,6 +6,7 @@
 #include <gnomon/plan.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace gnomon {
@@ -41,6 +42,11 @@ namespace gnomon {
 
 /// Texels of its tile, and of the kept layer beside, that a view has drawn: none where its map holds what it should.
 [[nodiscard]] std::uint64_t texelsToDraw(const View& view);
+/// Where a view's map has a point: -1 .. 1 over its tile, x right and y down, beyond that beside it. Nothing for a
+/// point behind the map, which of a paraboloid is the one direction straight behind.
+[[nodiscard]] std::optional<glm::dvec2> placeOnMap(const View& view, const glm::dvec3& p_ws);
+/// What the map would store there if it could: d' as DepthMetric has it, 0 at the near distance and 1 at the far one.
+[[nodiscard]] double depthOnMap(const View& view, const glm::dvec3& p_ws);
 
 /// How many views from `first` on one pass can draw that says for each caster which layer it goes to, 1 to
 /// kMaxCascades: cascades of one light that are drawn whole and at once, at one place of consecutive layers and by the

@@ -46,6 +46,10 @@ std::optional<std::string> facesRefusal(const ShadowOptions& options)
     if (options.cascades.pass == CascadePass::layered) {
         return "caster-faces midpoint: a map's second surface needs its first; draw each map in a pass of its own";
     }
+    if (options.technique.partition == Partition::paraboloid) {
+        return "caster-faces midpoint: paraboloid is no more than a baseline, and its maps hold first surfaces; choose "
+               "nearest or back";
+    }
     if (options.keep_still == KeepStill::always) {
         return "caster-faces midpoint: what moves may lie between two surfaces of what stands still, so nothing can be "
                "kept apart";
@@ -150,7 +154,8 @@ Filter filterOf(const ShadowOptions& options)
     if (options.technique.filter != Filter::automatic) {
         return options.technique.filter;
     }
-    return options.quality == Quality::fast ? Filter::pcf : Filter::raymarch;
+    const bool plain = options.quality == Quality::fast || options.technique.partition == Partition::paraboloid;
+    return plain ? Filter::pcf : Filter::raymarch;
 }
 
 MapFormat formatOf(const ShadowOptions& options)
@@ -224,6 +229,9 @@ Resolution resolve(const ShadowOptions& options)
     ResolvedOptions made;
     made.asked_ = options;
     made.asked_.technique.filter = filterOf(options);
+    if (options.technique.partition == Partition::paraboloid) {
+        made.asked_.technique.fit = Fit::uniform; // auto
+    }
     made.traits_ = filterTraits(filterOf(options));
     made.format_ = formatOf(options);
     made.largest_side_ = largestSide(options);

@@ -24,6 +24,8 @@ struct Slice {
     /// motion finds it.
     double texel = 0.0;
     double faded_in = 1.0; // View::faded_in
+    /// A half space around the light's place along the axis, whole, as View::paraboloid has it: nothing is fitted.
+    bool paraboloid = false;
 };
 
 struct PartitionInput {
@@ -45,6 +47,7 @@ struct PartitionTraits {
     bool grows = false;
 };
 inline constexpr std::uint32_t kCubeFaces = 6;
+inline constexpr std::uint32_t kHemispheres = 2;
 /// The one frustum of a light that is not divided.
 [[nodiscard]] Slice wholeSlice(const Light& light);
 /// Around a light's place: 0, 1: +x, -x, then y and z.
@@ -59,5 +62,6 @@ void partitionSingle(const PartitionInput& input, std::vector<Slice>& out);
 void partitionCascades(const PartitionInput& input, std::vector<Slice>& out);
 void partitionSdsm(const PartitionInput& input, std::vector<Slice>& out);
 void partitionCube(const PartitionInput& input, std::vector<Slice>& out);
+void partitionParaboloid(const PartitionInput& input, std::vector<Slice>& out);
 
 } // namespace gnomon

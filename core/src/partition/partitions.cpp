@@ -10,6 +10,7 @@ constexpr PartitionTraits kPartitions[] = {
     {.partition = Partition::cascades, .divide = partitionCascades, .measures = true},
     {.partition = Partition::sdsm, .divide = partitionSdsm, .measures = true, .fits_on_gpu = true},
     {.partition = Partition::cube, .divide = partitionCube, .maps = kCubeFaces},
+    {.partition = Partition::paraboloid, .divide = partitionParaboloid, .maps = kHemispheres},
     {.partition = Partition::multi, .measures = true, .maps = 1, .grows = true},
     {.partition = Partition::automatic, .divide = partitionCascades, .measures = true},
     // clang-format on

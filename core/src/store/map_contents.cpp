@@ -70,6 +70,9 @@ TexelRect texelsOf(const View& view, const Aabb& box_ws)
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec2 low(kInfinity);
     glm::dvec2 high(-kInfinity);
+    if (view.paraboloid) { // where a box's edges are bent
+        return {0, 0, view.tile.width, view.tile.height};
+    }
     for (int i = 0; i < 8; ++i) {
         const glm::dvec4 c = view.clip_from_world * glm::dvec4(glm::dvec3(box_ws.corner(i)), 1.0);
         if (!(c.w > 0.0)) {

@@ -45,7 +45,7 @@ struct MapContents {
                                     std::span<Mover> movers);
 
 /// Where a box may be in a view's tile: around its image, a texel more on each side, cut by the tile. All of the tile
-/// where the box is partly behind a light with a place.
+/// where the box is partly behind a light with a place, and of a paraboloid.
 [[nodiscard]] TexelRect texelsOf(const View& view, const Aabb& box_ws);
 /// Around both; an empty one changes nothing.
 [[nodiscard]] TexelRect merge(const TexelRect& a, const TexelRect& b);

@@ -4,6 +4,8 @@
 
 #include "lab/score/texel_density.h"
 
+#include <gnomon/plan_views.h>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
@@ -82,11 +84,11 @@ inline std::span<const View> viewsOf(const Plan& plan, std::uint32_t light)
 /// Texel coordinates within the view's tile, unbounded; nothing behind the view.
 inline std::optional<glm::dvec2> texelOf(const View& view, const glm::dvec3& point_ws)
 {
-    const glm::dvec4 clip = view.clip_from_world * glm::dvec4(point_ws, 1.0);
-    if (clip.w <= 0.0) {
+    const std::optional<glm::dvec2> place = placeOnMap(view, point_ws);
+    if (!place) {
         return std::nullopt;
     }
-    return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
+    return (*place * 0.5 + 0.5) * glm::dvec2(view.tile.width, view.tile.height);
 }
 
 /// Does the mask take this view for a receiver at a point, whose place in the map is `texel`?

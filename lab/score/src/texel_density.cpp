@@ -36,18 +36,24 @@ std::optional<double> densityOf(const glm::dmat2& texel_from_pixel)
 /// On a square of a pixel's size that faces the light: the texel's gradients are both across its rays.
 double facingDensity(const PixelRays& rays, const View& view, glm::dvec2 pixel, const glm::dvec3& point_ws)
 {
-    const glm::dmat4 rows = glm::transpose(view.clip_from_world);
-    const glm::dvec4 p(point_ws, 1.0);
-    const double w = glm::dot(rows[3], p);
-    const auto gradient = [&](int axis, double size) {
-        return glm::dvec3(rows[axis] - rows[3] * (glm::dot(rows[axis], p) / w)) * (0.5 * size / w);
-    };
-    const glm::dvec3 x = gradient(0, view.tile.width);
-    const glm::dvec3 y = gradient(1, view.tile.height);
+    const double side_m = rays.facingPixel_m(pixel, point_ws);
+    const double step_m = 0.01 * side_m;
+    glm::dvec3 x(0.0);
+    glm::dvec3 y(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 step(0.0);
+        step[axis] = step_m;
+        const auto before = texelOf(view, point_ws - step);
+        const auto after = texelOf(view, point_ws + step);
+        if (!before || !after) {
+            return 0.0;
+        }
+        x[axis] = (after->x - before->x) / (2.0 * step_m);
+        y[axis] = (after->y - before->y) / (2.0 * step_m);
+    }
     const double length = glm::length(x);
     const glm::dvec3 along = x / length;
     const glm::dvec3 across = y - along * glm::dot(along, y);
-    const double side_m = rays.facingPixel_m(pixel, point_ws);
     const glm::dmat2 texel_from_pixel(glm::dvec2(length, glm::dot(along, y)) * side_m,
                                       glm::dvec2(0.0, glm::length(across)) * side_m);
     return densityOf(texel_from_pixel).value_or(0.0);

@@ -7,6 +7,8 @@
 //   else                      nothing: the rasteriser's depth is the metric
 // Of an object that clip planes cut the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each plane;
 // or passes them on, and the fragment shader discards where one is negative.
+// Of MapPassFormats::paraboloid it writes gnomonCasterParaboloid() to gl_Position, passes on clip.xyz and
+// gnomonCasterRim(), and the fragment shader takes the metric from gnomonCasterRadial().
 // In a pass of several views (MapPass::view_count) the vertex shader also writes the view's number to gl_Layer.
 // Every name that this declares begins with gnomon or GNOMON.
 #ifndef GNOMON_PUBLIC_CASTER_GLSL
@@ -31,6 +33,24 @@ vec4 gnomonCasterPlaced(vec4 clip, vec4 place)
 float gnomonCasterInside(vec3 p, vec4 clip_plane)
 {
     return casterInside(p, clip_plane);
+}
+
+// `clip` by MapPass::clip_from_world, of a pass with MapPassFormats::paraboloid: gl_Position, and what is to be
+// interpolated for gnomonCasterRadial().
+vec4 gnomonCasterParaboloid(vec4 clip)
+{
+    return casterParaboloid(clip);
+}
+vec3 gnomonCasterRim(vec4 clip)
+{
+    return casterRim(clip);
+}
+
+// The metric there; discard the fragment where it is less than 0. `rim` and `q`: gnomonCasterRim() and clip.xyz,
+// interpolated; `right`, `below`: dFdx(q), dFdy(q), taken before anything is discarded; `metric_ws`: the pass's.
+float gnomonCasterRadial(vec3 rim, vec3 q, vec3 right, vec3 below, vec4 metric_ws)
+{
+    return casterRadial(rim, q, right, below, metric_ws.w);
 }
 
 // The depth that is stored, 0 .. 1.

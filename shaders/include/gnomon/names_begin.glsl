@@ -47,7 +47,10 @@
 #define casterBehind gnomon_casterBehind
 #define casterMetric gnomon_casterMetric
 #define casterMidpoint gnomon_casterMidpoint
+#define casterParaboloid gnomon_casterParaboloid
 #define casterPlaced gnomon_casterPlaced
+#define casterRadial gnomon_casterRadial
+#define casterRim gnomon_casterRim
 #define casterStored gnomon_casterStored
 #define casterTexel gnomon_casterTexel
 #define chebyshevBound gnomon_chebyshevBound
@@ -189,6 +192,7 @@
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNormalError gnomon_kNormalError
 #define kOneSurface gnomon_kOneSurface
+#define kParaboloidBehind gnomon_kParaboloidBehind
 #define kPcssTaps gnomon_kPcssTaps
 #define kPixelSteps gnomon_kPixelSteps
 #define kPlaneAlone gnomon_kPlaneAlone
@@ -280,6 +284,9 @@
 #define packSeen gnomon_packSeen
 #define pairedDepth gnomon_pairedDepth
 #define pairedTexel gnomon_pairedTexel
+#define paraboloidDirection gnomon_paraboloidDirection
+#define paraboloidPlace gnomon_paraboloidPlace
+#define paraboloidRows gnomon_paraboloidRows
 #define passesBeneath gnomon_passesBeneath
 #define pcfBilinear gnomon_pcfBilinear
 #define pcfDisc gnomon_pcfDisc
@@ -306,6 +313,7 @@
 #define risesOverPlane gnomon_risesOverPlane
 #define rootBelow gnomon_rootBelow
 #define rootsInside gnomon_rootsInside
+#define rowsAt gnomon_rowsAt
 #define rowsOf gnomon_rowsOf
 #define sampleMoments gnomon_sampleMoments
 #define samplingLevel gnomon_samplingLevel

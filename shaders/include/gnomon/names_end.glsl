@@ -47,7 +47,10 @@
 #undef casterBehind
 #undef casterMetric
 #undef casterMidpoint
+#undef casterParaboloid
 #undef casterPlaced
+#undef casterRadial
+#undef casterRim
 #undef casterStored
 #undef casterTexel
 #undef chebyshevBound
@@ -189,6 +192,7 @@
 #undef kNoLayerBegins
 #undef kNormalError
 #undef kOneSurface
+#undef kParaboloidBehind
 #undef kPcssTaps
 #undef kPixelSteps
 #undef kPlaneAlone
@@ -280,6 +284,9 @@
 #undef packSeen
 #undef pairedDepth
 #undef pairedTexel
+#undef paraboloidDirection
+#undef paraboloidPlace
+#undef paraboloidRows
 #undef passesBeneath
 #undef pcfBilinear
 #undef pcfDisc
@@ -306,6 +313,7 @@
 #undef risesOverPlane
 #undef rootBelow
 #undef rootsInside
+#undef rowsAt
 #undef rowsOf
 #undef sampleMoments
 #undef samplingLevel

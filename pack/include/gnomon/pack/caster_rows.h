@@ -18,7 +18,8 @@ struct Rows3x4 {
     glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F};
 };
 
-/// Rows of a view that an instance brings: x, y and the metric; of a perspective view x, y, z, w and the metric.
+/// Rows of a view that an instance brings: x, y and the metric; of any other view x, y, z, w and the metric. Of a
+/// paraboloid only the last number of w and of the metric counts (View::paraboloid).
 [[nodiscard]] constexpr std::uint32_t casterRowCount(bool orthographic)
 {
     return orthographic ? 3 : 5;

@@ -93,6 +93,9 @@ struct MapPassFormats {
     /// A map of tints: blended casters alone, and no others. Red, green and blue multiply what is there, and of
     /// alpha, which is the metric, the lesser one stays. Depth is tested and not written; gl_FragDepth = metric.
     bool blended = false;
+    /// View::paraboloid: vertices are placed by gnomonCasterParaboloid(), and fragments have the metric of
+    /// gnomonCasterRadial() or are discarded (caster.glsl). It goes to gl_FragDepth beside a colour attachment, too.
+    bool paraboloid = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
@@ -115,7 +118,8 @@ struct MapPass {
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F};
-    glm::vec4 metric_ws{0.0F}; // d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl
+    /// d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl. Of a paraboloid w alone counts.
+    glm::vec4 metric_ws{0.0F};
     /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
     /// written, says which part of it the view shows: casterPlaced() in shaders/lib/caster.glsl. A vertex buffer (to be
     /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
