@@ -5,15 +5,10 @@
 // take.
 #include "planner_impl.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 
 namespace gnomon {
 namespace {
-
-/// Slices of the camera's depth are read along one axis by all views, so they last while the camera does not turn.
-constexpr double kSameAxis = 1e-6;
 
 /// A view of the plan before as one of this plan, with nothing to draw.
 View asDrawn(const View& before, std::uint32_t light)
@@ -108,9 +103,7 @@ bool Planner::Impl::canKeepViews(const Frame& frame, std::uint32_t index) const
         return false;
     }
     return std::ranges::all_of(turns.viewsOf(index), [&](const View& view) {
-        const bool turned = view.slice.bounded() &&
-                            glm::distance(glm::dvec3(view.slice.axis), glm::dvec3(setup.camera.forward_ws)) > kSameAxis;
-        return view.gpu_cascade == kNoIndex && !turned && store.holds(view);
+        return view.gpu_cascade == kNoIndex && store.holds(view);
     });
 }
 

@@ -138,8 +138,8 @@ TEST(Turns, AreNotForMeansOverFrames)
     }
 }
 
-// All views' slices are read along the camera's own axis, so where it turns they are others.
-TEST(Turns, OfCascadesWaitWhileTheCameraDoesNotTurn)
+// Who waits keeps the slices of the camera that it was drawn for, along that camera's axis.
+TEST(Turns, AreOfCascadesTooAndOfACameraThatTurns)
 {
     Avenue avenue(1);
     avenue.lights = {test::sun({0.3, -1.0, 0.2}), test::sun({-0.3, -1.0, 0.4})};
@@ -155,7 +155,13 @@ TEST(Turns, OfCascadesWaitWhileTheCameraDoesNotTurn)
     }
     for (int step = 0; step < 8; ++step) {
         avenue.frame.camera = test::perspectiveCamera({0, 2, 42}, {1 + step, 1, 0}, 0.8);
-        EXPECT_EQ(longestWait(planner.plan(avenue.frame)), 0U);
+        const Plan before = planner.plan(avenue.frame);
+        avenue.frame.camera = test::perspectiveCamera({0, 2, 42}, {1.5 + step, 1, 0}, 0.8);
+        const Plan& plan = planner.plan(avenue.frame);
+        ASSERT_EQ(plan.pages[0].waiting_lights, 1U);
+        const LightPlan& waits = plan.lights[plan.lights[0].waited > 0 ? 0 : 1];
+        const LightPlan& waited = before.lights[plan.lights[0].waited > 0 ? 0 : 1];
+        EXPECT_EQ(plan.views[waits.first_view].slice.axis, before.views[waited.first_view].slice.axis);
     }
 }
 
