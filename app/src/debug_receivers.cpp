@@ -141,8 +141,7 @@ Image8 fadedView(const Drawn& drawn)
     legend.title = "What fades in";
     legend.subtitle = "mixed by what each counts for; grey: no map";
     legend.kinds = {"maps that were there", "maps that fade in over them"};
-    const auto coming =
-        std::count_if(views.begin(), views.end(), [](const View& view) { return view.faded_in < 1.0; });
+    const auto coming = std::count_if(views.begin(), views.end(), [](const View& view) { return view.faded_in < 1.0; });
     notice(fmt::format("light {}: {} of {} maps fade in", drawn.shot.lights[drawn.light].name, coming, views.size()));
     return lab::tintedPicture(drawn.picture.colour, joined, legend);
 }

@@ -145,7 +145,8 @@ bool always(const Settings&)
 bool fades(const Settings& s)
 {
     const Technique& technique = s.shadow.technique;
-    return technique.partition == Partition::multi && technique.motion == Motion::snap && s.shadow.multi.fade_frames > 0;
+    return technique.partition == Partition::multi && technique.motion == Motion::snap &&
+           s.shadow.multi.fade_frames > 0;
 }
 
 bool steps(const Settings& s)

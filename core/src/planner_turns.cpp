@@ -102,9 +102,8 @@ bool Planner::Impl::canKeepViews(const Frame& frame, std::uint32_t index) const
         setup.receivers.empty()) {
         return false;
     }
-    return std::ranges::all_of(turns.viewsOf(index), [&](const View& view) {
-        return view.gpu_cascade == kNoIndex && store.holds(view);
-    });
+    return std::ranges::all_of(turns.viewsOf(index),
+                               [&](const View& view) { return view.gpu_cascade == kNoIndex && store.holds(view); });
 }
 
 /// Of all the maps that a light wants.

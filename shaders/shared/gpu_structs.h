@@ -42,11 +42,12 @@ struct GpuView {
     GN_VEC4 whole; // all of its tile, as `tile`
     GN_VEC4 more; // x: slot of its depth layers (lvsm), y: coarsest mip level, or level of blocks, that it may read, z:
                   // near / far, w: one past its layer of the maps of tints; 0: no blended caster is in it
-    // What of ViewSlice it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has faded in over
-    // views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its number in the plan
+    // What of ViewSlice it serves: x: begin, y: end, z: one over the width of the blend; w: how far it has faded in
+    // over views before it; while the GPU has yet to fit it (cascade_constants.comp): minus one past its number in the
+    // plan
     GN_VEC4 slice;
     GN_VEC4 slice_axis; // row that takes an eye-relative point to a depth, of which `slice` is in units of sector_w's
-    GN_VEC4 sector_x; // rows that take an eye-relative point to its place among views side by side: ViewSector
+    GN_VEC4 sector_x;   // rows that take an eye-relative point to its place among views side by side: ViewSector
     GN_VEC4 sector_y;
     GN_VEC4 sector_w;
 };

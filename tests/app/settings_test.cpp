@@ -96,8 +96,8 @@ TEST(Settings, SizesOfLightsAreWhatWasSaid)
 
 TEST(Settings, SeveralLampsAreToldApart)
 {
-    const app::Shot shot = app::makeShot(
-        settingsOf({"render", "planes", "--sun", "0,-1,0", "--point", "0,5,0,20,1,2,3,4", "--mask", "--light", "point 1"}));
+    const app::Shot shot = app::makeShot(settingsOf(
+        {"render", "planes", "--sun", "0,-1,0", "--point", "0,5,0,20,1,2,3,4", "--mask", "--light", "point 1"}));
     ASSERT_EQ(shot.lights.size(), 3U);
     EXPECT_EQ(shot.lights[1].name, "point 0");
     EXPECT_EQ(shot.lights[2].name, "point 1");

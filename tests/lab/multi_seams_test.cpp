@@ -89,10 +89,10 @@ protected:
         const host::SceneOnGpu uploaded(gpu, scene, state);
         host::FrameRenderer renderer(uploaded, options);
         renderer.draw(state, eye, lights);
-        const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
+        const host::Picture picture =
+            renderer.read({.colour = false, .linear = false, .masks = true, .geometry = true});
         const Camera camera = host::cameraOf(eye, options.width, options.height, state.bounds_ws);
-        const ImageF shares =
-            viewShares({camera, picture.depth, picture.normals}, renderer.plan(), 0,
+        const ImageF shares = viewShares({camera, picture.depth, picture.normals}, renderer.plan(), 0,
                                          static_cast<double>(reachTexels(options.shadow)));
         EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
         Seams seams = seamsOf(picture.masks[0], shares);

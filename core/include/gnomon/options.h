@@ -50,8 +50,8 @@ struct MultiOptions {
     /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
     double texels_per_pixel = 1.0;
     /// A frustum serves no two places of which one needs so many times as many texels a pixel as the other: 2 .. 1024,
-    /// by powers of two, rounded down; less is 2. Of four in one direction the last serves all that is left. 0: frustums
-    /// are divided where that saves texels. T. Forsyth (GDC 2006) has 4.
+    /// by powers of two, rounded down; less is 2. Of four in one direction the last serves all that is left. 0:
+    /// frustums are divided where that saves texels. T. Forsyth (GDC 2006) has 4.
     double most_times = 0.0;
     /// With motion snap: frames over which frustums fade over into others, where their texels or what they serve
     /// change; 0 .. 64. 0: at once.

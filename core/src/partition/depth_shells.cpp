@@ -148,8 +148,7 @@ void DepthShells::gather(const Input& input)
     const Light& light = input.light;
     std::array<LightSpace, kCubeFaces> spaces;
     for (std::size_t i = 0; i < input.ways.size(); ++i) {
-        spaces[i] =
-            lightSpaceOf(light, input.ways[i].axis_ws, input.ways[i].half_angle_rad, input.camera.scene_ws);
+        spaces[i] = lightSpaceOf(light, input.ways[i].axis_ws, input.ways[i].half_angle_rad, input.camera.scene_ws);
     }
     for (const SightPoint& point : input.points) {
         const std::size_t sector = input.ways.size() > 1 ? cubeFaceOf(point.p_ws - light.position_ws) : 0;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Multi-frustum partitioning. A texel of a lamp's map is as large as it is far from the lamp, a pixel as it is far from
-// the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into shells of
-// the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all around it is cut
-// into the faces of a cube. Fine ones first, shells grow together where that costs few texels. Each frustum has a map of
-// the size that its part of the picture asks for.
-// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
+// the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into shells
+// of the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all around it is
+// cut into the faces of a cube. Fine ones first, shells grow together where that costs few texels. Each frustum has a
+// map of the size that its part of the picture asks for. Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
 // Departures: receivers are cut where what they need halves, and not each given to one frustum, so that a floor needs
 // no pieces made by hand and nothing pops when an object goes from one to another; frustums fade into each other
 // instead. Texels are counted in those some hundred points that the camera probably sees (Sight).
@@ -176,8 +175,8 @@ void MultiPartition::findFrustums(const Input& input, Memory& memory, std::size_
     const glm::dvec2 cell_px(static_cast<double>(input.frame.size_px.x) / Sight::kColumns,
                              static_cast<double>(input.frame.size_px.y) / Sight::kRows);
     findWays(input);
-    const DepthShells::Input seen{input.light, input.camera, ways_, input.sight.points(), cell_px,
-                                  widestShell(input.recipe.options.multi)};
+    const DepthShells::Input seen{input.light,          input.camera, ways_,
+                                  input.sight.points(), cell_px,      widestShell(input.recipe.options.multi)};
     if (memory.held.fading()) { // one change after the other
         shells_.findAgain(seen, memory.divides ? std::span<const int>(memory.ends) : std::span<const int>());
         (void)addShells(input, memory, frustums);
@@ -402,9 +401,8 @@ void MultiPartition::addFading(const Input& input, const HeldFrustums& held)
 {
     for (const HeldFrustum& one : held.before) {
         const std::size_t count = frustums_.size();
-        addFrustum(
-            input,
-            sliceOf(input.camera, ways_[one.part.sector], one.part, input.recipe.options.cascades.blend), one.part);
+        addFrustum(input, sliceOf(input.camera, ways_[one.part.sector], one.part, input.recipe.options.cascades.blend),
+                   one.part);
         if (frustums_.size() > count) {
             GrownFrustum& frustum = frustums_.back();
             frustum.id = idOf(one);

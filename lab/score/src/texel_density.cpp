@@ -60,7 +60,7 @@ double facingDensity(const PixelRays& rays, const View& view, glm::dvec2 pixel, 
 }
 
 std::optional<Densities> densitiesIn(const PixelRays& rays, const View& view, glm::dvec2 pixel, const Surface& surface,
-                                double reach_texels)
+                                     double reach_texels)
 {
     const auto here = texelOf(view, surface.point_ws);
     if (!here || !serves(view, surface.point_ws, *here, reach_texels)) {

@@ -45,6 +45,7 @@
 #define boundedVisibility gnomon_boundedVisibility
 #define canBlock gnomon_canBlock
 #define casterBehind gnomon_casterBehind
+#define casterInside gnomon_casterInside
 #define casterMetric gnomon_casterMetric
 #define casterMidpoint gnomon_casterMidpoint
 #define casterParaboloid gnomon_casterParaboloid

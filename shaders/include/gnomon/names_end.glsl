@@ -45,6 +45,7 @@
 #undef boundedVisibility
 #undef canBlock
 #undef casterBehind
+#undef casterInside
 #undef casterMetric
 #undef casterMidpoint
 #undef casterParaboloid
