@@ -38,11 +38,6 @@ constexpr std::array kRules{
                "not the "
                "same; it needs motion free or snap"},
     ChoiceRule{
-        [](LightType light, const Technique& t) { return isParaboloid(t) && light != LightType::point; },
-        "partition paraboloid with every light but point",
-        "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, or "
-        "auto"},
-    ChoiceRule{
         [](LightType, const Technique& t) {
             return isParaboloid(t) && t.filter != Filter::hard && t.filter != Filter::pcf &&
                    t.filter != Filter::automatic;
@@ -62,6 +57,12 @@ constexpr std::array kRules{
                "partition paraboloid with soften converge",
                "paraboloid cannot move its texels over what it shows, as converge does from frame to frame; it needs "
                "soften none"},
+    // After its others: what no light can have is told by what a sun cannot.
+    ChoiceRule{
+        [](LightType light, const Technique& t) { return isParaboloid(t) && light != LightType::point; },
+        "partition paraboloid with every light but point",
+        "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, or "
+        "auto"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

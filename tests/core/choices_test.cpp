@@ -131,7 +131,7 @@ TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoOther)
         for (const LightType other : {LightType::directional, LightType::spot})
             EXPECT_EQ(refusal(other, technique), partition.name == "cube" ? std::optional(choiceRules()[1].reason)
                                                  : partition.name == "paraboloid"
-                                                     ? std::optional(choiceRules()[4].reason)
+                                                     ? std::optional(choiceRules()[8].reason)
                                                      : std::nullopt);
     }
 }
@@ -156,6 +156,8 @@ TEST(Choices, AParaboloidIsABaselineAndSaysWhatItGoesWith)
                   std::string::npos);
     EXPECT_NE(said({paraboloid, Fit::uniform, Filter::pcf, Soften::converge}).find("needs soften none"),
               std::string::npos);
+    const Technique averages{paraboloid, Fit::uniform, Filter::vsm};
+    EXPECT_EQ(refusal(averages), refusal(LightType::point, averages));
 }
 
 TEST(Choices, WhatConvergesIsNotHeldStill)
