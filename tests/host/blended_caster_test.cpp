@@ -85,7 +85,7 @@ TEST(BlendedCaster, TintsTheMaskOfAParaboloid)
     for (scene::Light& light : scene.lights) {
         light.type = scene::LightType::point;
     }
-    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f}) {
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::r32f, MapFormat::rg16}) {
         ShadowOptions shadow = plainWith(Filter::pcf, Partition::paraboloid);
         shadow.format = format;
         for (const Sides& sides : sidesOf(gpu, scene, shadow)) {

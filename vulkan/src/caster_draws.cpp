@@ -162,7 +162,9 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
     key.formats = pass.formats;
     key.perspective = !view.orthographic;
     key.clamp = view.clamp_near;
-    key.part = pass.formats.blended ? TexelPart::whole : view.part;
+    // What blocks light before blended casters is drawn to no texels that two maps share.
+    const bool whole = pass.formats.blended || pass.formats.colour == VK_FORMAT_UNDEFINED;
+    key.part = whole ? TexelPart::whole : view.part;
     key.placed = pass.placement != VK_NULL_HANDLE;
     key.layered = layered;
     std::uint32_t drawn = 0;
