@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multi-frustum partitioning. A texel of a lamp's map is as large as it is far from the lamp, a pixel as it is far from
-// the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into shells
-// of the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all around it is
-// cut into the faces of a cube. Fine ones first, shells grow together where that costs few texels. Each frustum has a
-// map of the size that its part of the picture asks for. Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
+// Multi-frustum partitioning. A texel of a lamp's map is as large as it is far from the lamp, and a pixel as it is far
+// from the eye. So what a lamp lights is cut into shells of the one depth over the other, and what a sun lights into
+// shells of the camera's depth: what is in a shell wants like texels, to a factor of two. What the light sees all
+// around it is cut into the faces of a cube. Shells grow together where that costs few texels. Each frustum has a map
+// of the size that its part of the picture asks for.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006.
 // Departures: receivers are cut where what they need halves, and not each given to one frustum, so that a floor needs
 // no pieces made by hand and nothing pops when an object goes from one to another; frustums fade into each other
 // instead. Texels are counted in those some hundred points that the camera probably sees (Sight).
