@@ -39,6 +39,14 @@ ImageF sharesOf(const Drawn& drawn)
                            static_cast<std::uint32_t>(drawn.light), reachOf(drawn));
 }
 
+/// The pixels that its light shines on, if nothing is in the way.
+lab::Counted reachedBy(const Drawn& drawn)
+{
+    const Camera camera = cameraOf(drawn);
+    return lab::reachedPixels({camera, drawn.picture.depth, drawn.picture.normals},
+                              drawn.shot.lights[drawn.light].caster);
+}
+
 const LightPlan& lightOf(const Drawn& drawn)
 {
     return drawn.plan.lights[drawn.light];
@@ -61,14 +69,15 @@ std::vector<std::uint32_t> kindsOf(std::span<const View> views)
 
 std::string nameOfView(const View& view, std::uint32_t index)
 {
-    std::string name = fmt::format("map {}: ", index);
+    std::string name =
+        fmt::format("map {}: {}", index, view.slice.bounded() && view.slice.isRatio() ? "eye depth / lamp depth " : "");
     if (std::isfinite(view.slice.begin_m)) {
         name += fmt::format("from {:.3g} ", view.slice.begin_m);
     }
     if (std::isfinite(view.slice.end_m)) {
         name += fmt::format("to {:.3g} ", view.slice.end_m);
     }
-    const std::string_view unit = !view.slice.bounded() ? "" : view.slice.isRatio() ? "of the lamp's, " : "m, ";
+    const std::string_view unit = !view.slice.bounded() ? "" : view.slice.isRatio() ? ", " : "m, ";
     return fmt::format("{}{}texel {:.3g} m{}", name, unit, view.texel_m, view.parallel ? "" : " at 1 m");
 }
 
@@ -110,9 +119,7 @@ Image8 viewsView(const Drawn& drawn)
             legend.kinds.push_back(nameOfView(views[i], kinds[i]));
         }
     }
-    const Camera camera = cameraOf(drawn);
-    const lab::Counted reached =
-        lab::reachedPixels({camera, drawn.picture.depth, drawn.picture.normals}, drawn.shot.lights[drawn.light].caster);
+    const lab::Counted reached = reachedBy(drawn);
     for (std::uint32_t y = 0; y < shares.height; ++y) {
         for (std::uint32_t x = 0; x < shares.width; ++x) {
             for (std::size_t i = 0; *reached.pixel(x, y) != 0 && i < views.size(); ++i) {
@@ -129,17 +136,18 @@ Image8 fadedView(const Drawn& drawn)
     const LightPlan& light = lightOf(drawn);
     const std::span<const View> views = std::span(drawn.plan.views).subspan(light.first_view, light.view_count);
     const ImageF shares = sharesOf(drawn);
+    const lab::Counted reached = reachedBy(drawn);
     ImageF joined(shares.width, shares.height, 2);
     for (std::uint32_t y = 0; y < shares.height; ++y) {
         for (std::uint32_t x = 0; x < shares.width; ++x) {
-            for (std::size_t i = 0; i < views.size(); ++i) {
+            for (std::size_t i = 0; *reached.pixel(x, y) != 0 && i < views.size(); ++i) {
                 joined.pixel(x, y)[views[i].faded_in < 1.0 ? 1 : 0] += shares.pixel(x, y)[i];
             }
         }
     }
     lab::TintLegend legend;
     legend.title = "What fades in";
-    legend.subtitle = "mixed by what each counts for; grey: no map";
+    legend.subtitle = "mixed by what each counts for; grey: no map, or out of reach";
     legend.kinds = {"maps that were there", "maps that fade in over them"};
     const auto coming = std::count_if(views.begin(), views.end(), [](const View& view) { return view.faded_in < 1.0; });
     notice(fmt::format("light {}: {} of {} maps fade in", drawn.shot.lights[drawn.light].name, coming, views.size()));

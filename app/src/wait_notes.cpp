@@ -11,7 +11,7 @@ std::optional<std::string> waitNote(const lab::Waits& waits)
         return std::nullopt;
     }
     return fmt::format("lights keep the maps that they had until their turn comes: up to {} of a frame, for {} frame{} "
-                       "at the longest; a frame draws {} texels at most",
+                       "at the longest; frames after the first draw {} texels at most",
                        waits.most_lights, waits.longest_frames, waits.longest_frames == 1 ? "" : "s",
                        waits.most_texels);
 }

@@ -57,7 +57,6 @@ constexpr std::array kRules{
                "partition paraboloid with soften converge",
                "paraboloid cannot move its texels over what it shows, as converge does from frame to frame; it needs "
                "soften none"},
-    // After its others: what no light can have is told by what a sun cannot.
     ChoiceRule{
         [](LightType light, const Technique& t) { return isParaboloid(t) && light != LightType::point; },
         "partition paraboloid with every light but point",

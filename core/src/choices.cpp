@@ -4,6 +4,7 @@
 // partition/partitions.cpp, motion/motions.cpp, kFilters below).
 #include <gnomon/choice_rules.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -366,6 +367,13 @@ std::optional<std::string_view> refusal(const Technique& technique)
     for (const LightType light : {LightType::spot, LightType::point}) {
         if (!refusal(light, technique)) {
             return std::nullopt;
+        }
+    }
+    // What no light can have is told by a rule that is not about the light, where there is one.
+    constexpr std::array kLights{LightType::directional, LightType::spot, LightType::point};
+    for (const ChoiceRule& rule : choiceRules()) {
+        if (std::ranges::all_of(kLights, [&](LightType light) { return rule.applies(light, technique); })) {
+            return rule.reason;
         }
     }
     return refusal(LightType::directional, technique);

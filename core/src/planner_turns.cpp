@@ -83,8 +83,8 @@ void Planner::Impl::foreseeTurns(const Frame& frame, std::uint32_t options)
         turn.keeps_views = !claim.drawn;
         if (turn.kept_back) {
             const Light& light = frame.lights[claim.light];
-            multi.takeBack({frame, setup.recipe, setup.camera, receiversOf(claim.light, light), setup.sight, light},
-                           claim.light);
+            multi.restoreFrustums(
+                {frame, setup.recipe, setup.camera, receiversOf(claim.light, light), setup.sight, light}, claim.light);
         }
     }
 }
@@ -187,7 +187,7 @@ void Planner::Impl::takeTurns(const Frame& frame, std::uint32_t options)
     for (const DrawTurn& claim : turns.claims) {
         turns.lights[claim.light].waits = !claim.drawn;
         if (!claim.drawn && recipe.grows()) {
-            multi.takeBack(claim.light);
+            multi.restoreMemory(claim.light);
         }
     }
 }

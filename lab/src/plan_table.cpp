@@ -78,7 +78,7 @@ std::string sliceOf(const View& view)
         return "all";
     }
     const std::string begin = std::isfinite(view.slice.begin_m) ? numberOf(view.slice.begin_m) : "0";
-    const std::string unit = view.slice.isRatio() ? " of the lamp's" : " m";
+    const std::string unit = view.slice.isRatio() ? " x lamp's" : " m";
     return std::isfinite(view.slice.end_m) ? begin + " to " + numberOf(view.slice.end_m) + unit
                                            : "from " + begin + unit;
 }

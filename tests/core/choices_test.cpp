@@ -175,6 +175,15 @@ TEST(Choices, WhatConvergesIsNotHeldStill)
     }
 }
 
+// No light can have it, and whoever has a point light does not read of suns.
+TEST(Choices, WhatNoLightCanHaveIsNotBlamedOnTheLight)
+{
+    const Technique technique{.partition = Partition::cube, .soften = Soften::converge, .motion = Motion::snap};
+    ASSERT_TRUE(refusal(technique).has_value());
+    EXPECT_NE(refusal(technique)->find("converge moves"), std::string_view::npos) << *refusal(technique);
+    EXPECT_FALSE(refusal(Technique{.partition = Partition::cube}).has_value());
+}
+
 TEST(Choices, EveryAvailableFilterHasTraits)
 {
     for (const ChoiceValue& row : choiceValues())

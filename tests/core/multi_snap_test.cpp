@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,27 @@ TEST(MultiSnap, HoldsTexelsWhereTheyAre)
         EXPECT_GT(compared, 400);
         EXPECT_GT(pans, type == LightType::spot ? 0 : 100);
         EXPECT_LT(known.size(), 80U) << "hardly ever other texels";
+    }
+}
+
+// A host may take a key for another light. What was held of the one is of no use to the other.
+TEST(MultiSnap, ForgetsALampThatBecomesAnother)
+{
+    Hall hall;
+    hall.addLamp({0, 3, -14}, 40.0);
+    hall.options.technique.motion = Motion::snap;
+    Planner planner(hall.options);
+    for (int step = 0; step < 40; ++step) {
+        constexpr std::array kTypes{LightType::point, LightType::spot, LightType::directional};
+        hall.lights[0].type = kTypes[static_cast<std::size_t>(step / 4 % 3)];
+        hall.frame.lights = hall.lights;
+        hall.look(onTheWay(6 * step), {0, 1, -14});
+        const Plan& plan = planner.plan(hall.frame);
+        for (const View& view : plan.views) {
+            EXPECT_EQ(view.parallel, hall.lights[0].type == LightType::directional);
+            EXPECT_EQ(view.sector.bounded(), hall.lights[0].type == LightType::point);
+            EXPECT_TRUE(step % 4 != 0 || view.faded_in == 1.0) << "there is nothing to fade over";
+        }
     }
 }
 

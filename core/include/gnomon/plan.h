@@ -167,7 +167,7 @@ enum class SunPosition : std::uint8_t { only, earlier, later };
 /// One map to draw: a frustum of one light.
 struct View {
     std::uint32_t light = 0;         // index into Frame::lights
-    glm::dmat4 clip_from_world{1.0}; // z in [0, w] in front of the near plane; y down, as Vulkan has it
+    glm::dmat4 clip_from_world{1.0}; // z in [0, w] beyond the near plane; y down; but see paraboloid
     DepthMetric metric;
     bool orthographic = true; // neither a lamp's nor warped; then the rasteriser's z is the metric, up to rounding
     bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
@@ -225,7 +225,8 @@ struct View {
     /// and the GPU finds which rectangle of it the view shows and which slice it serves (FittedView). Depth and casters
     /// are the base map's. Always to be drawn again. kNoIndex: all is as it says here.
     std::uint32_t gpu_cascade = kNoIndex;
-    /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one.
+    /// The light's rays are parallel. Otherwise they come from light_place_ws, and the map is a perspective one or a
+    /// paraboloid.
     bool parallel = true;
     /// The map is a paraboloid, of the half space that `sector` has. Then clip_from_world takes a point to (q, 1 / s):
     /// q is from the light to the point, in axes of the map (x right, y down, z along its axis) and in lengths of far -
@@ -233,7 +234,7 @@ struct View {
     /// (placeOnMap(), depthOnMap()). The half space is a disc of radius s, beside which there is room for kernels.
     bool paraboloid = false;
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
-    /// everything that can cast is in front (Marinescu 2011, eq. 6); spot: the light's position.
+    /// everything that can cast is in front (Marinescu 2011, eq. 6); spot, point: the light's position.
     glm::dvec3 light_place_ws{0.0};
     /// With gpu_cascade: how far the view is to be moved over what it shows, in its own texels. Else it has been.
     glm::dvec2 grid_move_texels{0.0};

@@ -100,7 +100,10 @@ bool DepthShells::find(const Input& input, std::vector<int>& ends, KeepShells ke
     }
     group(ends, kept_);
     const bool filled = std::ranges::all_of(kept_, [](const DepthShell& shell) { return shell.texels() > 0.0; });
-    const bool suffices = filled && texelsOf(kept_) <= kKeepCost * texelsOf(shells_);
+    const bool narrow = input.widest == 0 || std::ranges::all_of(kept_, [&](const DepthShell& shell) {
+                            return &shell == &kept_.back() || shell.end - shell.octave <= input.widest;
+                        });
+    const bool suffices = filled && narrow && texelsOf(kept_) <= kKeepCost * texelsOf(shells_);
     if (keep == KeepShells::all || (keep == KeepShells::good_enough && suffices)) {
         std::swap(kept_, shells_);
     }

@@ -127,6 +127,10 @@ std::span<const GrownFrustum> MultiPartition::frustumsOf(std::size_t light) cons
 void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanner& frustums)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
+    if (memory.type != input.light.type) { // its directions were others
+        memory = {};
+        memory.type = input.light.type;
+    }
     if (takesTurns(input)) {
         before_[rows_.rowOf(light)] = memory;
     }
@@ -154,14 +158,14 @@ bool MultiPartition::differs(std::size_t light) const
         [](const GrownFrustum& a, const GrownFrustum& b) { return a.id == b.id && a.side == b.side; });
 }
 
-void MultiPartition::takeBack(std::size_t light)
+void MultiPartition::restoreMemory(std::size_t light)
 {
     std::swap(memories_[rows_.rowOf(light)], before_[rows_.rowOf(light)]);
 }
 
-void MultiPartition::takeBack(const Input& input, std::size_t light)
+void MultiPartition::restoreFrustums(const Input& input, std::size_t light)
 {
-    takeBack(light);
+    restoreMemory(light);
     const std::vector<GrownFrustum>& last = memories_[rows_.rowOf(light)].last;
     ranges_[light] = {frustums_.size(), last.size()};
     for (const GrownFrustum& one : last) {

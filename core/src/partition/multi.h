@@ -54,8 +54,8 @@ public:
     /// Its frustums, or the sides of their maps, are not those of the last time.
     [[nodiscard]] bool differs(std::size_t light) const;
     /// It is as if it had not been divided in this frame: what it remembers, and given the input its frustums too.
-    void takeBack(std::size_t light);
-    void takeBack(const Input& input, std::size_t light);
+    void restoreMemory(std::size_t light);
+    void restoreFrustums(const Input& input, std::size_t light);
     /// In the order in which they fade over into each other: near ones first, what fades out before what comes in its
     /// place, then by direction. Holds until the next divide().
     [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
@@ -73,11 +73,12 @@ private:
     };
     struct Memory {
         std::vector<Known> frustums;
-        std::vector<int> ends;          // DepthShells::find()
-        std::uint32_t patience = 0;     // frames for which `ends` are kept although others were better
-        bool divides = false;           // into shells
-        HeldFrustums held;              // with motion snap
-        std::vector<GrownFrustum> last; // of a light that takes turns: what divide() came to
+        std::vector<int> ends;                   // DepthShells::find()
+        std::uint32_t patience = 0;              // frames for which `ends` are kept although others were better
+        bool divides = false;                    // into shells
+        LightType type = LightType::directional; // nothing is remembered of a light that was another
+        HeldFrustums held;                       // with motion snap
+        std::vector<GrownFrustum> last;          // of a light that takes turns: what divide() came to
     };
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.options.draw_budget_texels > 0; }
     struct Range {
