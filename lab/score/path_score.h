@@ -42,7 +42,7 @@ private:
         Mean squared, mae, bias, p99, ssim, flip, edge, acne, detached, bleeding, terminator;
     };
     struct DensityMeans {
-        Mean p01, p50, p99, fit_efficiency;
+        Mean p01, p50, p99, facing_p01, facing_p50, facing_p99, one_to_four, fit_efficiency;
     };
     ErrorMeans errors_;
     DensityMeans density_;

@@ -160,8 +160,9 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
         view = GNOMON_FEW_VIEWS > 1 ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
         s.slices &= s.slices - 1u;
         ++s.next;
-        share = is_first ? 1.0 : viewShare(viewAt(view), r.p);
-        share = viewContains(viewAt(view), r.p) ? share : 0.0;
+        GpuView asked = viewAt(view);
+        share = is_first ? 1.0 : viewShare(asked, r.p);
+        share = viewContains(asked, r.p) ? share : 0.0;
     } while (share == 0.0 && isLeft(s));
     return share;
 }
@@ -178,12 +179,13 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
     float share = nextShare(s, true, r, view);
     if (share > 0.0) {
         do {
-            MapRows rows = rowsAt(viewAt(view), r.p);
+            GpuView read = viewAt(view);
+            MapRows rows = rowsAt(read, r.p);
             MapPoint point = projectReceiver(rows, bias, r.p, r.n);
-            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, viewAt(view), rows, point, f, r.steps, r.p, r.n));
+            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n));
 #ifdef GNOMON_TINTS
             if (GNOMON_TINTS) {
-                here *= viewTint(viewAt(view), point, r.own_tint);
+                here *= viewTint(read, point, r.own_tint);
             }
 #endif
             v = v * (1.0 - share) + here * share; // of the first one just what is there, which mix() does not promise

@@ -162,10 +162,16 @@ GN_FN bool viewContains(GpuView view, real3 p)
     if (!inSlice(view, p) || !inSector(view, p)) {
         return false;
     }
-    MapRows rows = rowsAt(view, p);
-    real w = mapW(rows, p);
-    real x = dotRow(rows.x, p);
-    real y = dotRow(rows.y, p);
+    if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
+        return true; // its half space is the disc, around which there is room for taps
+    }
+#ifdef GNOMON_ORTHOGRAPHIC_ONLY
+    real w = real(1.0);
+#else
+    real w = dotRow(real4(view.w), p);
+#endif
+    real x = dotRow(real4(view.x), p);
+    real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;
     return w > real(0.0) && x >= tile.x && y >= tile.y && x <= tile.z && y <= tile.w;
 }

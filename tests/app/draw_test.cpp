@@ -170,8 +170,8 @@ TEST(DebugViews, FadedShowsWhatComes)
 {
     const test::Folder folder;
     // A camera that goes through all shells of a lamp.
-    const std::vector<std::string> shot{"render",   "planes", "--point", "0,3,0,30", "--partition",  "multi",
-                                        "--motion", "snap",   "--path",  "dolly",    "--path.speed", "8",
+    const std::vector<std::string> shot{"render",   "planes", "--point", "0,3,0,30", "--partition", "multi",
+                                        "--motion", "snap",   "--path",  "dolly",    "--set",       "path.speed=8",
                                         "--frames", "0-5",    "--debug", "faded"};
     const test::Ran refused = inFolder(folder, {"render", "planes", "--point", "0,3,0,30", "--debug", "faded"});
     EXPECT_EQ(refused.status, 2);

@@ -27,9 +27,15 @@ struct VertexCodes {
     {                                                                                                                  \
         spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_clipped_vert, spirv::name##_masked_clipped_vert   \
     }
+// What is clipped hands on the metric, whether a fragment shader takes it or not.
+#define GNOMON_ORTHOGRAPHIC(name)                                                                                      \
+    {                                                                                                                  \
+        spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_metric_clipped_vert,                              \
+            spirv::name##_metric_masked_clipped_vert                                                                   \
+    }
 #define GNOMON_VERTEX_CODES(name)                                                                                      \
     {                                                                                                                  \
-        GNOMON_MASKED_AND_CLIPPED(name##_orthographic), GNOMON_MASKED_AND_CLIPPED(name##_orthographic_metric),         \
+        GNOMON_ORTHOGRAPHIC(name##_orthographic), GNOMON_MASKED_AND_CLIPPED(name##_orthographic_metric),               \
             GNOMON_MASKED_AND_CLIPPED(name##_perspective)                                                              \
     }
 VertexCodes vertexCodes(const CasterPipelineKey& key)
@@ -46,6 +52,7 @@ VertexCodes vertexCodes(const CasterPipelineKey& key)
     return GNOMON_VERTEX_CODES(caster);
 }
 #undef GNOMON_VERTEX_CODES
+#undef GNOMON_ORTHOGRAPHIC
 
 Code vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
 {

@@ -47,6 +47,10 @@ void PathScore::add(const Score& frame)
         density_.p01.add(frame.density.p01);
         density_.p50.add(frame.density.p50);
         density_.p99.add(frame.density.p99);
+        density_.facing_p01.add(frame.density.facing.p01);
+        density_.facing_p50.add(frame.density.facing.p50);
+        density_.facing_p99.add(frame.density.facing.p99);
+        density_.one_to_four.add(frame.density.facing.one_to_four);
         density_.fit_efficiency.add(frame.fit_efficiency);
     }
 }
@@ -69,6 +73,8 @@ Score PathScore::mean() const
     score.density.p01 = density_.p01.of();
     score.density.p50 = density_.p50.of();
     score.density.p99 = density_.p99.of();
+    score.density.facing = {density_.facing_p01.of(), density_.facing_p50.of(), density_.facing_p99.of(),
+                            density_.one_to_four.of()};
     score.fit_efficiency = density_.fit_efficiency.of();
     return score;
 }

@@ -324,12 +324,14 @@ TEST(PathScore, MeansAddUp)
     frame.pixels.counts.terminator = 7;
     frame.density.counted = 100;
     frame.density.p50 = 1.0;
+    frame.density.facing.one_to_four = 0.5;
     path.add(frame);
     frame.error = ErrorNumbers{0.3, 0.15, 0.03, 0.5};
     frame.classification->errors = {0.05, 0.0, 0.04, 0.0};
     frame.ssim = 0.7;
     frame.outcome = {OutcomeKind::no_caster, "nothing casts"};
     frame.density.p50 = 3.0;
+    frame.density.facing.one_to_four = 1.0;
     path.add(frame);
     Score empty; // no pixel counts: a frame of night
     empty.pixels.counts.background = 100;
@@ -349,6 +351,7 @@ TEST(PathScore, MeansAddUp)
     EXPECT_EQ(mean.pixels.counts.counted, 200U);
     EXPECT_EQ(mean.pixels.counts.background, 100U);
     EXPECT_EQ(mean.density.p50, 2.0);
+    EXPECT_EQ(mean.density.facing.one_to_four, 0.75);
     EXPECT_EQ(mean.outcome.kind, OutcomeKind::no_caster);
     ASSERT_EQ(path.rmse().size(), 3U);
     EXPECT_EQ(path.rmse()[1], 0.3);
