@@ -105,7 +105,6 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
         for (const glm::dvec4& side : {view.sector.x, -view.sector.x, view.sector.y, -view.sector.y}) {
             add(view.sector.w + side);
         }
-        return planes;
     }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
     const double tangent = std::tan(light.outer_half_angle_rad);
