@@ -69,16 +69,15 @@ std::vector<std::uint32_t> kindsOf(std::span<const View> views)
 
 std::string nameOfView(const View& view, std::uint32_t index)
 {
-    std::string name =
-        fmt::format("map {}: {}", index, view.slice.bounded() && view.slice.isRatio() ? "eye depth / lamp depth " : "");
-    if (std::isfinite(view.slice.begin_m)) {
-        name += fmt::format("from {:.3g} ", view.slice.begin_m);
+    const ViewSlice& slice = view.slice;
+    std::string name = fmt::format("map {}: ", index);
+    if (slice.bounded()) {
+        name += slice.isRatio() ? "eye depth / lamp depth" : "depth";
+        name += std::isfinite(slice.begin_m) ? fmt::format(" from {:.3g}", slice.begin_m) : "";
+        name += std::isfinite(slice.end_m) ? fmt::format(" to {:.3g}", slice.end_m) : "";
+        name += slice.isRatio() ? ", " : " m, ";
     }
-    if (std::isfinite(view.slice.end_m)) {
-        name += fmt::format("to {:.3g} ", view.slice.end_m);
-    }
-    const std::string_view unit = !view.slice.bounded() ? "" : view.slice.isRatio() ? ", " : "m, ";
-    return fmt::format("{}{}texel {:.3g} m{}", name, unit, view.texel_m, view.parallel ? "" : " at 1 m");
+    return fmt::format("{}texel {:.3g} m{}", name, view.texel_m, view.parallel ? "" : " at 1 m");
 }
 
 } // namespace
