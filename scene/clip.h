@@ -4,6 +4,7 @@
 
 #include "scene/model.h"
 
+#include <array>
 #include <cstddef>
 
 namespace gnomon::scene {
@@ -16,9 +17,9 @@ struct Polygon {
     void add(const glm::dvec3& corner) { corners[count++] = corner; }
 };
 
-/// What `planes` leave of a polygon of at most four corners; of none where that is nothing.
+/// What `planes` leave of a polygon of at most four corners; empty where that is nothing.
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const ClipPlanes& planes);
-/// The smallest box around what they leave of `box`, empty where that is nothing. A box that is not finite comes back
+/// The smallest box around what they leave of `box`; empty where that is nothing. A box that is not finite comes back
 /// as it is.
 [[nodiscard]] Aabb clipped(const Aabb& box, const ClipPlanes& planes);
 

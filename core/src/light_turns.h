@@ -40,7 +40,7 @@ struct KnownLight {
     std::uint32_t first_view = 0; // of LightTurns::views
     std::uint32_t view_count = 0; // 0: it had none, or does not take turns
     std::uint32_t waited = 0;
-    std::uint64_t texels = 0; // that had to be drawn for it
+    std::uint64_t texels = 0; // that had to be drawn for it, or were thought to
     Outcome outcome;
 };
 
