@@ -188,10 +188,10 @@ const std::vector<Setting>& rows()
         {.key = "point", .group = Group::light, .type = numbers, .form = "x,y,z,RANGE,...", .unit = "m", .min = -kFarthest, .max = kFarthest, .count = kNumbersOfPoint * kMostPoints, .min_count = kNumbersOfPoint,
          .doc = "point lights, four numbers each: place and reach; likewise", .apply = applyPoint},
         {.key = "sun-angle", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0, .max = 90,
-         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge",
+         .doc = "angular diameter of directional lights; else their own, or 0.53", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge or smoothies",
          .apply = [](Settings& s, const Value& v) { s.sun_angle_deg = v.real; }},
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge",
+         .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge or smoothies",
          .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
         // clang-format on
     };

@@ -62,6 +62,19 @@ constexpr std::array kRules{
         "partition paraboloid with every light but point",
         "paraboloid is the two half spaces around a point light; a sun or a spot light needs another partition, or "
         "auto"},
+    ChoiceRule{
+        [](LightType, const Technique& t) { return isParaboloid(t) && t.soften == Soften::smoothies; },
+        "partition paraboloid with soften smoothies",
+        "paraboloid bends straight lines, and smoothies measure along straight ones how far an edge is; it needs "
+        "soften none"},
+    ChoiceRule{
+        [](LightType, const Technique& t) {
+            return t.soften == Soften::smoothies && t.filter != Filter::hard && t.filter != Filter::pcf &&
+                   t.filter != Filter::automatic;
+        },
+        "soften smoothies with every filter but hard, pcf and auto",
+        "smoothies lie beside a map of depths that are compared one by one, and other filters have a softness of "
+        "their own; they need filter hard, pcf or auto, which is pcf then"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

@@ -97,7 +97,7 @@ constexpr std::array kValues{
 
     ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
     ChoiceValue{kSoften, "blur", number(Soften::blur), false, "separable Gaussian in screen space", kShastry},
-    ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), false, "edges widened by the ratio of distances",
+    ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), true, "edges of the map widened by the light's size",
                 "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
     ChoiceValue{kSoften, "converge", number(Soften::converge), true,
                 "each frame another point of the light, averaged over frames",

@@ -7,6 +7,7 @@
 #ifdef GNOMON_FILTER
 #define GNOMON_SET 2
 #define GNOMON_TINTS true
+#define GNOMON_SMOOTHIES true
 #include "gnomon/smooth_surface.glsl"
 #include "gnomon/visibility.glsl"
 #endif

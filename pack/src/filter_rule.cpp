@@ -96,12 +96,17 @@ float biasReachTexels(const ResolvedOptions& options)
     return std::max(of_blur + kOfBilinear, options.filter() == Filter::esm ? kOfRing : 0.0F);
 }
 
+float smoothiesReach(const ResolvedOptions& options)
+{
+    return options.hasSmoothies() ? static_cast<float>(options.asked().smoothies.reach_texels) : 0.0F;
+}
+
 void fillMoments(const ResolvedOptions& options, shared::GpuRule& out)
 {
     const shared::MomentRule rule = options.filterable() ? momentRuleOf(options) : shared::MomentRule{};
     out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
     out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding, rule.rounding_negative};
-    out.moment_shape = {rule.linstep, rule.power, rule.lighten, 0.0F};
+    out.moment_shape = {rule.linstep, rule.power, rule.lighten, smoothiesReach(options)};
     out.moments = {rule.flags, rule.sampling, rule.layers, 0};
 }
 
@@ -131,6 +136,9 @@ int depthHolding(const ResolvedOptions& options)
 {
     if (options.filterable()) {
         return shared::kDepthAlone;
+    }
+    if (options.hasSmoothies()) {
+        return shared::kDepthSmoothies;
     }
     return options.format() == MapFormat::rg16    ? shared::kDepthChannel
            : options.format() == MapFormat::rgba8 ? shared::kDepthBytes

@@ -29,16 +29,32 @@
 #if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_EVSM
 #include "evsm.glsl"
 #endif
+#if defined(GNOMON_SMOOTHIES) && (!defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_PCF)
+#define GNOMON_READS_SMOOTHIES
+#include "smoothies.glsl"
+#endif
 GN_BEGIN
+
+// Of a filter that compares depths: it is no lighter than the smoothies beside its map, if there are any.
+GN_FN real withSmoothies(real visibility, MapPoint point, FilterInput f)
+{
+    real v = visibility;
+#ifdef GNOMON_READS_SMOOTHIES
+    if (f.smoothies > real(0.0) && v > real(0.0)) {
+        v = min(v, smoothieVisibility(point, f));
+    }
+#endif
+    return v;
+}
 
 // `filter_number` counts only where more than one filter is compiled.
 GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 {
 #if defined(GNOMON_FILTER)
 #if GNOMON_FILTER == GNOMON_FILTER_HARD
-    return filterHard(point, f);
+    return withSmoothies(filterHard(point, f), point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_PCF
-    return filterPcf(point, f);
+    return withSmoothies(filterPcf(point, f), point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_PCSS
     return filterPcss(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
@@ -57,9 +73,9 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
 #else
     switch (filter_number) {
     case GNOMON_FILTER_HARD:
-        return filterHard(point, f);
+        return withSmoothies(filterHard(point, f), point, f);
     case GNOMON_FILTER_PCF:
-        return filterPcf(point, f);
+        return withSmoothies(filterPcf(point, f), point, f);
     case GNOMON_FILTER_PCSS:
         return filterPcss(point, f);
     case GNOMON_FILTER_RAYMARCH:

@@ -96,6 +96,12 @@ FilterInput filterInput(vec2 pixel)
     f.disc_taps = GNOMON_DISC_TAPS;
     f.disc_radius = GNOMON_NUMBERS.rule.disc.x;
     f.kernel = GNOMON_NUMBERS.rule.kernel;
+    f.smoothies = 0.0;
+#ifdef GNOMON_SMOOTHIES
+    if (GNOMON_SMOOTHIES) {
+        f.smoothies = GNOMON_NUMBERS.rule.moment_shape.w; // 0 where options have none
+    }
+#endif
     f.stood = gnomon.rule.moments.w;
     // So far from frame to frame, the noise of discs.h is another one everywhere: J. Jimenez, as there.
     f.pixel = pixel + 5.588238 * GNOMON_NUMBERS.rule.disc.y;

@@ -3,7 +3,7 @@
 // GNOMON_MAP_TEXEL_SIZE as an expression for (1 / width, 1 / height) of the atlas. For filterable maps the sampler must
 // be linear within and between mip levels and clamp to the edge; for all others its filter does not matter. For lvsm
 // define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For pcss and raymarch define
-// GNOMON_BLOCKS_BINDING: the image of the maps' blocks. For formats of two maps a texel
+// GNOMON_BLOCKS_BINDING: the image of the maps' blocks; for hard and pcf with GNOMON_SMOOTHIES that of their smoothies. For formats of two maps a texel
 // (rg16 of hard and pcf, rgba8) define GNOMON_DEPTH_HOLDING: kDepthChannel or kDepthBytes of shared/paired_depth.h.
 #ifndef GNOMON_MAP_TEXTURE_GLSL
 #define GNOMON_MAP_TEXTURE_GLSL
@@ -44,13 +44,24 @@ vec4 mapGather(vec2 corner, float layer, float part)
     return first;
 }
 
-// Only a filter that looks for them has blocks.
-#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
+// What some filters have beside a map: blocks, or smoothies.
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH || \
+    (defined(GNOMON_SMOOTHIES) && GNOMON_FILTER <= GNOMON_FILTER_PCF)
 layout(set = GNOMON_MAP_SET, binding = GNOMON_BLOCKS_BINDING) uniform usampler2DArray gnomon_blocks;
+#endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER == GNOMON_FILTER_PCSS || GNOMON_FILTER == GNOMON_FILTER_RAYMARCH
 vec2 mapBlock(vec2 block, int level, float layer)
 {
     return blockDepths(int(texelFetch(gnomon_blocks, ivec3(block, layer), level - 1).x));
 }
+#endif
+#ifdef GNOMON_SMOOTHIES
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_PCF
+int mapSmoothie(vec2 texel, float layer)
+{
+    return int(texelFetch(gnomon_blocks, ivec3(texel, layer), 0).x);
+}
+#endif
 #endif
 
 vec4 mapMoments(vec2 texel, float level, float layer)

@@ -49,6 +49,7 @@ GpuConstants numbers;
 #define GNOMON_MOMENT_SAMPLING kMomentSampling
 #define GNOMON_MOMENT_LAYERS kMomentLayers
 #define GNOMON_DEPTH_HOLDING kDepthHolding
+#define GNOMON_SMOOTHIES (kDepthHolding == kDepthSmoothies)
 #define GNOMON_SHOWS_RAYS kRaysAsMask
 #define GNOMON_CONFIDENCE kConfidence
 #include "../lib/light_visibility.glsl"

@@ -11,9 +11,10 @@
 GN_BEGIN
 
 // How a texel holds depths.
-GN_CONST int kDepthAlone = 0;   // one map: its first channel
-GN_CONST int kDepthChannel = 1; // two maps, a channel each
-GN_CONST int kDepthBytes = 2;   // two maps, two channels of 8 bits each, the high byte first
+GN_CONST int kDepthAlone = 0;     // one map: its first channel
+GN_CONST int kDepthChannel = 1;   // two maps, a channel each
+GN_CONST int kDepthBytes = 2;     // two maps, two channels of 8 bits each, the high byte first
+GN_CONST int kDepthSmoothies = 3; // as kDepthAlone, with smoothies beside the map (smoothies.h)
 
 // The two bytes of a depth in [0, 1], as the numbers in [0, 1] that a channel of 8 bits takes. What it stands for is at
 // most 0.5 / 65535 away, and never less for a greater depth.

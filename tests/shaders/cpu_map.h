@@ -2,8 +2,10 @@
 // Lets shaders/lib compile as C++ in double precision, with maps in memory.
 #pragma once
 #define GNOMON_REAL double
+#define GNOMON_SMOOTHIES
 
 #include <shared/discs.h>
+#include <shared/smoothies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +44,8 @@ inline void makeBlocks(int side)
         return levels.at(static_cast<std::size_t>(level)).at(static_cast<std::size_t>(y * (side >> level) + x));
     };
 }
+/// What lies beside a texel, packed (shared/smoothies.h).
+inline std::function<int(int x, int y)> map_smoothie;
 /// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
 inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
 /// GpuDepthLayers::layer of a view.
@@ -152,6 +156,10 @@ inline real4 mapGather(real2 corner, real, real)
 inline real2 mapBlock(real2 block, int level, real)
 {
     return test::map_block(static_cast<int>(block.x), static_cast<int>(block.y), level);
+}
+inline int mapSmoothie(real2 texel, real)
+{
+    return test::map_smoothie(static_cast<int>(texel.x), static_cast<int>(texel.y));
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {

@@ -3,8 +3,10 @@
 // this, so that the shaders' functions are the same ones in each.
 #pragma once
 #define GNOMON_REAL float
+#define GNOMON_SMOOTHIES
 
 #include <shared/discs.h>
+#include <shared/smoothies.h>
 
 #include <functional>
 
@@ -27,6 +29,10 @@ inline real2 mapBlock(real2, int, real)
 inline real4 mapGather(real2, real, real)
 {
     return test::float_texel();
+}
+inline int mapSmoothie(real2, real)
+{
+    return packSmoothie({0.0F, -1.0F});
 }
 inline real4 mapMoments(real2, real, real)
 {

@@ -19,6 +19,7 @@ struct Case {
     Filter filter;
     PcfKernel kernel;
     MapFormat format;
+    Soften soften = Soften::none;
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c)
@@ -32,6 +33,7 @@ TEST_P(Parity, maskIsThatOfTheCpu)
 {
     ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = GetParam().filter;
+    options.technique.soften = GetParam().soften;
     options.pcf.kernel = GetParam().kernel;
     options.format = GetParam().format;
     expectParity(renderParity(options), options, GetParam().name);
@@ -55,6 +57,10 @@ INSTANTIATE_TEST_SUITE_P(Filters, Parity,
                                          Case{"pcf_3x3_rgba8", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::rgba8},
                                          Case{"pcf_poisson_d32f", Filter::pcf, PcfKernel::poisson, MapFormat::d32f},
                                          Case{"pcf_vogel_d32f", Filter::pcf, PcfKernel::vogel, MapFormat::d32f},
+                                         Case{"hard_smoothies_d32f", Filter::hard, PcfKernel::bilinear_2x2,
+                                              MapFormat::d32f, Soften::smoothies},
+                                         Case{"pcf_smoothies_d16", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d16,
+                                              Soften::smoothies},
                                          Case{"pcss_d32f", Filter::pcss, PcfKernel::vogel, MapFormat::d32f},
                                          Case{"pcss_d16", Filter::pcss, PcfKernel::vogel, MapFormat::d16},
                                          Case{"raymarch_d32f", Filter::raymarch, PcfKernel::vogel, MapFormat::d32f},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
+#define GNOMON_SMOOTHIES
 #include "reference.h"
 
+#include "cpu_smoothies.h"
 #include "moment_numbers.h"
 
 #include <gnomon/plan_views.h>
@@ -28,6 +30,8 @@ const CpuMap& mapOf(double layer)
 {
     return current_maps[static_cast<std::size_t>(layer)];
 }
+std::vector<int> current_smoothies;
+Tile smoothies_tile;
 int current_holding = 0;
 double texel(double layer, double x, double y, double part)
 {
@@ -86,6 +90,13 @@ inline real2 mapBlock(real2 block, int level, real layer)
     const std::size_t side =
         test::Blocks::sideOf(std::max(test::mapOf(layer).width, test::mapOf(layer).height), std::size_t(level));
     return blockDepths(blocks.levels.at(std::size_t(level) - 1).at(std::size_t(block.y) * side + std::size_t(block.x)));
+}
+inline int mapSmoothie(real2 texel, real)
+{
+    const Tile& tile = test::smoothies_tile;
+    const double x = std::clamp(texel.x - tile.x, 0.0, tile.width - 1.0);
+    const double y = std::clamp(texel.y - tile.y, 0.0, tile.height - 1.0);
+    return test::current_smoothies[std::size_t(y) * tile.width + std::size_t(x)];
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {
@@ -200,6 +211,11 @@ double quantumOf(MapFormat format)
     }
 }
 
+bool hasSmoothies(const ShadowOptions& options)
+{
+    return options.technique.soften == Soften::smoothies;
+}
+
 bool comparesInCone(const ShadowOptions& options)
 {
     return options.technique.filter == Filter::pcss || options.technique.filter == Filter::raymarch;
@@ -209,7 +225,7 @@ bool comparesInCone(const ShadowOptions& options)
 double reachOf(const ShadowOptions& options)
 {
     if (options.technique.filter == Filter::hard) {
-        return 0.5;
+        return hasSmoothies(options) ? 1.0 : 0.5;
     }
     if (comparesInCone(options)) {
         return 2.0;
@@ -290,6 +306,7 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
     input.disc_radius = options.pcf.radius_texels;
     input.kernel =
         shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.pcf.sigma_texels.value_or(0.0F)));
+    input.smoothies = hasSmoothies(options) ? double(options.smoothies.reach_texels) : 0.0;
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
     const MapPages& pages = scene.plan.pages[0];
@@ -355,6 +372,11 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     current_blocks.clear();
     if (comparesInCone(options)) {
         std::ranges::transform(scene.maps, std::back_inserter(current_blocks), blocksOf);
+    }
+    if (hasSmoothies(options)) {
+        smoothies_tile = view.tile;
+        current_smoothies = smoothiesOf(mapOf(view.tile.layer), view.tile, int(options.smoothies.reach_texels),
+                                        quantumOf(formatOf(options)));
     }
     const Picture& picture = scene.picture;
     MapRows rows = rowsOf(view);

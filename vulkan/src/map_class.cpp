@@ -23,6 +23,12 @@ const MapStorage& storageFor(const Device& device, const ResolvedOptions& option
     return storage;
 }
 
+/// Texels that they reach; 0: there are none.
+std::uint32_t smoothiesOf(const ResolvedOptions& options)
+{
+    return options.hasSmoothies() ? options.asked().smoothies.reach_texels : 0;
+}
+
 std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions& options, LayerPlacer& placer,
                                           std::uint32_t slots, VkPipelineCache cache)
 {
@@ -30,7 +36,7 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
     if (options.filterable()) {
         return std::make_unique<MomentMaps>(device, options, storage, placer, slots, cache);
     }
-    return std::make_unique<DepthMaps>(device, storage, options.traits().integrates_light, cache);
+    return std::make_unique<DepthMaps>(device, storage, options, cache);
 }
 
 } // namespace
@@ -38,13 +44,13 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
 MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache)
     : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)), tints(device),
       filterable_(options.filterable()), filter_(options.filter()), format_(options.format()),
-      moments_(options.moments())
+      smoothies_(smoothiesOf(options)), moments_(options.moments())
 {
 }
 
 bool MapClass::serves(const ResolvedOptions& options) const
 {
-    return filter_ == options.filter() && format_ == options.format() &&
+    return filter_ == options.filter() && format_ == options.format() && smoothies_ == smoothiesOf(options) &&
            (!options.filterable() || moments_ == options.moments());
 }
 

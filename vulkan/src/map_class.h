@@ -30,6 +30,7 @@ private:
     bool filterable_;
     Filter filter_;
     MapFormat format_;
+    std::uint32_t smoothies_;
     MomentOptions moments_;
 };
 

@@ -43,11 +43,13 @@ bool mayKeepStill(const ResolvedOptions& options)
 
 } // namespace
 
-DepthMaps::DepthMaps(Device& device, const MapStorage& storage, bool with_blocks, VkPipelineCache cache)
+DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache)
     : device_(device), storage_(storage), cache_(cache)
 {
-    if (with_blocks) {
+    if (options.traits().integrates_light) {
         blocks_.emplace(device, cache);
+    } else if (options.hasSmoothies()) {
+        smoothies_.emplace(device, options, cache);
     }
 }
 
@@ -73,6 +75,9 @@ void DepthMaps::makeMaps(const MapPages& size)
     }
     if (blocks_) {
         blocks_->setMaps(maps_.image());
+    }
+    if (smoothies_) {
+        smoothies_->setMaps(maps_.image());
     }
 }
 
@@ -119,6 +124,7 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
         prepared.changed = true;
+        prepared.lost = smoothies_.has_value(); // they are not copied, and are made of maps that are drawn
     }
     if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan, options))) {
         restorer_.emplace(device_, storage_, cache_);
@@ -366,13 +372,19 @@ void DepthMaps::drawTogether(const MapJob& job, std::uint32_t first, std::uint32
 
 void DepthMaps::record(const MapJob& job)
 {
-    const Timed timed(job.profiler, job.commands, "shadow maps");
-    copyOutgrown(job.commands);
-    drawKept(job);
-    drawMaps(job);
-    makeReadable(job.commands);
-    if (blocks_) {
-        makeBlocks(job);
+    {
+        const Timed timed(job.profiler, job.commands, "shadow maps");
+        copyOutgrown(job.commands);
+        drawKept(job);
+        drawMaps(job);
+        makeReadable(job.commands);
+        if (blocks_) {
+            makeBlocks(job);
+        }
+    }
+    if (smoothies_) {
+        const Timed timed(job.profiler, job.commands, "shadow filter");
+        smoothies_->record(job);
     }
 }
 

@@ -11,6 +11,7 @@
 #include "map_restore.h"
 #include "map_storage.h"
 #include "midpoint_maps.h"
+#include "smoothie_maps.h"
 
 #include <optional>
 
@@ -18,15 +19,18 @@ namespace gnomon::vulkan {
 
 class DepthMaps final : public MapRecorder {
 public:
-    /// `with_blocks`: makes DepthBlocks of what it draws.
-    DepthMaps(Device& device, const MapStorage& storage, bool with_blocks, VkPipelineCache cache);
+    /// Makes DepthBlocks of what it draws, or SmoothieMaps, where the options need them.
+    DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache);
 
     void warmUp(const ResolvedOptions& options) override;
     Prepared prepare(const Plan& plan, std::uint32_t options) override;
     void record(const MapJob& job) override;
     void makeReadable(VkCommandBuffer commands) override;
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
-    [[nodiscard]] const Image* blocks() const override { return blocks_ ? &blocks_->image() : nullptr; }
+    [[nodiscard]] const Image* blocks() const override
+    {
+        return blocks_ ? &blocks_->image() : smoothies_ ? &smoothies_->image() : nullptr;
+    }
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
 private:
@@ -73,6 +77,7 @@ private:
     std::optional<MapRestorer> restorer_;   // made when first needed
     std::optional<MidpointMaps> midpoints_; // likewise
     std::optional<DepthBlocks> blocks_;
+    std::optional<SmoothieMaps> smoothies_;
 };
 
 } // namespace gnomon::vulkan

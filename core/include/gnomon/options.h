@@ -103,6 +103,14 @@ struct PcfOptions {
 /// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
+/// Soften::smoothies.
+struct SmoothiesOptions {
+    /// Texels that edges are widened by, 4 .. 32: no penumbra is wider than that. What they cost grows along with it.
+    std::uint32_t reach_texels = 16;
+
+    bool operator==(const SmoothiesOptions&) const = default;
+};
+
 /// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
     fast,     // one map; filter pcf
@@ -153,6 +161,7 @@ struct ShadowOptions {
     /// is.
     std::uint32_t longest_wait = 8;
     PcfOptions pcf; // filter pcf
+    SmoothiesOptions smoothies;
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
     Translucent translucent = Translucent::grey;
@@ -189,6 +198,8 @@ public:
     /// Of what was asked for, see below.
     [[nodiscard]] bool integratesLight() const;
     [[nodiscard]] bool fitsOnGpu() const;
+    /// Beside its map a light has the edges of casters, made wide (docs/techniques/smoothies.md).
+    [[nodiscard]] bool hasSmoothies() const { return asked_.technique.soften == Soften::smoothies; }
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
     [[nodiscard]] bool paired_maps() const { return paired_maps_; }
 
@@ -226,9 +237,10 @@ struct Resolution {
 /// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
 [[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
 /// One frame takes all of the light's size, and reads a map as far from a receiver as that leads: filter pcss or
-/// raymarch, or moments whose penumbra is light.
+/// raymarch, soften smoothies, or moments whose penumbra is light.
 [[nodiscard]] bool integratesLight(const ShadowOptions& options);
-/// The filter that is used: the one asked for, or what automatic stands for.
+/// The filter that is used: the one asked for, or what automatic stands for: pcf where soften or partition cannot have
+/// raymarch.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.

@@ -69,6 +69,15 @@ std::optional<std::string> budgetRefusal(const ShadowOptions& options)
                                            : "one map of map-size has " + std::to_string(map));
 }
 
+std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
+{
+    const MapFormat format = formatOf(options);
+    if (options.technique.soften == Soften::smoothies && (format == MapFormat::rg16 || format == MapFormat::rgba8)) {
+        return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, r32f or d16";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> refusalOf(const ShadowOptions& options)
 {
     if (const auto reason = refusal(options.technique)) {
@@ -93,6 +102,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
         return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
     }
     if (auto reason = facesRefusal(options)) {
+        return reason;
+    }
+    if (auto reason = smoothiesRefusal(options)) {
         return reason;
     }
     return refusal(filterOf(options), formatOf(options), options.moments);
@@ -154,7 +166,8 @@ Filter filterOf(const ShadowOptions& options)
     if (options.technique.filter != Filter::automatic) {
         return options.technique.filter;
     }
-    const bool plain = options.quality == Quality::fast || options.technique.partition == Partition::paraboloid;
+    const bool plain = options.quality == Quality::fast || options.technique.partition == Partition::paraboloid ||
+                       options.technique.soften == Soften::smoothies;
     return plain ? Filter::pcf : Filter::raymarch;
 }
 
@@ -187,7 +200,7 @@ float reachTexels(const ShadowOptions& options)
         return 2.0F; // from where a ray may start; the way to the light has room of its own
     }
     if (filterOf(options) != Filter::pcf) {
-        return 0.5F;
+        return options.technique.soften == Soften::smoothies ? 1.0F : 0.5F; // which are read as pcf 2x2 reads a map
     }
     const int width = kernelWidth(options.pcf.kernel);
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
@@ -209,7 +222,8 @@ bool ResolvedOptions::fitsOnGpu() const
 bool integratesLight(const ShadowOptions& options)
 {
     const FilterTraits* const traits = filterTraits(filterOf(options));
-    return traits != nullptr && (traits->integrates_light || followsLight(traits->filter, options.moments));
+    return traits != nullptr && (traits->integrates_light || options.technique.soften == Soften::smoothies ||
+                                 followsLight(traits->filter, options.moments));
 }
 
 bool ResolvedOptions::integratesLight() const

@@ -24,6 +24,10 @@ bool isDisc(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) == 0;
 }
+bool hasSmoothies(const ShadowOptions& o)
+{
+    return o.technique.soften == Soften::smoothies;
+}
 bool isGaussian(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
@@ -81,6 +85,7 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
         {.key = "pcf.taps", .type = integer, .form = "N", .unit = "taps", .min = 4, .max = 64, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.taps)},
         {.key = "pcf.radius", .type = real, .form = "R", .unit = "texels", .min = 0.5, .max = 16, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.radius_texels)},
+        {.key = "smoothies.reach", .type = integer, .form = "N", .unit = "texels", .min = 4, .max = 32, .doc = "that edges are widened by: no penumbra is wider", .used = hasSmoothies, .used_when = "soften smoothies", GNOMON_MEMBER(smoothies.reach_texels)},
         {.key = "pcf.sigma", .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4, .doc = "of a Gaussian kernel; else its width / 4", .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7", GNOMON_MEMBER(pcf.sigma_texels)},
         // clang-format on
     };

@@ -30,6 +30,7 @@
 #define Receiver gnomon_Receiver
 #define Search gnomon_Search
 #define SmoothSurface gnomon_SmoothSurface
+#define Smoothie gnomon_Smoothie
 #define Surroundings gnomon_Surroundings
 #define applyFilter gnomon_applyFilter
 #define applyMoments gnomon_applyMoments
@@ -59,6 +60,7 @@
 #define compareGather gnomon_compareGather
 #define compareTexel gnomon_compareTexel
 #define coneNoise gnomon_coneNoise
+#define coneRadius gnomon_coneRadius
 #define coneReach gnomon_coneReach
 #define coneTexel gnomon_coneTexel
 #define coneTexels gnomon_coneTexels
@@ -72,6 +74,7 @@
 #define depthToBytes gnomon_depthToBytes
 #define discPoint gnomon_discPoint
 #define dotRow gnomon_dotRow
+#define edgeDistance gnomon_edgeDistance
 #define encodeEsm gnomon_encodeEsm
 #define encodeEvsm gnomon_encodeEvsm
 #define encodeLayer gnomon_encodeLayer
@@ -117,6 +120,7 @@
 #define inSector gnomon_inSector
 #define inSlice gnomon_inSlice
 #define interleavedGradientNoise gnomon_interleavedGradientNoise
+#define isEdge gnomon_isEdge
 #define isLayer gnomon_isLayer
 #define isLeft gnomon_isLeft
 #define isSameSurface gnomon_isSameSurface
@@ -136,6 +140,7 @@
 #define kDepthBytes gnomon_kDepthBytes
 #define kDepthChannel gnomon_kDepthChannel
 #define kDepthLayers gnomon_kDepthLayers
+#define kDepthSmoothies gnomon_kDepthSmoothies
 #define kDiscEnd gnomon_kDiscEnd
 #define kDiscPoints gnomon_kDiscPoints
 #define kEdgeFrom gnomon_kEdgeFrom
@@ -185,12 +190,14 @@
 #define kMostOfWholeLight gnomon_kMostOfWholeLight
 #define kMostRays gnomon_kMostRays
 #define kMostReads gnomon_kMostReads
+#define kMostSmoothieReach gnomon_kMostSmoothieReach
 #define kMostWarpOfTexel gnomon_kMostWarpOfTexel
 #define kNarrowest gnomon_kNarrowest
 #define kNarrowestInStrip gnomon_kNarrowestInStrip
 #define kNarrowings gnomon_kNarrowings
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
+#define kNoSmoothie gnomon_kNoSmoothie
 #define kNormalError gnomon_kNormalError
 #define kOneSurface gnomon_kOneSurface
 #define kParaboloidBehind gnomon_kParaboloidBehind
@@ -218,6 +225,7 @@
 #define kShowsCeiling gnomon_kShowsCeiling
 #define kShowsDecided gnomon_kShowsDecided
 #define kShowsRays gnomon_kShowsRays
+#define kSmoothieSteps gnomon_kSmoothieSteps
 #define kSnap gnomon_kSnap
 #define kStartsAtRest gnomon_kStartsAtRest
 #define kStartsWithin gnomon_kStartsWithin
@@ -258,6 +266,7 @@
 #define mapGather gnomon_mapGather
 #define mapGradient gnomon_mapGradient
 #define mapMoments gnomon_mapMoments
+#define mapSmoothie gnomon_mapSmoothie
 #define mapTexel gnomon_mapTexel
 #define mapW gnomon_mapW
 #define markovBound gnomon_markovBound
@@ -281,8 +290,10 @@
 #define occluderReach gnomon_occluderReach
 #define octahedralDecode gnomon_octahedralDecode
 #define octahedralEncode gnomon_octahedralEncode
+#define outweighs gnomon_outweighs
 #define packCount gnomon_packCount
 #define packSeen gnomon_packSeen
+#define packSmoothie gnomon_packSmoothie
 #define pairedDepth gnomon_pairedDepth
 #define pairedTexel gnomon_pairedTexel
 #define paraboloidDirection gnomon_paraboloidDirection
@@ -329,6 +340,8 @@
 #define smoothEncode gnomon_smoothEncode
 #define smoothPlane gnomon_smoothPlane
 #define smoothSurface gnomon_smoothSurface
+#define smoothieAlpha gnomon_smoothieAlpha
+#define smoothieVisibility gnomon_smoothieVisibility
 #define startSquare gnomon_startSquare
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
@@ -350,6 +363,7 @@
 #define unitOrZero gnomon_unitOrZero
 #define unpackCount gnomon_unpackCount
 #define unpackSeen gnomon_unpackSeen
+#define unpackSmoothie gnomon_unpackSmoothie
 #define usableMoments gnomon_usableMoments
 #define varianceOfRounding gnomon_varianceOfRounding
 #define viewAt gnomon_viewAt
@@ -362,6 +376,7 @@
 #define vsmOccluders gnomon_vsmOccluders
 #define weightAt gnomon_weightAt
 #define weightOfBefore gnomon_weightOfBefore
+#define withSmoothies gnomon_withSmoothies
 #define zOverW gnomon_zOverW
 #define zOverWSlope gnomon_zOverWSlope
 #define real float

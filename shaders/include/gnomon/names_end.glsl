@@ -30,6 +30,7 @@
 #undef Receiver
 #undef Search
 #undef SmoothSurface
+#undef Smoothie
 #undef Surroundings
 #undef applyFilter
 #undef applyMoments
@@ -59,6 +60,7 @@
 #undef compareGather
 #undef compareTexel
 #undef coneNoise
+#undef coneRadius
 #undef coneReach
 #undef coneTexel
 #undef coneTexels
@@ -72,6 +74,7 @@
 #undef depthToBytes
 #undef discPoint
 #undef dotRow
+#undef edgeDistance
 #undef encodeEsm
 #undef encodeEvsm
 #undef encodeLayer
@@ -117,6 +120,7 @@
 #undef inSector
 #undef inSlice
 #undef interleavedGradientNoise
+#undef isEdge
 #undef isLayer
 #undef isLeft
 #undef isSameSurface
@@ -136,6 +140,7 @@
 #undef kDepthBytes
 #undef kDepthChannel
 #undef kDepthLayers
+#undef kDepthSmoothies
 #undef kDiscEnd
 #undef kDiscPoints
 #undef kEdgeFrom
@@ -185,12 +190,14 @@
 #undef kMostOfWholeLight
 #undef kMostRays
 #undef kMostReads
+#undef kMostSmoothieReach
 #undef kMostWarpOfTexel
 #undef kNarrowest
 #undef kNarrowestInStrip
 #undef kNarrowings
 #undef kNearlyOne
 #undef kNoLayerBegins
+#undef kNoSmoothie
 #undef kNormalError
 #undef kOneSurface
 #undef kParaboloidBehind
@@ -218,6 +225,7 @@
 #undef kShowsCeiling
 #undef kShowsDecided
 #undef kShowsRays
+#undef kSmoothieSteps
 #undef kSnap
 #undef kStartsAtRest
 #undef kStartsWithin
@@ -258,6 +266,7 @@
 #undef mapGather
 #undef mapGradient
 #undef mapMoments
+#undef mapSmoothie
 #undef mapTexel
 #undef mapW
 #undef markovBound
@@ -281,8 +290,10 @@
 #undef occluderReach
 #undef octahedralDecode
 #undef octahedralEncode
+#undef outweighs
 #undef packCount
 #undef packSeen
+#undef packSmoothie
 #undef pairedDepth
 #undef pairedTexel
 #undef paraboloidDirection
@@ -329,6 +340,8 @@
 #undef smoothEncode
 #undef smoothPlane
 #undef smoothSurface
+#undef smoothieAlpha
+#undef smoothieVisibility
 #undef startSquare
 #undef stepWeight
 #undef steppedVisibility
@@ -350,6 +363,7 @@
 #undef unitOrZero
 #undef unpackCount
 #undef unpackSeen
+#undef unpackSmoothie
 #undef usableMoments
 #undef varianceOfRounding
 #undef viewAt
@@ -362,6 +376,7 @@
 #undef vsmOccluders
 #undef weightAt
 #undef weightOfBefore
+#undef withSmoothies
 #undef zOverW
 #undef zOverWSlope
 #undef real

@@ -9,6 +9,7 @@
 //                   which the options must have. Without it all of them are, and GpuRule says which.
 //   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
+//   GNOMON_SMOOTHIES  true, or a constant that says so: options may have soften smoothies (hard and pcf)
 // Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
@@ -17,7 +18,8 @@
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
 //   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (shared/map_blocks.h), in GENERAL,
-//      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it
+//      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it. Of hard and pcf
+//      with GNOMON_SMOOTHIES it is their smoothies (shared/smoothies.h)
 //   6  combined image sampler, 2D array: the maps of tints, sampler nearest. With GNOMON_TINTS alone
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
