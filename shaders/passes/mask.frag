@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // The mask. Up to four lights of one layer of the mask, for the pixel's surface; of a compact mask the lights of the
-// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER), for
-// orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY) and with object ids (GNOMON_OBJECT_IDS).
+// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER) and for
+// orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY).
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/choice_numbers.h"
 #include "../lib/mask_numbers.glsl"
@@ -33,6 +33,7 @@ layout(constant_id = 16) const bool kTakesAway = false; // of a compact mask, se
 layout(constant_id = 17) const bool kParaboloid = false; // views may be paraboloids
 #define GNOMON_PARABOLOID kParaboloid
 #endif
+layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a stand-in
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -62,9 +63,7 @@ layout(push_constant) uniform Lights
 layout(set = 0, binding = 5) uniform sampler2D depths;
 layout(set = 0, binding = 6) uniform sampler2D normals;
 layout(set = 0, binding = 10) uniform sampler2D smooth_surfaces;
-#ifdef GNOMON_OBJECT_IDS
 layout(set = 0, binding = 7) uniform usampler2D object_ids;
-#endif
 layout(location = 0) out vec4 visibility;
 
 #define GNOMON_TILES_BINDING 12
@@ -170,11 +169,9 @@ void main()
     if (depth == numbers.screen.fade.z) {
         discard;
     }
-#ifdef GNOMON_OBJECT_IDS
-    if (texelFetch(object_ids, pixel, 0).r == 0) {
+    if (kHasIds && texelFetch(object_ids, pixel, 0).r == 0) {
         discard;
     }
-#endif
     Left left = lightsOf(pixel);
     if (kTileChannels > 0u && !isLeft(left)) {
         discard;

@@ -89,6 +89,7 @@ private:
     // destroyed may have the same handle.
     void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
     [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape);
+    void makeStandInReadable(VkCommandBuffer commands);
     void fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                      std::uint32_t layer);
@@ -99,6 +100,8 @@ private:
     VkPipelineCache cache_;
     pack::CompactMaskRule compact_;
     Image mask_;
+    Image no_ids_; // bound where the host gives no ids of objects
+    bool no_ids_readable_ = false;
     DescriptorSets sets_;
     PipelineLayout layout_;
     Sampler nearest_; // of what is read texel by texel

@@ -14,18 +14,16 @@
 namespace gnomon::vulkan {
 namespace {
 
-std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bool ids)
+std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic)
 {
     using namespace spirv;
-    // By orthographic, ids.
-    using Codes = std::array<std::span<const std::uint32_t>, 4>;
+    using Codes = std::array<std::span<const std::uint32_t>, 2>; // by orthographic
     const auto of = [&](const Codes& codes) {
-        return codes[(orthographic ? 1U : 0U) + (ids ? 2U : 0U)];
+        return codes[orthographic ? 1 : 0];
     };
 #define GN_CODES(NAME)                                                                                                 \
     {                                                                                                                  \
-        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_ids_frag,                                   \
-            mask_##NAME##_orthographic_ids_frag                                                                        \
+        mask_##NAME##_frag, mask_##NAME##_orthographic_frag                                                            \
     }
     switch (filter) {
     case Filter::hard:
@@ -69,7 +67,7 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
                      VK_FALSE,
                      shape.smooth ? VK_TRUE : VK_FALSE};
     key.constants.paraboloid = options.technique().partition == Partition::paraboloid ? VK_TRUE : VK_FALSE;
-    key.ids = shape.ids;
+    key.constants.has_ids = shape.ids ? VK_TRUE : VK_FALSE;
     return key;
 }
 
@@ -94,7 +92,7 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.by_vertex = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
-    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.ids));
+    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic));
     const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;

@@ -28,6 +28,7 @@ struct MaskConstants {
     std::uint32_t tile_channels = 0; // CompactMaskRule::channels
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
     VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
+    VkBool32 has_ids = VK_FALSE;
 
     bool operator==(const MaskConstants&) const = default;
 };
@@ -37,7 +38,6 @@ struct MaskPipelineKey {
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
     bool orthographic = false;             // all views of the draw's lights
-    bool ids = false;                      // MaskShape::ids
     bool shares = false;                   // pack::MaskDraw::shares: channels of other draws stay as they are
 
     bool operator==(const MaskPipelineKey&) const = default;
