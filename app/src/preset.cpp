@@ -48,6 +48,14 @@ constexpr std::array kPresets{
   "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "rgba8",
   "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth"
 })"},
+    // The article ends with exponential maps after those of variance leaked; of its settings it names depth that is
+    // linear, a blur, mip levels and full floats. The exponent, the kernel and the size are chosen.
+    Preset{"esm-2008", "T. Annen et al. 2008, as Kite & Lightning use it: one exponential, blurred, with mip levels",
+           R"({
+  "scene": "spotlit", "camera": "stage", "size": "1920x1080", "partition": "single", "fit": "uniform",
+  "filter": "esm", "map-size": 1024, "map-format": "r32f", "esm.exponent": 80, "depth-metric": "linear",
+  "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "trilinear"
+})"},
     // Frustums as the receivers ask for them, each with the talk's simplified warp. Its densities lie between one and
     // four times what is needed, and 2 is the middle. Object ids are not in this version: the four nearest texels of a
     // depth map take their place.

@@ -69,6 +69,21 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     }
 }
 
+/// A motion that joins two positions of a sun has one where nothing moves it: who asked for a single picture may not
+/// know.
+void notePositions(const Settings& settings, const Plan& plan)
+{
+    const Motion motion = settings.shadow.technique.motion;
+    const bool joins_two =
+        motion == Motion::step_band || motion == Motion::step_blend || motion == Motion::step_alternate;
+    const bool steps = std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.steps.stepping; });
+    if (!settings.frames && joins_two && steps) {
+        notice(fmt::format("motion {} shows two positions of a sun that moves, and in a single frame none does: add "
+                           "--path day --frames 0-30",
+                           nameOf(motion)));
+    }
+}
+
 std::string sentence(const Settings& settings, const Shot& shot, const RenderTarget& target, glm::uvec2 size_px,
                      const std::string& how, double seconds)
 {
@@ -124,6 +139,7 @@ std::string drawTechnique(Shot& shot, const Settings& settings, RenderTarget& ta
                 }
                 std::for_each(shot.notices.begin(), shot.notices.end(), notice);
                 noteOutcomes(shot, renderer.plan());
+                notePositions(settings, renderer.plan());
             }
             const std::optional<fs::path> file = target.frame(index);
             if (!file) {

@@ -20,7 +20,7 @@ namespace {
 Outcome checkDirection(const Camera& camera)
 {
     constexpr double kRounding = 1e-5; // the matrix may come from floats
-    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
+    const glm::dmat4 rows = glm::transpose(clipFromWorld(camera));
     const glm::dvec4 eye(camera.eye_ws, 1.0);
     const double length = glm::length(glm::dvec3(rows[3]));
     double growth = 0.0;
@@ -89,10 +89,10 @@ void addDistancePlanes(const Camera& camera, const CameraView& view, double max_
 /// Of a perspective camera w grows along the view axis, of an orthographic one z does, or falls.
 void findAxis(const Camera& camera, CameraView& view)
 {
-    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
+    const glm::dmat4 rows = glm::transpose(clipFromWorld(camera));
     const glm::dvec3 w(rows[3]);
     view.eye_ws = camera.eye_ws;
-    view.clip_from_world = camera.clip_from_world;
+    view.clip_from_world = clipFromWorld(camera);
     view.perspective = glm::length(w) > 0.0;
     const glm::dvec3 z = camera.reversed_z ? -glm::dvec3(rows[2]) : glm::dvec3(rows[2]);
     view.forward_ws = glm::normalize(view.perspective ? w : z);
@@ -144,7 +144,7 @@ void CameraView::measureDepths(const ObjectSet& objects, const std::vector<std::
 
 void CameraView::boundDepths(const Camera& camera, double max_distance_m)
 {
-    const Frustum frustum = frustumFromClip(camera.clip_from_world);
+    const Frustum frustum = frustumFromClip(clipFromWorld(camera));
     const auto depthOfPlane = [&](const Plane& plane) {
         const double along = glm::dot(plane.normal, forward_ws);
         return along == 0.0 ? std::numeric_limits<double>::infinity() : -plane.distance(eye_ws) / along;
@@ -179,7 +179,7 @@ void CameraView::look(const Frame& frame, double max_distance_m, std::vector<std
     }
     pad_m = kPad * std::max({largest.x, largest.y, largest.z});
 
-    for (const Plane& plane : frustumFromClip(frame.camera.clip_from_world).planes) {
+    for (const Plane& plane : frustumFromClip(clipFromWorld(frame.camera)).planes) {
         if (plane.normal != glm::dvec3(0.0)) {
             planes.push_back(plane);
         }

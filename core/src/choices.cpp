@@ -134,8 +134,9 @@ constexpr std::array kFormats{
 };
 
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
-// rg16 and rgba8: two maps a texel, each of 16 bits.
-constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rgba8};
+// rg16, rg16f and rgba8: two maps a texel, each of 16 bits.
+constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f,  MapFormat::d16,
+                                   MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8};
 constexpr std::array kRayFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
 constexpr std::array kVsmFormats{MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f};
 constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f};
@@ -178,7 +179,7 @@ constexpr std::string_view formatReason(Filter filter)
                "round them too coarsely";
     default:
         return "this filter compares one depth per texel; it stores d32f, r32f or d16, or two maps a "
-               "texel: rg16 or rgba8";
+               "texel: rg16, rg16f or rgba8";
     }
 }
 

@@ -12,6 +12,11 @@ bool FrameMemory::holds(const Frame& frame) const
            std::ranges::equal(frame.lights, lights_);
 }
 
+bool FrameMemory::sees(const Frame& frame) const
+{
+    return known_ && frame.size_px == size_px_ && sameSight(camera_, frame.camera, size_px_);
+}
+
 void FrameMemory::note(const Frame& frame)
 {
     known_ = frame.objects != nullptr;

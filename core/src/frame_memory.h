@@ -14,6 +14,8 @@ public:
     /// Is all that a plan depends on as in the last frame that was noted? But for Frame::time_s, which only suns that
     /// move in steps go by.
     [[nodiscard]] bool holds(const Frame& frame) const;
+    /// Does the frame's camera stand where it stood in the last frame that was noted? Not where there was none.
+    [[nodiscard]] bool sees(const Frame& frame) const;
     void note(const Frame& frame);
     void forget() { known_ = false; }
 

@@ -217,6 +217,7 @@ void Planner::Impl::begin(const Frame& frame)
 void Planner::Impl::noteMovement(const Frame& frame)
 {
     plan.cut = frame.cut || frames == 0;
+    camera_moves = plan.cut || !told.sees(frame);
     plan.number = frames + 1;
     plan.moved_ws.clear();
     if (std::ranges::any_of(setups, [](const Setup& setup) { return setup.recipe.converges(); })) {

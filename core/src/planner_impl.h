@@ -75,8 +75,9 @@ struct Planner::Impl {
     std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
 
     Plan plan;
-    FrameMemory told;     // that `plan` was made from
-    bool settled = false; // and that it would be made from again: nothing in it was to be drawn or fading
+    FrameMemory told;         // that `plan` was made from
+    bool camera_moves = true; // since the frame before
+    bool settled = false;     // and that it would be made from again: nothing in it was to be drawn or fading
 
     // Scratch.
     FrustumPlanner frustums;

@@ -77,7 +77,8 @@ std::uint32_t Planner::Impl::followSun(const Frame& frame, const Recipe& recipe,
     if (!recipe.steps(light) || checkLight(light).kind != OutcomeKind::ok) {
         return 0;
     }
-    const SunCourse& course = suns.follow(light, frame.time_s, recipe.motion->stepping, recipe.options.steps);
+    const SunCourse& course =
+        suns.follow(light, frame.time_s, recipe.motion->stepping, recipe.options.steps, camera_moves);
     steps = course.steps();
     // By turns of the slots, not of the positions: then after a step too the frame before has read the other one, or
     // the one whose weight was next to nothing.

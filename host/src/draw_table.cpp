@@ -20,24 +20,26 @@ namespace {
 constexpr std::uint32_t kOpaque = 0;
 constexpr std::uint32_t kOpaqueClosed = 1;
 
-/// Batches of casters that are cut, made when the first one is.
-class CutBatches {
+/// Batches of casters that are cut or mirrored, made when the first one is.
+class OtherBatches {
 public:
-    CutBatches(std::vector<vulkan::CasterBatch>& batches, const std::vector<scene::ClipPlanes>& cuts)
+    OtherBatches(std::vector<vulkan::CasterBatch>& batches, const std::vector<scene::ClipPlanes>& cuts)
         : batches_(batches), cuts_(cuts)
     {
     }
 
-    /// As `batch`, by the planes of `cut`.
-    std::uint32_t of(std::uint32_t batch, std::uint32_t cut)
+    /// As `batch`, by the planes of `cut`, mirrored or not.
+    std::uint32_t of(std::uint32_t batch, std::uint32_t cut, bool mirrored)
     {
-        if (cut == 0) {
+        if (cut == 0 && !mirrored) {
             return batch;
         }
-        const auto [found, fresh] = ids_.emplace(std::pair(batch, cut), static_cast<std::uint32_t>(batches_.size()));
+        const auto [found, fresh] =
+            ids_.emplace(std::tuple(batch, cut, mirrored), static_cast<std::uint32_t>(batches_.size()));
         if (fresh) {
             vulkan::CasterBatch made = batches_[batch];
             made.clip_planes = cuts_[cut];
+            made.mirrored = mirrored;
             batches_.push_back(made);
         }
         return found->second;
@@ -46,7 +48,7 @@ public:
 private:
     std::vector<vulkan::CasterBatch>& batches_;
     const std::vector<scene::ClipPlanes>& cuts_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> ids_; // by batch and cut
+    std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::uint32_t> ids_; // by batch, cut and mirrored
 };
 
 } // namespace
@@ -80,7 +82,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
     const std::vector<bool> closed = closedMeshes(scene);
-    CutBatches cut_batches(caster_batches, cuts);
+    OtherBatches other_batches(caster_batches, cuts);
     std::map<Key, std::uint32_t> part_ids;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const Batch& batch = std::get<0>(keys[i]);
@@ -88,10 +90,9 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         if (fresh) {
             const vulkan::MeshRange range = geometry.range(state.objects[i]);
             parts.push_back({range, batch_ids[batch]});
-            const bool one_sided =
-                caster_ids[batch.material] == kOpaque && closed[state.objects[i].mesh] && !batch.mirrored;
+            const bool one_sided = caster_ids[batch.material] == kOpaque && closed[state.objects[i].mesh];
             const std::uint32_t caster_batch = one_sided ? kOpaqueClosed : caster_ids[batch.material];
-            caster_parts.push_back({range, cut_batches.of(caster_batch, batch.cut)});
+            caster_parts.push_back({range, other_batches.of(caster_batch, batch.cut, batch.mirrored)});
         }
         objects.push_back({part->second, 1U});
         // Maps of averages draw receivers, too, and what is blended is none.

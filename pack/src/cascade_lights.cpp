@@ -26,7 +26,7 @@ shared::GpuCascadeLight describe(const Frame& frame, const Plan& plan, std::uint
     const View& view = plan.views[index];
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
-    const glm::dmat4 eye_from_ndc = glm::inverse(camera.clip_from_world * world_from_eye);
+    const glm::dmat4 eye_from_ndc = glm::inverse(clipFromWorld(camera) * world_from_eye);
     const glm::dmat4 base_from_eye = view.clip_from_world * world_from_eye;
     const ResolvedOptions& options = optionsOf(plan, view);
     const CascadeOptions& cascades = options.cascades();

@@ -59,7 +59,7 @@ double importanceOf(const Source& source, double distance2)
 class Sights {
 public:
     Sights(const Camera& camera, glm::uvec2 size_px)
-        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(camera.clip_from_world)), size_px_(size_px)
+        : eye_ws_(camera.eye_ws), world_from_clip_(glm::inverse(clipFromWorld(camera))), size_px_(size_px)
     {
     }
     // Unit, through a point of the picture; 0 where there is none.

@@ -140,9 +140,10 @@ int depthHolding(const ResolvedOptions& options)
     if (options.hasSmoothies()) {
         return shared::kDepthSmoothies;
     }
-    return options.format() == MapFormat::rg16    ? shared::kDepthChannel
-           : options.format() == MapFormat::rgba8 ? shared::kDepthBytes
-                                                  : shared::kDepthAlone;
+    const MapFormat format = options.format();
+    return format == MapFormat::rg16 || format == MapFormat::rg16f ? shared::kDepthChannel
+           : format == MapFormat::rgba8                            ? shared::kDepthBytes
+                                                                   : shared::kDepthAlone;
 }
 
 shared::MomentRule momentRuleOf(const ResolvedOptions& options)

@@ -123,7 +123,7 @@ ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const C
         return {0, 0, size_px.x, size_px.y};
     }
     const Hull hull = light.type == LightType::spot ? hullOfSpot(light, reach_m) : hullOfPoint(light, reach_m);
-    return projectedBounds(hull, camera.clip_from_world).inPixels(size_px);
+    return projectedBounds(hull, clipFromWorld(camera)).inPixels(size_px);
 }
 
 namespace {

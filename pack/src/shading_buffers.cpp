@@ -161,7 +161,7 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     }
     const Camera& camera = frame.camera;
     const glm::dmat4 world_from_eye = glm::translate(glm::dmat4(1.0), camera.eye_ws);
-    const glm::dmat4 clip_from_eye = camera.clip_from_world * world_from_eye;
+    const glm::dmat4 clip_from_eye = clipFromWorld(camera) * world_from_eye;
     const glm::dmat4 eye_from_ndc = glm::inverse(clip_from_eye);
     shared::GpuScreen& screen = out.screen;
     screen.eye_x = glm::row(eye_from_ndc, 0);

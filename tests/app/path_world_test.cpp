@@ -130,7 +130,13 @@ TEST(PathOfTheDay, KeepsMapsInSilence)
                               "--size", "96x54",    "--time",       "300",          "--path", "day",        "--fps",
                               "2",      "--frames", "0-5",          "--validate",   "-o",     format});
         EXPECT_EQ(ran.status, 0) << ran.err;
+        EXPECT_EQ(ran.err.find("shows two positions"), std::string::npos) << ran.err;
     }
+    // Without a path nothing moves, and who wanted to see two positions hears how.
+    const test::Ran still = inFolder(folder, {"render", "--preset", "icefall-2010", "--map-size", "128", "--size",
+                                              "96x54", "--time", "300", "-o", "still.png"});
+    EXPECT_EQ(still.status, 0) << still.err;
+    EXPECT_NE(still.err.find("motion step-blend shows two positions"), std::string::npos) << still.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(PathProgram, ValidPath,

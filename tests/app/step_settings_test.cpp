@@ -73,7 +73,7 @@ TEST(StepSettings, AreOfUseWithTheirMotionAlone)
         const Settings settings = with({{"motion", motion}, {"step.by", by}});
         return app::isUsed(*findSetting(key), settings);
     };
-    for (const char* key : {"step.by", "step.angle", "step.interval", "step.fade", "step.band"}) {
+    for (const char* key : {"step.by", "step.angle", "step.interval", "step.fade", "step.band", "step.wait"}) {
         EXPECT_FALSE(isUsed(key, "free", "angle")) << key;
         EXPECT_FALSE(isUsed(key, "snap", "time")) << key;
     }
@@ -86,6 +86,10 @@ TEST(StepSettings, AreOfUseWithTheirMotionAlone)
         EXPECT_FALSE(isUsed("step.interval", motion, "angle"));
         EXPECT_EQ(isUsed("step.fade", motion, "angle"), name != "step-jump");
         EXPECT_EQ(isUsed("step.band", motion, "angle"), name == "step-band");
+        EXPECT_EQ(isUsed("step.wait", motion, "angle"), name == "step-jump");
+        EXPECT_FALSE(isUsed("step.longest-wait", motion, "angle")) << "nothing is waited for";
+        const Settings waits = with({{"motion", motion}, {"step.wait", "camera"}});
+        EXPECT_EQ(app::isUsed(*findSetting("step.longest-wait"), waits), name == "step-jump");
     }
     EXPECT_TRUE(isUsed("keep-still", "free", "angle"));
 }
@@ -96,6 +100,8 @@ TEST(StepSettings, TwoMapsShareATexelOfAFormatOfTwo)
     EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "pcf").shadow).paired_maps());
     EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "vsm+map-format=rg16").shadow).paired_maps());
     EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "hard+map-format=r32f").shadow).paired_maps());
+    EXPECT_FALSE(resolvedOrThrow(parseTechnique(defaultSettings(), "vsm+map-format=rg16f").shadow).paired_maps());
+    EXPECT_TRUE(resolvedOrThrow(parseTechnique(defaultSettings(), "pcf+map-format=rg16f").shadow).paired_maps());
     EXPECT_TRUE(
         resolvedOrThrow(parseTechnique(defaultSettings(), "pcf+step-blend+map-format=rg16").shadow).paired_maps());
     EXPECT_TRUE(resolvedOrThrow(parseTechnique(defaultSettings(), "hard+map-format=rgba8").shadow).paired_maps());

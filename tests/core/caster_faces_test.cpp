@@ -48,5 +48,18 @@ TEST(CasterFaces, AMidpointIsOfTwoDepthsOfAllCastersOfAMap)
                                             "stands still, so nothing can be kept apart");
 }
 
+TEST(CasterCull, GoesWithEveryFilterButNotWithOtherFaces)
+{
+    for (const CasterCull cull : {CasterCull::none, CasterCull::back, CasterCull::front}) {
+        for (const Filter filter : {Filter::hard, Filter::pcf, Filter::raymarch, Filter::vsm, Filter::msm}) {
+            EXPECT_EQ(refusalOf({.cull = cull}, filter), "") << nameOf(filter) << nameOf(cull);
+        }
+    }
+    EXPECT_EQ(refusalOf({.faces = CasterFaces::back, .cull = CasterCull::front}, Filter::hard),
+              "caster-cull front: caster-faces back says by itself which surfaces count; leave one of them out");
+    EXPECT_EQ(refusalOf({.faces = CasterFaces::midpoint, .cull = CasterCull::back}, Filter::hard),
+              "caster-cull back: caster-faces midpoint says by itself which surfaces count; leave one of them out");
+}
+
 } // namespace
 } // namespace gnomon

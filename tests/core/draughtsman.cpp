@@ -101,7 +101,7 @@ Draughtsman::Canvas Draughtsman::canvas(const Plan& plan, const View& view, bool
     EXPECT_LT(layer, kept ? pages.kept_layers : pages.layers);
     EXPECT_LE(view.tile.x + view.tile.width, pages.width);
     EXPECT_LE(view.tile.y + view.tile.height, pages.height);
-    Page& page = pages_[{options, kept, kept ? TexelPart::whole : view.part, layer}];
+    Page& page = pages_[{options, kept, view.part, layer}];
     if (page.texels.empty()) {
         page.side = pages.width;
         page.texels.resize(std::size_t{page.side} * page.side);
@@ -228,7 +228,9 @@ void expectOrder(const Plan& plan, const ObjectSet& set)
             if (plan.lights[other.light].options != plan.lights[view.light].options)
                 continue;
             EXPECT_FALSE(other.part == view.part && overlap(other.tile, view.tile));
-            const bool shares = view.kept_layer != kNoIndex && other.kept_layer == view.kept_layer;
+            const bool shares =
+                view.kept_layer != kNoIndex && other.kept_layer == view.kept_layer &&
+                (other.part == view.part || other.part == TexelPart::whole || view.part == TexelPart::whole);
             EXPECT_FALSE(shares && overlap({0, other.tile.x, other.tile.y, other.tile.width, other.tile.height},
                                            {0, view.tile.x, view.tile.y, view.tile.width, view.tile.height}));
         }

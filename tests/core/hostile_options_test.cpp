@@ -128,6 +128,8 @@ TEST(HostileOptions, ValuesThatNoChoiceHasAreRefused)
     EXPECT_TRUE(refused({.keep_still = KeepStill{77}}));
     EXPECT_TRUE(refused({.pcf = {.kernel = PcfKernel{77}}}));
     EXPECT_TRUE(refused({.faces = CasterFaces{77}}));
+    EXPECT_TRUE(refused({.cull = CasterCull{77}}));
+    EXPECT_TRUE(refused({.steps = {.wait = StepWait{77}}}));
     EXPECT_TRUE(refused({.translucent = Translucent{77}}));
     EXPECT_TRUE(refused({.moments = {.metric = DepthMetricKind{77}}}));
     EXPECT_TRUE(refused({.moments = {.samples = 3}}));

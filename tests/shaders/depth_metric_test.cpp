@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace gnomon::shared {
@@ -53,6 +55,25 @@ TEST(CasterMidpoint, WhatIsWithinTheRoundingIsTheSameSurface)
     EXPECT_FALSE(casterBehind(0.5001, 0.5, 0.001));
     EXPECT_TRUE(casterBehind(0.502, 0.5, 0.001));
     EXPECT_FALSE(casterBehind(0.4, 0.5, 0.001));
+}
+
+// Depth of [0, 1] that is scaled as OpenGL's of [-1, 1] has to be lies in [0.5, 1] and has half the codes. What is
+// stored here is the metric, from 0 to 1 whatever the camera's clip space is.
+TEST(DepthMetric, theUpperHalfAloneRoundsTwiceAsCoarsely)
+{
+    const auto rounded = [](double depth) {
+        return std::round(depth * 65535.0) / 65535.0;
+    };
+    double worst = 0.0;
+    double worst_of_half = 0.0;
+    for (int i = 0; i <= 1000000; ++i) {
+        const double depth = casterStored(i / 1e6);
+        worst = std::max(worst, std::abs(rounded(depth) - depth));
+        const double read = 2.0 * (rounded(0.5 + 0.5 * depth) - 0.5);
+        worst_of_half = std::max(worst_of_half, std::abs(read - depth));
+    }
+    EXPECT_NEAR(worst, 0.5 / 65535.0, 1e-8);
+    EXPECT_NEAR(worst_of_half, 1.0 / 65535.0, 1e-8);
 }
 
 } // namespace

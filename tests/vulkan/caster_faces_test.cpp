@@ -108,6 +108,53 @@ TEST_P(CasterFacesOnGpu, anObjectsOwnBiasMovesItAlone)
     EXPECT_THROW(bench.drawer.setBiases(wrong), Error);
 }
 
+// What is left out of all casters, the ground too, though it is open: of it the light sees the front.
+TEST_P(CasterFacesOnGpu, whatIsCulledIsLeftOutOfAllThatCasts)
+{
+    constexpr double kNothing = 1e9;
+    const auto expectMap = [](Bench& bench, double box_m, double ground_m) {
+        const auto map = bench.readMap(0);
+        EXPECT_NEAR(map[kMiddle], box_m == kNothing ? 1.0 : sunDepth(box_m), tolerance());
+        EXPECT_NEAR(map[kCorner], ground_m == kNothing ? 1.0 : sunDepth(ground_m), tolerance());
+    };
+    for (const CasterCull cull : {CasterCull::none, CasterCull::back, CasterCull::front}) {
+        for (const bool two_sided : {false, true}) {
+            Bench bench({64, 48}, ShadowOptions{.technique = kPlainTechnique, .format = GetParam(), .cull = cull});
+            setScene(bench);
+            bench.mesh.batches[1].two_sided = two_sided;
+            bench.prepare();
+            bench.record(1);
+            if (cull == CasterCull::front) {
+                expectMap(bench, 4.0, kNothing);
+            } else {
+                expectMap(bench, 6.0, 0.0);
+            }
+        }
+    }
+}
+
+// The other faces of what winds the other way: of a mirrored batch, or where a host calls clockwise triangles front.
+TEST_P(CasterFacesOnGpu, windingSaysWhichFacesAreFront)
+{
+    for (const CasterFaces faces : {CasterFaces::nearest, CasterFaces::back}) {
+        for (const bool mirrored : {false, true}) {
+            for (const bool clockwise : {false, true}) {
+                const CasterCull cull = faces == CasterFaces::nearest ? CasterCull::front : CasterCull::none;
+                Bench bench(
+                    {64, 48},
+                    ShadowOptions{.technique = kPlainTechnique, .format = GetParam(), .faces = faces, .cull = cull},
+                    true, false, {}, clockwise);
+                setScene(bench);
+                bench.mesh.batches[1].mirrored = mirrored;
+                bench.prepare();
+                bench.record(1);
+                // As its triangles are wound, the top is the front: where both say otherwise it is again.
+                EXPECT_NEAR(bench.readMap(0)[kMiddle], sunDepth(mirrored == clockwise ? 4.0 : 6.0), tolerance());
+            }
+        }
+    }
+}
+
 // Cut at 5 m the box is open above, so one sees its bottom; whichever of its triangles would be left out of a closed
 // one.
 TEST_P(CasterFacesOnGpu, aBoxThatIsCutIsOpen)

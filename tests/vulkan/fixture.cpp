@@ -58,11 +58,12 @@ vulkan::MaskInputs uploadPicture(Gpu& gpu, const Picture& picture)
 
 namespace {
 
-vulkan::CasterDrawerOptions drawerOptions(bool cull)
+vulkan::CasterDrawerOptions drawerOptions(bool cull, bool clockwise)
 {
     vulkan::CasterDrawerOptions options;
     options.frames_in_flight = 1;
     options.cull_back_faces = cull;
+    options.clockwise_front = clockwise;
     return options;
 }
 
@@ -81,9 +82,9 @@ Bench::Bench(VkExtent2D screen, MapFormat format, bool reversed_z, bool cull)
 }
 
 Bench::Bench(VkExtent2D screen, const ShadowOptions& options_in, bool reversed_z, bool cull,
-             const vulkan::MemoryHooks& memory)
+             const vulkan::MemoryHooks& memory, bool clockwise)
     : options(options_in), renderer(viewWith(memory), {.frames_in_flight = 1}),
-      drawer(gpu().view(), drawerOptions(cull)), screen_(screen)
+      drawer(gpu().view(), drawerOptions(cull, clockwise)), screen_(screen)
 {
     frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, double(screen.width) / screen.height, reversed_z);
 }

@@ -21,8 +21,9 @@ void expectSilence(Gpu& gpu);
 class Bench {
 public:
     Bench(VkExtent2D screen, MapFormat format, bool reversed_z = true, bool cull = false);
+    /// `clockwise`: CasterDrawerOptions::clockwise_front.
     Bench(VkExtent2D screen, const ShadowOptions& options, bool reversed_z = true, bool cull = false,
-          const vulkan::MemoryHooks& memory = {});
+          const vulkan::MemoryHooks& memory = {}, bool clockwise = false);
 
     /// After changes to `scene`: makes plan, picture and mesh.
     void setLights(std::vector<Light> lights, const std::vector<Tile>& tiles, MapPages atlas);

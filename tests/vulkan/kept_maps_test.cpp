@@ -23,6 +23,7 @@ struct Case {
     MapFormat format;
     std::uint32_t samples = 1;
     bool paired = false; // two maps a texel
+    bool shares = false; // and of what is kept, too
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c)
@@ -69,7 +70,7 @@ TexelRect unionOf(const TexelRect& a, const TexelRect& b)
 }
 
 // A sun's two positions, and a spot. The maps of the sun may share their texels.
-Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired)
+Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired, bool shares)
 {
     const std::uint32_t spot_layer = paired ? 1 : 2;
     const std::vector<Tile> tiles{{0, 0, 0, kMapSize, kMapSize}, {spot_layer, 0, 0, kMapSize, kMapSize}};
@@ -91,7 +92,7 @@ Plan makeKeptPlan(const Scene& scene, std::span<const Light> lights, bool paired
     plan.pages[0].kept_layers = 3;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         plan.views[i].still_count = 1 + kStillBoxes;
-        plan.views[i].kept_layer = 2 - i; // any order
+        plan.views[i].kept_layer = shares ? 1 - i / 2 : 2 - i; // any order
         plan.views[i].redraw_kept = true;
     }
     return plan;
@@ -116,7 +117,7 @@ public:
             bench->setLights(lights, {{0, 0, 0, kMapSize, kMapSize}, {1, 0, 0, kMapSize, kMapSize}},
                              {kMapSize, kMapSize, 2});
         }
-        kept.plan = makeKeptPlan(kept.scene, lights, c.paired);
+        kept.plan = makeKeptPlan(kept.scene, lights, c.paired, c.shares);
         kept.plan.options = planOptions(kept.options);
         whole.plan = atOnce(kept.plan);
         dirty_.resize(kept.plan.views.size());
@@ -278,6 +279,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"pcf_r32f", Filter::pcf, MapFormat::r32f}, Case{"pcf_rg16", Filter::pcf, MapFormat::rg16},
                     Case{"pcf_rg16_paired", Filter::pcf, MapFormat::rg16, 1, true},
                     Case{"hard_rgba8_paired", Filter::hard, MapFormat::rgba8, 1, true},
+                    Case{"pcf_rgba8_shared", Filter::pcf, MapFormat::rgba8, 1, true, true},
+                    Case{"pcf_rg16_shared", Filter::pcf, MapFormat::rg16, 1, true, true},
+                    Case{"hard_rg16f_shared", Filter::hard, MapFormat::rg16f, 1, true, true},
                     Case{"vsm_1", Filter::vsm, MapFormat::rg32f, 1}, Case{"vsm_4", Filter::vsm, MapFormat::rg16, 4},
                     Case{"lvsm_4", Filter::lvsm, MapFormat::rgba16, 4}, Case{"esm_1", Filter::esm, MapFormat::r32f, 1},
                     Case{"esm_4", Filter::esm, MapFormat::r16f, 4}),

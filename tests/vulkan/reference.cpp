@@ -255,9 +255,10 @@ int holdingOf(const ShadowOptions& options)
     if (isFilterable(options.technique.filter)) {
         return shared::kDepthAlone;
     }
-    return formatOf(options) == MapFormat::rg16    ? shared::kDepthChannel
-           : formatOf(options) == MapFormat::rgba8 ? shared::kDepthBytes
-                                                   : shared::kDepthAlone;
+    const MapFormat format = formatOf(options);
+    return format == MapFormat::rg16 || format == MapFormat::rg16f ? shared::kDepthChannel
+           : format == MapFormat::rgba8                            ? shared::kDepthBytes
+                                                                   : shared::kDepthAlone;
 }
 
 BiasRule ruleOf(const ShadowOptions& options)

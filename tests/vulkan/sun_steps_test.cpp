@@ -61,6 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, SteppingSun,
                                          StepCase{"pcf_cascades", Filter::pcf, MapFormat::d16, Slices::two, false},
                                          StepCase{"pcf_rg16_cascades", Filter::pcf, MapFormat::rg16, Slices::two, true},
                                          StepCase{"hard_rgba8", Filter::hard, MapFormat::rgba8, Slices::one, true},
+                                         StepCase{"pcf_rg16f", Filter::pcf, MapFormat::rg16f, Slices::one, true},
                                          StepCase{"vsm", Filter::vsm, MapFormat::rg32f, Slices::one, false}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
 

@@ -154,14 +154,20 @@ void CasterDrawer::Impl::ensurePipelines(const Plan& plan)
     }
 }
 
+/// Pipelines take counter-clockwise triangles for front faces, so of a batch that winds the other way the other ones
+/// are left out.
 VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPassFormats& formats) const
 {
-    if (batch.two_sided || isClipped(batch)) {
+    const bool may_be_cut = !batch.two_sided && !isClipped(batch);
+    CasterCull cull = formats.cull;
+    if (cull == CasterCull::none && may_be_cut) {
+        cull = formats.back_faces ? CasterCull::front : options.cull_back_faces ? CasterCull::back : CasterCull::none;
+    }
+    if (cull == CasterCull::none) {
         return VK_CULL_MODE_NONE;
     }
-    return formats.back_faces        ? VK_CULL_MODE_FRONT_BIT
-           : options.cull_back_faces ? VK_CULL_MODE_BACK_BIT
-                                     : VK_CULL_MODE_NONE;
+    const bool winds_back = options.clockwise_front != batch.mirrored;
+    return (cull == CasterCull::front) != winds_back ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
 }
 
 void CasterDrawer::Impl::setBatch(CasterPipelineKey& key, const CasterBatch& batch) const

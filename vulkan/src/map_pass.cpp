@@ -13,14 +13,6 @@
 namespace gnomon::vulkan {
 namespace {
 
-// An image that grows is copied into the larger one; hosts may copy maps, too.
-constexpr VkImageUsageFlags kCopied = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-
-bool isKept(const View& view)
-{
-    return view.kept_layer != kNoIndex;
-}
-
 bool sharesTexels(const Plan& plan, std::uint32_t options)
 {
     return std::any_of(plan.views.begin(), plan.views.end(), [&](const View& view) {
@@ -64,7 +56,7 @@ void DepthMaps::makeMaps(const MapPages& size)
     maps_.grow(device_, {storage_.mapFormat(),
                          {size.width, size.height},
                          size.layers,
-                         attachment | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
+                         attachment | VK_IMAGE_USAGE_SAMPLED_BIT | kCopiedUsage,
                          storage_.aspect(),
                          "shadow maps"});
     const VkExtent2D extent = maps_.image().info().extent;
@@ -81,20 +73,6 @@ void DepthMaps::makeMaps(const MapPages& size)
     }
 }
 
-void DepthMaps::makeKept(std::uint32_t layers)
-{
-    const VkExtent2D extent = maps_.image().info().extent;
-    kept_depths_.grow(device_, {storage_.depth, extent, layers,
-                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
-                                VK_IMAGE_ASPECT_DEPTH_BIT, "kept shadow maps"});
-    if (!storage_.depthOnly()) {
-        kept_colours_.grow(device_, {storage_.colour, extent, layers,
-                                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | kCopied,
-                                     VK_IMAGE_ASPECT_COLOR_BIT, "kept shadow maps"});
-    }
-    restorer_->setKept(kept_depths_.image().view(), kept_colours_.image().view());
-}
-
 void DepthMaps::warmUp(const ResolvedOptions& options)
 {
     if (isDrawnTwice(options)) {
@@ -106,10 +84,15 @@ void DepthMaps::warmUp(const ResolvedOptions& options)
         return;
     }
     restorer_.emplace(device_, storage_, cache_);
-    restorer_->ensure(TexelPart::whole);
+    using Source = MapRestorer::Source;
+    restorer_->ensure(TexelPart::whole, Source::depths);
     if (shares_texels) {
-        restorer_->ensure(TexelPart::first);
-        restorer_->ensure(TexelPart::second);
+        restorer_->ensure(TexelPart::first, Source::colours);
+        restorer_->ensure(TexelPart::second, Source::colours);
+    }
+    if (options.paired_maps() && options.asked().keep_still == KeepStill::always) { // of lamps, too
+        restorer_->ensure(TexelPart::first, Source::colours);
+        restorer_->ensure(TexelPart::first, Source::depths);
     }
 }
 
@@ -131,13 +114,10 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     }
     for (const View& view : plan.views) {
         if (restorer_ && optionsIndexOf(plan, view) == options) {
-            restorer_->ensure(view.part);
+            restorer_->ensure(view.part, sourceFor(view));
         }
     }
-    if (pages.kept_layers > 0 && !kept_depths_.covers(maps_.image().info().extent, pages.kept_layers)) {
-        makeKept(pages.kept_layers);
-        prepared.changed = true;
-    }
+    prepared.changed = prepareKept(plan, options) || prepared.changed;
     if (isDrawnTwice((*plan.options)[options])) {
         if (!midpoints_) {
             midpoints_.emplace(device_, storage_, cache_);
@@ -211,16 +191,6 @@ DepthMaps::Target DepthMaps::targetOf(const Tile& tile, std::uint32_t count) con
     return {found->view.get(), depth_.view(), true, false, areaOf(tile), count};
 }
 
-DepthMaps::Target DepthMaps::keptTarget(const View& view) const
-{
-    return {storage_.depthOnly() ? VkImageView{VK_NULL_HANDLE} : kept_colours_.image().layer(view.kept_layer),
-            kept_depths_.image().layer(view.kept_layer),
-            true,
-            true,
-            areaOf(view.tile),
-            1};
-}
-
 void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target)
 {
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
@@ -262,35 +232,6 @@ void DepthMaps::waitForDepth(BarrierBatch& barriers)
     barrier.target_stages = kDepthStages;
     barrier.target_access = kDepthAccess;
     barriers.add(barrier);
-}
-
-void DepthMaps::drawKept(const MapJob& job)
-{
-    const std::span<const View> views = job.plan.views;
-    BarrierBatch before(device_, job.commands);
-    for (std::uint32_t i = 0; i < views.size(); ++i) {
-        if (job.of(i).draw_kept) {
-            kept_depths_.toAttachment(before, views[i].kept_layer);
-            if (kept_colours_) {
-                kept_colours_.toAttachment(before, views[i].kept_layer);
-            }
-        }
-    }
-    before.record();
-    for (std::uint32_t i = 0; i < views.size(); ++i) {
-        if (job.of(i).draw_kept) {
-            beginViewLabel(device_, job.commands, job.plan, i);
-            beginRendering(job.commands, views[i].tile, keptTarget(views[i]));
-            drawView(job.commands, job.plan, i, CasterShare::still, colourMaskOf(storage_.colour, views[i].part),
-                     job.draw);
-            device_.vk.CmdEndRendering(job.commands);
-            device_.endLabel(job.commands);
-        }
-    }
-    // What restores a map names the whole image, with the layers of maps that nobody has needed so far.
-    BarrierBatch after(device_, job.commands);
-    kept_depths_.makeReadable(after);
-    kept_colours_.makeReadable(after);
 }
 
 void DepthMaps::drawMaps(const MapJob& job)
@@ -341,12 +282,12 @@ void DepthMaps::drawMap(const MapJob& job, std::uint32_t index)
     }
     barriers.record();
     beginRendering(commands, view.tile, mapTarget(view, job.of(index)));
-    if (isKept(view)) {
-        restorer_->restore(commands, view.part, view.kept_layer);
+    if (view.kept_layer != kNoIndex) {
+        restorer_->restore(commands, view.part, sourceFor(view), view.kept_layer);
     } else if (view.part != TexelPart::whole) {
         restorer_->clear(commands, view.part);
     }
-    drawView(commands, job.plan, index, isKept(view) ? CasterShare::moving : CasterShare::all,
+    drawView(commands, job.plan, index, view.kept_layer != kNoIndex ? CasterShare::moving : CasterShare::all,
              colourMaskOf(storage_.colour, view.part), job.draw);
     device_.vk.CmdEndRendering(commands);
     device_.endLabel(commands);

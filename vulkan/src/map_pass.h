@@ -17,6 +17,9 @@
 
 namespace gnomon::vulkan {
 
+// An image that grows is copied into the larger one; hosts may copy maps, too.
+inline constexpr VkImageUsageFlags kCopiedUsage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
 class DepthMaps final : public MapRecorder {
 public:
     /// Makes DepthBlocks of what it draws, or SmoothieMaps, where the options need them.
@@ -51,7 +54,8 @@ private:
     };
 
     void makeMaps(const MapPages& size);
-    void makeKept(std::uint32_t layers);
+    void makeKept(std::uint32_t layers, bool depths);
+    [[nodiscard]] bool prepareKept(const Plan& plan, std::uint32_t options);
     void prepareTogether(const Plan& plan, std::uint32_t options);
     void copyOutgrown(VkCommandBuffer commands);
     void makeBlocks(const MapJob& job);
@@ -61,7 +65,10 @@ private:
     void drawTogether(const MapJob& job, std::uint32_t first, std::uint32_t count);
     void beginRendering(VkCommandBuffer commands, const Tile& tile, const Target& target);
     [[nodiscard]] Target mapTarget(const View& view, const ViewWork& work) const;
+    [[nodiscard]] bool keepsDepth(const View& view) const;
+    [[nodiscard]] MapRestorer::Source sourceFor(const View& view) const;
     [[nodiscard]] Target keptTarget(const View& view) const;
+    void drawKept(const MapJob& job, std::uint32_t index);
     [[nodiscard]] Target targetOf(const Tile& tile, std::uint32_t count) const;
     [[nodiscard]] const Layers* layersFrom(std::uint32_t first) const;
     void waitForDepth(BarrierBatch& barriers);
@@ -73,7 +80,7 @@ private:
     Image depth_; // of a map in a colour format: decides which fragment wins, then is forgotten; a layer for each view
     std::vector<Layers> layers_; // views of maps_
     LayeredTarget kept_colours_;
-    LayeredTarget kept_depths_;
+    LayeredTarget kept_depths_; // of views whose colours do not say it (keepsDepth()); none where there is no such view
     std::optional<MapRestorer> restorer_;   // made when first needed
     std::optional<MidpointMaps> midpoints_; // likewise
     std::optional<DepthBlocks> blocks_;

@@ -5,11 +5,22 @@
 #include "samplers.h"
 
 #include <gnomon_spirv.h>
+#include <paired_depth.h>
 
 namespace gnomon::vulkan {
 namespace {
 
-using Layer = std::int32_t; // push constant of restore.frag
+// Push constants of restore.frag.
+struct Kept {
+    std::int32_t layer = 0;
+    std::int32_t holding = shared::kDepthAlone;
+    float part = 0.0F;
+};
+
+std::int32_t holdingOf(VkFormat colour)
+{
+    return colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes : shared::kDepthChannel;
+}
 
 constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                             VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}; // depths, colours
@@ -19,7 +30,7 @@ constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
 MapRestorer::MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache)
     : device_(device), storage_(storage), cache_(cache), sampler_(makeSampler(device, VK_FILTER_NEAREST)),
       sets_(device, kTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
-      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Layer)))
+      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Kept)))
 {
 }
 
@@ -30,7 +41,7 @@ void MapRestorer::setKept(VkImageView depths, VkImageView colours)
     set_ = sets_.take("restore");
     // Lavapipe 22.3 crashes on a descriptor that was never written even if no shader names it.
     const std::array writes{
-        DescriptorSets::image(0, sampler_.get(), depths, kRead),
+        DescriptorSets::image(0, sampler_.get(), depths != VK_NULL_HANDLE ? depths : colours, kRead),
         DescriptorSets::image(1, sampler_.get(), colours != VK_NULL_HANDLE ? colours : depths, kRead)};
     sets_.write(set_, writes);
 }
@@ -51,22 +62,31 @@ Pipeline MapRestorer::makePipeline(std::span<const std::uint32_t> fragment, Texe
     return makeGraphicsPipeline(device_, state);
 }
 
-void MapRestorer::ensure(TexelPart part)
+std::span<const std::uint32_t> MapRestorer::codeFor(Source source) const
+{
+    if (source == Source::colours) {
+        return spirv::restore_shared_frag;
+    }
+    return storage_.depthOnly() ? std::span<const std::uint32_t>(spirv::restore_depth_frag)
+                                : std::span<const std::uint32_t>(spirv::restore_colour_frag);
+}
+
+void MapRestorer::ensure(TexelPart part, Source source)
 {
     const auto index = static_cast<std::size_t>(part);
-    if (!restores_[index]) {
-        restores_[index] =
-            makePipeline(storage_.depthOnly() ? spirv::restore_depth_frag : spirv::restore_colour_frag, part);
+    if (Pipeline& restored = restores_[index][static_cast<std::size_t>(source)]; !restored) {
+        restored = makePipeline(codeFor(source), part);
     }
     if (!clears_[index] && part != TexelPart::whole) {
         clears_[index] = makePipeline(spirv::restore_clear_frag, part);
     }
 }
 
-void MapRestorer::restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer)
+void MapRestorer::restore(VkCommandBuffer commands, TexelPart part, Source source, std::uint32_t layer)
 {
-    const Pipeline& pipeline = restores_[static_cast<std::size_t>(part)];
-    const auto push = static_cast<Layer>(layer);
+    const Pipeline& pipeline = restores_[static_cast<std::size_t>(part)][static_cast<std::size_t>(source)];
+    const Kept push{static_cast<std::int32_t>(layer), holdingOf(storage_.colour),
+                    part == TexelPart::second ? 1.0F : 0.0F};
     device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0, nullptr);
     device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);

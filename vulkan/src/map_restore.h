@@ -14,18 +14,24 @@ class MapRestorer {
 public:
     MapRestorer(Device& device, const MapStorage& storage, VkPipelineCache cache);
 
+    /// What the depths of a kept map are restored from.
+    enum class Source : std::uint8_t {
+        depths,  // they were kept
+        colours, // its colours, which hold two maps a texel: depths as they are stored
+    };
     /// Views of all layers of images that are new, in SHADER_READ_ONLY_OPTIMAL when they are read. `colours` is null
-    /// for depth-only maps.
+    /// for depth-only maps, `depths` where all are restored from colours.
     void setKept(VkImageView depths, VkImageView colours);
     /// Makes the pipelines for maps that have this part of their texels.
-    void ensure(TexelPart part);
-    /// Of a part that is ensured. Rendering has begun, viewport and scissor are set: puts back what the scissor covers,
-    /// depths and colours.
-    void restore(VkCommandBuffer commands, TexelPart part, std::uint32_t layer);
+    void ensure(TexelPart part, Source source);
+    /// Of what is ensured. Rendering has begun, viewport and scissor are set: puts back what the scissor covers, depths
+    /// and colours.
+    void restore(VkCommandBuffer commands, TexelPart part, Source source, std::uint32_t layer);
     /// Likewise: colours are 1 where the map has its part of them. Depths have been cleared.
     void clear(VkCommandBuffer commands, TexelPart part);
 
 private:
+    [[nodiscard]] std::span<const std::uint32_t> codeFor(Source source) const;
     [[nodiscard]] Pipeline makePipeline(std::span<const std::uint32_t> fragment, TexelPart part);
 
     Device& device_;
@@ -35,7 +41,7 @@ private:
     DescriptorSets sets_;
     PipelineLayout layout_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::array<Pipeline, 3> restores_; // by TexelPart, made by ensure()
+    std::array<std::array<Pipeline, 2>, 3> restores_; // by TexelPart and Source, made by ensure()
     std::array<Pipeline, 3> clears_;
 };
 

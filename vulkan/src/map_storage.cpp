@@ -41,11 +41,12 @@ MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
     const bool back_faces = options.asked().faces == CasterFaces::back;
     if (options.filterable()) { // moments are made of the depths
         return {VK_FORMAT_UNDEFINED, storage.depth, static_cast<VkSampleCountFlagBits>(options.moments().samples),
-                !orthographic, back_faces};
+                !orthographic,       back_faces,    options.asked().cull};
     }
     const bool paraboloid = options.technique().partition == Partition::paraboloid;
-    MapPassFormats formats{storage.colour, storage.depth, VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic,
-                           back_faces};
+    MapPassFormats formats{
+        storage.colour, storage.depth,       VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic,
+        back_faces,     options.asked().cull};
     formats.paraboloid = paraboloid;
     formats.write_frag_depth = formats.write_frag_depth || paraboloid; // the rasteriser's own says nothing
     return formats;
@@ -64,7 +65,7 @@ VkColorComponentFlags colourMaskOf(VkFormat colour, TexelPart part)
         return 0;
     }
     const bool is_first = part == TexelPart::first;
-    if (part != TexelPart::whole && colour == VK_FORMAT_R16G16_UNORM) {
+    if (part != TexelPart::whole && (colour == VK_FORMAT_R16G16_UNORM || colour == VK_FORMAT_R16G16_SFLOAT)) {
         return is_first ? VK_COLOR_COMPONENT_R_BIT : VK_COLOR_COMPONENT_G_BIT;
     }
     if (part != TexelPart::whole && colour == VK_FORMAT_R8G8B8A8_UNORM) {

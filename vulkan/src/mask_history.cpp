@@ -126,19 +126,7 @@ Reprojection MaskHistory::reprojection(const Frame& frame) const
 bool MaskHistory::stands(const Frame& frame) const
 {
     const VkExtent2D extent = now().visibility.info().extent;
-    const glm::dvec2 shift =
-        (frame.camera.jitter_px - camera_.jitter_px) * 2.0 / glm::dvec2(extent.width, extent.height);
-    const glm::dmat4& now = frame.camera.clip_from_world;
-    const glm::dmat4& before = camera_.clip_from_world;
-    constexpr double kRounding = 1e-9; // of a row's length
-    for (int i = 0; i < 4; ++i) {
-        const glm::dvec4 row = glm::row(now, i);
-        const glm::dvec4 moved = i < 2 ? row - glm::row(now, 3) * shift[i] : row;
-        if (!(glm::distance(moved, glm::row(before, i)) <= kRounding * glm::length(row))) {
-            return false;
-        }
-    }
-    return frame.camera.eye_ws == camera_.eye_ws && frame.camera.reversed_z == camera_.reversed_z;
+    return sameSight(camera_, frame.camera, {extent.width, extent.height});
 }
 
 void beginJoining(const Device& device, VkCommandBuffer commands, VkExtent2D extent,

@@ -21,6 +21,18 @@ enum class CasterFaces : std::uint8_t {
 };
 [[nodiscard]] std::string_view nameOf(CasterFaces value);
 
+/// Which triangles of its casters the rasteriser leaves out of a map, as engines say it: of all of them, whatever the
+/// host says of open and thin ones, and whichever way it means. `front` is what CasterFaces::back is, but without its
+/// care: what is open loses its shadow or a part of it, and shadows shrink. To show what goes wrong, and for hosts
+/// whose art is made for it. A caster is seen from the light, and of one that is mirrored the winding counts the other
+/// way round (CasterBatch::mirrored). Goes with CasterFaces::nearest alone.
+enum class CasterCull : std::uint8_t {
+    none,
+    back,  // those that face away from the light: single sheets that are seen from behind cast nothing
+    front, // those that face it: of what is closed the far side is held, and of single sheets that are lit nothing
+};
+[[nodiscard]] std::string_view nameOf(CasterCull value);
+
 /// `automatic` derives everything from the texel's footprint, the kernel's reach and the receiver's plane, so nothing
 /// needs tuning when the map's size, the fit or the kernel changes; the other fields are then ignored.
 struct BiasOptions {

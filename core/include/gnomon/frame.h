@@ -14,7 +14,13 @@
 
 namespace gnomon {
 
-/// The viewer. Any projection whose clip space has z in [0, w], near or far first.
+/// What z of a camera's clip space is from the near plane to the far one.
+enum class ClipDepth : std::uint8_t {
+    zero_to_one,      // [0, w]: Vulkan, Direct3D, Metal
+    minus_one_to_one, // [-w, w]: OpenGL; the depth buffer holds z / w * 0.5 + 0.5
+};
+
+/// The viewer. Any projection, left- or right-handed, near or far first.
 struct Camera {
     glm::dvec3 eye_ws{0.0};
     glm::dmat4 clip_from_world{1.0};
@@ -24,9 +30,16 @@ struct Camera {
     /// How far clip_from_world moves the picture for anti-aliasing, pixels of Frame::size_px, y down; 0 where it does
     /// not. Known, it is no movement of the camera: see convergeSample().
     glm::dvec2 jitter_px{0.0};
+    /// Nothing but the host can tell: a matrix of the one kind is a camera of the other kind, too, whose near plane is
+    /// nearly twice as far away, or half as far.
+    ClipDepth clip_depth = ClipDepth::zero_to_one;
 
     bool operator==(const Camera&) const = default;
 };
+/// The camera's matrix with z in [0, w], whichever it has: z / w is what the depth buffer holds.
+[[nodiscard]] glm::dmat4 clipFromWorld(const Camera& camera);
+/// Does `now` see what `before` saw, where it saw it? But for jitter_px and rounding. `size_px`: of both pictures.
+[[nodiscard]] bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px);
 
 /// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light. Of
 /// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the

@@ -63,6 +63,13 @@ struct MultiOptions {
 enum class StepBy : std::uint8_t { angle, time };
 [[nodiscard]] std::string_view nameOf(StepBy value);
 
+/// What a step of Motion::step_jump waits for once it is due.
+enum class StepWait : std::uint8_t {
+    none,
+    camera, // for a frame in which the camera moves, or is cut: a jump is less seen where the whole picture changes
+};
+[[nodiscard]] std::string_view nameOf(StepWait value);
+
 /// How the step motions divide a sun's course.
 struct StepOptions {
     StepBy by = StepBy::angle;
@@ -70,6 +77,10 @@ struct StepOptions {
     double interval_s = 2.0;                 // by time: 0.01 .. 86400, of Frame::time_s
     bool smooth = false;                     // step-blend, -band, -alternate: the share as a cubic, else linear
     double band = 0.25;                      // step-band: its width, share of the picture's: 0.01 .. 1
+    StepWait wait = StepWait::none;          // step-jump; the other motions have no jump to hide
+    /// With a wait: how long a step that is due waits at most, s, of Frame::time_s; 0 .. 86400. Meanwhile the shadow
+    /// lags behind the sun by what the sun goes.
+    double longest_wait_s = 10.0;
 
     bool operator==(const StepOptions&) const = default;
 };
@@ -164,6 +175,7 @@ struct ShadowOptions {
     SmoothiesOptions smoothies;
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
+    CasterCull cull = CasterCull::none;       // which triangles of all casters are left out
     Translucent translucent = Translucent::grey;
     MomentOptions moments; // filters vsm, lvsm, esm, evsm, msm
 

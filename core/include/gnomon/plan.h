@@ -191,8 +191,8 @@ struct View {
     ContentNumber makes = 0;
     bool redraw = true; // makes != presumes: something is to be drawn
     /// Layer of the images that hold maps of still casters alone (same size and place there as `tile`), from which the
-    /// map is restored before those that move are drawn over it. Of the plan's views no other one has it. kNoIndex: the
-    /// map is drawn all at once.
+    /// map is restored before those that move are drawn over it. Of the plan's views no other one has the same texels
+    /// of it, or it has another `part` of them. kNoIndex: the map is drawn all at once.
     std::uint32_t kept_layer = kNoIndex;
     bool redraw_kept = false; // draw the still casters into the kept layer first; then `dirty` is all of the tile
     /// The square of the kept layer is a map like any other, with its own name and contents. Where it does not hold

@@ -27,8 +27,8 @@ struct Sphere {
 std::array<glm::dvec3, 4> cornersAt(const Camera& camera, const CameraView& view, double depth_m)
 {
     // Relative to the eye, so that what should not depend on its place does not, up to rounding.
-    glm::dmat4 clip_from_eye = camera.clip_from_world;
-    clip_from_eye[3] = camera.clip_from_world * glm::dvec4(camera.eye_ws, 1.0);
+    glm::dmat4 clip_from_eye = view.clip_from_world;
+    clip_from_eye[3] = view.clip_from_world * glm::dvec4(camera.eye_ws, 1.0);
     const glm::dmat4 eye_from_clip = glm::inverse(clip_from_eye);
     std::array<glm::dvec3, 4> corners;
     for (int i = 0; i < 4; ++i) {

@@ -75,7 +75,8 @@ double SunMotion::speed_rad_s() const
     return std::min(speed_rad_s_, last_speed_rad_s_);
 }
 
-void SunCourse::follow(const glm::dvec3& sun_ws, double time_s, Stepping stepping, const StepOptions& options)
+void SunCourse::follow(const glm::dvec3& sun_ws, double time_s, Stepping stepping, const StepOptions& options,
+                       bool camera_moves)
 {
     const bool by_time = options.by == StepBy::time;
     steps_.stepping = true;
@@ -91,7 +92,8 @@ void SunCourse::follow(const glm::dvec3& sun_ws, double time_s, Stepping steppin
     } else if (paired(stepping)) {
         by_time ? pairByTime(sun_ws, time_s, options.interval_s) : pairByAngle(sun_ws, time_s, options.angle_rad);
     } else {
-        by_time ? jumpByTime(sun_ws, time_s, options.interval_s) : jumpByAngle(sun_ws, time_s, options.angle_rad);
+        by_time ? jumpByTime(sun_ws, time_s, options, camera_moves)
+                : jumpByAngle(sun_ws, time_s, options, camera_moves);
     }
     steps_.smooth = options.smooth;
     steps_.band = stepping == Stepping::band && steps_.paired ? options.band : 0.0;
@@ -121,26 +123,46 @@ void SunCourse::standAlone(const glm::dvec3& sun_ws, double time_s)
     steps_.share = 0.0;
     begin_s_ = time_s;
     moved_ = false;
+    waiting_ = false;
+}
+
+/// Is a jump that is due put off? Time that is not finite puts nothing off, nor does it begin anew where it goes back.
+bool SunCourse::waits(double time_s, const StepOptions& options, bool camera_moves)
+{
+    if (options.wait == StepWait::none || camera_moves) {
+        return false;
+    }
+    due_s_ = waiting_ ? std::min(due_s_, time_s) : time_s;
+    waiting_ = time_s - due_s_ < options.longest_wait_s;
+    return waiting_;
 }
 
 /// Half a step ahead of the sun, so that it is never much more than half a step off.
-void SunCourse::jumpByAngle(const glm::dvec3& sun_ws, double time_s, double step_rad)
+void SunCourse::jumpByAngle(const glm::dvec3& sun_ws, double time_s, const StepOptions& options, bool camera_moves)
 {
+    const double step_rad = options.angle_rad;
     (void)motion_.measureByAngle(sun_ws, time_s, kStretch * step_rad);
     const double off_rad = angleBetween(steps_.earlier_ws, sun_ws);
     if (off_rad < (0.5 + kPastMiddle) * step_rad) {
+        waiting_ = false; // a sun that went back meanwhile
         return;
     }
-    standAlone(motion_.ahead(sun_ws, std::max(step_rad - off_rad, 0.0)), time_s);
+    const bool waited = waiting_;
+    if (!waits(time_s, options, camera_moves)) {
+        standAlone(motion_.ahead(sun_ws, waited ? 0.5 * step_rad : std::max(step_rad - off_rad, 0.0)), time_s);
+    }
 }
 
-void SunCourse::jumpByTime(const glm::dvec3& sun_ws, double time_s, double interval_s)
+void SunCourse::jumpByTime(const glm::dvec3& sun_ws, double time_s, const StepOptions& options, bool camera_moves)
 {
+    const double interval_s = options.interval_s;
     (void)motion_.measureByTime(sun_ws, time_s, kStretch * interval_s);
-    if (time_s - begin_s_ < interval_s) {
+    const bool waited = waiting_;
+    if (time_s - begin_s_ < interval_s || waits(time_s, options, camera_moves)) {
         return;
     }
-    const double begin_s = begin_s_ + interval_s;
+    waiting_ = false;
+    const double begin_s = waited ? time_s : begin_s_ + interval_s;
     const double ahead_rad = motion_.speed_rad_s() * (begin_s + 0.5 * interval_s - time_s);
     const glm::dvec3 next_ws = motion_.ahead(sun_ws, ahead_rad <= kFarthest_rad ? ahead_rad : 0.0);
     if (angleBetween(steps_.earlier_ws, next_ws) > kStill_rad) {
@@ -243,7 +265,8 @@ void SunCourses::begin()
     first_ = 0;
 }
 
-const SunCourse& SunCourses::follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options)
+const SunCourse& SunCourses::follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options,
+                                    bool camera_moves)
 {
     while (first_ < rows_.size() && rows_[first_].present) {
         ++first_;
@@ -254,7 +277,7 @@ const SunCourse& SunCourses::follow(const Light& light, double time_s, Stepping 
         row = rows_.insert(rows_.end(), Row{.key = light.key, .present = false, .course = {}});
     }
     row->present = true;
-    row->course.follow(glm::normalize(light.direction_ws), time_s, stepping, options);
+    row->course.follow(glm::normalize(light.direction_ws), time_s, stepping, options, camera_moves);
     return row->course;
 }
 

@@ -73,11 +73,16 @@ private:
 /// - A sun that jumps (a step or more in one frame, or off its way in one frame; by time: half a degree more than twice
 ///   what its speed lets expect, or time that goes backward or on by a whole step) stands alone at its own place: what
 ///   is seen then is the sun's own jump.
+/// - A jump that is due may have to wait for the camera to move (StepOptions::wait), but not for longer than it is
+/// told.
+///   Then it goes half a step ahead of where the sun is, as the first one does, however long it waited.
 /// - A sun that has not moved yet, or by time stands still, has one position.
 class SunCourse {
 public:
-    /// The next frame. `sun_ws` unit. Steps in range, see StepOptions.
-    void follow(const glm::dvec3& sun_ws, double time_s, Stepping stepping, const StepOptions& options);
+    /// The next frame. `sun_ws` unit. Steps in range, see StepOptions. `camera_moves`: so a step that waits for that
+    /// may be taken.
+    void follow(const glm::dvec3& sun_ws, double time_s, Stepping stepping, const StepOptions& options,
+                bool camera_moves = true);
     [[nodiscard]] const SunSteps& steps() const { return steps_; }
     /// Which of two places for maps the earlier (or only) position's is: it stays as long as the position does. The
     /// later one has the other.
@@ -85,8 +90,9 @@ public:
 
 private:
     void standAlone(const glm::dvec3& sun_ws, double time_s);
-    void jumpByAngle(const glm::dvec3& sun_ws, double time_s, double step_rad);
-    void jumpByTime(const glm::dvec3& sun_ws, double time_s, double interval_s);
+    void jumpByAngle(const glm::dvec3& sun_ws, double time_s, const StepOptions& options, bool camera_moves);
+    void jumpByTime(const glm::dvec3& sun_ws, double time_s, const StepOptions& options, bool camera_moves);
+    [[nodiscard]] bool waits(double time_s, const StepOptions& options, bool camera_moves);
     void pairByAngle(const glm::dvec3& sun_ws, double time_s, double step_rad);
     void pairByTime(const glm::dvec3& sun_ws, double time_s, double interval_s);
     void beginWay(const glm::dvec3& sun_ws, double share_per_step);
@@ -106,6 +112,8 @@ private:
     double share_per_step_ = 1.0;
     double begin_s_ = 0.0; // by time: when the share was 0
     bool moved_ = false;   // by time: the sun had left its only position at the last measure
+    bool waiting_ = false; // a jump is due, since `due_s_`
+    double due_s_ = 0.0;
 };
 
 /// The suns of a planner, by key. Those that a frame does not have are forgotten.
@@ -113,7 +121,8 @@ class SunCourses {
 public:
     void begin();
     /// A light of the frame, in the frame's order; several may have one key.
-    const SunCourse& follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options);
+    const SunCourse& follow(const Light& light, double time_s, Stepping stepping, const StepOptions& options,
+                            bool camera_moves = true);
     void end();
 
 private:

@@ -33,6 +33,10 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
 /// The midpoint is found in two images of depth, of all casters of one map.
 std::optional<std::string> facesRefusal(const ShadowOptions& options)
 {
+    if (options.cull != CasterCull::none && options.faces != CasterFaces::nearest) {
+        return "caster-cull " + std::string(nameOf(options.cull)) + ": caster-faces " +
+               std::string(nameOf(options.faces)) + " says by itself which surfaces count; leave one of them out";
+    }
     if (options.faces != CasterFaces::midpoint) {
         return std::nullopt;
     }
@@ -72,7 +76,7 @@ std::optional<std::string> budgetRefusal(const ShadowOptions& options)
 std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
 {
     const MapFormat format = formatOf(options);
-    if (options.technique.soften == Soften::smoothies && (format == MapFormat::rg16 || format == MapFormat::rgba8)) {
+    if (options.technique.soften == Soften::smoothies && (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8)) {
         return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, r32f or d16";
     }
     return std::nullopt;
@@ -113,7 +117,8 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
 /// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
 bool holdsTwoMaps(const FilterTraits& traits, MapFormat format)
 {
-    return !traits.filterable && (format == MapFormat::rg16 || format == MapFormat::rgba8);
+    return !traits.filterable &&
+           (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8);
 }
 
 } // namespace
@@ -130,6 +135,10 @@ std::string_view nameOf(CasterFaces value)
 {
     return nameIn(std::array<std::string_view, 3>{"nearest", "back", "midpoint"}, value);
 }
+std::string_view nameOf(CasterCull value)
+{
+    return nameIn(std::array<std::string_view, 3>{"none", "back", "front"}, value);
+}
 std::string_view nameOf(Translucent value)
 {
     return nameIn(std::array<std::string_view, 3>{"none", "grey", "colour"}, value);
@@ -137,6 +146,10 @@ std::string_view nameOf(Translucent value)
 std::string_view nameOf(StepBy value)
 {
     return nameIn(std::array<std::string_view, 2>{"angle", "time"}, value);
+}
+std::string_view nameOf(StepWait value)
+{
+    return nameIn(std::array<std::string_view, 2>{"none", "camera"}, value);
 }
 std::string_view nameOf(KeepStill value)
 {

@@ -27,6 +27,14 @@ bool hasBand(const ShadowOptions& o)
 {
     return o.technique.motion == Motion::step_band;
 }
+bool jumps(const ShadowOptions& o)
+{
+    return o.technique.motion == Motion::step_jump;
+}
+bool waits(const ShadowOptions& o)
+{
+    return jumps(o) && o.steps.wait != StepWait::none;
+}
 /// A jump goes from one position to the next without a share of either.
 bool fades(const ShadowOptions& o)
 {
@@ -68,6 +76,8 @@ void addStepRows(std::vector<OptionRow>& table)
         {.key = "step.interval", .type = real, .form = "S", .unit = "s", .min = 0.01, .max = 86400, .doc = "from step to step, of the scene's time", .used = stepsByTime, .used_when = "a motion that steps and step.by time", GNOMON_MEMBER(steps.interval_s)},
         {.key = "step.fade", .type = choice, .form = "NAME", .choices = fadeNames, .doc = "how one position gives way to the next", .used = fades, .used_when = "motion step-band, -blend or -alternate", .get = getFade, .set = setFade},
         {.key = "step.band", .type = real, .form = "W", .unit = "of the picture's width", .min = 0.01, .max = 1, .doc = "width of the band in which both positions are mixed", .used = hasBand, .used_when = "motion step-band", GNOMON_MEMBER(steps.band)},
+        {.key = "step.wait", .type = choice, .form = "NAME", .choices = namesOf<StepWait>, .doc = "what a jump that is due waits for: nothing, or the camera to move", .used = jumps, .used_when = "motion step-jump", GNOMON_MEMBER(steps.wait)},
+        {.key = "step.longest-wait", .type = real, .form = "S", .unit = "s", .min = 0, .max = 86400, .doc = "after which it waits no longer, of the scene's time", .used = waits, .used_when = "motion step-jump and step.wait camera", GNOMON_MEMBER(steps.longest_wait_s)},
         {.key = "keep-still", .type = choice, .form = "NAME", .choices = namesOf<KeepStill>, .doc = "keep maps of what stands still apart; auto: with motions that step", GNOMON_MEMBER(keep_still)},
         // clang-format on
     };

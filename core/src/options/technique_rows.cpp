@@ -81,6 +81,7 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", GNOMON_BIAS(normal_texels)},
         {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", GNOMON_BIAS(receiver_plane)},
         {.key = "caster-faces", .type = choice, .form = "NAME", .choices = namesOf<CasterFaces>, .doc = "what of casters a map holds: the nearest surface, the nearest that faces away from the light, or midway between first and second", GNOMON_MEMBER(faces)},
+        {.key = "caster-cull", .type = choice, .form = "NAME", .choices = namesOf<CasterCull>, .doc = "triangles of all casters that are left out, seen from the light: none, back or front faces", GNOMON_MEMBER(cull)},
         {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", GNOMON_MEMBER(translucent)},
         {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
         {.key = "pcf.taps", .type = integer, .form = "N", .unit = "taps", .min = 4, .max = 64, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.taps)},

@@ -68,7 +68,7 @@ void MapStore::furnish(Room& room)
     if (room.wish.keeps_still && !room.places.empty() && room.kept_squares.empty() && takeKept(room)) {
         for (std::size_t i = 0; i < room.places.size(); ++i) {
             room.places[i].kept_map = freshMap();
-            room.places[i].kept_layer = room.kept_squares[i].page;
+            room.places[i].kept_layer = room.kept_squares[room.wish.shares_texels ? i % room.wish.count : i].page;
         }
     }
 }
@@ -129,14 +129,15 @@ void MapStore::name(Room& room)
     }
 }
 
-/// A kept copy is at its map's place of its page. All of a light's maps have one, or none.
+/// A kept copy is at its map's place of its page, and has the same part of its texels. All of a light's maps have one,
+/// or none.
 bool MapStore::takeKept(Room& room)
 {
     const MapWish& wish = room.wish;
     PageSquares& pages = pages_[wish.options].kept;
     const std::uint32_t pages_before = pages.pages();
-    for (std::uint32_t i = 0; i < wish.positions * wish.count; ++i) {
-        const PageSquare& square = room.squares[wish.shares_texels ? i % wish.count : i];
+    for (std::uint32_t i = 0; i < wish.squares(); ++i) {
+        const PageSquare& square = room.squares[i];
         if (pages.takeAt(square.level, square.place, 1, room.kept_squares)) {
             continue;
         }

@@ -27,7 +27,7 @@ struct Surface {
 class PixelRays {
 public:
     explicit PixelRays(const Sight& seen)
-        : seen_(seen), world_from_clip_(glm::inverse(seen.camera.clip_from_world)),
+        : seen_(seen), world_from_clip_(glm::inverse(clipFromWorld(seen.camera))),
           size_px_(seen.depth.width, seen.depth.height)
     {
     }

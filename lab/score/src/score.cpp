@@ -15,7 +15,7 @@ namespace gnomon::lab {
 
 truth::View truthView(const Camera& camera, glm::uvec2 size_px)
 {
-    return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = size_px};
+    return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(clipFromWorld(camera)), .size_px = size_px};
 }
 
 truth::Light truthLight(const Light& light, const Aabb& scene_bounds_ws)

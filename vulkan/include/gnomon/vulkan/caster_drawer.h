@@ -26,7 +26,7 @@ inline constexpr glm::vec4 kNoClipPlane{0.0F, 0.0F, 0.0F, 1.0F};
 struct CasterBatch {
     /// All its triangles cast, whichever way they face. False, for closed meshes alone, where it matters that some are
     /// left out: with CasterDrawerOptions::cull_back_faces those that face away from the light, with CasterFaces::back
-    /// those that face it. Of instances that are mirrored the wrong ones would be.
+    /// those that face it. CasterCull leaves triangles out all the same.
     bool two_sided = true;
     /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
     /// VK_NULL_HANDLE: opaque.
@@ -44,6 +44,9 @@ struct CasterBatch {
     /// is open, so all its triangles cast, whatever `two_sided` says. Bounds in the ObjectSet may be those of what is
     /// left. With others the device must have the feature shaderClipDistance on (FeatureUses::clip_planes).
     std::array<glm::vec4, 2> clip_planes{kNoClipPlane, kNoClipPlane};
+    /// The transforms of its objects turn left into right (their determinants are negative), so that its triangles wind
+    /// the other way. Of no effect where none are left out.
+    bool mirrored = false;
 };
 
 /// One attribute of the host's vertices.
@@ -77,8 +80,11 @@ struct CasterGeometry {
 struct CasterDrawerOptions {
     std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
     /// Leave out triangles that face away from the light (of batches that are not two-sided), but with
-    /// CasterFaces::back. Off, because thin and open geometry casts too; counter-clockwise triangles face front.
+    /// CasterFaces::back. Off, because thin and open geometry casts too.
     bool cull_back_faces = false;
+    /// The triangles that face front are clockwise as seen from there, in world space as the frame's numbers are read:
+    /// right-handed. Of a host whose world is left-handed these are the ones that it calls counter-clockwise.
+    bool clockwise_front = false;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     CasterVertices vertices;
 };

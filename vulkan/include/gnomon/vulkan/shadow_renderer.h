@@ -87,6 +87,8 @@ struct MapPassFormats {
     /// CasterFaces::back: leave out triangles that face the light, but not of casters that are open, thin or two-sided,
     /// whose shadow would have holes.
     bool back_faces = false;
+    /// CasterCull: triangles of all casters that are left out, open or not.
+    CasterCull cull = CasterCull::none;
     /// CasterFaces::midpoint, the second pass of a map: discard fragments that do not lie behind MapPass::first_surface
     /// (gnomonCasterBehind() in gnomon/caster.glsl). A callback that draws them all gets a map of the first surface.
     bool behind_first = false;
