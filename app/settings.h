@@ -64,6 +64,7 @@ struct Settings {
     glm::uvec2 size_px{0};
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
     host::BloomOptions bloom;
+    host::Shading shading = host::Shading::materials;
     pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"
     bool ground = false;
@@ -79,6 +80,9 @@ struct Settings {
     std::vector<PointLight> points;
     std::optional<double> sun_angle_deg; // of every directional light; else the light's own
     std::optional<double> light_size_m;  // diameter of every spot and point light; else the light's own
+    std::optional<double> cone_deg;      // the whole cone of every spot light; else the light's own
+    std::optional<double> near_m;        // Light::near_m and range_m of every spot light; else the light's own
+    std::optional<double> range_m;
     // technique
     ShadowOptions shadow;
     std::string format_preset; // the preset that gave the map's format; empty: none did, or it was given again

@@ -23,6 +23,11 @@ namespace gnomon::host {
 /// side) and averages them.
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
+/// How surfaces reflect. `reflection_phong`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
+/// ambient light, a diffuse and a specular term of the base colour, the latter by the angle between eye and reflected
+/// ray to the power of 8. Blended surfaces stay as they are.
+enum class Shading : std::uint8_t { materials, reflection_phong };
+
 /// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
 /// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
 struct BloomOptions {
@@ -39,6 +44,7 @@ struct RenderOptions {
     std::uint32_t height = 720;
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
+    Shading shading = Shading::materials;
     std::uint32_t frames_in_flight = 2; // how many frames the GPU may be behind; 1 to 4
     /// Changed by FrameRenderer::setShadows(). cascades.pass = layered is refused (Error) where ShadowRenderer refuses
     /// it.

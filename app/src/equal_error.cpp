@@ -25,6 +25,8 @@ double tapsOf(const Settings& settings)
     case PcfKernel::bilinear_2x2:
         return 4.0;
     case PcfKernel::gaussian_3x3:
+    case PcfKernel::box_3x3:
+    case PcfKernel::projected_3x3:
         return 9.0;
     case PcfKernel::gaussian_5x5:
         return 25.0;
@@ -68,6 +70,9 @@ std::vector<PcfSetting> pcfLadder(const Settings& base, std::uint32_t max_side)
                 PcfSetting rung{plain};
                 applySetting(rung.settings, "map-size", fmt::format("{}", map_size));
                 applySetting(rung.settings, "pcf.kernel", kernel);
+                if (kernelWidth(rung.settings.shadow.pcf.kernel) < 0) {
+                    continue; // kept for what was published: the same work as 3x3, not blended
+                }
                 completeTechnique(rung.settings);
                 rung.work = static_cast<double>(map_size) * map_size + pixels * tapsOf(rung.settings);
                 ladder.push_back(std::move(rung));

@@ -28,11 +28,14 @@ constexpr std::array kPresets{
     Preset{"plain", "one uniform map and 3x3 PCF: what everybody has, and techniques are held against", R"({
   "partition": "single", "fit": "uniform", "filter": "pcf", "map-size": 2048
 })"},
-    // The document's first part: a floating-point map, one constant bias for the scene, nine comparisons. Its blur in
-    // screen space is soften=blur and not part of this preset.
-    Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF on a 1024 R32F map, bias 0.1", R"({
-  "partition": "single", "fit": "uniform", "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024,
-  "map-format": "r32f", "bias": "constant=0.1"
+    // All of the article: a floating-point map, one constant bias for the scene, nine comparisons with offsets that a
+    // projective fetch divides by w, a Gaussian over the screen by its own taps, and its shading. Its depth before the
+    // division, z (f / (f - n)) - n f / (f - n), is metres along the axis but for a factor of 1.001.
+    Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF, then a blur on the screen", R"({
+  "scene": "spotlit", "camera": "stage", "spot.cone": 30, "spot.near": 1, "spot.range": 1024,
+  "shading": "reflection-phong", "partition": "single", "fit": "uniform", "filter": "pcf",
+  "pcf.kernel": "3x3-projected", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1",
+  "soften": "blur", "soften.kernel": "gaussian", "soften.edges": "plain", "soften.taps": "published"
 })"},
     // A layer for the ground and one for what floats above it, four samples, a Gaussian of 1.25 texels, unsigned
     // normalised moments; the figures for variance, contrast and the lightened shadow are the paper's shader's.

@@ -107,6 +107,18 @@ bool isPicture(const Settings& s)
 {
     return !s.mask;
 }
+constexpr std::array<std::string_view, 2> kShadings{"materials", "reflection-phong"};
+
+std::vector<std::string_view> shadingNames()
+{
+    return {kShadings.begin(), kShadings.end()};
+}
+
+void applyShading(Settings& s, const Value& v)
+{
+    s.shading = v.text == kShadings[1] ? host::Shading::reflection_phong : host::Shading::materials;
+}
+
 bool glows(const Settings& s)
 {
     return isPicture(s) && s.bloom.on;
@@ -162,6 +174,8 @@ const std::vector<Setting>& rows()
         {.key = "bloom.levels", .group = Group::picture, .type = integer, .form = "N", .default_text = "6", .min = 1, .max = 8,
          .doc = "halvings; each doubles the glow's reach", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
+        {.key = "shading", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = shadingNames,
+         .doc = "by the scene's materials, or reflection-phong: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyShading},
         {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
          .apply = [](Settings& s, const Value& v) { s.ground = v.flag; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
@@ -193,6 +207,12 @@ const std::vector<Setting>& rows()
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kRender | kPlan | kBench | kCompare, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, or soften converge or smoothies",
          .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
+        {.key = "spot.cone", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 120,
+         .doc = "the whole cone of spot lights; else their own", .own_option = false, .apply = [](Settings& s, const Value& v) { s.cone_deg = v.real; }},
+        {.key = "spot.near", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
+         .doc = "nothing nearer to a spot light casts; else its own, or its reach / 1000", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
+        {.key = "spot.range", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
+         .doc = "reach of spot lights; else their own, or as far as the scene goes", .own_option = false, .apply = [](Settings& s, const Value& v) { s.range_m = v.real; }},
         // clang-format on
     };
     return table;

@@ -102,6 +102,18 @@ std::vector<host::ShadedLight> givenLights(const Settings& settings)
     return lights;
 }
 
+void shapeSpot(host::ShadedLight& light, const Settings& settings)
+{
+    Light& caster = light.caster;
+    if (settings.cone_deg) {
+        const double outer_rad = glm::radians(*settings.cone_deg) / 2.0;
+        light.inner_half_angle_rad *= outer_rad / caster.outer_half_angle_rad;
+        caster.outer_half_angle_rad = outer_rad;
+    }
+    caster.near_m = settings.near_m.value_or(caster.near_m);
+    caster.range_m = settings.range_m.value_or(caster.range_m);
+}
+
 void placeLights(Shot& shot, const Settings& settings)
 {
     shot.lights = givenLights(settings);
@@ -122,6 +134,9 @@ void placeLights(Shot& shot, const Settings& settings)
                 settings.sun_angle_deg ? glm::radians(*settings.sun_angle_deg) : light.caster.angular_diameter_rad;
         } else if (settings.light_size_m) {
             light.caster.radius_m = *settings.light_size_m / 2.0;
+        }
+        if (light.caster.type == LightType::spot) {
+            shapeSpot(light, settings);
         }
     }
 }
@@ -324,6 +339,7 @@ host::RenderOptions renderOptions(const Settings& settings)
         settings.shadow.technique.soften == Soften::converge && settings.truth_pixels == truth::PixelTruth::area;
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;
+    options.shading = settings.shading;
     options.compact_mask = settings.compact_mask;
     options.shows_rays = settings.debug == "rays";
     return options;

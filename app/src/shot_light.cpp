@@ -46,6 +46,13 @@ void requireSizedLights(const Settings& settings, std::span<const host::ShadedLi
     if (settings.given.contains("light-size") && sun == static_cast<std::ptrdiff_t>(lights.size())) {
         throw UsageError("--light-size has an effect only on a spot or point light, and there is none");
     }
+    const bool spots = std::any_of(lights.begin(), lights.end(),
+                                   [](const host::ShadedLight& light) { return light.caster.type == LightType::spot; });
+    for (const char* const key : {"spot.cone", "spot.near", "spot.range"}) {
+        if (settings.given.contains(key) && !spots) {
+            throw UsageError(fmt::format("{} has an effect only on a spot light, and there is none", key));
+        }
+    }
 }
 
 } // namespace gnomon::app

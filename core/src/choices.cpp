@@ -96,7 +96,8 @@ constexpr std::array kValues{
     ChoiceValue{kFilter, "auto", number(Filter::automatic), true, "raymarch, or pcf of quality fast", kRays},
 
     ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
-    ChoiceValue{kSoften, "blur", number(Soften::blur), false, "separable Gaussian in screen space", kShastry},
+    ChoiceValue{kSoften, "blur", number(Soften::blur), true, "the mask blurred on the screen, by a separable Gaussian",
+                kShastry},
     ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), true, "edges of the map widened by the light's size",
                 "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
     ChoiceValue{kSoften, "converge", number(Soften::converge), true,
@@ -123,6 +124,7 @@ constexpr std::array kKernels{
     Named<PcfKernel>{PcfKernel::bilinear_2x2, "2x2"}, Named<PcfKernel>{PcfKernel::gaussian_3x3, "3x3"},
     Named<PcfKernel>{PcfKernel::gaussian_5x5, "5x5"}, Named<PcfKernel>{PcfKernel::gaussian_7x7, "7x7"},
     Named<PcfKernel>{PcfKernel::poisson, "poisson"},  Named<PcfKernel>{PcfKernel::vogel, "vogel"},
+    Named<PcfKernel>{PcfKernel::box_3x3, "3x3-box"},  Named<PcfKernel>{PcfKernel::projected_3x3, "3x3-projected"},
 };
 constexpr std::array kFormats{
     Named<MapFormat>{MapFormat::d16, "d16"},         Named<MapFormat>{MapFormat::d32f, "d32f"},

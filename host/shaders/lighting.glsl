@@ -61,6 +61,14 @@ vec3 reflectance(Lit s, vec3 l, float n_l)
     return s.diffuse + f * (a2 * 0.5 / max(d * d * smith, 1e-7));
 }
 
+// The specular term of A. S. Shastry, "Soft-Edged Shadows", 2005: of the reflected ray (Phong 1975), none where the
+// surface faces away.
+float reflectionPhong(Lit s, vec3 l, float n_l)
+{
+    float along = max(dot(2.0 * n_l * s.n - l, s.v), 0.0);
+    return n_l > 0.0 ? pow(along, 8.0) : 0.0;
+}
+
 // Illuminance that a light gives a point (over pi), before the cosine and shadow. `l`: towards the light.
 vec3 arriving(LightData light, vec3 p, sampler2DArray cookies, out vec3 l)
 {

@@ -12,6 +12,7 @@
 layout(constant_id = 0) const int kFixedLights = 0;
 layout(constant_id = 1) const bool kDirectionalOnly = false;
 layout(constant_id = 2) const bool kPhysicalOnly = false; // every surface is metallic-roughness
+layout(constant_id = 3) const bool kReflectionPhong = false; // Shading::reflection_phong
 
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D bases;
@@ -43,6 +44,9 @@ vec3 lightFrom(uint i, Lit s, vec3 seen)
         e = arriving(frame.lights[i], s.p, cookies, l);
     }
     float n_l = max(dot(s.n, l), 0.0);
+    if (kReflectionPhong) {
+        return s.diffuse * e * (seen * (n_l + reflectionPhong(s, l, n_l)));
+    }
     return reflectance(s, l, n_l) * e * (n_l * seen);
 }
 
@@ -61,8 +65,8 @@ void main()
     vec3 p = rayOf(gl_FragCoord.xy) / (frame.depth.x * depth + frame.depth.y);
     vec3 n = octahedralDecode(texelFetch(normals, pixel, 0).ba);
     float second = model == 1.0 ? exp2(numbers.g * 16.0) - 1.0 : numbers.g;
-    Lit s = litSurface(p, n, base.rgb, numbers.r, second, model);
-    vec3 sum = ambient(s, model == 1.0 ? 1.0 : numbers.g, base.a);
+    Lit s = litSurface(p, n, base.rgb, kReflectionPhong ? 0.0 : numbers.r, second, kReflectionPhong ? 1.0 : model);
+    vec3 sum = kReflectionPhong ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : numbers.g, base.a);
 #ifdef HOST_COMPACT_MASK
     GnomonTileLights tile = gnomonTileLights(pixel);
     for (uint i = tile.first; i < tile.first + tile.count; ++i) {

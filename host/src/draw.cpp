@@ -171,8 +171,9 @@ void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const 
     sortNearestFirst();
     const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
                                              [](const Light& l) { return l.type == LightType::directional; });
-    shade = scene.pipelines.shadeFor(lights.size(), all_directional);
-    shade_compact = options.compact_mask.channels > 0 ? scene.pipelines.shadeCompact() : VK_NULL_HANDLE;
+    const bool reflection_phong = options.shading == Shading::reflection_phong;
+    shade = scene.pipelines.shadeFor(lights.size(), all_directional, reflection_phong);
+    shade_compact = options.compact_mask.channels > 0 ? scene.pipelines.shadeCompact(reflection_phong) : VK_NULL_HANDLE;
 }
 
 // Instances of a part are drawn in this order, so that near ones hide far ones before those are shaded.

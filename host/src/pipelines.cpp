@@ -367,33 +367,34 @@ VkPipeline Pipelines::fxaa()
     return fxaa_;
 }
 
-VkPipeline Pipelines::shadeCompact()
+VkPipeline Pipelines::shadeCompact(bool reflection_phong)
 {
-    if (shade_compact_ == VK_NULL_HANDLE) {
+    VkPipeline& pipeline = shade_compact_[reflection_phong ? 1 : 0];
+    if (pipeline == VK_NULL_HANDLE) {
         Wish wish;
         wish.name = "shade compact";
         wish.vertex = "fullscreen.vert";
         wish.fragment = "shade_compact.frag";
-        wish.constants = {VK_FALSE, VK_FALSE, physical_only_, VK_FALSE};
+        wish.constants = {VK_FALSE, VK_FALSE, physical_only_, reflection_phong};
         wish.colours = {&kLightFormat, 1};
         wish.depth = true;
         wish.compare = VK_COMPARE_OP_LESS;
         wish.layout = compact_layout.get();
-        shade_compact_ = make(wish);
+        pipeline = make(wish);
     }
-    return shade_compact_;
+    return pipeline;
 }
 
-VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional)
+VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional, bool reflection_phong)
 {
     const std::size_t fixed = lights <= 4 ? lights : 0;
-    VkPipeline& pipeline = shade_[fixed * 2 + (all_directional ? 1 : 0)];
+    VkPipeline& pipeline = shade_[fixed * 4 + (all_directional ? 2 : 0) + (reflection_phong ? 1 : 0)];
     if (pipeline == VK_NULL_HANDLE) {
         Wish wish;
         wish.name = "shade";
         wish.vertex = "fullscreen.vert";
         wish.fragment = "shade.frag";
-        wish.constants = {static_cast<VkBool32>(fixed), all_directional, physical_only_, VK_FALSE};
+        wish.constants = {static_cast<VkBool32>(fixed), all_directional, physical_only_, reflection_phong};
         wish.colours = {&kLightFormat, 1};
         wish.depth = true;
         wish.compare = VK_COMPARE_OP_LESS;

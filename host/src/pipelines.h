@@ -73,11 +73,12 @@ public:
 
     // Compiled when first asked for, which is not to be while a frame is recorded.
     /// The shading pass made for this many lights. Phong and unlit surfaces are left out where the scene has none.
-    [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional);
+    /// `reflection_phong`: Shading.
+    [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional, bool reflection_phong);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
     [[nodiscard]] SurfacePipelines shadowedFor(Filter filter);
     /// The same for a compact mask.
-    [[nodiscard]] VkPipeline shadeCompact();
+    [[nodiscard]] VkPipeline shadeCompact(bool reflection_phong);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
@@ -109,8 +110,9 @@ private:
     const DebugNames& names_;
     const DrawTable& table_;
     std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
-    std::array<VkPipeline, 10> shade_{}; // by fixed number of lights (0: any) and whether all are directional
-    VkPipeline shade_compact_ = VK_NULL_HANDLE;
+    // By fixed number of lights (0: any), whether all are directional, and Shading.
+    std::array<VkPipeline, 20> shade_{};
+    std::array<VkPipeline, 2> shade_compact_{}; // by Shading
     std::vector<std::pair<Filter, SurfacePipelines>> shadowed_;
     bool blended_is_cut_ = false; // somewhere
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;

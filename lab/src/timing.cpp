@@ -156,7 +156,7 @@ StageTimes stagesOf(const host::FrameTimes& times)
             stages.maps += pass.milliseconds;
         } else if (name == "shadow filter") {
             stages.filter += pass.milliseconds;
-        } else if (name == "mask") {
+        } else if (name == "mask" || name == "soften") {
             stages.mask += pass.milliseconds;
         }
     }

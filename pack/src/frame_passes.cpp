@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/soften_draws.h>
 
 #include <algorithm>
 
@@ -43,6 +44,9 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
     }
     if (std::ranges::any_of(plan.lights, joinsFrames)) {
         out.push_back({FramePassKind::converge});
+    }
+    if (std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return softens(plan, light); })) {
+        out.push_back({FramePassKind::blur});
     }
 }
 

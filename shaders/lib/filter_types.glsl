@@ -27,7 +27,7 @@ GN_BEGIN
 struct FilterInput {
     real layer;
     real part;          // of a texel with two maps: 0: the first, 1: the second
-    int kernel_width;   // 1, 3, 5, 7: separable; 0: disc
+    int kernel_width;   // 1, 3, 5, 7: separable; 0: disc; below 0: nine points (pcf_weights.h)
     int disc_taps;      // points of the disc
     real disc_radius;   // texels
     real smoothies;     // texels that those beside the map reach (shared/smoothies.h); 0: there are none

@@ -55,8 +55,25 @@ GN_FN real pcfDisc(MapPoint point, FilterInput f)
     return sum / real(f.disc_taps);
 }
 
+// Nine point samples of one weight, not blended.
+// Based on: A. S. Shastry, "Soft-Edged Shadows", 2005.
+GN_FN real pcfPoints(MapPoint point, FilterInput f)
+{
+    real spread = pointSpread(f.kernel_width, point.w);
+    real sum = real(0.0);
+    for (int i = 0; i < 9; ++i) {
+        real2 offset = real2(real(i % 3 - 1), real(i / 3 - 1)) * spread;
+        real2 texel = floor(point.texel + offset);
+        sum += compareTexel(point, texel + real2(real(0.5)) - point.texel, mapTexel(texel, f.layer, f.part));
+    }
+    return sum / real(9.0);
+}
+
 GN_FN real filterPcf(MapPoint point, FilterInput f)
 {
+    if (f.kernel_width < 0) {
+        return pcfPoints(point, f);
+    }
     return f.kernel_width > 0 ? pcfSeparable(point, f) : pcfDisc(point, f);
 }
 

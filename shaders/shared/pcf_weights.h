@@ -8,6 +8,19 @@
 #include "portability.h"
 GN_BEGIN
 
+// Widths that stand for kernels of nine point samples: a texel apart, and with offsets that are divided by the map's w.
+GN_CONST int kBoxKernel = -3;
+GN_CONST int kProjectedKernel = -4;
+
+// By how much the offsets of nine point samples are multiplied. In the article of 2005 a texel is added to homogeneous
+// coordinates, and the projective fetch divides it by w too: metres from a lamp along the map's axis, so that all nine
+// samples are nearly one. Of a parallel light w is 1. Nearer than 1 m they would be farther apart than meant: at
+// most 1.
+GN_FN real pointSpread(int width, real w)
+{
+    return width == kProjectedKernel ? real(1.0) / max(w, real(1.0)) : real(1.0);
+}
+
 // Weights of the taps at distance 0, 1, 2, 3 texels of a kernel `width` (1, 3, 5, 7) texels wide, normalised so that
 // w0 + 2 (w1 + w2 + w3) = 1. sigma in texels; 0 picks width / 4.
 GN_FN real4 gaussianWeights(int width, real sigma)

@@ -346,6 +346,21 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     EXPECT_EQ(settings.shadow.map_size, 1024U);
     EXPECT_EQ(formatOf(settings.shadow), MapFormat::r32f);
     EXPECT_EQ(settings.shadow.bias.constant_m, 0.1F);
+    EXPECT_EQ(settings.scene, "spotlit");
+    EXPECT_EQ(settings.shadow.pcf.kernel, PcfKernel::projected_3x3);
+    EXPECT_EQ(settings.shadow.technique.soften, Soften::blur);
+    EXPECT_EQ(settings.shadow.screen_blur.taps, ScreenTaps::published);
+    EXPECT_EQ(settings.shadow.screen_blur.edges, ScreenEdges::plain);
+    EXPECT_EQ(settings.shading, host::Shading::reflection_phong);
+    const app::Shot shot = app::makeShot(settings);
+    ASSERT_EQ(shot.lights.size(), 3U);
+    for (const host::ShadedLight& light : shot.lights) {
+        EXPECT_NEAR(light.caster.outer_half_angle_rad, 0.261799, 1e-6) << "a cone of 30 degrees";
+        EXPECT_LT(light.inner_half_angle_rad, light.caster.outer_half_angle_rad);
+        EXPECT_EQ(light.caster.near_m, 1.0);
+        EXPECT_EQ(light.caster.range_m, 1024.0);
+        EXPECT_NE(light.cookie, scene::kNone);
+    }
 }
 
 TEST(Presets, StartopiaHasFrustumsForEachOfManyLamps)

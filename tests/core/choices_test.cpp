@@ -52,7 +52,7 @@ TEST(Choices, NamesRoundTrip)
 
 TEST(Choices, KernelsAndFormatsRoundTrip)
 {
-    for (int i = 0; i <= static_cast<int>(PcfKernel::vogel); ++i)
+    for (int i = 0; i <= static_cast<int>(PcfKernel::projected_3x3); ++i)
         EXPECT_EQ(findPcfKernel(nameOf(static_cast<PcfKernel>(i))), static_cast<PcfKernel>(i));
     for (int i = 0; i <= static_cast<int>(MapFormat::rgba8); ++i)
         EXPECT_EQ(findMapFormat(nameOf(static_cast<MapFormat>(i))), static_cast<MapFormat>(i));

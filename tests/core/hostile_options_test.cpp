@@ -127,6 +127,8 @@ TEST(HostileOptions, ValuesThatNoChoiceHasAreRefused)
     EXPECT_TRUE(refused({.steps = {.by = StepBy{77}}}));
     EXPECT_TRUE(refused({.keep_still = KeepStill{77}}));
     EXPECT_TRUE(refused({.pcf = {.kernel = PcfKernel{77}}}));
+    EXPECT_TRUE(refused({.screen_blur = {.kernel = ScreenKernel{77}}}));
+    EXPECT_TRUE(refused({.screen_blur = {.size = ScreenSize{77}}}));
     EXPECT_TRUE(refused({.faces = CasterFaces{77}}));
     EXPECT_TRUE(refused({.cull = CasterCull{77}}));
     EXPECT_TRUE(refused({.steps = {.wait = StepWait{77}}}));

@@ -63,6 +63,33 @@ TEST(Options, WhatCannotBePlannedIsRefused)
     EXPECT_THROW(static_cast<void>(resolvedOrThrow({.map_size = 0})), Error);
 }
 
+TEST(Options, WhatWasPublishedOfTheBlurIsRefusedWhereItMeansNothing)
+{
+    ShadowOptions blur{.technique = kPlainTechnique};
+    blur.technique.soften = Soften::blur;
+    EXPECT_TRUE(resolve(blur));
+    blur.screen_blur.taps = ScreenTaps::published;
+    EXPECT_NE(resolve(blur).refusal.find("knows no edges"), std::string::npos);
+    blur.screen_blur.edges = ScreenEdges::plain;
+    EXPECT_TRUE(resolve(blur));
+    blur.screen_blur.kernel = ScreenKernel::box;
+    EXPECT_NE(resolve(blur).refusal.find("Gaussian's"), std::string::npos);
+    blur.technique.soften = Soften::none;
+    EXPECT_TRUE(resolve(blur)) << "nobody asks for it then";
+    blur.screen_blur.strength_px = 8.5F;
+    EXPECT_FALSE(resolve(blur));
+}
+
+TEST(Options, NinePointsReachATexelAndAHalf)
+{
+    for (const PcfKernel kernel : {PcfKernel::box_3x3, PcfKernel::projected_3x3}) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.pcf.kernel = kernel;
+        EXPECT_EQ(resolvedOrThrow(options).reach_texels(), 1.5F);
+        EXPECT_LT(kernelWidth(kernel), 0);
+    }
+}
+
 /// Plans are copied for reports, and outlive their planner.
 TEST(Options, ARefusalOutlivesThePlanner)
 {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -86,6 +87,42 @@ TEST_F(Filters, narrowestKernelIsTheBilinearBlendOfFourComparisons)
         const MapPoint point = randomPoint();
         EXPECT_NEAR(filterPcf(point, input), naiveBilinear(point, glm::dvec2(0.0)), 1e-13);
     }
+}
+
+TEST_F(Filters, ninePointsAreTheMeanOfTheTexelsAround)
+{
+    FilterInput input{};
+    input.kernel_width = kBoxKernel;
+    for (int round = 0; round < 300; ++round) {
+        MapPoint point = randomPoint();
+        double expected = 0.0;
+        for (int i = 0; i < 9; ++i) {
+            const glm::dvec2 texel = glm::floor(point.texel) + glm::dvec2(i % 3 - 1, i / 3 - 1);
+            expected += compareTexel(point, texel + 0.5 - point.texel, mapTexel(texel, 0.0, 0.0)) / 9.0;
+        }
+        EXPECT_NEAR(filterPcf(point, input), expected, 1e-12);
+    }
+}
+
+TEST_F(Filters, ninePointsAsPublishedAreNearlyOne)
+{
+    FilterInput input{};
+    input.kernel_width = kProjectedKernel;
+    int others = 0;
+    for (int round = 0; round < 1000; ++round) {
+        MapPoint point = randomPoint();
+        point.w = 10.0; // metres from the lamp: offsets of a tenth of a texel
+        const glm::dvec2 part = point.texel - glm::floor(point.texel);
+        const bool near_a_border = std::min(part.x, part.y) < 0.1 || std::max(part.x, part.y) > 0.9;
+        const bool same = std::abs(filterPcf(point, input) - filterHard(point, input)) < 1e-12;
+        EXPECT_TRUE(same || near_a_border);
+        others += same ? 0 : 1;
+        point.w = 0.5; // and never farther apart than meant
+        FilterInput box = input;
+        box.kernel_width = kBoxKernel;
+        EXPECT_EQ(filterPcf(point, input), filterPcf(point, box));
+    }
+    EXPECT_LT(others, 400) << "of 1000 pixels, those whose nine points are not all in one texel";
 }
 
 TEST_F(Filters, discIsTheMeanOfItsTurnedTaps)

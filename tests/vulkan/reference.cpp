@@ -137,6 +137,10 @@ int widthOf(PcfKernel kernel)
         return 5;
     case PcfKernel::gaussian_7x7:
         return 7;
+    case PcfKernel::box_3x3:
+        return shared::kBoxKernel;
+    case PcfKernel::projected_3x3:
+        return shared::kProjectedKernel;
     default:
         return 0;
     }
@@ -234,6 +238,9 @@ double reachOf(const ShadowOptions& options)
         return blurRadius(options.moments) + 1.0;
     }
     const double width = widthOf(options.pcf.kernel);
+    if (width < 0) {
+        return 1.5; // a texel and a half of nine point samples
+    }
     return width > 0 ? (width + 1) / 2 : double(options.pcf.radius_texels) + 1.0;
 }
 

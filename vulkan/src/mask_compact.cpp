@@ -4,6 +4,7 @@
 #include "usage.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/soften_draws.h>
 #include <gnomon/plan_views.h>
 
 #include <gpu_structs.h>
@@ -37,6 +38,11 @@ void MaskPassRecorder::checkCompact(const Plan& plan) const
         }
         if (pack::joinsFrames(light)) {
             refuseUse(kTried, "frames converge light by light, and a channel has another light in the next frame",
+                      kInstead);
+        }
+        if (pack::softens(plan, light)) {
+            refuseUse(kTried,
+                      "a blur of the mask takes from pixels beside, whose tile has other lights in its channels",
                       kInstead);
         }
     }

@@ -169,6 +169,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
         makePipelines(plan, *shape_);
     }
     prepareHistories(plan);
+    prepareSoften(plan);
     return !fits;
 }
 
@@ -357,6 +358,15 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
                           {inputs.depth, inputs.depth_layout, inputs.normal, slot.constants.buffer()}, mask_);
         toReadable(device_, commands, mask_);
     }
+}
+
+void MaskPassRecorder::recordSoften(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan,
+                                    const MaskInputs& inputs)
+{
+    assert(soften_);
+    soften_->record(commands, slot, plan,
+                    {inputs.depth, inputs.depth_layout, inputs.normal, slots_[slot].constants.buffer()}, mask_,
+                    kReaders);
 }
 
 } // namespace gnomon::vulkan

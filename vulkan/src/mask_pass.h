@@ -7,6 +7,7 @@
 #include "converge_pass.h"
 #include "map_class.h"
 #include "mask_pipelines.h"
+#include "soften_pass.h"
 
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/shading_buffers.h>
@@ -47,6 +48,10 @@ public:
     bool prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps);
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
+    /// Blurs what record() left, for a plan that wants it.
+    void recordSoften(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs);
+    /// Did prepare() make what recordSoften() needs for this plan?
+    [[nodiscard]] bool holdsSoften(const Plan& plan) const { return soften_ && soften_->holds(mask_.info(), plan); }
     [[nodiscard]] const Image& mask() const { return mask_; }
     /// ShadowRenderer::maskTiles().
     [[nodiscard]] BufferRef tiles(std::uint32_t slot) const;
@@ -81,6 +86,8 @@ private:
     void makeMask(const Plan& plan, VkExtent2D screen);
     void makeAlternate();
     void makeConverge();
+    void makeSoften();
+    void prepareSoften(const Plan& plan);
     void prepareHistories(const Plan& plan);
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
@@ -116,6 +123,7 @@ private:
     pack::CompactMask tiles_;                // likewise
     std::optional<AlternatePass> alternate_; // made when a plan first needs it
     std::optional<ConvergePass> converge_;   // likewise
+    std::optional<SoftenPass> soften_;       // likewise
     std::optional<MaskShape> shape_;         // of the inputs, as far as it is known
 };
 

@@ -83,6 +83,13 @@ void MaskPassRecorder::makeConverge()
     }
 }
 
+void MaskPassRecorder::makeSoften()
+{
+    if (!soften_) {
+        soften_.emplace(device_, slot_count_, cache_);
+    }
+}
+
 void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
@@ -148,6 +155,13 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
             alternate_->warmUp(ConvergePass::targetFormat(maskFormat(4)));
         }
     }
+    if (options.technique().soften == Soften::blur && !isCompact()) {
+        makeSoften();
+        soften_->warmUp(maskFormat(channelsAlone(options)), options.screen_blur(), what.inputs.normals, false);
+        if (what.several_lights) {
+            soften_->warmUp(maskFormat(4), options.screen_blur(), what.inputs.normals, what.several_options);
+        }
+    }
     if (options.technique().soften == Soften::converge) {
         makeConverge();
         converge_->warmUp(maskFormat(channelsAlone(options)));
@@ -175,6 +189,24 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
         if (alternate_) {
             alternate_->warmUp(converge_->target().info().format);
         }
+    }
+}
+
+/// Likewise. A plan whose lights have different options gets the pipelines for that, too.
+void MaskPassRecorder::prepareSoften(const Plan& plan)
+{
+    for (const ResolvedOptions& options : *plan.options) {
+        if (options.technique().soften == Soften::blur) {
+            makeSoften();
+            if (shape_) {
+                const VkFormat format = mask_.info().format;
+                const bool some = plan.options->size() > 1 && format != maskFormat(1);
+                soften_->warmUp(format, options.screen_blur(), shape_->normals, some);
+            }
+        }
+    }
+    if (soften_) {
+        soften_->prepare(mask_.info(), plan);
     }
 }
 

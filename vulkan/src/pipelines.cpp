@@ -56,6 +56,13 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
         attachments[0].srcAlphaBlendFactor = attachments[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
         attachments[0].colorBlendOp = attachments[0].alphaBlendOp = VK_BLEND_OP_REVERSE_SUBTRACT;
     }
+    if (state.chooses_channels) {
+        attachments[0].blendEnable = VK_TRUE;
+        attachments[0].srcColorBlendFactor = VK_BLEND_FACTOR_CONSTANT_COLOR;
+        attachments[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_CONSTANT_COLOR;
+        attachments[0].srcAlphaBlendFactor = VK_BLEND_FACTOR_CONSTANT_ALPHA;
+        attachments[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_CONSTANT_ALPHA;
+    }
     if (state.tints) {
         attachments[0].blendEnable = VK_TRUE;
         attachments[0].dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
@@ -70,9 +77,10 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = colours;
     blend.pAttachments = attachments.data();
-    const std::array<VkDynamicState, 2> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const std::array<VkDynamicState, 3> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                                       VK_DYNAMIC_STATE_BLEND_CONSTANTS};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
+    dynamic.dynamicStateCount = state.chooses_channels ? 3 : 2;
     dynamic.pDynamicStates = dynamic_states.data();
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = colours;

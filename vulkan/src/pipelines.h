@@ -24,9 +24,10 @@ struct GraphicsState {
     VkFormat third_format = VK_FORMAT_UNDEFINED;
     VkColorComponentFlags colour_mask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                                         VK_COLOR_COMPONENT_A_BIT; // what is written of it
-    bool keeps_least = false; // of what is there and what is drawn, the lesser one of each channel
-    bool takes_away = false;  // what is drawn is subtracted from what is there
-    bool tints = false;       // colours multiply what is there, and of alpha the lesser one stays; depth is not written
+    bool keeps_least = false;      // of what is there and what is drawn, the lesser one of each channel
+    bool takes_away = false;       // what is drawn is subtracted from what is there
+    bool chooses_channels = false; // those are written whose dynamic blend constant is 1; those with 0 stay
+    bool tints = false; // colours multiply what is there, and of alpha the lesser one stays; depth is not written
     VkFormat depth_format = VK_FORMAT_UNDEFINED; // UNDEFINED: no depth; else tested LESS_OR_EQUAL and written
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool shade_samples = false;               // the fragment shader runs for each
@@ -36,7 +37,7 @@ struct GraphicsState {
     const char* name = "";
 };
 
-/// Viewport and scissor are dynamic.
+/// Viewport and scissor are dynamic, and with chooses_channels the blend constants.
 [[nodiscard]] Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state);
 
 struct ComputeState {

@@ -4,10 +4,13 @@
 #include "timed.h"
 #include "usage.h"
 
+#include <gnomon/pack/soften_draws.h>
+
 #include <gpu_structs.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace gnomon::vulkan {
@@ -158,8 +161,13 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     if (!impl_->parts->has_mask || inputs.extent.width != made.width || inputs.extent.height != made.height) {
         refuseUse(kTried, "prepare() made no mask of this size", "call prepare() with the size of the inputs first");
     }
+    const bool softens =
+        std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return pack::softens(plan, light); });
+    if (softens && !impl_->parts->mask.holdsSoften(plan)) {
+        refuseUse(kTried, "prepare() made no images for this plan's blur", "call prepare() with it first");
+    }
     impl_->device.enter(slot, Retirement::Work::mask);
-    const Timed timed(profiler, commands, "mask");
+    std::optional<Timed> timed(std::in_place, profiler, commands, "mask");
     impl_->whole([&](RendererParts& parts) {
         for (const std::unique_ptr<MapClass>& maps : parts.classes) {
             if (maps) {
@@ -168,6 +176,11 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
         }
         parts.mask.record(commands, slot, frame, plan, inputs, parts.classes, parts.fitter);
     });
+    timed.reset();
+    if (softens) {
+        timed.emplace(profiler, commands, "soften");
+        impl_->whole([&](RendererParts& parts) { parts.mask.recordSoften(commands, slot, plan, inputs); });
+    }
 }
 
 void ShadowRenderer::recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,

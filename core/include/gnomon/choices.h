@@ -20,7 +20,16 @@ enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
 /// The kernel of Filter::pcf.
-enum class PcfKernel : std::uint8_t { bilinear_2x2, gaussian_3x3, gaussian_5x5, gaussian_7x7, poisson, vogel };
+enum class PcfKernel : std::uint8_t {
+    bilinear_2x2,
+    gaussian_3x3,
+    gaussian_5x5,
+    gaussian_7x7,
+    poisson,
+    vogel,
+    box_3x3,       // nine point samples a texel apart, all of one weight
+    projected_3x3, // the same with their offsets divided by the map's w, in metres from a lamp, at most 1: as published
+};
 
 /// What a map texel is stored as. Which filter can use which is filterTraits().formats.
 enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f, r16f, rgba8 };

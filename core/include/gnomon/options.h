@@ -7,6 +7,7 @@
 #include <gnomon/bias.h>
 #include <gnomon/choices.h>
 #include <gnomon/moment_options.h>
+#include <gnomon/screen_blur_options.h>
 
 #include <algorithm>
 #include <array>
@@ -111,7 +112,8 @@ struct PcfOptions {
 
     bool operator==(const PcfOptions&) const = default;
 };
-/// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs.
+/// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs. Of nine equal point samples
+/// shared::kBoxKernel or kProjectedKernel, which are below 0 (shaders/shared/pcf_weights.h).
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
 /// Soften::smoothies.
@@ -177,7 +179,8 @@ struct ShadowOptions {
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
     CasterCull cull = CasterCull::none;       // which triangles of all casters are left out
     Translucent translucent = Translucent::grey;
-    MomentOptions moments; // filters vsm, lvsm, esm, evsm, msm
+    MomentOptions moments;         // filters vsm, lvsm, esm, evsm, msm
+    ScreenBlurOptions screen_blur; // soften blur
 
     bool operator==(const ShadowOptions&) const = default;
 };
@@ -196,6 +199,7 @@ public:
     [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
+    [[nodiscard]] const ScreenBlurOptions& screen_blur() const { return asked_.screen_blur; }
     [[nodiscard]] double border_texels() const { return border_texels_; }
     /// Texels on a side of the largest map that a light can have, and of a page.
     [[nodiscard]] std::uint32_t largest_side() const { return largest_side_; }

@@ -82,6 +82,7 @@ std::span<const OptionRow> optionTable()
         addTechniqueRows(made);
         addPlanRows(made);
         addStepRows(made);
+        addSoftenRows(made);
         addMomentRows(made);
         return made;
     }();

@@ -3,6 +3,8 @@
 #include <gnomon/error.h>
 #include <gnomon/option_table.h>
 
+#include <pcf_weights.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,6 +63,23 @@ std::optional<std::string> facesRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
+/// The published taps are a recipe of their own.
+std::optional<std::string> softenRefusal(const ShadowOptions& options)
+{
+    const ScreenBlurOptions& blur = options.screen_blur;
+    if (options.technique.soften != Soften::blur || blur.taps != ScreenTaps::published) {
+        return std::nullopt;
+    }
+    if (blur.kernel != ScreenKernel::gaussian) {
+        return "soften.taps published: these are a Gaussian's; choose soften.kernel gaussian, or soften.taps symmetric";
+    }
+    if (blur.edges != ScreenEdges::plain) {
+        return "soften.taps published: what was published knows no edges, and weights that do are divided by their "
+               "sum; choose soften.edges plain, or soften.taps symmetric";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> budgetRefusal(const ShadowOptions& options)
 {
     constexpr std::uint64_t kLeast = 1024;
@@ -111,6 +130,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (auto reason = smoothiesRefusal(options)) {
         return reason;
     }
+    if (auto reason = softenRefusal(options)) {
+        return reason;
+    }
     return refusal(filterOf(options), formatOf(options), options.moments);
 }
 
@@ -151,6 +173,26 @@ std::string_view nameOf(StepWait value)
 {
     return nameIn(std::array<std::string_view, 2>{"none", "camera"}, value);
 }
+std::string_view nameOf(ScreenKernel value)
+{
+    return nameIn(std::array<std::string_view, 3>{"gaussian", "box", "poisson"}, value);
+}
+std::string_view nameOf(ScreenSize value)
+{
+    return nameIn(std::array<std::string_view, 3>{"full", "half", "quarter"}, value);
+}
+std::string_view nameOf(ScreenEdges value)
+{
+    return nameIn(std::array<std::string_view, 2>{"edge-aware", "plain"}, value);
+}
+std::string_view nameOf(ScreenTaps value)
+{
+    return nameIn(std::array<std::string_view, 2>{"symmetric", "published"}, value);
+}
+std::uint32_t pixelsPerTexel(ScreenSize size)
+{
+    return 1U << static_cast<std::uint32_t>(size);
+}
 std::string_view nameOf(KeepStill value)
 {
     return nameIn(std::array<std::string_view, 3>{"auto", "never", "always"}, value);
@@ -167,6 +209,10 @@ int kernelWidth(PcfKernel kernel)
         return 5;
     case PcfKernel::gaussian_7x7:
         return 7;
+    case PcfKernel::box_3x3:
+        return shared::kBoxKernel;
+    case PcfKernel::projected_3x3:
+        return shared::kProjectedKernel;
     case PcfKernel::poisson:
     case PcfKernel::vogel:
         return 0;
@@ -216,6 +262,9 @@ float reachTexels(const ShadowOptions& options)
         return options.technique.soften == Soften::smoothies ? 1.0F : 0.5F; // which are read as pcf 2x2 reads a map
     }
     const int width = kernelWidth(options.pcf.kernel);
+    if (width < 0) {
+        return 1.5F; // points, a texel away
+    }
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
 }
 

@@ -134,6 +134,7 @@
 #define kBlockGroup gnomon_kBlockGroup
 #define kBlockLevelsOfPass gnomon_kBlockLevelsOfPass
 #define kBlockSteps gnomon_kBlockSteps
+#define kBoxKernel gnomon_kBoxKernel
 #define kConfidences gnomon_kConfidences
 #define kCrease gnomon_kCrease
 #define kDepthAlone gnomon_kDepthAlone
@@ -204,6 +205,7 @@
 #define kPcssTaps gnomon_kPcssTaps
 #define kPixelSteps gnomon_kPixelSteps
 #define kPlaneAlone gnomon_kPlaneAlone
+#define kProjectedKernel gnomon_kProjectedKernel
 #define kRayBeyond gnomon_kRayBeyond
 #define kRayEnd gnomon_kRayEnd
 #define kRayOffset gnomon_kRayOffset
@@ -302,6 +304,7 @@
 #define passesBeneath gnomon_passesBeneath
 #define pcfBilinear gnomon_pcfBilinear
 #define pcfDisc gnomon_pcfDisc
+#define pcfPoints gnomon_pcfPoints
 #define pcfSeparable gnomon_pcfSeparable
 #define penumbraWidth gnomon_penumbraWidth
 #define pixelSteps gnomon_pixelSteps
@@ -310,6 +313,7 @@
 #define pointOfLight gnomon_pointOfLight
 #define pointOfTexel gnomon_pointOfTexel
 #define pointOnPlane gnomon_pointOnPlane
+#define pointSpread gnomon_pointSpread
 #define projectReceiver gnomon_projectReceiver
 #define quantisedMoments gnomon_quantisedMoments
 #define rayCone gnomon_rayCone

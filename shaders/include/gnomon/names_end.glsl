@@ -134,6 +134,7 @@
 #undef kBlockGroup
 #undef kBlockLevelsOfPass
 #undef kBlockSteps
+#undef kBoxKernel
 #undef kConfidences
 #undef kCrease
 #undef kDepthAlone
@@ -204,6 +205,7 @@
 #undef kPcssTaps
 #undef kPixelSteps
 #undef kPlaneAlone
+#undef kProjectedKernel
 #undef kRayBeyond
 #undef kRayEnd
 #undef kRayOffset
@@ -302,6 +304,7 @@
 #undef passesBeneath
 #undef pcfBilinear
 #undef pcfDisc
+#undef pcfPoints
 #undef pcfSeparable
 #undef penumbraWidth
 #undef pixelSteps
@@ -310,6 +313,7 @@
 #undef pointOfLight
 #undef pointOfTexel
 #undef pointOnPlane
+#undef pointSpread
 #undef projectReceiver
 #undef quantisedMoments
 #undef rayCone

@@ -15,6 +15,7 @@ enum class FramePassKind : std::uint8_t {
     mask,    // listMaskDraws()
     history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
     converge, // join it with the mean of all frames before (LightPlan::sample)
+    blur,     // listSoftenDraws()
 };
 
 struct FramePass {

@@ -48,7 +48,8 @@ struct ShadowRendererOptions {
     std::function<bool(std::uint32_t object)> is_blended;
     /// With channels 4 or 8 the mask is compact: one or two layers of RGBA8, however many lights there are. Which light
     /// of a tile of the screen is in which channel maskTiles() says. Suns that move in steps, lights whose frames
-    /// converge and lights in colour are refused (Error from prepare()), and so are more than 65,535 lights.
+    /// converge, lights whose mask is blurred and lights in colour are refused (Error from prepare()), and so are more
+    /// than 65,535 lights.
     pack::CompactMaskRule compact;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
     /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were

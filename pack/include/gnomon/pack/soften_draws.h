@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The draws of the pass that blurs the mask on the screen (soften=blur): four lights at a time where their options are
+// the same.
+#pragma once
+
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::pack {
+
+/// One layer of the mask, blurred by one set of options.
+struct SoftenDraw {
+    std::uint32_t layer = 0; // of the mask
+    ScreenBlurOptions blur;
+    std::uint32_t channels = 0; // bit i: channel i is blurred
+    bool whole = true;          // no other light with a map has a channel of the layer: all of them may be written
+};
+
+/// Is the light's part of the mask blurred?
+[[nodiscard]] bool softens(const Plan& plan, const LightPlan& light);
+/// By layer, in the order of the lights. Keeps what `out` has allocated.
+void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out);
+
+} // namespace gnomon::pack

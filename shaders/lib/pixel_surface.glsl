@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: where a pixel's surface is and how it lies. The includer has GNOMON_NUMBERS, a GpuConstants, and a
+// sampler2D `depths`, the camera's.
+#ifndef GNOMON_PIXEL_SURFACE_GLSL
+#define GNOMON_PIXEL_SURFACE_GLSL
+
+// Eye-relative position of a pixel, homogeneous.
+vec4 pointAt(ivec2 pixel, float depth)
+{
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * GNOMON_NUMBERS.screen.size.zw * 2.0 - 1.0, depth, 1.0);
+    return vec4(dot(GNOMON_NUMBERS.screen.eye_x, ndc), dot(GNOMON_NUMBERS.screen.eye_y, ndc), dot(GNOMON_NUMBERS.screen.eye_z, ndc), dot(GNOMON_NUMBERS.screen.eye_w, ndc));
+}
+
+vec3 positionAt(ivec2 pixel, float depth)
+{
+    vec4 p = pointAt(pixel, depth);
+    return p.xyz / p.w;
+}
+
+// The two pixels on one side. x, y: their depths; z: how far the pixel is off the line through them.
+vec3 side(ivec2 pixel, ivec2 step_px, float depth)
+{
+    ivec2 far = pixel + 2 * step_px;
+    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), GNOMON_NUMBERS.screen.size.xy))) {
+        return vec3(depth, depth, 3e38);
+    }
+    float a = texelFetch(depths, pixel + step_px, 0).r;
+    float b = texelFetch(depths, far, 0).r;
+    return vec3(a, b, abs(2.0 * a - b - depth));
+}
+
+// Along one axis of the screen, towards positive coordinates. A plane's depth is affine on the screen, so the side
+// where the pixel continues its neighbours' line is on the pixel's own surface. Based on: Y. Wu (atyuwen), "Accurate
+// Normal Reconstruction from Depth Buffer", 2021.
+vec3 tangentFromDepth(ivec2 pixel, ivec2 step_px, float depth, vec3 p)
+{
+    vec3 before = side(pixel, -step_px, depth);
+    vec3 after = side(pixel, step_px, depth);
+    return before.z < after.z ? p - positionAt(pixel - step_px, before.x) : positionAt(pixel + step_px, after.x) - p;
+}
+
+vec3 normalFromDepth(ivec2 pixel, float depth, vec3 p)
+{
+    // Tangents as shares of the distance, which no size of the scene changes.
+    float k = inversesqrt(dot(p, p));
+    vec3 n = cross(tangentFromDepth(pixel, ivec2(1, 0), depth, p) * k, tangentFromDepth(pixel, ivec2(0, 1), depth, p) * k);
+    float l = length(n);
+    n = l > 0.0 ? n / l : normalize(-p);
+    return dot(n, p) > 0.0 ? -n : n; // towards the eye
+}
+
+#endif

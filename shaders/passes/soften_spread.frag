@@ -1,0 +1,45 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// soften=blur: takes a layer of the mask from an image of the same or of a smaller size. Where edges count it is read
+// between those texels that stand for pixels of the same surface; where there are none, the mask stays as it was.
+// Based on: J. Kopf, M. Cohen, D. Lischinski, M. Uyttendaele, "Joint Bilateral Upsampling", SIGGRAPH 2007.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/soften_surface.glsl"
+
+layout(location = 0) out vec4 visibility;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    visibility = vec4(1.0);
+    if (kScale == 1) {
+        visibility = sourceTexel(pixel);
+        return;
+    }
+    if (!kEdgeAware) {
+        visibility = sourceAt((vec2(pixel) + 0.5) / float(kScale));
+        return;
+    }
+    float depth = texelFetch(depths, pixel, 0).r;
+    if (depth == gnomon.screen.fade.z) {
+        discard;
+    }
+    Surface surface = surfaceAt(pixel, depth);
+    vec2 place = (vec2(pixel) - float(kScale / 2)) / float(kScale);
+    vec2 cell = floor(place);
+    vec2 part = place - cell;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i & 1, i >> 1);
+        ivec2 texel = clamp(ivec2(cell) + corner, ivec2(0), push.sizes.xy - 1);
+        vec2 near = mix(1.0 - part, part, vec2(corner));
+        float weight = near.x * near.y * shareOf(surface, pixelsOf(texel, kScale));
+        sum += weight * sourceTexel(texel);
+        weights += weight;
+    }
+    if (weights <= 0.01) {
+        discard;
+    }
+    visibility = sum / weights;
+}
