@@ -246,15 +246,22 @@ TEST_P(SoftenParity, IsTheBlurOfTheMask)
     const Plane expected =
         Reference(plain.bench.picture, plain.bench.frame.camera, options.screen_blur).of(plain.mask());
     const Plane found = blurred.mask();
+    // Each pass rounds to eight bits, and halves are common between pixels of 0 and 1: of a smaller size there is a third.
+    const double steps = options.screen_blur.size == ScreenSize::full ? 1.001 : 2.001;
+    double worst = 0.0;
     std::size_t off = 0;
     std::size_t moved = 0;
     const Plane before = plain.mask();
     for (std::size_t i = 0; i < found.values.size(); ++i) {
-        off += std::abs(found.values[i] - expected.values[i]) * 255.0 > 1.001 ? 1 : 0;
+        const double difference = std::abs(found.values[i] - expected.values[i]) * 255.0;
+        worst = std::max(worst, difference);
+        off += difference > steps ? 1 : 0;
         moved += std::abs(found.values[i] - before.values[i]) * 255.0 > 8.0 ? 1 : 0;
     }
     // Where a tap lies between two pixels, or a share is at its end, single precision may choose otherwise.
-    EXPECT_LE(off, found.values.size() / 1000) << "of " << found.values.size();
+    EXPECT_LE(off, found.values.size() / 1000) << "of " << found.values.size() << ", by up to " << worst;
+    RecordProperty("worst_steps", std::to_string(worst));
+    RecordProperty("off", static_cast<int>(off));
     EXPECT_GT(moved, found.values.size() / 100) << "nothing is blurred";
     expectSilence(gpu());
 }
@@ -273,7 +280,7 @@ INSTANTIATE_TEST_SUITE_P(
         SoftenCase{"FirstPass", "soften=blur soften.passes=1"},
         SoftenCase{"StrongPlain", "soften=blur soften.edges=plain"},
         SoftenCase{"StrongHalf", "soften=blur soften.size=half"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 /// What reaches pixels from other surfaces: those whose own surface has one value as far as the blur reaches.
 double bledOver(const Plane& before, const Plane& after, const Picture& picture)
