@@ -46,7 +46,6 @@ void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out)
             draw.whole = draw.whole && !(beside && (maskChannelsOf(light) & draw.channels) == 0);
         }
     }
-    std::ranges::stable_sort(out, {}, &SoftenDraw::layer);
 }
 
 } // namespace gnomon::pack

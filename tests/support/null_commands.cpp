@@ -157,6 +157,7 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(CmdPushConstants, cmdIgnored),
     GNOMON_NULL(CmdSetViewport, cmdIgnored),
     GNOMON_NULL(CmdSetScissor, cmdIgnored),
+    GNOMON_NULL(CmdSetBlendConstants, cmdIgnored),
     GNOMON_NULL(CmdDispatch, cmdDispatch),
     GNOMON_NULL(CmdFillBuffer, cmdFill),
     GNOMON_NULL(CmdClearColorImage, cmdClear),

@@ -246,7 +246,8 @@ TEST_P(SoftenParity, IsTheBlurOfTheMask)
     const Plane expected =
         Reference(plain.bench.picture, plain.bench.frame.camera, options.screen_blur).of(plain.mask());
     const Plane found = blurred.mask();
-    // Each pass rounds to eight bits, and halves are common between pixels of 0 and 1: of a smaller size there is a third.
+    // Each pass rounds to eight bits, and halves are common between pixels of 0 and 1: of a smaller size there is a
+    // third.
     const double steps = options.screen_blur.size == ScreenSize::full ? 1.001 : 2.001;
     double worst = 0.0;
     std::size_t off = 0;

@@ -20,7 +20,7 @@ struct SoftenDraw {
 
 /// Is the light's part of the mask blurred?
 [[nodiscard]] bool softens(const Plan& plan, const LightPlan& light);
-/// By layer, in the order of the lights. Keeps what `out` has allocated.
+/// In the order of the lights. Keeps what `out` has allocated.
 void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out);
 
 } // namespace gnomon::pack
