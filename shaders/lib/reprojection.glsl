@@ -18,13 +18,10 @@ struct Before {
     float shares; // of the pixel's four neighbours, 0 .. 1; 0: not seen
 };
 
-// A neighbour that hardly counts is not read: where the camera stands that is three of four.
-const float kLeastShare = 1e-3;
-
 void addBefore(sampler2DArray visibility, sampler2DArray distances, ivec3 at, vec2 size, float share, float expected,
                inout Before found)
 {
-    if (share < kLeastShare || any(lessThan(at.xy, ivec2(0))) || any(greaterThanEqual(vec2(at.xy), size))) {
+    if (any(lessThan(at.xy, ivec2(0))) || any(greaterThanEqual(vec2(at.xy), size))) {
         return;
     }
     if (isSameSurface(texelFetch(distances, at, 0).r, expected)) {
