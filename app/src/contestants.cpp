@@ -23,7 +23,9 @@ constexpr std::string_view kAll[] = {"hard",
                                      "lvsm",
                                      "esm",
                                      "evsm",
-                                     "msm"};
+                                     "msm",
+                                     "id",
+                                     "depth-id"};
 
 bool isAll(const Settings& settings)
 {

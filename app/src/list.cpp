@@ -47,7 +47,7 @@ struct RefusedFormats {
 RefusedFormats formatsRefusedBy(Filter filter)
 {
     RefusedFormats row{std::string(nameOf(filter)), {}, {}};
-    for (auto format = MapFormat{}; format <= MapFormat::rgba8; format = MapFormat(std::uint8_t(format) + 1)) {
+    for (auto format = MapFormat{}; format <= MapFormat::rg8; format = MapFormat(std::uint8_t(format) + 1)) {
         if (const auto reason = refusal(filter, format)) {
             row.formats += fmt::format("{}{}", row.formats.empty() ? "" : "|", nameOf(format));
             row.reason = *reason;

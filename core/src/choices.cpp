@@ -90,8 +90,8 @@ constexpr std::array kValues{
                 "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008"},
     ChoiceValue{kFilter, "msm", number(Filter::msm), true, "four moments",
                 "C. Peters, R. Klein, Moment Shadow Mapping, 2015"},
-    ChoiceValue{kFilter, "id", number(Filter::id), false, "object ids instead of depth", kForsyth},
-    ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), false, "object id, then depth inside the object",
+    ChoiceValue{kFilter, "id", number(Filter::id), true, "object ids instead of depth", kForsyth},
+    ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), true, "object id, then depth inside the object",
                 kForsyth},
     ChoiceValue{kFilter, "auto", number(Filter::automatic), true, "raymarch, or pcf of quality fast", kRays},
 
@@ -132,14 +132,19 @@ constexpr std::array kFormats{
     Named<MapFormat>{MapFormat::rg16f, "rg16f"},     Named<MapFormat>{MapFormat::rg32f, "rg32f"},
     Named<MapFormat>{MapFormat::rgba16, "rgba16"},   Named<MapFormat>{MapFormat::rgba16f, "rgba16f"},
     Named<MapFormat>{MapFormat::rgba32f, "rgba32f"}, Named<MapFormat>{MapFormat::r16f, "r16f"},
-    Named<MapFormat>{MapFormat::rgba8, "rgba8"},
+    Named<MapFormat>{MapFormat::rgba8, "rgba8"},     Named<MapFormat>{MapFormat::d24, "d24"},
+    Named<MapFormat>{MapFormat::r8, "r8"},           Named<MapFormat>{MapFormat::r16, "r16"},
+    Named<MapFormat>{MapFormat::rg8, "rg8"},
 };
 
 // d32f first: under a parallel light the rasteriser's own depth is the metric, so a depth-only pass is enough.
 // rg16, rg16f and rgba8: two maps a texel, each of 16 bits.
-constexpr std::array kDepthFormats{MapFormat::d32f, MapFormat::r32f,  MapFormat::d16,
-                                   MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8};
+constexpr std::array kDepthFormats{MapFormat::d32f,  MapFormat::r32f,  MapFormat::d16, MapFormat::rg16,
+                                   MapFormat::rg16f, MapFormat::rgba8, MapFormat::d24};
 constexpr std::array kRayFormats{MapFormat::d32f, MapFormat::r32f, MapFormat::d16};
+constexpr std::array kIdFormats{MapFormat::r16, MapFormat::r8};
+// An id and a depth: 8 bits each, 16, or an id and a depth in full floats.
+constexpr std::array kDepthIdFormats{MapFormat::rg16, MapFormat::rg8, MapFormat::rg32f};
 constexpr std::array kVsmFormats{MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f};
 constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f};
 constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
@@ -156,6 +161,8 @@ constexpr std::array kFilters{
     FilterTraits{Filter::esm, kEsmFormats, false, true, true, false, false},
     FilterTraits{Filter::evsm, kEvsmFormats, false, true, true, false, false},
     FilterTraits{Filter::msm, kMsmFormats, false, true, true, false, false},
+    FilterTraits{Filter::id, kIdFormats, false, true, false, false, false, true},
+    FilterTraits{Filter::depth_id, kDepthIdFormats, false, true, false, false, false, true},
 };
 
 /// What a user reads who asks a filter for a format that it cannot use.
@@ -179,8 +186,12 @@ constexpr std::string_view formatReason(Filter filter)
     case Filter::msm:
         return "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or rgba32f; half floats "
                "round them too coarsely";
+    case Filter::id:
+        return "id stores an object's id and nothing else: r16 or r8";
+    case Filter::depth_id:
+        return "depth-id stores an object's id and a depth: rg16, rg8 or rg32f";
     default:
-        return "this filter compares one depth per texel; it stores d32f, r32f or d16, or two maps a "
+        return "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two maps a "
                "texel: rg16, rg16f or rgba8";
     }
 }

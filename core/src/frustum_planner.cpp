@@ -47,7 +47,7 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     }
     lie.least_size = lie.space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
     const RegionInput around{
-        lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.filter->filterable};
+        lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.drawsReceivers()};
     lie.outcome = region_.gatherReceivers(around);
     if (lie.outcome.kind == OutcomeKind::ok && recipe.resolved.integratesLight()) {
         lie.outcome = widenForLight(input, around, lie);
@@ -166,7 +166,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     }
     const LightSpace& space = lie.space;
     const double border_texels = lie.border_texels;
-    const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.filter->filterable};
+    const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.drawsReceivers()};
     const Warp warp = warpOf(input, lie);
     MapFrame shown = frameOfWarp(input, lie, warp);
     shown.centre += shown.texel * input.grid_move_texels;

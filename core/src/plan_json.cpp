@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gnomon/object_ids.h>
 #include <gnomon/plan.h>
 
 #include "json_writer.h"
@@ -125,8 +126,24 @@ void writeChoice(JsonWriter& json, const AutoChoice& choice)
     json.closeLine('}');
 }
 
-void writeLight(JsonWriter& json, const LightPlan& light)
+// Of lights whose maps hold no ids there is nothing to say.
+void writeIds(JsonWriter& json, const Plan& plan, std::uint32_t light)
 {
+    if (plan.lights[light].first_object_id == kNoIndex) {
+        return;
+    }
+    const IdCollisions counted = countIdCollisions(plan, light);
+    json.openLine("ids", '{');
+    json.value("casters", counted.casters);
+    json.value("ids", counted.ids);
+    json.value("pairs", counted.pairs);
+    json.value("collisions", counted.collisions);
+    json.closeLine('}');
+}
+
+void writeLight(JsonWriter& json, const Plan& plan, std::uint32_t index)
+{
+    const LightPlan& light = plan.lights[index];
     json.openLine({}, '{');
     json.value("outcome", nameOf(light.outcome.kind));
     json.value("reason", light.outcome.reason);
@@ -141,6 +158,7 @@ void writeLight(JsonWriter& json, const LightPlan& light)
     writeSteps(json, light.steps);
     writeChoice(json, light.choice);
     writeSample(json, light.sample);
+    writeIds(json, plan, index);
     json.closeLine('}');
 }
 
@@ -344,8 +362,8 @@ std::string toJson(const Plan& plan)
     writeFade(json, options.front());
     writeFurtherOptions(json, options.subspan(1));
     json.open("lights", '[');
-    for (const LightPlan& light : plan.lights) {
-        writeLight(json, light);
+    for (std::uint32_t i = 0; i < plan.lights.size(); ++i) {
+        writeLight(json, plan, i);
     }
     json.close(']');
     json.open("views", '[');

@@ -207,6 +207,8 @@ void Planner::Impl::begin(const Frame& frame)
     }
     plan.views.clear();
     plan.casters.clear();
+    plan.object_ids.clear();
+    plan.object_bounds.clear();
     view_maps.clear();
     for (Setup& setup : setups) {
         setup.looked = false;

@@ -5,6 +5,7 @@
 #include "soften/light_sample.h"
 
 #include <gnomon/converge.h>
+#include <gnomon/object_ids.h>
 
 #include <algorithm>
 #include <iterator>
@@ -35,10 +36,44 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = prospect(index, setup);
     }
+    if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.filter->ids) {
+        handOut(frame, index);
+    }
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = planStands(frame, index, earlier_slot);
     }
     planned.view_count = static_cast<std::uint32_t>(plan.views.size()) - planned.first_view;
+}
+
+/// Ids for the objects of a light that tells them apart. Of a sun that moves in steps in the order from where it
+/// stands, so that they last as its maps do.
+void Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
+{
+    LightPlan& planned = plan.lights[index];
+    Light light = frame.lights[index];
+    if (planned.steps.stepping) {
+        light.direction_ws = planned.steps.earlier_ws;
+    }
+    if (plan.object_bounds.empty()) {
+        const std::span<const Aabb> bounds = frame.objects->allBounds();
+        plan.object_bounds.assign(bounds.begin(), bounds.end());
+    }
+    planned.first_object_id = static_cast<std::uint32_t>(plan.object_ids.size());
+    handOutIds(light, *frame.objects, idsOf(setups[planned.options].recipe.resolved.format()), plan.object_ids);
+}
+
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991) over the ids of a view's casters: other ids, another key.
+std::uint64_t Planner::Impl::idsKey(const View& view) const
+{
+    const std::span<const std::uint16_t> ids = objectIdsOf(plan, view.light);
+    if (ids.empty()) {
+        return 0;
+    }
+    std::uint64_t key = 14695981039346656037ULL;
+    for (std::uint32_t i = 0; i < view.caster_count; ++i) {
+        key = (key ^ ids[plan.casters[view.first_caster + i]]) * 1099511628211ULL;
+    }
+    return std::max<std::uint64_t>(key, 1);
 }
 
 /// All of what a light wants has room, or nothing is drawn of it.
@@ -210,6 +245,7 @@ void Planner::Impl::addView(const Stand& stand, const MapPlace& place, const Vie
     view.map = place.map;
     view.tile = place.tile;
     view.part = place.part;
+    view.ids_key = idsKey(view);
     view_maps.push_back({&place, stand.read});
 }
 

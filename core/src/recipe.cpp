@@ -30,6 +30,14 @@ std::uint32_t sideOfShared(std::uint32_t side, std::uint32_t count)
     return std::max(side >> level, kSmallestMap);
 }
 
+/// A map holds what a perspective makes of depth.
+bool keepsOverW(const ShadowOptions& options)
+{
+    const Filter filter = options.technique.filter;
+    const bool has_metric = filterTraits(filter)->filterable || filter == Filter::hard || filter == Filter::pcf;
+    return has_metric && options.moments.metric == DepthMetricKind::z_over_w;
+}
+
 /// Options that can be had, whatever was asked for: nobody plans by those that were refused.
 ResolvedOptions usable(const Resolution& resolution)
 {
@@ -56,6 +64,10 @@ Outcome Recipe::check(const Light& light) const
     }
     if (!resolution) {
         return {OutcomeKind::refused, refusal_reason};
+    }
+    if (keepsOverW(options) && light.type == LightType::directional) {
+        return {OutcomeKind::refused,
+                "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear"};
     }
     return checkLight(light);
 }

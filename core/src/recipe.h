@@ -43,6 +43,8 @@ struct Recipe {
 
     /// Depth is measured from a plane that leans with what receives shadow.
     [[nodiscard]] bool levelsDepth() const;
+    /// A map needs the receiver itself: its depth, or its id.
+    [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
     /// Its mask is a mean over frames.
     [[nodiscard]] bool converges() const { return options.technique.soften == Soften::converge; }
     [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }

@@ -22,7 +22,7 @@ struct RegionInput {
     const CameraView& view;
     const ObjectSet& objects;
     std::span<const std::uint32_t> seen; // receivers that the camera sees, ascending
-    bool draws_receivers = false;        // FilterTraits::filterable
+    bool draws_receivers = false;        // Recipe::drawsReceivers()
 };
 
 /// From where casters can throw a shadow into a map.

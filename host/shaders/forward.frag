@@ -8,6 +8,8 @@
 #define GNOMON_SET 2
 #define GNOMON_TINTS true
 #define GNOMON_SMOOTHIES true
+uint receiver_object;
+#define GNOMON_OBJECT receiver_object
 #include "gnomon/smooth_surface.glsl"
 #include "gnomon/visibility.glsl"
 #endif
@@ -40,6 +42,9 @@ vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
 
 void main()
 {
+#ifdef GNOMON_OBJECT
+    receiver_object = ids.x - 1u;
+#endif
     vec3 emitted = material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb * frame.sky_horizon.w;
     vec4 base = baseColour(uvs, colour);
     if (kEmissiveOnly) {

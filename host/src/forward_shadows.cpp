@@ -5,6 +5,7 @@
 
 #include <gnomon/pack/shading_buffers.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <span>
@@ -72,6 +73,9 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
     pack::fillConstants(frame, plan, 0, frame.size_px, image,
                         *static_cast<shared::GpuConstants*>(now.constants.mapped));
     pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});
+    const std::size_t objects = std::max<std::size_t>(pack::objectVectorCount(plan), 1);
+    memory_.grow(now.objects, objects * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kPurpose);
+    pack::fillObjects(frame, plan, {static_cast<glm::vec4*>(now.objects.mapped), objects});
     const std::span into(static_cast<shared::GpuView*>(now.views.mapped), views);
     pack::fillViews(frame, plan, {&image, 1}, into);
     renderer.placeTints(plan, into);
@@ -92,10 +96,11 @@ void ForwardShadows::writeSet(const Slot& slot, const vulkan::ShadowRenderer& re
     const std::array<VkDescriptorImageInfo, 3> images{{{map_sampler_, maps.view, maps.layout},
                                                        {texel_sampler_, blocks.view, blocks.layout},
                                                        {texel_sampler_, tints.view, tints.layout}}};
-    const std::array<VkDescriptorBufferInfo, 4> buffers{{{slot.constants.handle, 0, VK_WHOLE_SIZE},
+    const std::array<VkDescriptorBufferInfo, 5> buffers{{{slot.constants.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.lights.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.views.handle, 0, VK_WHOLE_SIZE},
-                                                         {renderer.depthLayersBuffer().buffer, 0, VK_WHOLE_SIZE}}};
+                                                         {renderer.depthLayersBuffer().buffer, 0, VK_WHOLE_SIZE},
+                                                         {slot.objects.handle, 0, VK_WHOLE_SIZE}}};
     std::array<VkWriteDescriptorSet, kMapsBindings.size()> writes{};
     std::size_t image = 0;
     std::size_t buffer = 0;

@@ -34,6 +34,7 @@ private:
         Buffer constants;
         Buffer lights;
         Buffer views;
+        Buffer objects;
         VkDescriptorSet set = VK_NULL_HANDLE;
     };
     void makeSets();

@@ -20,12 +20,12 @@ inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNOR
                                                          VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
                                                          VK_FORMAT_R16G16B16A16_SNORM};
 
-/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks, tints.
-inline constexpr std::array<VkDescriptorType, 7> kMapsBindings{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks, tints, objects.
+inline constexpr std::array<VkDescriptorType, 8> kMapsBindings{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 /// Instance-rate vertex data of host/shaders/scene.vert.
 struct InstanceData {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/caster_rows.h>
 
+#include <gnomon/object_ids.h>
+#include <gnomon/plan_views.h>
+
+#include <object_ids.h>
+
 #include <glm/gtc/matrix_access.hpp>
 
 namespace gnomon::pack {
@@ -37,6 +42,34 @@ glm::vec4* CasterRows::write(const Rows3x4& world_from_object, glm::vec4* out, d
         *out++ = composed(row, world_from_object);
     }
     return out;
+}
+
+glm::vec4 composedRow(const glm::dvec4& row_ws, const Rows3x4& world_from_object)
+{
+    return composed(row_ws, world_from_object);
+}
+
+CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object)
+{
+    const ResolvedOptions& options = optionsOf(plan, view);
+    CasterId caster;
+    caster.id = static_cast<float>(objectIdsOf(plan, view.light)[object]) / static_cast<float>(idsOf(options.format()));
+    caster.depth_ws = view.metric.metric_ws;
+    if (options.ids().depth == IdDepth::object) {
+        // objectDepth() of shaders/shared/object_ids.h, in double precision.
+        const Aabb& box = plan.object_bounds[object];
+        const glm::dvec3 centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
+        const glm::dvec3 half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));
+        const glm::dvec3 along(view.metric.metric_ws);
+        const double extent =
+            glm::dot(glm::abs(along), half) + double{shared::kObjectPad} * glm::length(along) * glm::length(half);
+        caster.depth_ws = glm::dvec4(0.0, 0.0, 0.0, 0.5);
+        if (extent > 0.0) {
+            const glm::dvec3 row = along / (2.0 * extent);
+            caster.depth_ws = glm::dvec4(row, 0.5 - glm::dot(row, centre));
+        }
+    }
+    return caster;
 }
 
 } // namespace gnomon::pack

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers by which shaders tell choices apart are those of the enums.
 #include <gnomon/choices.h>
-#include <gnomon/moment_options.h>
+#include <gnomon/options.h>
 
 #include <choice_numbers.h>
+#include <object_ids.h>
 
 namespace gnomon::pack {
 namespace {
@@ -18,7 +19,10 @@ static_assert(is(shared::kFilterHard, Filter::hard) && is(shared::kFilterPcf, Fi
               is(shared::kFilterPcss, Filter::pcss) && is(shared::kFilterRaymarch, Filter::raymarch) &&
               is(shared::kFilterVsm, Filter::vsm) && is(shared::kFilterLvsm, Filter::lvsm) &&
               is(shared::kFilterEsm, Filter::esm) && is(shared::kFilterEvsm, Filter::evsm) &&
-              is(shared::kFilterMsm, Filter::msm));
+              is(shared::kFilterMsm, Filter::msm) && is(shared::kFilterId, Filter::id) &&
+              is(shared::kFilterDepthId, Filter::depth_id));
+static_assert(is(shared::kIdTestAny, IdTest::any) && is(shared::kIdTestPriority, IdTest::priority) &&
+              is(shared::kIdTestNearest, IdTest::nearest));
 static_assert(is(shared::kSamplingNearest, MapSampling::nearest) &&
               is(shared::kSamplingBilinear, MapSampling::bilinear) &&
               is(shared::kSamplingTrilinear, MapSampling::trilinear) &&

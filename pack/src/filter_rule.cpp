@@ -12,6 +12,8 @@
 #include <cassert>
 #include <cmath>
 
+#include <gnomon/object_ids.h>
+
 namespace gnomon::pack {
 namespace {
 
@@ -101,9 +103,38 @@ float smoothiesReach(const ResolvedOptions& options)
     return options.hasSmoothies() ? static_cast<float>(options.asked().smoothies.reach_texels) : 0.0F;
 }
 
+} // namespace
+
+/// Of hard and pcf the metric alone counts.
+shared::MomentRule readingRuleOf(const ResolvedOptions& options)
+{
+    shared::MomentRule rule = options.filterable() ? momentRuleOf(options) : shared::MomentRule{};
+    const bool compares = options.filter() == Filter::hard || options.filter() == Filter::pcf;
+    if (compares && options.moments().metric == DepthMetricKind::z_over_w) {
+        rule.flags = shared::kMomentZOverW;
+    }
+    return rule;
+}
+
+shared::IdRule idRuleOf(const ResolvedOptions& options)
+{
+    constexpr float kStepsOfFloats = 8388608.0F;
+    shared::IdRule rule{};
+    rule.test = static_cast<float>(options.idTest());
+    rule.ids = static_cast<float>(idsOf(options.format()));
+    rule.bias = options.ids().bias.value_or(-1.0F);
+    rule.steps = options.format() == MapFormat::rg32f ? kStepsOfFloats : rule.ids;
+    if (options.ids().depth == IdDepth::global) {
+        rule.steps = -rule.steps;
+    }
+    return rule;
+}
+
+namespace {
+
 void fillMoments(const ResolvedOptions& options, shared::GpuRule& out)
 {
-    const shared::MomentRule rule = options.filterable() ? momentRuleOf(options) : shared::MomentRule{};
+    const shared::MomentRule rule = readingRuleOf(options);
     out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
     out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding, rule.rounding_negative};
     out.moment_shape = {rule.linstep, rule.power, rule.lighten, smoothiesReach(options)};
@@ -123,6 +154,8 @@ float depthQuantum(MapFormat format)
     case MapFormat::rgba16:
     case MapFormat::rgba8:
         return 1.5F / 65535.0F + kArithmetic;
+    case MapFormat::rg8:
+        return 1.5F / 255.0F + kArithmetic;
     case MapFormat::r16f:
     case MapFormat::rg16f:
     case MapFormat::rgba16f:
@@ -139,6 +172,9 @@ int depthHolding(const ResolvedOptions& options)
     }
     if (options.hasSmoothies()) {
         return shared::kDepthSmoothies;
+    }
+    if (options.traits().ids) { // the id, and beside it a depth
+        return options.filter() == Filter::depth_id ? shared::kDepthChannel : shared::kDepthAlone;
     }
     const MapFormat format = options.format();
     return format == MapFormat::rg16 || format == MapFormat::rg16f ? shared::kDepthChannel
@@ -189,6 +225,11 @@ void fillRule(const ResolvedOptions& options, shared::GpuRule& out)
     out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(options), depthQuantum(options.format()),
                      options.traits().integrates_light ? 1.0F : 0.0F};
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(pcf.kernel), 1), pcf.sigma_texels.value_or(0.0F));
+    if (options.traits().ids) {
+        const shared::IdRule ids = idRuleOf(options);
+        out.kernel = {ids.test, ids.ids, ids.bias, ids.steps};
+        out.bias_more.z = ids.steps < 0.0F ? depthQuantum(options.format()) : depthQuantum(MapFormat::d32f);
+    }
     out.disc = {pcf.radius_texels, 0.0F, 0.0F, 0.0F};
     const auto taps = static_cast<int>(pcf.taps);
     for (int i = 0; i < taps; ++i) {
@@ -206,6 +247,9 @@ float mapDepth(const ResolvedOptions& options, std::span<const float> texel, Tex
 {
     assert(!texel.empty());
     float t = texel[0];
+    if (options.traits().ids) { // the depth is beside the id
+        return texel.size() > 1 ? texel[1] : t;
+    }
     if (!options.filterable()) {
         glm::vec4 channels(t);
         for (std::size_t i = 0; i < std::min<std::size_t>(texel.size(), 4); ++i) {

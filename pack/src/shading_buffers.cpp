@@ -4,6 +4,7 @@
 #include "light_strip.h"
 
 #include <gnomon/error.h>
+#include <gnomon/object_ids.h>
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan_views.h>
@@ -85,6 +86,19 @@ void placeLight(const Light& light, const glm::dvec3& eye_ws, shared::GpuLight& 
     gpu.size = glm::dvec4(size, light.direction_ws);
 }
 
+/// Vectors that one light's ids take.
+std::uint32_t idVectors(const Plan& plan)
+{
+    return (static_cast<std::uint32_t>(plan.object_bounds.size()) + 3) / 4;
+}
+
+/// Which of fillObjects()'s vectors is the first of a light's ids.
+std::uint32_t firstIdVector(const Plan& plan, const LightPlan& light)
+{
+    const auto objects = static_cast<std::uint32_t>(plan.object_bounds.size());
+    return 2 * objects + light.first_object_id / objects * idVectors(plan);
+}
+
 } // namespace
 
 void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown shown, shared::GpuLight& out)
@@ -103,6 +117,10 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
     out.views = {views.first, views.count, views.later_first, views.later_count};
     out.steps = stepRule(light.steps);
     out.options.x = light.options;
+    if (light.first_object_id != kNoIndex) {
+        out.options.y = firstIdVector(plan, light);
+        out.options.z = static_cast<std::uint32_t>(plan.object_bounds.size());
+    }
 }
 
 void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight> lights)
@@ -185,6 +203,38 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     out.rule.disc.y = light != plan.lights.end() ? static_cast<float>(light->sample.number) : 0.0F;
     out.rule.disc.z = 1.0F / static_cast<float>(maps.size_px.x);
     out.rule.disc.w = 1.0F / static_cast<float>(maps.size_px.y);
+}
+
+std::size_t objectVectorCount(const Plan& plan)
+{
+    const std::size_t objects = plan.object_bounds.size();
+    return objects == 0 ? 0 : 2 * objects + plan.object_ids.size() / objects * idVectors(plan);
+}
+
+void fillObjects(const Frame& frame, const Plan& plan, std::span<glm::vec4> out)
+{
+    if (out.size() < objectVectorCount(plan)) {
+        throw Error("describe objects to shaders", "there is no room for the plan's objects and ids",
+                    "give room for objectVectorCount()");
+    }
+    std::size_t next = 0;
+    for (const Aabb& box : plan.object_bounds) {
+        const bool is_somewhere = !box.empty();
+        const glm::dvec3 low(is_somewhere ? box.min : glm::vec3(0.0F));
+        const glm::dvec3 high(is_somewhere ? box.max : glm::vec3(0.0F));
+        out[next++] = glm::dvec4(0.5 * (low + high) - frame.camera.eye_ws, 0.0);
+        out[next++] = glm::dvec4(0.5 * (high - low), 0.0);
+    }
+    for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
+        const std::span<const std::uint16_t> ids = objectIdsOf(plan, light);
+        for (std::size_t i = 0; i < ids.size(); i += 4) {
+            glm::vec4 four(0.0F);
+            for (std::size_t k = 0; k < 4 && i + k < ids.size(); ++k) {
+                four[static_cast<int>(k)] = static_cast<float>(ids[i + k]);
+            }
+            out[next++] = four;
+        }
+    }
 }
 
 } // namespace gnomon::pack

@@ -75,6 +75,12 @@ GN_FN real4 casterTexel(int holding, real metric)
     return pairedTexel(holding, casterStored(metric));
 }
 
+// Of a map of ids (MapPassFormats::ids): what stands for the object, and beside it a depth, where the format has room.
+GN_FN real4 casterIdTexel(real id, real depth)
+{
+    return real4(id, casterStored(depth), real(0.0), real(0.0));
+}
+
 // The midpoint of a caster's first two surfaces: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.
 // A stored depth is 1 where there is no surface. Departure: where there is no second one Woo's midpoint is far away; ours
 // is the first one, so that what is thin or open casts.

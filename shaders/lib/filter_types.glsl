@@ -31,7 +31,7 @@ struct FilterInput {
     int disc_taps;      // points of the disc
     real disc_radius;   // texels
     real smoothies;     // texels that those beside the map reach (shared/smoothies.h); 0: there are none
-    real4 kernel;       // gaussianWeights(kernel_width, sigma)
+    real4 kernel;       // gaussianWeights(kernel_width, sigma); of id and depth-id IdRule
     real2 pixel;        // of the screen, for noise
     real4 tile;         // the view's whole tile: x0, y0, x1, y1
     // Of filters that know how large the light is:
@@ -40,7 +40,13 @@ struct FilterInput {
     real3 toward;       // from the receiver to the light's centre; of unit length for a parallel light
     real spread;        // radius, at the end of `toward`, of the disc that the light is seen as
     int stood;          // so many frames before this one, which are averaged with it, saw the same; 0: none are
-    // Of filterable maps:
+    // Of id and depth-id:
+    real id;            // of the receiver's object
+    real lifted;        // 1: the receiver is on a smooth surface, beside the triangles that the map was drawn from
+    real3 place;        // the receiver, in the space of the rows
+    real3 object_centre; // of its object's box, likewise, and half the box's size
+    real3 object_half;
+    // Of filterable maps; of hard and pcf the metric's flag:
     MomentRule moments;
     int slot;           // lvsm: of the view's depth layers
     real coarsest;      // last mip level, or level of blocks, that it may read
@@ -48,6 +54,18 @@ struct FilterInput {
     real2 footprint_x;  // texels that the receiver's surface moves on the map to the next pixel on the right
     real2 footprint_y;  // and below
 };
+
+// The linear metric of what a map holds: of one that holds what a lamp's perspective makes of depth, zOverW() backwards.
+GN_FN real4 storedMetric(FilterInput f, real4 stored)
+{
+    real4 metric = stored;
+    if (hasFlag(f.moments.flags, kMomentZOverW)) {
+        real4 below = max(real4(real(1.0)) - stored * (real(1.0) - f.near_over_far), real4(f.near_over_far));
+        // Where nothing was drawn it is 1, without rounding.
+        metric = max(stored * f.near_over_far / below, step(real4(real(1.0)), stored));
+    }
+    return metric;
+}
 
 // 1 where the receiver is lit by what one texel holds, else 0. `centre`: of the texel, relative to the receiver.
 GN_FN real compareTexel(MapPoint point, real2 centre, real stored)

@@ -33,6 +33,12 @@
 #define GNOMON_READS_SMOOTHIES
 #include "smoothies.glsl"
 #endif
+// Without a receiver's object (light_visibility.glsl) nothing is told apart by ids.
+#if (defined(GNOMON_FILTER) && (GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID)) ||              \
+    (!defined(GNOMON_FILTER) && (defined(GNOMON_OBJECT) || defined(__cplusplus)))
+#define GNOMON_WITH_IDS
+#include "depth_id.glsl"
+#endif
 GN_BEGIN
 
 // Of a filter that compares depths: it is no lighter than the smoothies beside its map, if there are any.
@@ -69,6 +75,10 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
     return filterEvsm(point, f);
 #elif GNOMON_FILTER == GNOMON_FILTER_MSM
     return applyMoments(kFilterMsm, point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_ID
+    return filterId(point, f);
+#elif GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
+    return filterDepthId(point, f);
 #endif
 #else
     switch (filter_number) {
@@ -90,6 +100,12 @@ GN_FN real applyFilter(int filter_number, MapPoint point, FilterInput f)
         return filterEvsm(point, f);
     case GNOMON_FILTER_MSM:
         return applyMoments(kFilterMsm, point, f);
+#ifdef GNOMON_WITH_IDS
+    case GNOMON_FILTER_ID:
+        return filterId(point, f);
+    case GNOMON_FILTER_DEPTH_ID:
+        return filterDepthId(point, f);
+#endif
     default:
         return real(1.0);
     }

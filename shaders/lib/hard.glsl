@@ -10,7 +10,8 @@ GN_BEGIN
 GN_FN real filterHard(MapPoint point, FilterInput f)
 {
     real2 texel = floor(point.texel);
-    return compareTexel(point, texel + real2(real(0.5)) - point.texel, mapTexel(texel, f.layer, f.part));
+    real stored = storedMetric(f, real4(mapTexel(texel, f.layer, f.part))).x;
+    return compareTexel(point, texel + real2(real(0.5)) - point.texel, stored);
 }
 
 GN_END

@@ -28,6 +28,17 @@ layout(set = GNOMON_SET, binding = GNOMON_BINDING + 3, std430) restrict readonly
 {
     GpuView gnomon_views[];
 };
+// A pass that knows whose surface it asks for defines GNOMON_OBJECT, the index of the object (uint), and may define
+// GNOMON_OBJECTS_BINDING: pack::fillObjects().
+#ifdef GNOMON_OBJECT
+#ifndef GNOMON_OBJECTS_BINDING
+#define GNOMON_OBJECTS_BINDING GNOMON_BINDING + 7
+#endif
+layout(set = GNOMON_SET, binding = GNOMON_OBJECTS_BINDING, std430) restrict readonly buffer GnomonObjects
+{
+    vec4 gnomon_objects[];
+};
+#endif
 #ifdef GNOMON_FEW_VIEWS
 layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFewViews
 {
@@ -109,6 +120,19 @@ FilterInput filterInput(vec2 pixel)
                           GNOMON_NUMBERS.rule.moment_variance, GNOMON_NUMBERS.rule.moment_shape);
     return f;
 }
+
+#ifdef GNOMON_OBJECT
+// What filters id and depth-id know of the receiver's object; `options` GpuLight's. One that there is not is as the
+// ground, which has id 0.
+void placeObject(inout FilterInput f, uvec4 options, vec3 p)
+{
+    uint object = GNOMON_OBJECT < options.z ? GNOMON_OBJECT : 0u;
+    f.place = p;
+    f.object_centre = gnomon_objects[2u * object].xyz;
+    f.object_half = gnomon_objects[2u * object + 1u].xyz;
+    f.id = GNOMON_OBJECT < options.z ? gnomon_objects[options.y + (object >> 2)][object & 3u] : 0.0;
+}
+#endif
 
 // A pass may define GNOMON_FEW_VIEWS: how many views its one light has, 1 to kFewViews, which are all of the plan's; 0: a
 // draw for which this is not so. And GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, the light's GpuLight::place. Few
@@ -221,6 +245,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     if (GNOMON_FEW_VIEWS > 0) {
         light.place = GNOMON_FEW_PLACE;
         light.size = gnomon_lights[0].size;
+        light.options = gnomon_lights[0].options;
         light.views = uvec4(0u, GNOMON_FEW_VIEWS, 0u, 0u);
     } else {
         light = gnomon_lights[index];
@@ -238,6 +263,10 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     FilterInput f = filterInput(pixel);
     f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);
+#ifdef GNOMON_OBJECT
+    placeObject(f, light.options, at.p);
+    f.lifted = at.p == p ? 0.0 : 1.0;
+#endif
     BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
     vec4 v = vec4(1.0);

@@ -24,7 +24,7 @@ GN_FN real pcfSeparable(MapPoint point, FilterInput f)
             real x0 = texelWeight(f.kernel, f.kernel_width, 2 * i, part.x);
             real x1 = texelWeight(f.kernel, f.kernel_width, 2 * i + 1, part.x);
             real2 first = real2(real(2 * i - half_width), real(2 * j - half_width));
-            real4 stored = mapGather(cell + first + real2(real(1.0)), f.layer, f.part);
+            real4 stored = storedMetric(f, mapGather(cell + first + real2(real(1.0)), f.layer, f.part));
             real4 lit = compareGather(point, first - part, stored);
             sum += dot(lit, real4(x0 * y1, x1 * y1, x1 * y0, x0 * y0));
         }
@@ -37,7 +37,7 @@ GN_FN real pcfBilinear(MapPoint point, real2 offset, FilterInput f)
     real2 shifted = point.texel + offset - real2(real(0.5));
     real2 cell = floor(shifted);
     real2 part = shifted - cell;
-    real4 lit = compareGather(point, offset - part, mapGather(cell + real2(real(1.0)), f.layer, f.part));
+    real4 lit = compareGather(point, offset - part, storedMetric(f, mapGather(cell + real2(real(1.0)), f.layer, f.part)));
     return mix(mix(lit.w, lit.z, part.x), mix(lit.x, lit.y, part.x), part.y);
 }
 

@@ -3,7 +3,7 @@
 // What a caster writes to a map. WRITE_COLOUR: into a colour image; WRITE_DEPTH: into the depth image, where the
 // rasteriser's depth is not the metric; PARABOLOID: of such a
 // map; MASKED: with holes where its texture's alpha is low; BEHIND: only what lies behind the
-// first surface.
+// first surface; IDS: into a colour image that holds ids of objects.
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/caster.glsl"
 
@@ -19,6 +19,11 @@ layout(location = 0) in vec4 ray; // caster.vert
 layout(location = 2) in vec3 rim;
 #else
 layout(location = 0) AT in float metric;
+#endif
+#ifdef IDS
+layout(location = 3) in float own;
+layout(location = 4) flat in float id;
+layout(location = 0) out vec4 stored;
 #endif
 #ifdef BEHIND
 layout(set = 2, binding = 0) uniform sampler2D first_surface;
@@ -66,6 +71,9 @@ void main()
 #endif
 #ifdef WRITE_COLOUR
     stored = casterTexel(kHolding, metric);
+#endif
+#ifdef IDS
+    stored = casterIdTexel(id, own);
 #endif
 #ifdef WRITE_DEPTH
     gl_FragDepth = casterStored(metric);

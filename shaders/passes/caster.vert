@@ -3,6 +3,7 @@
 // Draws casters into a map. An instance brings the rows that take its own points to the map, multiplied
 // out on the CPU in double precision: three of them when the map is orthographic (its z is the metric), else five.
 // CLIPPED: what lies outside two planes in the object's own space is not drawn. PARABOLOID: the map is one (caster.glsl).
+// IDS: the map holds ids of objects.
 // LAYERED: several views are drawn in one pass, and an instance says to which of their layers it belongs.
 #extension GL_GOOGLE_include_directive : require
 #ifdef LAYERED
@@ -32,6 +33,12 @@ layout(set = 1, binding = 0, std430) readonly buffer Places
 #endif
 #elif defined(PLACED)
 layout(location = 7) in vec4 place; // the same for all
+#endif
+#ifdef IDS
+layout(location = 8) in vec4 row_own; // takes the object's own points to the depth beside its id
+layout(location = 9) in float id_in;
+layout(location = 3) out float own;
+layout(location = 4) flat out float id;
 #endif
 #ifdef PARABOLOID
 layout(location = 0) out vec4 ray; // xyz: from the light, w: minus the near distance, both in lengths of far - near
@@ -74,6 +81,10 @@ void main()
     metric = dot(row_metric, p);
 #elif defined(METRIC)
     metric = clip.z;
+#endif
+#ifdef IDS
+    own = dot(row_own, p);
+    id = id_in;
 #endif
 #ifdef CLIPPED
     gl_ClipDistance[0] = casterInside(position, clip_planes[0]);

@@ -53,6 +53,11 @@ GpuConstants numbers;
 #define GNOMON_SMOOTHIES (kDepthHolding == kDepthSmoothies)
 #define GNOMON_SHOWS_RAYS kRaysAsMask
 #define GNOMON_CONFIDENCE kConfidence
+#if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
+uint receiver_object;
+#define GNOMON_OBJECT receiver_object
+#define GNOMON_OBJECTS_BINDING 13
+#endif
 #include "../lib/light_visibility.glsl"
 
 layout(push_constant) uniform Lights
@@ -129,6 +134,9 @@ void main()
     if (kHasIds && texelFetch(object_ids, pixel, 0).r == 0) {
         discard;
     }
+#ifdef GNOMON_OBJECT
+    receiver_object = texelFetch(object_ids, pixel, 0).r - 1u;
+#endif
     Left left = lightsOf(pixel);
     if (kTileChannels > 0u && !isLeft(left)) {
         discard;

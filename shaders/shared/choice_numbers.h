@@ -15,6 +15,8 @@
 #define GNOMON_FILTER_ESM 6
 #define GNOMON_FILTER_EVSM 7
 #define GNOMON_FILTER_MSM 8
+#define GNOMON_FILTER_ID 9
+#define GNOMON_FILTER_DEPTH_ID 10
 
 GN_BEGIN
 
@@ -27,6 +29,8 @@ GN_CONST int kFilterLvsm = GNOMON_FILTER_LVSM;
 GN_CONST int kFilterEsm = GNOMON_FILTER_ESM;
 GN_CONST int kFilterEvsm = GNOMON_FILTER_EVSM;
 GN_CONST int kFilterMsm = GNOMON_FILTER_MSM;
+GN_CONST int kFilterId = GNOMON_FILTER_ID;
+GN_CONST int kFilterDepthId = GNOMON_FILTER_DEPTH_ID;
 
 // gnomon::MapSampling
 GN_CONST int kSamplingNearest = 0;

@@ -66,15 +66,17 @@ struct GpuLight {
     // x: first and y: count of its views; none: it has no map and reaches everything. Where it is seen from two
     // positions these are the earlier one's, z: first and w: count of the later one's, else w is 0
     GN_UVEC4 views;
-    GN_VEC4 steps;    // where it is seen from two positions: sun_steps.h
-    GN_UVEC4 options; // x: of Plan::options; its GpuConstants are those of this
+    GN_VEC4 steps; // where it is seen from two positions: sun_steps.h
+    // x: of Plan::options; its GpuConstants are those of this. Of filters id and depth-id y: of pack::fillObjects()'s
+    // vectors the first with its ids, z: how many objects there are
+    GN_UVEC4 options;
 };
 
 // What a light's options come to, for the filter that reads its maps.
 struct GpuRule {
     GN_VEC4 bias;        // automatic, constant_m, slope, normal_texels
     GN_VEC4 bias_more;   // receiver_plane, reach_texels, quantum, exact_plane
-    GN_VEC4 kernel;      // gaussianWeights
+    GN_VEC4 kernel;      // gaussianWeights; of id and depth-id IdRule (object_ids.h)
     GN_VEC4 disc;        // x: radius, texels; y: frame, for noise; zw: one over the size of the maps' image in texels
     GN_VEC4 moment_warp; // exponent, negative exponent, moment bias, anisotropy
     GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-

@@ -76,7 +76,7 @@ TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
     for (const auto& choice : list["choices"]) {
         for (const auto& value : choice["values"]) {
             vsm_is_there |= value["name"] == "vsm" && value["available"] == true;
-            id_is_known |= value["name"] == "id" && value["available"] == false;
+            id_is_known |= value["name"] == "id" && value["available"] == true;
             point_is_known |= value["name"] == "point" && value["available"] == true;
             EXPECT_FALSE(value["source"].get<std::string>().empty());
         }

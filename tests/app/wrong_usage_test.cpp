@@ -84,7 +84,7 @@ const std::vector<Wrong> kWrong{
     {"ListTakesNoScene", {"list", "rts"}, 2, "takes no argument"},
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
-    {"FilterNotHere", {"render", "--filter", "id"}, 2, "not in this version"},
+    {"SoftenNotHere", {"render", "--soften", "smoothies"}, 2, "not in this version"},
     {"NoValue", {"render", "planes", "--filter"}, 2, "--filter needs a value"},
     {"SunAngleWithoutASun", {"render", "spotlit", "--sun-angle", "3"}, 2, "only on a directional light"},
     {"LightSizeWithoutALamp", {"plan", "sundial", "--light-size", "1"}, 2, "only on a spot or point light"},

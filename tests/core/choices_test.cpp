@@ -90,9 +90,8 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
 TEST(Choices, RefusalsAreSentences)
 {
     Technique technique;
-    technique.filter = Filter::id;
-    EXPECT_EQ(refusal(LightType::spot, technique),
-              "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
+    technique.soften = Soften::smoothies;
+    EXPECT_EQ(refusal(LightType::spot, technique), "soften smoothies is not in this version; it has none and converge");
     EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::step_jump}),
               "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
               "not the same; it needs motion free or snap");

@@ -48,7 +48,7 @@ TEST(MomentOptions, WhatAFilterCannotStoreIsRefusedFirst)
     EXPECT_EQ(reasonFor(Filter::esm, MapFormat::rgba16, [](MomentOptions& o) { o.samples = 3; }),
               "esm stores one exponential, which only a float holds: r32f or r16f");
     EXPECT_EQ(reasonFor(Filter::id, MapFormat::d32f, [](MomentOptions&) {}),
-              "filter id is not in this version; it has hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm and auto");
+              "id stores an object's id and nothing else: r16 or r8");
 }
 
 TEST(MomentOptions, PenumbraeOfALightNeedDepthsAlongIt)

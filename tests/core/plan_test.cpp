@@ -256,7 +256,8 @@ TEST(Outcome, EachCanBeProvoked)
     alone.set.remove(alone.set.idAt(0));
     EXPECT_EQ(alone.outcome(), OutcomeKind::no_receiver);
     World refused;
-    EXPECT_EQ(refused.outcome({.technique = {.filter = Filter::id}}), OutcomeKind::refused);
+    EXPECT_EQ(refused.outcome({.technique = {.partition = Partition::sdsm, .motion = Motion::snap}}),
+              OutcomeKind::refused);
     EXPECT_EQ(refused.outcome({.technique = {.partition = Partition::cube}}), OutcomeKind::refused);
     refused.lights[0].type = LightType::point;
     EXPECT_EQ(refused.outcome({.technique = kPlainTechnique}), OutcomeKind::refused);

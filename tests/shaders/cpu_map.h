@@ -17,6 +17,8 @@
 namespace gnomon::test {
 /// Stored depth of a texel, by its integer coordinates.
 inline std::function<double(int x, int y)> map_texels;
+/// What the second channel holds of a texel, where a filter asks for that.
+inline std::function<double(int x, int y)> map_seconds;
 /// Nearest and farthest depth of a block (shared/map_blocks.h). makeBlocks() is one way to have them.
 inline std::function<glm::dvec2(int x, int y, int level)> map_block;
 /// Of map_texels from 0 to `side`, a power of two.
@@ -146,12 +148,12 @@ inline real mapTexel(real2 at, real, real)
 {
     return test::map_texels(static_cast<int>(at.x), static_cast<int>(at.y));
 }
-inline real4 mapGather(real2 corner, real, real)
+inline real4 mapGather(real2 corner, real, real part)
 {
     const int x = static_cast<int>(corner.x);
     const int y = static_cast<int>(corner.y);
-    return {test::map_texels(x - 1, y), test::map_texels(x, y), test::map_texels(x, y - 1),
-            test::map_texels(x - 1, y - 1)};
+    const auto& texels = part > 0.5 && test::map_seconds ? test::map_seconds : test::map_texels;
+    return {texels(x - 1, y), texels(x, y), texels(x, y - 1), texels(x - 1, y - 1)};
 }
 inline real2 mapBlock(real2 block, int level, real)
 {

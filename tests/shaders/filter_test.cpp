@@ -156,6 +156,32 @@ TEST_F(Filters, hardReadsTheTexelThatTheReceiverIsIn)
     }
 }
 
+// Where a map holds what a lamp's perspective makes of depth, the same comes out as of linear depths.
+TEST_F(Filters, zOverWIsUndoneWhereItIsRead)
+{
+    const double r = 0.02;
+    FilterInput input{};
+    input.kernel_width = 3;
+    input.kernel = gaussianWeights(3, 0.0);
+    for (int round = 0; round < 500; ++round) {
+        const MapPoint point = randomPoint();
+        FilterInput over_w = input;
+        over_w.moments.flags = kMomentZOverW;
+        over_w.near_over_far = r;
+        const double hard = filterHard(point, input);
+        const double pcf = filterPcf(point, input);
+        const auto linear = test::map_texels;
+        test::map_texels = [linear, r](int x, int y) {
+            return zOverW(linear(x, y), r);
+        };
+        EXPECT_NEAR(storedMetric(over_w, glm::dvec4(zOverW(0.37, r))).x, 0.37, 1e-12);
+        EXPECT_EQ(storedMetric(over_w, glm::dvec4(1.0)).x, 1.0);
+        EXPECT_EQ(filterHard(point, over_w), hard);
+        EXPECT_NEAR(filterPcf(point, over_w), pcf, 1e-12);
+        test::map_texels = linear;
+    }
+}
+
 TEST_F(Filters, numbersInTheTableAreThoseOfTheEnum)
 {
     const MapPoint point = randomPoint();
@@ -164,6 +190,8 @@ TEST_F(Filters, numbersInTheTableAreThoseOfTheEnum)
     input.kernel = gaussianWeights(3, 0.0);
     EXPECT_EQ(applyFilter(kFilterHard, point, input), filterHard(point, input));
     EXPECT_EQ(applyFilter(kFilterPcf, point, input), filterPcf(point, input));
+    EXPECT_EQ(applyFilter(kFilterId, point, input), filterId(point, input));
+    EXPECT_EQ(applyFilter(kFilterDepthId, point, input), filterDepthId(point, input));
     EXPECT_EQ(applyFilter(99, point, input), 1.0);
 }
 

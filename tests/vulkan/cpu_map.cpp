@@ -12,7 +12,7 @@ namespace {
 
 struct Layout {
     std::uint32_t channels;
-    enum class Kind { unorm8, unorm16, half, single } kind;
+    enum class Kind { unorm8, unorm16, unorm24, half, single } kind;
 };
 
 Layout layoutOf(VkFormat format)
@@ -20,6 +20,14 @@ Layout layoutOf(VkFormat format)
     switch (format) {
     case VK_FORMAT_D16_UNORM:
         return {1, Layout::Kind::unorm16};
+    case VK_FORMAT_R16_UNORM:
+        return {1, Layout::Kind::unorm16};
+    case VK_FORMAT_R8_UNORM:
+        return {1, Layout::Kind::unorm8};
+    case VK_FORMAT_R8G8_UNORM:
+        return {2, Layout::Kind::unorm8};
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+        return {1, Layout::Kind::unorm24};
     case VK_FORMAT_R8G8B8A8_UNORM:
         return {4, Layout::Kind::unorm8};
     case VK_FORMAT_R16G16_UNORM:
@@ -43,7 +51,7 @@ Layout layoutOf(VkFormat format)
 
 bool isDepth(VkFormat format)
 {
-    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT;
+    return format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_X8_D24_UNORM_PACK32 || format == VK_FORMAT_D32_SFLOAT;
 }
 
 glm::dvec4 bilinear(const CpuMap& map, glm::dvec2 texel, std::size_t level)
@@ -88,7 +96,8 @@ glm::dvec4 sampleAt(const CpuMap& map, glm::dvec2 texel, double level)
 std::uint32_t texelBytes(VkFormat format)
 {
     const Layout layout = layoutOf(format);
-    return layout.channels * (layout.kind == Layout::Kind::single ? 4U : layout.kind == Layout::Kind::unorm8 ? 1U : 2U);
+    const bool is_word = layout.kind == Layout::Kind::single || layout.kind == Layout::Kind::unorm24;
+    return layout.channels * (is_word ? 4U : layout.kind == Layout::Kind::unorm8 ? 1U : 2U);
 }
 
 glm::vec4 decodeTexel(VkFormat format, const std::byte* bytes)
@@ -99,6 +108,12 @@ glm::vec4 decodeTexel(VkFormat format, const std::byte* bytes)
         float& channel = texel[static_cast<int>(i)];
         if (layout.kind == Layout::Kind::single) {
             std::memcpy(&channel, bytes + std::size_t{4} * i, 4);
+            continue;
+        }
+        if (layout.kind == Layout::Kind::unorm24) { // copied as words whose upper byte is undefined
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, bytes, 4);
+            channel = static_cast<float>(bits & 0xFFFFFFU) / 16777215.0F;
             continue;
         }
         if (layout.kind == Layout::Kind::unorm8) {

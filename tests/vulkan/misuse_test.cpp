@@ -283,6 +283,34 @@ TEST(Misuse, OfAPlanThatPointsOutOfItselfIsAnError)
     host.record();
 }
 
+TEST(Misuse, OfIdsOfObjectsIsAnError)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.filter = Filter::depth_id;
+    Misuser host(options);
+    const char* const kHint = "hand in a plan as its planner made it";
+    expectRefused(host, kHint, [&] { host.prepare(); }); // it has no ids
+    for (LightPlan& light : host.plan.lights) {
+        light.first_object_id = static_cast<std::uint32_t>(host.plan.object_ids.size());
+        host.plan.object_ids.resize(host.plan.object_ids.size() + host.objects.size(), 1);
+    }
+    expectRefused(host, kHint, [&] { host.prepare(); }); // nor bounds
+    host.plan.object_bounds.resize(host.objects.size(), {{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}});
+    Plan shorter = host.plan;
+    shorter.object_ids.pop_back();
+    expectRefused(host, kHint, [&] { (void)host.renderer.prepare(shorter, kPicture); });
+    Plan fewer = host.plan;
+    fewer.object_bounds.pop_back();
+    expectRefused(host, kHint, [&] { (void)host.renderer.prepare(fewer, kPicture); });
+    host.driver.beginSlot(0);
+    host.prepare();
+    host.begin();
+    host.maps();
+    expectRefused(host, "MaskInputs::object_id is null", [&] { host.mask(); });
+    host.inputs.object_id = host.driver.makeView();
+    host.record();
+}
+
 /// A plan that nobody prepared for: other options, larger pages, more of anything.
 TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
 {

@@ -13,7 +13,9 @@ bool isFilterable(Filter filter)
 MomentNumbers momentNumbers(const ShadowOptions& filter)
 {
     if (!isFilterable(filter.technique.filter)) {
-        return {};
+        MomentNumbers none{};
+        none.flags = pack::readingRuleOf(resolvedOrThrow(filter)).flags;
+        return none;
     }
     const auto r = pack::momentRuleOf(resolvedOrThrow(filter));
     return {r.flags,

@@ -109,8 +109,8 @@ TEST(NullRecording, passesComeInOrder)
     EXPECT_EQ(driver.counts().instances, 2 * (1 + host.scene.boxes.size()));
     EXPECT_EQ(driver.counts().indices, 2 * (6 + 36 * host.scene.boxes.size()));
     EXPECT_EQ(host.drawer.triangles(), driver.counts().indices / 3);
-    // Two layers to attachment and back, the mask likewise.
-    EXPECT_EQ(host.count(Kind::barrier), 6U);
+    // Two layers to attachment and back, the mask likewise; what stands in for ids of objects.
+    EXPECT_EQ(host.count(Kind::barrier), 7U);
     EXPECT_EQ(host.count(Kind::end_rendering), passes.size());
 }
 
@@ -386,8 +386,8 @@ TEST(NullRecording, memoryHooksAreUsedForEverything)
         NullDriver other;
         const NullHost host(other);
         EXPECT_TRUE(renderer.prepare(host.plan, kScreen));
-        EXPECT_EQ(ledger.live, 5); // maps, mask, two slots of constants, layers of depth
-        EXPECT_EQ(ledger.images, 2) << "the driver wants memory of their own for images";
+        EXPECT_EQ(ledger.live, 6); // maps, mask, what stands in for ids, two slots of constants, layers of depth
+        EXPECT_EQ(ledger.images, 3) << "the driver wants memory of their own for images";
         EXPECT_EQ(ledger.buffers, 3);
     }
     EXPECT_EQ(ledger.live, 0);

@@ -5,6 +5,8 @@
 #include "moment_numbers.h"
 #include "write_pgm.h"
 
+#include <gnomon/object_ids.h>
+
 #include <glm/gtc/matrix_access.hpp>
 #include <gtest/gtest.h>
 
@@ -164,6 +166,26 @@ void setLights(ParityLights lights, const ShadowOptions& options, Rendered& r)
     r.plan = makePlan(r.scene, r.lights, tiles, atlas);
 }
 
+/// As a planner gives them; the ground does not cast.
+void giveIds(const ShadowOptions& options, Rendered& r)
+{
+    ObjectSet objects;
+    const auto half = static_cast<float>(r.scene.ground_half);
+    objects.add({{-half, 0.0F, -half}, {half, 0.0F, half}}, {false, true, false});
+    for (const Box& box : r.scene.boxes) {
+        const double c = std::abs(std::cos(box.angle));
+        const double s = std::abs(std::sin(box.angle));
+        const glm::dvec3 reach(c * box.half.x + s * box.half.z, box.half.y, s * box.half.x + c * box.half.z);
+        objects.add({glm::vec3(box.centre - reach), glm::vec3(box.centre + reach)});
+    }
+    const std::span<const Aabb> bounds = objects.allBounds();
+    r.plan.object_bounds.assign(bounds.begin(), bounds.end());
+    for (std::size_t i = 0; i < r.lights.size(); ++i) {
+        r.plan.lights[i].first_object_id = static_cast<std::uint32_t>(r.plan.object_ids.size());
+        handOutIds(r.lights[i], objects, idsOf(formatOf(options)), r.plan.object_ids);
+    }
+}
+
 std::vector<std::byte> toBytes(const std::vector<double>& mask)
 {
     std::vector<std::byte> bytes;
@@ -186,7 +208,14 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
     frame.lights = r.lights;
     r.camera = frame.camera;
     r.picture = tracePicture(r.scene, frame.camera, kParityScreen);
-    const vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
+    vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
+    if (filterTraits(options.technique.filter)->ids) {
+        giveIds(options, r);
+        inputs.object_id =
+            gpu()
+                .makeImage(VK_FORMAT_R32_UINT, kParityScreen, std::as_bytes(std::span(r.picture.object_plus_one)))
+                .view;
+    }
 
     vulkan::ShadowRendererOptions renderer_options;
     renderer_options.frames_in_flight = kFrames;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -69,8 +70,65 @@ INSTANTIATE_TEST_SUITE_P(Filters, Parity,
                                          Case{"pcss_d16", Filter::pcss, PcfKernel::vogel, MapFormat::d16},
                                          Case{"raymarch_d32f", Filter::raymarch, PcfKernel::vogel, MapFormat::d32f},
                                          Case{"raymarch_d16", Filter::raymarch, PcfKernel::vogel, MapFormat::d16},
-                                         Case{"raymarch_r32f", Filter::raymarch, PcfKernel::vogel, MapFormat::r32f}),
+                                         Case{"raymarch_r32f", Filter::raymarch, PcfKernel::vogel, MapFormat::r32f},
+                                         Case{"id_r16", Filter::id, PcfKernel::gaussian_3x3, MapFormat::r16},
+                                         Case{"id_r8", Filter::id, PcfKernel::gaussian_3x3, MapFormat::r8},
+                                         Case{"depth_id_rg16", Filter::depth_id, PcfKernel::vogel, MapFormat::rg16},
+                                         Case{"depth_id_rg8", Filter::depth_id, PcfKernel::vogel, MapFormat::rg8},
+                                         Case{"depth_id_rg32f", Filter::depth_id, PcfKernel::vogel, MapFormat::rg32f}),
                          [](const auto& test_case) { return std::string(test_case.param.name); });
+
+TEST(ParityOfIds, everyTestAndDepthIsThatOfTheCpu)
+{
+    for (const IdTest test : {IdTest::any, IdTest::priority, IdTest::nearest}) {
+        for (const auto& [filter, depth, bias] :
+             {std::tuple{Filter::id, IdDepth::object, std::optional<float>{}},
+              std::tuple{Filter::depth_id, IdDepth::object, std::optional<float>{0.05F}},
+              std::tuple{Filter::depth_id, IdDepth::global, std::optional<float>{}},
+              std::tuple{Filter::depth_id, IdDepth::global, std::optional<float>{0.05F}}}) {
+            ShadowOptions options{.technique = kPlainTechnique};
+            options.technique.filter = filter;
+            options.ids = {test, depth, bias};
+            const std::string name = "ids_" + std::string(nameOf(filter)) + "_" + std::string(nameOf(test)) + "_" +
+                                     std::string(nameOf(depth)) + (bias ? "_bias" : "");
+            SCOPED_TRACE(name);
+            expectParity(renderParity(options), options, name);
+        }
+    }
+    expectSilence(gpu());
+}
+
+// What the rasteriser keeps of a lamp's depth, and 24 bits of it.
+TEST(ParityOfDepths, zOverWAnd24BitsAreThoseOfTheCpu)
+{
+    for (const MapFormat format : {MapFormat::d32f, MapFormat::d24, MapFormat::d16}) {
+        for (const DepthMetricKind metric : {DepthMetricKind::linear, DepthMetricKind::z_over_w}) {
+            for (const Filter filter : {Filter::hard, Filter::pcf}) {
+                ShadowOptions options{.technique = kPlainTechnique};
+                options.technique.filter = filter;
+                options.format = format;
+                options.moments.metric = metric;
+                const std::string name = "depths_" + std::string(nameOf(filter)) + "_" + std::string(nameOf(format)) +
+                                         "_" + std::string(nameOf(metric));
+                SCOPED_TRACE(name);
+                const Rendered r = renderParity(options);
+                expectParity(r, options, name);
+                if (metric == DepthMetricKind::z_over_w) { // and the reference can tell
+                    ShadowOptions linear = options;
+                    linear.moments.metric = DepthMetricKind::linear;
+                    const std::vector<double> wrong =
+                        referenceMask({r.picture, r.camera, r.lights, r.plan, r.maps}, 1, linear, {});
+                    std::size_t off = 0;
+                    for (std::size_t i = 0; i < wrong.size(); ++i) {
+                        off += std::abs(std::to_integer<int>(r.masks[1][i]) - 255.0 * wrong[i]) > 1.001 ? 1 : 0;
+                    }
+                    EXPECT_GT(off, wrong.size() / 500);
+                }
+            }
+        }
+    }
+    expectSilence(gpu());
+}
 
 // A point light's views stand side by side, and a pixel is one view's alone.
 TEST(ParityOfPoints, maskIsThatOfTheCpu)
@@ -78,6 +136,7 @@ TEST(ParityOfPoints, maskIsThatOfTheCpu)
     for (const auto& [filter, format] :
          {std::pair{Filter::hard, MapFormat::d32f}, std::pair{Filter::pcf, MapFormat::d16},
           std::pair{Filter::pcss, MapFormat::d32f}, std::pair{Filter::raymarch, MapFormat::d32f},
+          std::pair{Filter::id, MapFormat::r16}, std::pair{Filter::depth_id, MapFormat::rg8},
           std::pair{Filter::vsm, MapFormat::rg32f}}) {
         ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = filter;

@@ -6,6 +6,7 @@
 #include "cpu_smoothies.h"
 #include "moment_numbers.h"
 
+#include <gnomon/object_ids.h>
 #include <gnomon/plan_views.h>
 
 #include <shared/discs.h>
@@ -231,6 +232,9 @@ double reachOf(const ShadowOptions& options)
     if (options.technique.filter == Filter::hard) {
         return hasSmoothies(options) ? 1.0 : 0.5;
     }
+    if (filterTraits(options.technique.filter)->ids) {
+        return 1.0;
+    }
     if (comparesInCone(options)) {
         return 2.0;
     }
@@ -259,8 +263,11 @@ double biasReachOf(const ShadowOptions& options)
 
 int holdingOf(const ShadowOptions& options)
 {
-    if (isFilterable(options.technique.filter)) {
+    if (isFilterable(options.technique.filter) || options.technique.filter == Filter::id) {
         return shared::kDepthAlone;
+    }
+    if (options.technique.filter == Filter::depth_id) {
+        return shared::kDepthChannel;
     }
     const MapFormat format = formatOf(options);
     return format == MapFormat::rg16 || format == MapFormat::rg16f ? shared::kDepthChannel
@@ -278,7 +285,9 @@ BiasRule ruleOf(const ShadowOptions& options)
     rule.normal_texels = bias.normal_texels;
     rule.receiver_plane = bias.receiver_plane ? 1.0 : 0.0;
     rule.reach_texels = biasReachOf(options);
-    rule.quantum = quantumOf(formatOf(options));
+    const bool own_range = options.technique.filter == Filter::id ||
+                           (options.technique.filter == Filter::depth_id && options.ids.depth == IdDepth::object);
+    rule.quantum = quantumOf(own_range ? MapFormat::d32f : formatOf(options));
     rule.exact_plane = comparesInCone(options) ? 1.0 : 0.0;
     return rule;
 }
@@ -315,6 +324,15 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
     input.kernel =
         shared::gaussianWeights(std::max(input.kernel_width, 1), double(options.pcf.sigma_texels.value_or(0.0F)));
     input.smoothies = hasSmoothies(options) ? double(options.smoothies.reach_texels) : 0.0;
+    if (filterTraits(options.technique.filter)->ids) {
+        const MapFormat format = formatOf(options);
+        const double ids = format == MapFormat::r8 || format == MapFormat::rg8 ? 255.0 : 65535.0;
+        const double steps = format == MapFormat::rg32f ? 8388608.0 : ids;
+        const bool any = options.technique.filter == Filter::id;
+        input.kernel = {options.ids.test == IdTest::automatic ? (any ? 1.0 : 2.0) : double(options.ids.test), ids,
+                        options.ids.bias ? double(*options.ids.bias) : -1.0,
+                        options.ids.depth == IdDepth::global ? -steps : steps};
+    }
     input.moments = momentsOf(options);
     input.tile = glm::dvec4(view.tile.x, view.tile.y, view.tile.x + view.tile.width, view.tile.y + view.tile.height);
     const MapPages& pages = scene.plan.pages[0];
@@ -415,6 +433,14 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             input.pixel = glm::dvec2(i % picture.extent.width, i / picture.extent.width) + 0.5;
             const auto point = shared::projectReceiver(rows, rule, p, n);
             turnToLight(light, rows, p, n, input);
+            if (filterTraits(options.technique.filter)->ids) {
+                const std::uint32_t object = picture.object_plus_one[i] - 1;
+                const Aabb& box = scene.plan.object_bounds[object];
+                input.id = objectIdsOf(scene.plan, view.light)[object];
+                input.place = p;
+                input.object_centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
+                input.object_half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));
+            }
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }

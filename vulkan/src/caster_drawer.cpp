@@ -121,7 +121,9 @@ void CasterDrawer::Impl::reserve(const Plan& plan, Slot& begun)
         }
     };
     grow(begun.commands, all_commands * kCommandBytes, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "draw commands");
-    grow(begun.instances, all_instances * instanceBytes(true, together), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+    const bool ids =
+        std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.first_object_id != kNoIndex; });
+    grow(begun.instances, all_instances * instanceBytes(true, together, ids), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
          "instances");
     if (handles.size() < most) {
         handles.resize(most + most / 2);

@@ -39,6 +39,8 @@ void CasterDrawer::Impl::writeRows(const MapPass& pass, std::span<const std::uin
     auto* const out = reinterpret_cast<glm::vec4*>(static_cast<std::byte*>(slot->instances.data()) + instances_used);
     if (pass.view_count > 1) {
         writeLayeredInstances(pass, instances, casters, out);
+    } else if (pass.formats.ids) {
+        writeIdInstances(pass, instances, casters, out);
     } else {
         writeInstances(*pass.view, instances, casters, out);
     }
@@ -120,6 +122,9 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
     if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
         refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
     }
+    if (pass.formats.ids && (pass.plan == nullptr || pass.plan->lights[pass.view->light].first_object_id == kNoIndex)) {
+        refuseUse(kDrawing, "the map holds ids, and the plan has none for its light", kAsGiven);
+    }
     if (pass.view_count > 1 && (!together || pass.plan == nullptr || pass.view_index >= pass.plan->views.size() ||
                                 pass.view_count > pass.plan->views.size() - pass.view_index)) {
         refuseUse(kDrawing, "the pass has views that the plan of beginFrame() has not", kAsGiven);
@@ -129,7 +134,8 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
 /// What beginFrame() made room for is enough for every pass of its plan once.
 void CasterDrawer::Impl::checkRoom(const MapPass& pass, std::uint32_t instances) const
 {
-    const VkDeviceSize bytes = instances * VkDeviceSize{instanceBytes(!pass.view->orthographic, pass.view_count > 1)};
+    const VkDeviceSize bytes =
+        instances * VkDeviceSize{instanceBytes(!pass.view->orthographic, pass.view_count > 1, pass.formats.ids)};
     const VkDeviceSize commands = std::min(instances, batcher.maxCommands()) * kCommandBytes;
     if (instances > handles.size() || instances_used + bytes > slot->instances.size() ||
         commands_used + commands > slot->commands.size()) {
@@ -172,7 +178,8 @@ std::uint32_t CasterDrawer::draw(const MapPass& pass)
         drawn += self.drawBatch(pass, draws, key);
     }
     self.commands_used += lists.command_count * kCommandBytes;
-    self.instances_used += VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered);
+    self.instances_used +=
+        VkDeviceSize{lists.instance_count} * instanceBytes(!view.orthographic, layered, pass.formats.ids);
     self.triangles += lists.index_count / 3;
     return drawn;
 }

@@ -16,6 +16,18 @@ void writeInstances(const View& view, std::span<const std::uint32_t> list, const
     }
 }
 
+void writeIdInstances(const MapPass& pass, std::span<const std::uint32_t> list, const CasterPlaces& casters,
+                      glm::vec4* out)
+{
+    const pack::CasterRows rows(*pass.view);
+    for (const std::uint32_t object : list) {
+        const pack::CasterId caster = pack::casterIdOf(*pass.plan, *pass.view, object);
+        out = rows.write(casters.world_from_object[object], out, casters.bias_m(object));
+        *out++ = pack::composedRow(caster.depth_ws, casters.world_from_object[object]);
+        *out++ = glm::vec4(caster.id, 0.0F, 0.0F, 0.0F);
+    }
+}
+
 void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places, const CasterPlaces& casters,
                            glm::vec4* out)
 {

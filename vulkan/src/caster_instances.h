@@ -13,10 +13,12 @@
 
 namespace gnomon::vulkan {
 
-/// Bytes: the rows, and of several views one more vec4, whose first four bytes are the layer.
-[[nodiscard]] constexpr std::uint32_t instanceBytes(bool perspective, bool layered)
+/// Bytes: the rows, and of several views one more vec4, whose first four bytes are the layer. Of maps of ids, which
+/// never are of several, two more: the row of the depth beside the id, and the id.
+[[nodiscard]] constexpr std::uint32_t instanceBytes(bool perspective, bool layered, bool ids = false)
 {
-    return (pack::casterRowCount(!perspective) + (layered ? 1U : 0U)) * static_cast<std::uint32_t>(sizeof(glm::vec4));
+    return (pack::casterRowCount(!perspective) + (layered ? 1U : 0U) + (ids ? 2U : 0U)) *
+           static_cast<std::uint32_t>(sizeof(glm::vec4));
 }
 
 /// Of the objects, by index.
@@ -32,6 +34,10 @@ struct CasterPlaces {
 
 /// For each object of `list`.
 void writeInstances(const View& view, std::span<const std::uint32_t> list, const CasterPlaces& casters, glm::vec4* out);
+
+/// Of a pass of one view whose map holds ids.
+void writeIdInstances(const MapPass& pass, std::span<const std::uint32_t> list, const CasterPlaces& casters,
+                      glm::vec4* out);
 
 /// Of a pass of several views: `places` are those of casters in all their lists, one list after the other.
 void writeLayeredInstances(const MapPass& pass, std::span<const std::uint32_t> places, const CasterPlaces& casters,

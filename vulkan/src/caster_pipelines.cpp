@@ -54,11 +54,27 @@ VertexCodes vertexCodes(const CasterPipelineKey& key)
 #undef GNOMON_VERTEX_CODES
 #undef GNOMON_ORTHOGRAPHIC
 
+// Of maps that hold ids.
+std::array<Code, 4> idVertexCodes(const CasterPipelineKey& key)
+{
+    if (key.placed) {
+        return key.perspective ? std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_ids_placed_perspective)
+                               : std::array<Code, 4>
+                                     GNOMON_MASKED_AND_CLIPPED(caster_ids_placed_orthographic_metric);
+    }
+    return key.perspective ? std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_ids_perspective)
+                           : std::array<Code, 4>
+                                 GNOMON_MASKED_AND_CLIPPED(caster_ids_orthographic_metric);
+}
+
 Code vertexCode(const MapPassFormats& formats, const CasterPipelineKey& key)
 {
     const std::size_t which = (key.masked ? 1U : 0U) + (key.clipped ? 2U : 0U);
     if (formats.paraboloid) {
         return std::array<Code, 4> GNOMON_MASKED_AND_CLIPPED(caster_paraboloid)[which];
+    }
+    if (formats.ids) {
+        return idVertexCodes(key)[which];
     }
     const VertexCodes codes = vertexCodes(key);
     if (key.perspective) {
@@ -87,6 +103,9 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     }
     if (formats.blended) {
         return spirv::caster_tint_frag;
+    }
+    if (formats.ids) {
+        return masked ? spirv::caster_ids_masked_frag : spirv::caster_ids_frag;
     }
     if (formats.behind_first && formats.write_frag_depth) {
         return masked ? spirv::caster_behind_depth_masked_frag : spirv::caster_behind_depth_frag;
@@ -136,7 +155,7 @@ void checkVertices(const CasterVertices& vertices)
 
 struct VertexInput {
     std::array<VkVertexInputBindingDescription, 4> bindings{};
-    std::array<VkVertexInputAttributeDescription, 8> attributes{};
+    std::array<VkVertexInputAttributeDescription, 10> attributes{};
     std::uint32_t binding_count = 0;
     std::uint32_t attribute_count = 0;
 };
@@ -147,7 +166,7 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
     const std::uint32_t rows = pack::casterRowCount(!key.perspective);
     VertexInput input;
     input.bindings[input.binding_count++] = {0, vertices.position.stride, VK_VERTEX_INPUT_RATE_VERTEX};
-    input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered),
+    input.bindings[input.binding_count++] = {1, instanceBytes(key.perspective, key.layered, key.formats.ids),
                                              VK_VERTEX_INPUT_RATE_INSTANCE};
     input.attributes[input.attribute_count++] = {0, 0, vertices.position.format, vertices.position.offset};
     for (std::uint32_t i = 0; i < rows; ++i) {
@@ -156,6 +175,10 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
     if (key.masked) {
         input.bindings[input.binding_count++] = {2, vertices.uv.stride, VK_VERTEX_INPUT_RATE_VERTEX};
         input.attributes[input.attribute_count++] = {1 + rows, 2, vertices.uv.format, vertices.uv.offset};
+    }
+    if (key.formats.ids) {
+        input.attributes[input.attribute_count++] = {8, 1, VK_FORMAT_R32G32B32A32_SFLOAT, rows * kRowBytes};
+        input.attributes[input.attribute_count++] = {9, 1, VK_FORMAT_R32_SFLOAT, (rows + 1) * kRowBytes};
     }
     if (key.layered) {
         input.attributes[input.attribute_count++] = {7, 1, VK_FORMAT_R32_UINT, rows * kRowBytes};

@@ -15,7 +15,7 @@ using DescriptorTypes = std::span<const VkDescriptorType>;
 /// The layout of one kind of set, and the pool that they are taken from.
 class DescriptorSets {
 public:
-    static constexpr std::size_t kMostBindings = 13;
+    static constexpr std::size_t kMostBindings = 14;
 
     DescriptorSets() = default;
     /// Without room for any set.

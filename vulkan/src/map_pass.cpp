@@ -36,7 +36,7 @@ bool mayKeepStill(const ResolvedOptions& options)
 } // namespace
 
 DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache)
-    : device_(device), storage_(storage), cache_(cache)
+    : device_(device), storage_(storage), clear_(options.traits().ids ? 0.0F : 1.0F), cache_(cache)
 {
     if (options.traits().integrates_light) {
         blocks_.emplace(device, cache);
@@ -205,7 +205,7 @@ void DepthMaps::beginRendering(VkCommandBuffer commands, const Tile& tile, const
     colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     colour.loadOp = target.clears_colour ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
+    colour.clearValue.color = {{clear_, clear_, clear_, clear_}};
 
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea = target.area;

@@ -75,6 +75,7 @@ private:
 
     Device& device_;
     const MapStorage& storage_;
+    float clear_; // what a texel of a map in a colour format holds where nothing is drawn, in all its channels
     VkPipelineCache cache_;
     LayeredTarget maps_;
     Image depth_; // of a map in a colour format: decides which fragment wins, then is forgotten; a layer for each view

@@ -23,6 +23,10 @@ constexpr MapStorage kStorages[] = {
     {MapFormat::rgba32f, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_D32_SFLOAT},
     {MapFormat::r16f, VK_FORMAT_R16_SFLOAT, VK_FORMAT_D32_SFLOAT},
     {MapFormat::rgba8, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::d24, VK_FORMAT_UNDEFINED, VK_FORMAT_X8_D24_UNORM_PACK32},
+    {MapFormat::r8, VK_FORMAT_R8_UNORM, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::r16, VK_FORMAT_R16_UNORM, VK_FORMAT_D32_SFLOAT},
+    {MapFormat::rg8, VK_FORMAT_R8G8_UNORM, VK_FORMAT_D32_SFLOAT},
 };
 
 } // namespace
@@ -44,9 +48,11 @@ MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
                 !orthographic,       back_faces,    options.asked().cull};
     }
     const bool paraboloid = options.technique().partition == Partition::paraboloid;
+    const bool over_w = options.moments().metric == DepthMetricKind::z_over_w; // the rasteriser's own
     MapPassFormats formats{
-        storage.colour, storage.depth,       VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic,
+        storage.colour, storage.depth,       VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic && !over_w,
         back_faces,     options.asked().cull};
+    formats.ids = options.traits().ids;
     formats.paraboloid = paraboloid;
     formats.write_frag_depth = formats.write_frag_depth || paraboloid; // the rasteriser's own says nothing
     return formats;

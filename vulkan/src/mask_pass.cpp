@@ -64,6 +64,7 @@ enum Binding : std::uint32_t {
     kSmooth,
     kTints,
     kTiles,
+    kObjects,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -73,7 +74,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 } // namespace
 
@@ -105,9 +106,24 @@ void MaskPassRecorder::makeSets(std::uint32_t options)
     }
 }
 
+void MaskPassRecorder::makeObjects(const Plan& plan)
+{
+    const std::size_t vectors = pack::objectVectorCount(plan);
+    if (vectors <= room_.objects) {
+        return;
+    }
+    room_.objects = vectors + vectors / 2;
+    for (Slot& slot : slots_) {
+        device_.retire(std::move(slot.objects));
+        slot.objects =
+            HostBuffer(device_, room_.objects * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
+    }
+}
+
 void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
     draws_.reserve(pack::mostMaskDraws(plan));
+    makeObjects(plan);
     const auto options = static_cast<std::uint32_t>(plan.options->size());
     const std::uint32_t lights = lightRoomFor(plan);
     const auto views = static_cast<std::uint32_t>(std::max<std::size_t>(plan.views.size(), shared::kFewViews));
@@ -205,7 +221,10 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
                               maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
         isCompact()
             ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
-            : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
+            : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at),
+        slot.objects
+            ? DescriptorSets::buffer(kObjects, slot.objects.buffer())
+            : DescriptorSets::buffer(kObjects, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
     sets_.write(slot.sets[options], writes);
 }
 
@@ -228,6 +247,9 @@ void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, co
     const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
     if (isCompact()) {
         fillTiles(slot, frame, plan, screen_px);
+    }
+    if (slot.objects) {
+        pack::fillObjects(frame, plan, {static_cast<glm::vec4*>(slot.objects.data()), room_.objects});
     }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
         map_images_[i] = {};

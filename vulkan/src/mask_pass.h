@@ -60,6 +60,7 @@ private:
     struct Slot {
         HostBuffer constants;              // GpuConstants by options, then lights and views
         HostBuffer tiles;                  // of a compact mask
+        HostBuffer objects;                // pack::fillObjects(); of plans without ids none
         std::vector<VkDescriptorSet> sets; // by options
     };
     // Of a slot's buffer.
@@ -67,6 +68,7 @@ private:
         std::uint32_t options = 0;
         std::uint32_t lights = 0;
         std::uint32_t views = 0;
+        std::size_t objects = 0;           // vectors
         VkDeviceSize constants_stride = 0; // bytes
         VkDeviceSize lights_at = 0;
         VkDeviceSize views_at = 0;
@@ -82,6 +84,7 @@ private:
 
     void makeLayouts();
     void makeSets(std::uint32_t options);
+    void makeObjects(const Plan& plan);
     void makeBuffers(const Plan& plan);
     void makeMask(const Plan& plan, VkExtent2D screen);
     void makeAlternate();

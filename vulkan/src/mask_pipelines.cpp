@@ -42,6 +42,10 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic)
         return of(GN_CODES(evsm));
     case Filter::msm:
         return of(GN_CODES(msm));
+    case Filter::id:
+        return of(GN_CODES(id));
+    case Filter::depth_id:
+        return of(GN_CODES(depth_id));
     default:
         return of(GN_CODES(pcf));
     }
@@ -52,7 +56,7 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic)
 
 MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
 {
-    const shared::MomentRule moments = options.filterable() ? pack::momentRuleOf(options) : shared::MomentRule{};
+    const shared::MomentRule moments = pack::readingRuleOf(options);
     MaskPipelineKey key;
     key.filter = options.filter();
     key.constants = {kernelWidth(options.pcf().kernel),

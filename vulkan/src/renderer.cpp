@@ -157,6 +157,11 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     impl_->parts->checkUse(kTried, commands, slot, plan);
     impl_->parts->checkFitted(kTried, plan);
     impl_->parts->checkInputs(kTried, frame, plan, inputs);
+    if (inputs.object_id == VK_NULL_HANDLE &&
+        std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.first_object_id != kNoIndex; })) {
+        refuseUse(kTried, "filters id and depth-id tell objects apart, and MaskInputs::object_id is null",
+                  "hand in the image of objects' ids");
+    }
     const VkExtent2D made = impl_->parts->mask.mask().info().extent;
     if (!impl_->parts->has_mask || inputs.extent.width != made.width || inputs.extent.height != made.height) {
         refuseUse(kTried, "prepare() made no mask of this size", "call prepare() with the size of the inputs first");

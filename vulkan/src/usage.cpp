@@ -4,6 +4,7 @@
 #include <gnomon/error.h>
 #include <gnomon/pack/cascade_lights.h>
 #include <gnomon/pack/depth_layers.h>
+#include <gnomon/pack/shading_buffers.h>
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
@@ -51,6 +52,14 @@ const char* wrongOf(const Plan& plan)
         if (!isRange(light.first_view, light.view_count, plan.views.size())) {
             return "a light names views that the plan has not";
         }
+        if (light.first_object_id == kNoIndex && light.view_count > 0 && (*plan.options)[light.options].traits().ids) {
+            return "a light's maps hold ids of objects, and it has none";
+        }
+        if (light.first_object_id != kNoIndex &&
+            (plan.object_bounds.empty() ||
+             !isRange(light.first_object_id, plan.object_bounds.size(), plan.object_ids.size()))) {
+            return "a light's ids of objects are beyond the plan's list";
+        }
         if (light.mask_layer >= plan.mask_layers || light.mask_channel > 3) {
             return "a light's channel is beyond the mask's layers";
         }
@@ -65,6 +74,11 @@ const char* wrongOf(const Plan& plan)
         if (!isRange(view.first_caster, view.caster_count, plan.casters.size()) ||
             view.still_count > view.caster_count) {
             return "a view's casters are beyond the plan's list";
+        }
+        const auto casters = std::span(plan.casters).subspan(view.first_caster, view.caster_count);
+        if (plan.lights[view.light].first_object_id != kNoIndex &&
+            std::ranges::any_of(casters, [&](std::uint32_t object) { return object >= plan.object_bounds.size(); })) {
+            return "a view's casters are objects without ids";
         }
         if (const char* const wrong = wrongOf(view, plan.pages[plan.lights[view.light].options])) {
             return wrong;
@@ -136,13 +150,15 @@ void PreparedSize::take(const Plan& plan)
     views_ = std::max(views_, plan.views.size()); // what is made for views does not shrink
     depth_layers_ = std::max(depth_layers_, pack::depthLayersCount(plan));
     cascade_lights_ = std::max(cascade_lights_, pack::cascadeLightCount(plan));
+    object_vectors_ = std::max(object_vectors_, pack::objectVectorCount(plan));
     mask_layers_ = plan.mask_layers;
     mask_channels_ = maskChannelCount(plan);
 }
 
 bool PreparedSize::holds(const Plan& plan) const
 {
-    if (plan.lights.size() > lights_ || plan.views.size() > views_ || pack::cascadeLightCount(plan) > cascade_lights_) {
+    if (plan.lights.size() > lights_ || plan.views.size() > views_ || pack::cascadeLightCount(plan) > cascade_lights_ ||
+        pack::objectVectorCount(plan) > object_vectors_) {
         return false;
     }
     if (plan.mask_layers > mask_layers_ || maskChannelCount(plan) > mask_channels_) {

@@ -42,6 +42,7 @@ private:
     std::uint32_t mask_channels_ = 0;
     std::uint32_t cascade_lights_ = 0;
     std::uint32_t depth_layers_ = 0;
+    std::size_t object_vectors_ = 0;
     mutable std::vector<OfOptions> asked_; // scratch
 };
 

@@ -32,7 +32,23 @@ enum class PcfKernel : std::uint8_t {
 };
 
 /// What a map texel is stored as. Which filter can use which is filterTraits().formats.
-enum class MapFormat : std::uint8_t { d16, d32f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f, r16f, rgba8 };
+enum class MapFormat : std::uint8_t {
+    d16,
+    d32f,
+    r32f,
+    rg16,
+    rg16f,
+    rg32f,
+    rgba16,
+    rgba16f,
+    rgba32f,
+    r16f,
+    rgba8,
+    d24,
+    r8,
+    r16,
+    rg8
+};
 
 /// One value each of the choices that a user makes (the light brings its own).
 struct Technique {
@@ -81,6 +97,8 @@ struct FilterTraits {
     bool filterable;                    // texels may be averaged: MomentOptions apply, and receivers are drawn too
     bool integrates_light; // it always does, and compares single depths for that: see integratesLight() (options.h)
     bool weighs_frames;    // Soften::converge: a frame counts the more, the nearer it reads to a texel's centre
+    bool ids = false;      // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask is told
+                           // whose pixel it is
 };
 /// Null for a filter that is not available, and for automatic, which stands for another (filterOf()).
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

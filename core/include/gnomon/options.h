@@ -124,6 +124,33 @@ struct SmoothiesOptions {
     bool operator==(const SmoothiesOptions&) const = default;
 };
 
+/// Which texels filters id and depth-id ask, and what of them counts (shaders/shared/object_ids.h).
+enum class IdTest : std::uint8_t {
+    automatic, // of id `any`, of depth-id `priority`
+    any,       // lit where one of the four nearest texels is: shadows shrink by a texel at the most
+    priority,  // the nearest texel; but one whose object lies behind is not believed where the object has others
+    nearest,   // the nearest texel alone: dark halos where it is just beside the object
+};
+[[nodiscard]] std::string_view nameOf(IdTest value);
+
+/// What filter depth-id keeps beside an id.
+enum class IdDepth : std::uint8_t {
+    object, // depth within the object's own range along the light
+    global, // the map's depth, as other filters have it
+};
+[[nodiscard]] std::string_view nameOf(IdDepth value);
+
+/// Filters id and depth-id.
+struct IdOptions {
+    IdTest test = IdTest::automatic;
+    IdDepth depth = IdDepth::object; // depth-id
+    /// depth-id: how far towards the light an object is compared with itself, in shares of its radius, which is half
+    /// its box's diagonal: 0 .. 1. A step of what is stored is added. Nothing: BiasOptions say it, as of other filters.
+    std::optional<float> bias;
+
+    bool operator==(const IdOptions&) const = default;
+};
+
 /// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
     fast,     // one map; filter pcf
@@ -175,11 +202,12 @@ struct ShadowOptions {
     std::uint32_t longest_wait = 8;
     PcfOptions pcf; // filter pcf
     SmoothiesOptions smoothies;
+    IdOptions ids;  // filters id, depth-id
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
     CasterCull cull = CasterCull::none;       // which triangles of all casters are left out
     Translucent translucent = Translucent::grey;
-    MomentOptions moments;         // filters vsm, lvsm, esm, evsm, msm
+    MomentOptions moments;         // filters vsm, lvsm, esm, evsm, msm; of hard and pcf the metric alone
     ScreenBlurOptions screen_blur; // soften blur
 
     bool operator==(const ShadowOptions&) const = default;
@@ -196,6 +224,9 @@ public:
     [[nodiscard]] MapFormat format() const { return format_; }
     [[nodiscard]] bool filterable() const { return traits_->filterable; }
     [[nodiscard]] const PcfOptions& pcf() const { return asked_.pcf; }
+    [[nodiscard]] const IdOptions& ids() const { return asked_.ids; }
+    /// IdOptions::test, with what automatic stands for.
+    [[nodiscard]] IdTest idTest() const;
     [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }

@@ -236,6 +236,9 @@ struct View {
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot, point: the light's position.
     glm::dvec3 light_place_ws{0.0};
+    /// Filters id and depth-id: names the ids that its casters are drawn with. A map that was drawn with others is out
+    /// of date. 0: no ids.
+    std::uint64_t ids_key = 0;
     /// With gpu_cascade: how far the view is to be moved over what it shows, in its own texels. Else it has been.
     glm::dvec2 grid_move_texels{0.0};
 };
@@ -315,6 +318,8 @@ struct LightPlan {
     /// (ShadowOptions::draw_budget_texels). Its views are those that it had before, with nothing to draw: the place is
     /// in shadow as it was, and what these maps do not show is lit. 0: its maps are what they should be.
     std::uint32_t waited = 0;
+    /// Filters id and depth-id: where in Plan::object_ids those of this light begin. kNoIndex: it has none.
+    std::uint32_t first_object_id = kNoIndex;
     Outcome outcome;
     SunSteps steps;
     AutoChoice choice;
@@ -357,6 +362,11 @@ struct Plan {
     /// Which of its planner's plans this is, from 1 on: the next one goes on from it.
     std::uint64_t number = 0;
     bool cut = false; // this plan goes on from none: Frame::cut, another ObjectSet, or a planner's first
+    /// Filters id and depth-id (object_ids.h): for each light that has any, one for each object of `object_bounds`; 0
+    /// of what does not cast.
+    std::vector<std::uint16_t> object_ids;
+    /// Those of the frame's objects, by index. Empty where no light has ids.
+    std::vector<Aabb> object_bounds;
     /// soften=converge: boxes around all objects that came, went or changed since the plan before, where they are and
     /// where they were; world space. At most kMostMoved.
     std::vector<Aabb> moved_ws;

@@ -16,6 +16,10 @@ bool isFilterable(const ShadowOptions& o)
     const FilterTraits* const traits = filterTraits(filterOf(o));
     return traits != nullptr && traits->filterable;
 }
+bool hasMetric(const ShadowOptions& o)
+{
+    return isFilterable(o) || filterOf(o) == Filter::hard || filterOf(o) == Filter::pcf;
+}
 bool isBlurred(const ShadowOptions& o)
 {
     return isFilterable(o) && blurOf(o.moments) != BlurKind::none;
@@ -140,7 +144,7 @@ void addMapRows(std::vector<OptionRow>& table)
         {.key = "map-sampling", .type = choice, .form = "KIND", .choices = namesOf<MapSampling>, .doc = "how the map is read; the last two have mip levels", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.sampling)},
         {.key = "anisotropy", .type = integer, .form = "N", .unit = "reads", .min = 2, .max = 16, .doc = "at most, along the longer side of a pixel's footprint", .used = isAnisotropic, .used_when = "map-sampling anisotropic", GNOMON_MEMBER(moments.anisotropy)},
         {.key = "level-depth", .type = flag, .form = "0|1", .doc = "parallel light: depth from a plane that leans with the receivers", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(level_depth)},
-        {.key = "depth-metric", .type = choice, .form = "NAME", .choices = namesOf<DepthMetricKind>, .doc = "what depth is stored; z-over-w differs under spot lights alone", .used = isFilterable, .used_when = kFilterable, GNOMON_MEMBER(moments.metric)},
+        {.key = "depth-metric", .type = choice, .form = "NAME", .choices = namesOf<DepthMetricKind>, .doc = "what depth is stored; z-over-w is a lamp's alone, and a sun with it is refused", .used = hasMetric, .used_when = "filter hard, pcf, vsm, lvsm, esm, evsm or msm", GNOMON_MEMBER(moments.metric)},
         {.key = "depth-remap", .type = flag, .form = "0|1", .doc = "depth in -1 to 1: a float's sign is precision too", .used = canRemap, .used_when = "filter vsm, lvsm, esm or evsm", GNOMON_MEMBER(moments.remap)},
         // clang-format on
     };

@@ -29,7 +29,7 @@ bool hasDistance(const ShadowOptions& o)
 bool canDrawTogether(const ShadowOptions& o)
 {
     const FilterTraits* const traits = filterTraits(filterOf(o));
-    return hasCascades(o) && traits != nullptr && !traits->filterable;
+    return hasCascades(o) && traits != nullptr && !traits->filterable && !traits->ids;
 }
 
 /// Ends hold for their own number of cascades only: of both what is said last holds.

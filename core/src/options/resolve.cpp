@@ -32,6 +32,52 @@ std::optional<std::string> endsRefusal(const CascadeOptions& options)
     return std::nullopt;
 }
 
+/// Of filters that compare depths: what the rasteriser makes of depth is kept as it is, and undone where it is read.
+std::optional<std::string> metricRefusal(const ShadowOptions& options)
+{
+    const Filter filter = filterOf(options);
+    const bool compares = filter == Filter::hard || filter == Filter::pcf;
+    if (!compares || options.moments.metric != DepthMetricKind::z_over_w) {
+        return std::nullopt;
+    }
+    const MapFormat format = formatOf(options);
+    if (format != MapFormat::d32f && format != MapFormat::d24 && format != MapFormat::d16) {
+        return "depth-metric z-over-w: it is what the rasteriser keeps by itself, in a map of d32f, d24 or d16";
+    }
+    if (options.technique.fit != Fit::uniform) {
+        return "depth-metric z-over-w: a warp has a w of its own, and the lamp's is shown without one; it needs fit "
+               "uniform";
+    }
+    if (options.technique.partition == Partition::paraboloid) {
+        return "depth-metric z-over-w: a paraboloid has distances, which no projection makes; choose linear";
+    }
+    if (options.faces == CasterFaces::midpoint) {
+        return "depth-metric z-over-w: the midpoint of two of its depths is not between the surfaces; choose linear";
+    }
+    return std::nullopt;
+}
+
+/// Ids are of one frame's order, and a map must hold those that the mask reads.
+std::optional<std::string> idsRefusal(const ShadowOptions& options)
+{
+    if (!filterTraits(filterOf(options))->ids) {
+        return std::nullopt;
+    }
+    if (options.draw_budget_texels > 0) {
+        return "draw-budget: ids are handed out anew in each frame, and a light that waits has those of an older one";
+    }
+    if (options.cascades.pass == CascadePass::layered) {
+        return "cascades.pass layered: maps of ids are drawn one by one; draw each in a pass of its own";
+    }
+    if (options.ids.depth == IdDepth::global && filterOf(options) == Filter::id) {
+        return "id.depth global: filter id keeps no depth; depth-id does";
+    }
+    if (options.ids.bias && filterOf(options) == Filter::id) {
+        return "id.bias: filter id compares no depths, so there is nothing to move; depth-id has it";
+    }
+    return std::nullopt;
+}
+
 /// The midpoint is found in two images of depth, of all casters of one map.
 std::optional<std::string> facesRefusal(const ShadowOptions& options)
 {
@@ -96,7 +142,10 @@ std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
 {
     const MapFormat format = formatOf(options);
     if (options.technique.soften == Soften::smoothies && (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8)) {
-        return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, r32f or d16";
+        return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, d24, r32f or d16";
+    }
+    if (options.technique.soften == Soften::smoothies && options.moments.metric == DepthMetricKind::z_over_w) {
+        return "soften smoothies: how far a caster is from its receiver cannot be told from z / w; it needs the linear metric";
     }
     return std::nullopt;
 }
@@ -127,6 +176,12 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (auto reason = facesRefusal(options)) {
         return reason;
     }
+    if (auto reason = metricRefusal(options)) {
+        return reason;
+    }
+    if (auto reason = idsRefusal(options)) {
+        return reason;
+    }
     if (auto reason = smoothiesRefusal(options)) {
         return reason;
     }
@@ -139,7 +194,7 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
 /// Of a filter that compares depths, such a texel has two of them, of 16 bits each.
 bool holdsTwoMaps(const FilterTraits& traits, MapFormat format)
 {
-    return !traits.filterable &&
+    return !traits.filterable && !traits.ids &&
            (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8);
 }
 
@@ -164,6 +219,14 @@ std::string_view nameOf(CasterCull value)
 std::string_view nameOf(Translucent value)
 {
     return nameIn(std::array<std::string_view, 3>{"none", "grey", "colour"}, value);
+}
+std::string_view nameOf(IdTest value)
+{
+    return nameIn(std::array<std::string_view, 4>{"auto", "any", "priority", "nearest"}, value);
+}
+std::string_view nameOf(IdDepth value)
+{
+    return nameIn(std::array<std::string_view, 2>{"object", "global"}, value);
 }
 std::string_view nameOf(StepBy value)
 {
@@ -258,6 +321,9 @@ float reachTexels(const ShadowOptions& options)
     if (traits != nullptr && traits->integrates_light) {
         return 2.0F; // from where a ray may start; the way to the light has room of its own
     }
+    if (traits != nullptr && traits->ids) {
+        return 1.0F; // the four nearest
+    }
     if (filterOf(options) != Filter::pcf) {
         return options.technique.soften == Soften::smoothies ? 1.0F : 0.5F; // which are read as pcf 2x2 reads a map
     }
@@ -274,6 +340,13 @@ bool fitsOnGpu(const ShadowOptions& options)
     return technique.partition == Partition::sdsm ||
            (technique.partition == Partition::automatic && options.quality == Quality::best &&
             technique.motion == Motion::free);
+}
+
+IdTest ResolvedOptions::idTest() const
+{
+    const IdTest given = asked_.ids.test;
+    const IdTest own = filter() == Filter::depth_id ? IdTest::priority : IdTest::any;
+    return given == IdTest::automatic ? own : given;
 }
 
 bool ResolvedOptions::fitsOnGpu() const

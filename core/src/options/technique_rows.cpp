@@ -28,6 +28,15 @@ bool hasSmoothies(const ShadowOptions& o)
 {
     return o.technique.soften == Soften::smoothies;
 }
+bool hasIds(const ShadowOptions& o)
+{
+    const FilterTraits* const traits = filterTraits(filterOf(o));
+    return traits != nullptr && traits->ids;
+}
+bool isDepthId(const ShadowOptions& o)
+{
+    return filterOf(o) == Filter::depth_id;
+}
 bool isGaussian(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
@@ -88,6 +97,9 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "pcf.radius", .type = real, .form = "R", .unit = "texels", .min = 0.5, .max = 16, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.radius_texels)},
         {.key = "smoothies.reach", .type = integer, .form = "N", .unit = "texels", .min = 4, .max = 32, .doc = "that edges are widened by: no penumbra is wider", .used = hasSmoothies, .used_when = "soften smoothies", GNOMON_MEMBER(smoothies.reach_texels)},
         {.key = "pcf.sigma", .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4, .doc = "of a Gaussian kernel; else its width / 4", .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7", GNOMON_MEMBER(pcf.sigma_texels)},
+        {.key = "id.test", .type = choice, .form = "NAME", .choices = namesOf<IdTest>, .doc = "which texels count: any of the four nearest, the nearest by priority of what is in front, or the nearest alone; auto: any, of depth-id priority", .used = hasIds, .used_when = "filter id or depth-id", GNOMON_MEMBER(ids.test)},
+        {.key = "id.depth", .type = choice, .form = "NAME", .choices = namesOf<IdDepth>, .doc = "what depth-id keeps beside an id: depth within the object's own range, or the map's", .used = isDepthId, .used_when = "filter depth-id", GNOMON_MEMBER(ids.depth)},
+        {.key = "id.bias", .type = real, .form = "V", .unit = "of the radius", .min = 0, .max = 1, .none_text = "auto", .doc = "how far towards the light an object is compared with itself; auto: as bias.* say", .used = isDepthId, .used_when = "filter depth-id", GNOMON_MEMBER(ids.bias)},
         // clang-format on
     };
     table.insert(table.end(), std::begin(rows), std::end(rows));

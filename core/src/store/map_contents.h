@@ -16,6 +16,7 @@ struct MapProjection {
     glm::dvec4 metric_ws{0.0};
     bool orthographic = true;
     bool clamp_near = true;
+    std::uint64_t ids_key = 0;
 
     friend bool operator==(const MapProjection&, const MapProjection&) = default;
 };

@@ -3,6 +3,7 @@
 // p, of a MapPass with a `placement` gnomonCasterPlaced() of that, and passes on gnomonCasterMetric(). What the fragment
 // shader writes follows from MapPass::formats:
 //   colour is not UNDEFINED   gnomonCasterTexel() to attachment 0; `holding` is 2 for R8G8B8A8_UNORM, else 0
+//   ids                       gnomonCasterIdTexel() to attachment 0 instead
 //   write_frag_depth          gnomonCasterDepth() to gl_FragDepth; with several samples the metric's input is `sample`
 //   else                      nothing: the rasteriser's depth is the metric
 // Of an object that clip planes cut the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each plane;
@@ -63,6 +64,13 @@ float gnomonCasterDepth(float metric)
 vec4 gnomonCasterTexel(int holding, float metric)
 {
     return casterTexel(holding, metric);
+}
+
+// Of a pass with MapPassFormats::ids, to attachment 0 instead. `id`: CasterId::id (gnomon/pack/caster_rows.h), the same
+// all over an object; `depth`: dot(CasterId::depth_ws, (p, 1)), affine in the point as the metric is.
+vec4 gnomonCasterIdTexel(float id, float depth)
+{
+    return casterIdTexel(id, depth);
 }
 
 // Of a pass with MapPassFormats::behind_first: discard the fragment where this is false. `stored`: gnomonCasterDepth()

@@ -12,6 +12,7 @@
 #define GpuScreen gnomon_GpuScreen
 #define GpuView gnomon_GpuView
 #define Hankel gnomon_Hankel
+#define IdRule gnomon_IdRule
 #define LightPoint gnomon_LightPoint
 #define LightRay gnomon_LightRay
 #define MapPoint gnomon_MapPoint
@@ -46,6 +47,7 @@
 #define boundedVisibility gnomon_boundedVisibility
 #define canBlock gnomon_canBlock
 #define casterBehind gnomon_casterBehind
+#define casterIdTexel gnomon_casterIdTexel
 #define casterInside gnomon_casterInside
 #define casterMetric gnomon_casterMetric
 #define casterMidpoint gnomon_casterMidpoint
@@ -95,9 +97,11 @@
 #define facesDirection gnomon_facesDirection
 #define factorise gnomon_factorise
 #define fadedVisibility gnomon_fadedVisibility
+#define filterDepthId gnomon_filterDepthId
 #define filterEsm gnomon_filterEsm
 #define filterEvsm gnomon_filterEvsm
 #define filterHard gnomon_filterHard
+#define filterId gnomon_filterId
 #define filterInput gnomon_filterInput
 #define filterLvsm gnomon_filterLvsm
 #define filterMsm gnomon_filterMsm
@@ -117,6 +121,13 @@
 #define hamburgerVisibility gnomon_hamburgerVisibility
 #define hasFlag gnomon_hasFlag
 #define hausdorffVisibility gnomon_hausdorffVisibility
+#define idIsBehind gnomon_idIsBehind
+#define idLights gnomon_idLights
+#define idOfTexel gnomon_idOfTexel
+#define idRuleOf gnomon_idRuleOf
+#define idVisibility gnomon_idVisibility
+#define idsAround gnomon_idsAround
+#define idsThatLight gnomon_idsThatLight
 #define inSector gnomon_inSector
 #define inSlice gnomon_inSlice
 #define interleavedGradientNoise gnomon_interleavedGradientNoise
@@ -148,9 +159,11 @@
 #define kEdgeOn gnomon_kEdgeOn
 #define kFarthestNeighbour gnomon_kFarthestNeighbour
 #define kFewViews gnomon_kFewViews
+#define kFilterDepthId gnomon_kFilterDepthId
 #define kFilterEsm gnomon_kFilterEsm
 #define kFilterEvsm gnomon_kFilterEvsm
 #define kFilterHard gnomon_kFilterHard
+#define kFilterId gnomon_kFilterId
 #define kFilterLvsm gnomon_kFilterLvsm
 #define kFilterMsm gnomon_kFilterMsm
 #define kFilterPcf gnomon_kFilterPcf
@@ -161,6 +174,9 @@
 #define kGrazing gnomon_kGrazing
 #define kHardlyFaces gnomon_kHardlyFaces
 #define kHeldShare gnomon_kHeldShare
+#define kIdTestAny gnomon_kIdTestAny
+#define kIdTestNearest gnomon_kIdTestNearest
+#define kIdTestPriority gnomon_kIdTestPriority
 #define kLeastHeight gnomon_kLeastHeight
 #define kLeastLastPivot gnomon_kLeastLastPivot
 #define kLeastLastPivot16 gnomon_kLeastLastPivot16
@@ -200,6 +216,7 @@
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNoSmoothie gnomon_kNoSmoothie
 #define kNormalError gnomon_kNormalError
+#define kObjectPad gnomon_kObjectPad
 #define kOneSurface gnomon_kOneSurface
 #define kParaboloidBehind gnomon_kParaboloidBehind
 #define kPcssTaps gnomon_kPcssTaps
@@ -286,13 +303,17 @@
 #define msmOccluders gnomon_msmOccluders
 #define msmVisibility gnomon_msmVisibility
 #define narrowed gnomon_narrowed
+#define nearestOfFour gnomon_nearestOfFour
 #define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
 #define noneRises gnomon_noneRises
+#define objectDepth gnomon_objectDepth
+#define objectExtent gnomon_objectExtent
 #define occluderReach gnomon_occluderReach
 #define octahedralDecode gnomon_octahedralDecode
 #define octahedralEncode gnomon_octahedralEncode
 #define outweighs gnomon_outweighs
+#define ownDepthsAround gnomon_ownDepthsAround
 #define packCount gnomon_packCount
 #define packSeen gnomon_packSeen
 #define packSmoothie gnomon_packSmoothie
@@ -308,6 +329,7 @@
 #define pcfSeparable gnomon_pcfSeparable
 #define penumbraWidth gnomon_penumbraWidth
 #define pixelSteps gnomon_pixelSteps
+#define placeObject gnomon_placeObject
 #define planeDeviation gnomon_planeDeviation
 #define planeNearest gnomon_planeNearest
 #define pointOfLight gnomon_pointOfLight
@@ -325,6 +347,7 @@
 #define receiverDepth gnomon_receiverDepth
 #define receiverPlane gnomon_receiverPlane
 #define referenceAt gnomon_referenceAt
+#define referenceDepthAt gnomon_referenceDepthAt
 #define regionAround gnomon_regionAround
 #define risesOverPlane gnomon_risesOverPlane
 #define rootBelow gnomon_rootBelow
@@ -349,6 +372,7 @@
 #define startSquare gnomon_startSquare
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
+#define storedMetric gnomon_storedMetric
 #define tapBlocks gnomon_tapBlocks
 #define tapOccluders gnomon_tapOccluders
 #define tapWeight gnomon_tapWeight

@@ -12,6 +12,7 @@
 #undef GpuScreen
 #undef GpuView
 #undef Hankel
+#undef IdRule
 #undef LightPoint
 #undef LightRay
 #undef MapPoint
@@ -46,6 +47,7 @@
 #undef boundedVisibility
 #undef canBlock
 #undef casterBehind
+#undef casterIdTexel
 #undef casterInside
 #undef casterMetric
 #undef casterMidpoint
@@ -95,9 +97,11 @@
 #undef facesDirection
 #undef factorise
 #undef fadedVisibility
+#undef filterDepthId
 #undef filterEsm
 #undef filterEvsm
 #undef filterHard
+#undef filterId
 #undef filterInput
 #undef filterLvsm
 #undef filterMsm
@@ -117,6 +121,13 @@
 #undef hamburgerVisibility
 #undef hasFlag
 #undef hausdorffVisibility
+#undef idIsBehind
+#undef idLights
+#undef idOfTexel
+#undef idRuleOf
+#undef idVisibility
+#undef idsAround
+#undef idsThatLight
 #undef inSector
 #undef inSlice
 #undef interleavedGradientNoise
@@ -148,9 +159,11 @@
 #undef kEdgeOn
 #undef kFarthestNeighbour
 #undef kFewViews
+#undef kFilterDepthId
 #undef kFilterEsm
 #undef kFilterEvsm
 #undef kFilterHard
+#undef kFilterId
 #undef kFilterLvsm
 #undef kFilterMsm
 #undef kFilterPcf
@@ -161,6 +174,9 @@
 #undef kGrazing
 #undef kHardlyFaces
 #undef kHeldShare
+#undef kIdTestAny
+#undef kIdTestNearest
+#undef kIdTestPriority
 #undef kLeastHeight
 #undef kLeastLastPivot
 #undef kLeastLastPivot16
@@ -200,6 +216,7 @@
 #undef kNoLayerBegins
 #undef kNoSmoothie
 #undef kNormalError
+#undef kObjectPad
 #undef kOneSurface
 #undef kParaboloidBehind
 #undef kPcssTaps
@@ -286,13 +303,17 @@
 #undef msmOccluders
 #undef msmVisibility
 #undef narrowed
+#undef nearestOfFour
 #undef nextShare
 #undef noLayer
 #undef noneRises
+#undef objectDepth
+#undef objectExtent
 #undef occluderReach
 #undef octahedralDecode
 #undef octahedralEncode
 #undef outweighs
+#undef ownDepthsAround
 #undef packCount
 #undef packSeen
 #undef packSmoothie
@@ -308,6 +329,7 @@
 #undef pcfSeparable
 #undef penumbraWidth
 #undef pixelSteps
+#undef placeObject
 #undef planeDeviation
 #undef planeNearest
 #undef pointOfLight
@@ -325,6 +347,7 @@
 #undef receiverDepth
 #undef receiverPlane
 #undef referenceAt
+#undef referenceDepthAt
 #undef regionAround
 #undef risesOverPlane
 #undef rootBelow
@@ -349,6 +372,7 @@
 #undef startSquare
 #undef stepWeight
 #undef steppedVisibility
+#undef storedMetric
 #undef tapBlocks
 #undef tapOccluders
 #undef tapWeight

@@ -10,6 +10,8 @@
 //   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
 //   GNOMON_SMOOTHIES  true, or a constant that says so: options may have soften smoothies (hard and pcf)
+//   GNOMON_OBJECT   filters id and depth-id, which are not there without it: the index in Frame::objects of the object
+//                   whose surface is shaded, as an expression (uint); takes an eighth binding
 // Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
@@ -21,6 +23,7 @@
 //      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it. Of hard and pcf
 //      with GNOMON_SMOOTHIES it is their smoothies (shared/smoothies.h)
 //   6  combined image sampler, 2D array: the maps of tints, sampler nearest. With GNOMON_TINTS alone
+//   7  storage buffer: what pack::fillObjects() writes. With GNOMON_OBJECT alone
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"

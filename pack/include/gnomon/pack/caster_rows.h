@@ -41,4 +41,15 @@ private:
     double per_metre_ = 0.0; // of the metric
 };
 
+/// What a caster writes to a map of filter id or depth-id, with gnomonCasterIdTexel() (caster.glsl).
+struct CasterId {
+    /// Takes a point of the world to the depth that goes beside the id, 0 .. 1: IdDepth.
+    glm::dvec4 depth_ws{0.0};
+    float id = 0.0F; // as it is stored, 0 .. 1
+};
+/// Of an object of the plan, in a view of a light that has ids (Plan::object_ids).
+[[nodiscard]] CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object);
+/// A row for the object's own points instead of the world's.
+[[nodiscard]] glm::vec4 composedRow(const glm::dvec4& row_ws, const Rows3x4& world_from_object);
+
 } // namespace gnomon::pack

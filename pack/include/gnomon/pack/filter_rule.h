@@ -8,6 +8,7 @@
 #include <filter_pass.h>
 #include <gpu_structs.h>
 #include <moment_rule.h>
+#include <object_ids.h>
 
 #include <cstdint>
 #include <span>
@@ -22,6 +23,10 @@ namespace gnomon::pack {
 [[nodiscard]] int depthHolding(const ResolvedOptions& options);
 /// For shaders/lib/encoders.glsl and the filters that read what they wrote. Precondition: options.filterable().
 [[nodiscard]] shared::MomentRule momentRuleOf(const ResolvedOptions& options);
+/// Of filters that compare depths what their maps hold of it (DepthMetricKind) alone; of filterable ones the above.
+[[nodiscard]] shared::MomentRule readingRuleOf(const ResolvedOptions& options);
+/// What filters id and depth-id go by.
+[[nodiscard]] shared::IdRule idRuleOf(const ResolvedOptions& options);
 /// All that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps' image, is
 /// left 0: fillConstants() fills it in.
 void fillRule(const ResolvedOptions& options, shared::GpuRule& out);

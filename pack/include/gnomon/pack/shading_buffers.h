@@ -35,4 +35,11 @@ void fillLights(const Frame& frame, const Plan& plan, std::span<shared::GpuLight
 /// Throws Error where there is no room for all, or there are fewer maps than options.
 void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> maps, std::span<shared::GpuView> views);
 
+/// How many vectors fillObjects() writes: 0 where no light has ids (filters id and depth-id).
+[[nodiscard]] std::size_t objectVectorCount(const Plan& plan);
+/// What filters id and depth-id know of the objects that receive: a storage buffer. First two vectors for each object,
+/// its box's centre, relative to the eye, and half its size; then for each light that has ids one number for each
+/// object, four to a vector (GpuLight::options). Throws Error where there is no room for all.
+void fillObjects(const Frame& frame, const Plan& plan, std::span<glm::vec4> out);
+
 } // namespace gnomon::pack

@@ -71,7 +71,8 @@ struct MaskInputs {
     /// (shaders/include/gnomon/smooth_surface.glsl). Then the interpolated normal says whether a surface faces a light,
     /// and its terminator has no steps. VK_NULL_HANDLE: the geometric one says it.
     VkImageView smooth = VK_NULL_HANDLE;
-    /// Object id + 1 in R32_UINT, 0 where a receiver wants no shadow at all; VK_NULL_HANDLE: everything receives.
+    /// Index of the object in Frame::objects + 1, in R32_UINT, 0 where a receiver wants no shadow at all;
+    /// VK_NULL_HANDLE: everything receives. Filters id and depth-id need it.
     VkImageView object_id = VK_NULL_HANDLE;
 };
 
@@ -99,6 +100,8 @@ struct MapPassFormats {
     /// View::paraboloid: vertices are placed by gnomonCasterParaboloid(), and fragments have the metric of
     /// gnomonCasterRadial() or are discarded (caster.glsl). It goes to gl_FragDepth beside a colour attachment, too.
     bool paraboloid = false;
+    /// Filters id and depth-id: `colour` holds gnomonCasterIdTexel() of what pack::casterIdOf() says of the object.
+    bool ids = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
@@ -214,6 +217,7 @@ struct WarmUp {
 ///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
+///   recordMask() of lights with filter id or depth-id without MaskInputs::object_id  Error
 ///   recordMask() without a mask, of another extent, of a frame with other lights    Error
 ///   recordMaps(), recordMask() of views with gpu_cascade before recordBounds()      Error
 ///   questions with a slot, options or a view that there is not                      zeros, or empty

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Filters id and depth-id: a texel holds the id of an object, by which the pixel's own object is told from what shades
+// it, without a bias. Ids are few, so that they fit a texel of 8 or 16 bits; the planner hands them out for each light
+// anew in each frame.
+// Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (ID buffers; 0 is the ground's, the others go by
+// render order, front to back, so that objects with one id are far apart).
+// Departures: the ground is what does not cast (ObjectFlags::casts), and 0 also stands for texels that nothing was
+// drawn to; such texels light everything. What "front" is, is measured along the light and not from the camera, so that
+// ids do not change as the camera moves, and that of two ids the lower is in front (IdTest::priority).
+#pragma once
+
+#include <gnomon/frame.h>
+#include <gnomon/plan.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+/// How many ids besides 0 a texel of this format tells apart: 255 (r8, rg8) or 65535.
+[[nodiscard]] std::uint32_t idsOf(MapFormat format);
+
+/// Those of a light of the plan, by object index; empty where it has none.
+[[nodiscard]] std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light);
+
+/// Appends one for each object of the set: 0 of what does not cast or is nowhere, then 1 .. `most` and from 1 again, in
+/// the order of the farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on
+/// the ground is before the ground. Of objects as far as each other the lower index is first.
+void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, std::vector<std::uint16_t>& out);
+
+/// What objects with one id cost: a shadow where one of them would have thrown it on the other.
+struct IdCollisions {
+    std::uint32_t casters = 0;    // drawn in any of the light's maps, with an id
+    std::uint32_t ids = 0;        // how many there are to be had
+    std::uint64_t pairs = 0;      // of casters that overlap in a map, by their boxes
+    std::uint64_t collisions = 0; // of these, with one id. Best: 0. Of ids drawn by lot: pairs / ids
+};
+/// Of a light of the plan; zeros where it has no ids. Looks at all pairs of a map's casters.
+[[nodiscard]] IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light);
+
+} // namespace gnomon

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ids of objects: whom they are given, when maps of them are drawn anew, what they cost, and what they do not go with.
+#include "worlds.h"
+
+#include <gnomon/object_ids.h>
+#include <gnomon/planner.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+Aabb cubeAt(float x, float y, float z, float half = 0.5F)
+{
+    return {{x - half, y - half, z - half}, {x + half, y + half, z + half}};
+}
+
+Light sunDown()
+{
+    Light sun;
+    sun.direction_ws = {0.0, -1.0, 0.0};
+    return sun;
+}
+
+/// A floor that does not cast, and cubes above it.
+struct World {
+    explicit World(int cubes)
+    {
+        set.add({{-20, -1, -20}, {20, 0, 20}}, {false, true, false});
+        for (int i = 0; i < cubes; ++i) {
+            ids.push_back(
+                set.add(cubeAt(float(i % 20) * 0.9F - 9.0F, 1.0F + 0.01F * float(i), float(i / 20) * 0.9F - 9.0F)));
+        }
+        frame.camera = test::perspectiveCamera({0, 30, 30}, {0, 0, 0}, 1.0);
+        frame.size_px = {320, 200};
+        frame.objects = &set;
+    }
+    const Plan& plan(Planner& planner)
+    {
+        frame.lights = lights;
+        ++frame.index;
+        return planner.plan(frame);
+    }
+
+    ObjectSet set;
+    std::vector<ObjectId> ids;
+    std::vector<Light> lights{sunDown()};
+    Frame frame;
+};
+
+ShadowOptions optionsOf(Filter filter)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.filter = filter;
+    return options;
+}
+
+TEST(HandOutIds, GoesFromFrontToBackAndLeavesTheGround)
+{
+    ObjectSet set;
+    set.add(cubeAt(0, 0, 0));
+    set.add(cubeAt(0, 5, 0));
+    set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
+    set.add(cubeAt(0, 2, 0));
+    set.add({});
+    std::vector<std::uint16_t> ids;
+    handOutIds(sunDown(), set, 255, ids);
+    EXPECT_EQ(ids, (std::vector<std::uint16_t>{3, 1, 0, 2, 0}));
+    Light lamp;
+    lamp.type = LightType::point;
+    lamp.position_ws = {0.0, 0.0, 3.0};
+    handOutIds(lamp, set, 2, ids); // appended; from 1 again
+    EXPECT_EQ(std::vector<std::uint16_t>(ids.begin() + 5, ids.end()), (std::vector<std::uint16_t>{1, 1, 0, 2, 0}));
+}
+
+TEST(HandOutIds, ThoseWithOneIdAreFarApart)
+{
+    ObjectSet set;
+    for (int i = 0; i < 1000; ++i) {
+        set.add(cubeAt(0.0F, float(i * 37 % 1000), 0.0F));
+    }
+    std::vector<std::uint16_t> ids;
+    handOutIds(sunDown(), set, 255, ids);
+    for (std::uint32_t a = 0; a < 1000; ++a) {
+        for (std::uint32_t b = 0; b < a; ++b) {
+            if (ids[a] == ids[b]) {
+                EXPECT_GE(std::abs(set.bounds(a).min.y - set.bounds(b).min.y), 255.0F);
+            }
+        }
+    }
+}
+
+TEST(PlannedIds, AreThoseOfEachLightThatHasAny)
+{
+    World world(12);
+    world.lights.push_back(sunDown());
+    world.lights[1].direction_ws = {0.3, -1.0, 0.2};
+    world.lights[1].options = 1;
+    const std::vector<ShadowOptions> both{optionsOf(Filter::depth_id), optionsOf(Filter::hard)};
+    Planner planner(both);
+    const Plan& plan = world.plan(planner);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok);
+    EXPECT_EQ(plan.object_bounds.size(), 13U);
+    ASSERT_EQ(objectIdsOf(plan, 0).size(), 13U);
+    EXPECT_EQ(objectIdsOf(plan, 0)[0], 0);
+    EXPECT_EQ(objectIdsOf(plan, 0)[12], 1); // the highest
+    EXPECT_TRUE(objectIdsOf(plan, 1).empty());
+    EXPECT_NE(plan.views[0].ids_key, 0U);
+    EXPECT_EQ(plan.views[1].ids_key, 0U);
+    // The floor is drawn, too.
+    const View& view = plan.views[0];
+    EXPECT_EQ(plan.casters[view.first_caster], 0U);
+    EXPECT_EQ(view.caster_count, 13U);
+    Planner none(optionsOf(Filter::pcf));
+    EXPECT_TRUE(world.plan(none).object_bounds.empty());
+}
+
+// A map of ids is of the order that it was drawn in.
+TEST(PlannedIds, OthersMakeAMapOutOfDate)
+{
+    World world(12);
+    const ObjectId far = world.set.add(cubeAt(0.0F, 3.0F, -900.0F)); // casts on nothing that is seen
+    for (const bool with_ids : {true, false}) {
+        Planner planner(optionsOf(with_ids ? Filter::id : Filter::hard));
+        world.set.update(far, cubeAt(0.0F, 3.0F, -900.0F));
+        EXPECT_TRUE(world.plan(planner).views.at(0).redraw);
+        EXPECT_FALSE(world.plan(planner).views.at(0).redraw);
+        const std::uint64_t key = planner.plan(world.frame).views.at(0).ids_key;
+        world.set.update(far, cubeAt(0.0F, 0.6F, -900.0F)); // now behind all others, whose ids are one less
+        const View& view = world.plan(planner).views.at(0);
+        EXPECT_EQ(view.ids_key != key, with_ids);
+        EXPECT_EQ(view.redraw, with_ids);
+    }
+}
+
+TEST(IdCollisions, AreOfThoseThatOverlapAndHaveOneId)
+{
+    World world(0);
+    // A column of 300, all over each other: of 255 ids 45 come twice.
+    for (int i = 0; i < 300; ++i) {
+        world.set.add(cubeAt(0.0F, 1.0F + 0.02F * float(i), 0.0F));
+    }
+    ShadowOptions options = optionsOf(Filter::id);
+    options.format = MapFormat::r8;
+    Planner few(options);
+    const IdCollisions counted = countIdCollisions(world.plan(few), 0);
+    EXPECT_EQ(counted.casters, 300U);
+    EXPECT_EQ(counted.ids, 255U);
+    EXPECT_EQ(counted.pairs, 300U * 299U / 2U);
+    EXPECT_EQ(counted.collisions, 45U);
+    options.format = MapFormat::r16;
+    Planner many(options);
+    EXPECT_EQ(countIdCollisions(world.plan(many), 0).collisions, 0U);
+    Planner none(optionsOf(Filter::pcf));
+    EXPECT_EQ(countIdCollisions(world.plan(none), 0).ids, 0U);
+    EXPECT_NE(toJson(world.plan(few)).find("\"collisions\": 45"), std::string::npos);
+    EXPECT_EQ(toJson(world.plan(none)).find("\"collisions\""), std::string::npos);
+}
+
+std::string refusalOf(Filter filter, void (*change)(ShadowOptions&))
+{
+    ShadowOptions options = optionsOf(filter);
+    change(options);
+    return resolve(options).refusal;
+}
+
+TEST(IdOptions, SayWhatTheyDoNotGoWith)
+{
+    for (const Filter filter : {Filter::id, Filter::depth_id}) {
+        EXPECT_EQ(refusalOf(filter, [](ShadowOptions&) {}), "");
+        EXPECT_EQ(
+            refusalOf(filter, [](ShadowOptions& o) { o.draw_budget_texels = 1024; }),
+            "draw-budget: ids are handed out anew in each frame, and a light that waits has those of an older one");
+        EXPECT_EQ(refusalOf(filter, [](ShadowOptions& o) { o.cascades.pass = CascadePass::layered; }),
+                  "cascades.pass layered: maps of ids are drawn one by one; draw each in a pass of its own");
+        EXPECT_NE(refusalOf(filter, [](ShadowOptions& o) { o.faces = CasterFaces::midpoint; }), "");
+        EXPECT_NE(refusalOf(filter, [](ShadowOptions& o) { o.format = MapFormat::d32f; }), "");
+        ShadowOptions bent = optionsOf(filter);
+        bent.technique.partition = Partition::paraboloid;
+        EXPECT_NE(resolve(bent).refusal.find("paraboloid"), std::string::npos);
+    }
+    EXPECT_EQ(refusalOf(Filter::id, [](ShadowOptions& o) { o.ids.depth = IdDepth::global; }),
+              "id.depth global: filter id keeps no depth; depth-id does");
+    EXPECT_EQ(refusalOf(Filter::id, [](ShadowOptions& o) { o.ids.bias = 0.1F; }),
+              "id.bias: filter id compares no depths, so there is nothing to move; depth-id has it");
+    EXPECT_EQ(refusalOf(Filter::depth_id, [](ShadowOptions& o) { o.ids.bias = 1.5F; }),
+              "id.bias is 1.5; it can be 0 to 1 of the radius");
+}
+
+TEST(IdOptions, TheTestIsTheFiltersOwn)
+{
+    EXPECT_EQ(resolvedOrThrow(optionsOf(Filter::id)).idTest(), IdTest::any);
+    EXPECT_EQ(resolvedOrThrow(optionsOf(Filter::depth_id)).idTest(), IdTest::priority);
+    ShadowOptions asked = optionsOf(Filter::depth_id);
+    asked.ids.test = IdTest::nearest;
+    EXPECT_EQ(resolvedOrThrow(asked).idTest(), IdTest::nearest);
+    EXPECT_FALSE(resolvedOrThrow(asked).paired_maps());
+}
+
+TEST(OverW, IsALampsAlone)
+{
+    World world(3);
+    for (const Filter filter : {Filter::hard, Filter::pcf, Filter::vsm}) {
+        ShadowOptions options = optionsOf(filter);
+        options.moments.metric = DepthMetricKind::z_over_w;
+        Planner planner(options);
+        world.lights = {sunDown()};
+        const Outcome& of_sun = world.plan(planner).lights[0].outcome;
+        EXPECT_EQ(of_sun.kind, OutcomeKind::refused);
+        EXPECT_EQ(
+            of_sun.reason,
+            "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear");
+        world.lights[0].type = LightType::spot;
+        world.lights[0].position_ws = {0.0, 12.0, 0.0};
+        world.lights[0].outer_half_angle_rad = 0.9;
+        EXPECT_EQ(world.plan(planner).lights[0].outcome.kind, OutcomeKind::ok);
+    }
+}
+
+TEST(OverW, IsWhatTheRasteriserKeeps)
+{
+    const auto over_w = [](ShadowOptions& o) {
+        o.moments.metric = DepthMetricKind::z_over_w;
+    };
+    EXPECT_EQ(refusalOf(Filter::hard, over_w), "");
+    EXPECT_EQ(refusalOf(Filter::pcf,
+                        [](ShadowOptions& o) {
+                            o.moments.metric = DepthMetricKind::z_over_w;
+                            o.format = MapFormat::r32f;
+                        }),
+              "depth-metric z-over-w: it is what the rasteriser keeps by itself, in a map of d32f, d24 or d16");
+    EXPECT_EQ(refusalOf(Filter::hard,
+                        [](ShadowOptions& o) {
+                            o.moments.metric = DepthMetricKind::z_over_w;
+                            o.technique.fit = Fit::lispsm;
+                        }),
+              "depth-metric z-over-w: a warp has a w of its own, and the lamp's is shown without one; it needs fit "
+              "uniform");
+    EXPECT_NE(refusalOf(Filter::hard,
+                        [](ShadowOptions& o) {
+                            o.moments.metric = DepthMetricKind::z_over_w;
+                            o.faces = CasterFaces::midpoint;
+                        }),
+              "");
+}
+
+} // namespace
+} // namespace gnomon
