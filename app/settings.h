@@ -190,11 +190,12 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 /// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
 /// --target; other keys change nothing.
 void replaceCamera(Settings& settings, std::string_view latest);
-/// Of lvsm.placement and lvsm.splits the other one; of other keys nothing.
-[[nodiscard]] std::string_view placementPartner(std::string_view key);
+/// Of lvsm.placement, lvsm.splits and lvsm.world the other two; of other keys nothing.
+[[nodiscard]] std::span<const std::string_view> placementPartners(std::string_view key);
 /// For a key whose partner was given in the same place, before it is applied: throws UsageError when it would take back
-/// what was said, for depths where layers meet belong to layers placed by hand.
-void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text);
+/// what was said, for depths where layers meet belong to layers placed by hand, and their ends to layers of the world.
+void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text,
+                         std::string_view partner);
 /// So that a list given later does not add to a preset's.
 void forgetTechniques(Settings& settings);
 /// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.

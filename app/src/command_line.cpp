@@ -239,8 +239,10 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
     if (setting.key == "techniques" && !settings.given.contains(setting.key)) {
         forgetTechniques(settings);
     }
-    if (settings.given.contains(placementPartner(setting.key))) {
-        requireOnePlacement(settings, setting.key, text);
+    for (const std::string_view other : placementPartners(setting.key)) {
+        if (settings.given.contains(other)) {
+            requireOnePlacement(settings, setting.key, text, other);
+        }
     }
     applySetting(settings, setting, text);
     settings.given[std::string(setting.key)] = true;

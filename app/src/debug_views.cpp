@@ -76,6 +76,7 @@ Image8 layersPicture(const Drawn& drawn)
         fmt::format("Layers of depth, placed {}", options.placement == LayerPlacement::by_hand ? "by hand"
                                                   : options.placement == LayerPlacement::lloyd ? "by Lloyd relaxation"
                                                   : options.placement == LayerPlacement::gaps  ? "by gaps"
+                                                  : options.placement == LayerPlacement::world ? "in the world"
                                                                                                : "uniformly");
     legend.subtitle = "the layer a receiver reads; grey: no map here";
     for (std::uint32_t i = 0; i < options.layers; ++i) {

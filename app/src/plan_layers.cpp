@@ -45,7 +45,10 @@ void PlanLayers::describe(const Plan& plan, Json& views) const
     const MomentOptions& options = settings_.shadow.moments;
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const std::vector<pack::DepthLayer> layers =
-            drawing_ != nullptr ? drawing_->renderer.depthLayers(i) : pack::fixedDepthLayers(options);
+            drawing_ != nullptr ? drawing_->renderer.depthLayers(i)
+            : options.placement == LayerPlacement::world
+                ? pack::describeLayers(pack::worldDepthLayers(plan.views[i], options), options)
+                : pack::fixedDepthLayers(options);
         Json list = Json::array();
         for (const pack::DepthLayer& layer : layers) {
             const auto metres = [&](float stored) {

@@ -87,6 +87,8 @@ std::size_t splitCount(const MomentOptions& moments)
         std::count_if(moments.splits.begin(), moments.splits.end(), [](float split) { return split != 0.0F; }));
 }
 
+constexpr std::string_view kPlacement = "lvsm.placement";
+
 /// What the options of a filterable map may not be together.
 void requireMoments(const Settings& settings)
 {
@@ -134,7 +136,8 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
         const auto part = settings.values.lower_bound("bias.");
         return part != settings.values.end() && part->first.starts_with("bias.");
     }
-    if (setting.key == "lvsm.placement" && settings.values.contains("lvsm.splits")) {
+    if (setting.key == "lvsm.placement" &&
+        (settings.values.contains("lvsm.splits") || settings.values.contains("lvsm.world"))) {
         return true;
     }
     const auto usual = defaults.values.find(setting.key);
@@ -144,8 +147,11 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
 /// Of two settings that say one thing, the value of the other one after this one was applied: as the library has it.
 void noteTakenBack(Settings& settings, const Setting& setting)
 {
-    constexpr std::array<std::array<std::string_view, 2>, 2> kPairs{
-        {{"cascades.count", "cascades.ends"}, {"lvsm.placement", "lvsm.splits"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 5> kPairs{{{"cascades.count", "cascades.ends"},
+                                                                     {"lvsm.placement", "lvsm.splits"},
+                                                                     {"lvsm.placement", "lvsm.world"},
+                                                                     {"lvsm.layers", "lvsm.world"},
+                                                                     {"lvsm.splits", "lvsm.world"}}};
     for (const auto& [one, list] : kPairs) {
         if (setting.key != one && setting.key != list) {
             continue;
@@ -259,16 +265,31 @@ void replaceCamera(Settings& settings, std::string_view latest)
     }
 }
 
-std::string_view placementPartner(std::string_view key)
+std::span<const std::string_view> placementPartners(std::string_view key)
 {
-    return key == "lvsm.placement" ? "lvsm.splits" : key == "lvsm.splits" ? "lvsm.placement" : "";
+    static constexpr std::array<std::string_view, 3> kKeys{"lvsm.splits", kPlacement, "lvsm.world"};
+    if (key == kPlacement) {
+        static constexpr std::array<std::string_view, 2> kLists{kKeys[0], kKeys[2]};
+        return kLists;
+    }
+    return key == kKeys[0]   ? std::span(kKeys).last(2)
+           : key == kKeys[2] ? std::span(kKeys).first(2)
+                             : std::span<const std::string_view>();
 }
 
-void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text)
+void requireOnePlacement(const Settings& settings, std::string_view key, std::string_view text,
+                         std::string_view partner)
 {
-    const std::string_view placement = key == "lvsm.placement" ? text : settings.values.at("lvsm.placement");
-    if (placement != nameOf(LayerPlacement::by_hand)) {
-        throw UsageError(fmt::format("lvsm.splits are of layers placed by hand, not of lvsm.placement {}", placement));
+    if (key != kPlacement && partner != kPlacement) {
+        throw UsageError(
+            "lvsm.splits are of layers placed by hand, lvsm.world of layers of the world; give one of them");
+    }
+    const std::string_view placement = key == kPlacement ? text : settings.values.at(std::string(kPlacement));
+    const bool by_hand = (key == kPlacement ? partner : key) == "lvsm.splits";
+    if (placement != nameOf(by_hand ? LayerPlacement::by_hand : LayerPlacement::world)) {
+        throw UsageError(
+            by_hand ? fmt::format("lvsm.splits are of layers placed by hand, not of lvsm.placement {}", placement)
+                    : fmt::format("lvsm.world are layers of the world, not of lvsm.placement {}", placement));
     }
 }
 
@@ -368,8 +389,10 @@ Settings parseTechnique(const Settings& base, std::string_view text)
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
             throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, key));
         }
-        if (const auto other = placementPartner(key); std::find(seen.begin(), seen.end(), other) != seen.end()) {
-            requireOnePlacement(settings, key, value);
+        for (const std::string_view other : placementPartners(key)) {
+            if (std::find(seen.begin(), seen.end(), other) != seen.end()) {
+                requireOnePlacement(settings, key, value, other);
+            }
         }
         seen.push_back(key);
         applySetting(settings, key, value);

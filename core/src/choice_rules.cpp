@@ -17,6 +17,11 @@ bool isParaboloid(const Technique& technique)
     return technique.partition == Partition::paraboloid;
 }
 
+bool isOfScene(const Technique& technique)
+{
+    return technique.fit == Fit::scene;
+}
+
 constexpr std::array kRules{
     ChoiceRule{
         [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
@@ -75,6 +80,19 @@ constexpr std::array kRules{
         "soften smoothies with every filter but hard, pcf and auto",
         "smoothies lie beside a map of depths that are compared one by one, and other filters have a softness of "
         "their own; they need filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return isOfScene(t) && t.partition != Partition::single && t.partition != Partition::automatic;
+               },
+               "fit scene with every partition but single and auto",
+               "scene is one map around all of the scene, whatever is seen of it; it needs partition single or auto, "
+               "which is single then"},
+    ChoiceRule{[](LightType light, const Technique& t) { return isOfScene(t) && light != LightType::directional; },
+               "fit scene with every light but directional",
+               "scene backs a sun out until all of the scene is before it; a light with a place stands where it "
+               "stands, and needs another fit"},
+    ChoiceRule{[](LightType, const Technique& t) { return isOfScene(t) && t.soften == Soften::converge; },
+               "fit scene with soften converge",
+               "converge moves its maps in each frame, and those of scene stay as they are; it needs another fit"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

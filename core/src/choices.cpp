@@ -73,6 +73,8 @@ constexpr std::array kValues{
                 "T. Martin, T.-S. Tan, Anti-aliasing and Continuity with Trapezoidal Shadow Maps, 2004"},
     ChoiceValue{kFit, "psm", number(Fit::psm), true, "drawn in post-perspective space",
                 "M. Stamminger, G. Drettakis, Perspective Shadow Maps, 2002"},
+    ChoiceValue{kFit, "scene", number(Fit::scene), true,
+                "made once around all of the scene, and still under any camera", kMarinescu},
     ChoiceValue{kFit, "auto", number(Fit::automatic), true, "lispsm-simple as strong as is predicted to err least",
                 kDense},
 

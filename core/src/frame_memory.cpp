@@ -9,7 +9,7 @@ bool FrameMemory::holds(const Frame& frame) const
 {
     return known_ && frame.objects != nullptr && frame.objects->identity() == objects_ &&
            frame.objects->version() == version_ && frame.size_px == size_px_ && frame.camera == camera_ &&
-           std::ranges::equal(frame.lights, lights_);
+           std::ranges::equal(frame.layers, layers_) && std::ranges::equal(frame.lights, lights_);
 }
 
 bool FrameMemory::sees(const Frame& frame) const
@@ -23,6 +23,7 @@ void FrameMemory::note(const Frame& frame)
     camera_ = frame.camera;
     size_px_ = frame.size_px;
     lights_.assign(frame.lights.begin(), frame.lights.end());
+    layers_.assign(frame.layers.begin(), frame.layers.end());
     objects_ = known_ ? frame.objects->identity() : 0;
     version_ = known_ ? frame.objects->version() : 0;
 }

@@ -22,6 +22,7 @@ public:
 private:
     bool known_ = false;
     Camera camera_;
+    std::vector<WorldLayer> layers_;
     glm::uvec2 size_px_{0};
     std::vector<Light> lights_;
     std::uint64_t objects_ = 0; // ObjectSet::identity()

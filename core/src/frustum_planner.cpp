@@ -2,9 +2,12 @@
 #include "frustum_planner.h"
 
 #include "depth_tilt.h"
+#include "fit/no_loss.h"
 #include "fit/projection.h"
+#include "fit/scene.h"
 #include "light_reach.h"
 #include "outline.h"
+#include "world_layers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +45,9 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     lie.border_texels = recipe.resolved.borderOf(input.map_size);
     lie.space = lightSpaceOf(input.light, input.slice.axis_ws, input.slice.half_angle_rad, camera.scene_ws);
     lie.space.near_m *= input.slice.near_share;
-    if (recipe.levelsDepth()) {
+    if (recipe.layersWorld() && recipe.options.moments.layer_axis == LayerAxis::height) {
+        lie.space.depth_ws = heightDepth(lie.space);
+    } else if (recipe.levelsDepth()) {
         lie.space.depth_ws = levelDepth(lie.space, *input.frame.objects, input.levellers);
     }
     lie.least_size = lie.space.perspective ? kLeastTangent : kLeastPads * camera.pad_m;
@@ -67,6 +72,9 @@ FitInput FrustumPlanner::fitInputOf(const FrustumInput& input, const Lie& lie) c
 
 MapFrame FrustumPlanner::frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const
 {
+    if (input.recipe.holdsScene()) {
+        return frameOf(rectOfScene(lie.space, input.scene_ws), lie.least_size, input.map_size, lie.border_texels);
+    }
     // Unwarped, the rectangle of the receivers' boxes may be the smaller one.
     const LightRect rect = warp.warped() ? rectOf(warp, region_.outline()) : region_.rect();
     // Who finds out how fine a frustum has to be asks for what is seen of it alone.
@@ -167,7 +175,7 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     const LightSpace& space = lie.space;
     const double border_texels = lie.border_texels;
     const RegionInput around{space, input.slice, camera, objects, input.receivers, recipe.drawsReceivers()};
-    const Warp warp = warpOf(input, lie);
+    const Warp warp = drawnWarp(input, lie);
     MapFrame shown = frameOfWarp(input, lie, warp);
     shown.centre += shown.texel * input.grid_move_texels;
     view.light_reach = lie.light_reach;
@@ -175,7 +183,9 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
 
     const CasterReach reach{steady ? LightRect{shown.centre - shown.half, shown.centre + shown.half} : region_.rect(),
                             borderReach(warp, fit, border_texels, input.map_size),
-                            farthestCaster(region_, space, steady, camera.pad_m), steady};
+                            recipe.holdsScene() ? depthsOfScene(space, input.scene_ws, 0.0).far_m
+                                                : farthestCaster(region_, space, steady, camera.pad_m),
+                            steady};
     const auto first_caster = static_cast<std::uint32_t>(casters.size());
     if (const Outcome found = region_.gatherCasters(around, reach, casters); found.kind != OutcomeKind::ok) {
         return found;
@@ -193,17 +203,15 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.texel_m = std::max(view.texel_xy_m.x, view.texel_xy_m.y);
     view.first_caster = first_caster;
     view.caster_count = static_cast<std::uint32_t>(casters.size()) - first_caster;
-    const glm::dvec3 scene = glm::dvec3(camera.scene_ws.max) - glm::dvec3(camera.scene_ws.min);
-    // Where casters are clamped there is room for what clamping needs; averages lose by a range that is not theirs.
-    const bool needs_range = !view.clamp_near && !recipe.filter->filterable;
-    const double least_m = needs_range ? kLeastRange * std::max({scene.x, scene.y, scene.z}) : 0.0;
-    const DepthRange range =
-        depthRangeOf({region_, space, view.clamp_near, steady, view.texel_m, camera.pad_m, least_m});
+    const DepthRange range = rangeOf(input, space, view);
     view.clip_from_world = clipFromWorld(space, warp, shown, range.near_m, range.far_m);
-    measureDepth(space, range, view);
+    measureDepth(input, space, range, view);
     if (!isFinite(view)) {
         casters.resize(first_caster);
         return kTooFarApart;
+    }
+    if (recipe.layersWorld()) {
+        placeLayers(input.layers, recipe.options.moments.layer_axis, space.forward_ws, view);
     }
     return warp.outcome;
 }
@@ -213,7 +221,8 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
 Outcome FrustumPlanner::widenForLight(const FrustumInput& input, const RegionInput& around, Lie& lie)
 {
     if (input.recipe.steady() && !input.recipe.grows()) { // all of the scene, so that the map holds still
-        lie.light_reach = steadyReach(input.light, lie.space, input.camera.scene_ws);
+        lie.light_reach =
+            steadyReach(input.light, lie.space, input.recipe.holdsScene() ? input.scene_ws : input.camera.scene_ws);
         return {};
     }
     const glm::dvec2 size = region_.rect().high - region_.rect().low;
@@ -240,19 +249,66 @@ Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
         return recipe.fit(fitInputOf(input, lie));
     }
     Warp none;
-    if (recipe.fit != fitUniform && recipe.fit != nullptr) {
+    if (recipe.fit != fitUniform && recipe.fit != fitScene && recipe.fit != nullptr) {
         none.outcome = {OutcomeKind::fallback, kUnwarped};
     }
     return none;
 }
 
-/// The metric, and where its depths are measured from.
-void FrustumPlanner::measureDepth(const LightSpace& space, const DepthRange& range, View& view) const
+/// That of the recipe's fit, as far as what is probably seen gains by it.
+Warp FrustumPlanner::drawnWarp(const FrustumInput& input, const Lie& lie)
 {
-    const double place_m = lightPlaceOf(region_, space, range.near_m);
+    const Warp warp = warpOf(input, lie);
+    if (!warp.warped() || input.sight == nullptr) {
+        return warp;
+    }
+    Warp none;
+    const FitReport with = reportOf(warp, frameOfWarp(input, lie, warp), region_.outline());
+    const glm::dvec2 without = frameOfWarp(input, lie, none).texel;
+    if (with.finest_texel.x * with.finest_texel.y >= without.x * without.y) {
+        none.outcome = {OutcomeKind::fallback, "with a warp texels would be larger all over, because view and light "
+                                               "leave it little to do, so the map is drawn without one"};
+        return none;
+    }
+    lit_.clear();
+    lightPoints(lie.space, input.sight->points(), input.slice.depth, input.slice.sector, lit_);
+    constexpr std::size_t kFewest = 24; // a tenth of the picture; fewer tell too little of where texels are coarse
+    if (lit_.size() < kFewest) {
+        return warp;
+    }
+    const bool whole = input.recipe.fit == fitPsm; // which is the camera's own
+    return withoutLoss(fitInputOf(input, lie), warp, whole, [&](const Warp& tried) {
+        return coarsestTexel_px(lit_, tried, frameOfWarp(input, lie, tried), texels_px_);
+    });
+}
+
+DepthRange FrustumPlanner::rangeOf(const FrustumInput& input, const LightSpace& space, const View& view) const
+{
+    const Recipe& recipe = input.recipe;
+    const CameraView& camera = input.camera;
+    const glm::dvec3 scene = glm::dvec3(camera.scene_ws.max) - glm::dvec3(camera.scene_ws.min);
+    // Where casters are clamped there is room for what clamping needs; averages lose by a range that is not theirs.
+    const bool needs_range = !view.clamp_near && !recipe.filter->filterable;
+    const double least_m = needs_range ? kLeastRange * std::max({scene.x, scene.y, scene.z}) : 0.0;
+    if (recipe.holdsScene()) {
+        const SceneDepths depths = depthsOfScene(space, input.scene_ws, least_m);
+        return {depths.near_m, depths.far_m};
+    }
+    return depthRangeOf({region_, space, view.clamp_near, recipe.steady(), view.texel_m, camera.pad_m, least_m});
+}
+
+/// The metric, and where its depths are measured from.
+void FrustumPlanner::measureDepth(const FrustumInput& input, const LightSpace& space, const DepthRange& range,
+                                  View& view) const
+{
+    const bool whole = input.recipe.holdsScene();
+    const double place_m = whole ? range.near_m : lightPlaceOf(region_, space, range.near_m);
     const glm::dvec3 centre_ws = region_.centre_ws();
     view.light_place_ws =
         space.perspective ? space.origin_ws : centre_ws + space.forward_ws * (place_m - space.coordinates(centre_ws).z);
+    if (whole) {
+        view.light_place_ws = lightPlaceOfScene(space, input.scene_ws, place_m);
+    }
     view.metric.near_m = range.near_m - place_m;
     view.metric.far_m = range.far_m - place_m;
     const glm::dvec4 depth(space.depth_ws, -glm::dot(space.depth_ws, space.origin_ws) - range.near_m);

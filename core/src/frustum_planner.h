@@ -23,6 +23,9 @@ struct FrustumInput {
     std::uint32_t map_size = 0; // texels on a side
     double strength = 1.0;      // of the warp, with fit auto
     glm::dvec2 grid_move_texels{0.0};
+    Aabb scene_ws{};                      // with fit scene: what its map is made around
+    std::span<const WorldLayer> layers{}; // with layers of the world
+    const Sight* sight = nullptr;         // by which a warp is held against none; null: it is as its fit says
 };
 
 struct Prediction {
@@ -61,6 +64,7 @@ private:
     [[nodiscard]] MapFrame frameOfWarp(const FrustumInput& input, const Lie& lie, const Warp& warp) const;
     [[nodiscard]] FitInput fitInputOf(const FrustumInput& input, const Lie& lie) const;
     [[nodiscard]] Warp warpOf(const FrustumInput& input, const Lie& lie) const;
+    [[nodiscard]] Warp drawnWarp(const FrustumInput& input, const Lie& lie);
     [[nodiscard]] FacingTexels facingAmid(const FrustumInput& input, const Sight& sight, const Lie& lie,
                                           const Warp& warp, const MapFrame& frame);
     void outlinePlaces(const FrustumInput& input, const Lie& lie);
@@ -77,7 +81,8 @@ private:
                                      std::vector<std::uint32_t>& casters);
     Outcome planHalf(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters);
     [[nodiscard]] Prediction predictHalf(const FrustumInput& input, const Sight& sight);
-    void measureDepth(const LightSpace& space, const DepthRange& range, View& view) const;
+    [[nodiscard]] DepthRange rangeOf(const FrustumInput& input, const LightSpace& space, const View& view) const;
+    void measureDepth(const FrustumInput& input, const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;
     std::vector<std::uint32_t> near_casters_;

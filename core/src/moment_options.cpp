@@ -14,7 +14,8 @@ constexpr std::array<std::string_view, 2> kMetrics{"linear", "z-over-w"};
 constexpr std::array<std::string_view, 4> kBlurs{"auto", "none", "gaussian", "box"};
 constexpr std::array<std::string_view, 3> kPaths{"auto", "compute", "fragment"};
 constexpr std::array<std::string_view, 4> kSamplings{"nearest", "bilinear", "trilinear", "anisotropic"};
-constexpr std::array<std::string_view, 4> kPlacements{"uniform", "hand", "lloyd", "gaps"};
+constexpr std::array<std::string_view, 5> kPlacements{"uniform", "hand", "lloyd", "gaps", "world"};
+constexpr std::array<std::string_view, 2> kAxes{"height", "light"};
 constexpr std::array<std::string_view, 2> kPenumbrae{"fixed", "light"};
 constexpr std::array<std::string_view, 2> kSolvers{"hamburger", "hausdorff"};
 
@@ -58,6 +59,28 @@ std::optional<std::string> exponentRefusal(std::string_view name, const std::opt
     return std::nullopt;
 }
 
+constexpr double kFarthestLayer_m = 1e6;
+
+std::optional<std::string> worldRefusal(const MomentOptions& o)
+{
+    if (o.placement != LayerPlacement::world) {
+        return std::nullopt;
+    }
+    if (o.metric == DepthMetricKind::z_over_w) {
+        return "layers of the world are metres of it, in which depth is counted along the light: depth-metric linear";
+    }
+    const auto given = static_cast<std::size_t>(std::find(o.world_layers.begin(), o.world_layers.end(), WorldLayer{}) -
+                                                o.world_layers.begin());
+    if (o.world_layers == std::array<WorldLayer, kMaxDepthLayers>{}) {
+        return std::nullopt; // the frame's, or found
+    }
+    if (given != o.layers) {
+        return "each layer of the world has two ends: " + std::to_string(o.layers) +
+               " layers need so many pairs, and " + std::to_string(given) + (given == 1 ? " is" : " are") + " given";
+    }
+    return refusal(std::span(o.world_layers).first(given));
+}
+
 std::optional<std::string> splitRefusal(const MomentOptions& o)
 {
     float last = 0.0F;
@@ -96,6 +119,10 @@ std::string_view nameOf(MomentSolver value)
 {
     return nameIn(kSolvers, value);
 }
+std::string_view nameOf(LayerAxis value)
+{
+    return nameIn(kAxes, value);
+}
 std::string_view nameOf(MomentPenumbra value)
 {
     return nameIn(kPenumbrae, value);
@@ -109,6 +136,26 @@ bool followsLight(Filter filter, const MomentOptions& options)
 bool followsDepths(LayerPlacement placement)
 {
     return placement == LayerPlacement::lloyd || placement == LayerPlacement::gaps;
+}
+
+bool hasWorldLayers(Filter filter, const MomentOptions& options)
+{
+    return filter == Filter::lvsm && options.placement == LayerPlacement::world;
+}
+
+std::optional<std::string> refusal(std::span<const WorldLayer> layers)
+{
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const WorldLayer& layer = layers[i];
+        if (!(layer.low_m < layer.high_m) || !(layer.low_m >= -kFarthestLayer_m && layer.high_m <= kFarthestLayer_m)) {
+            return "a layer of the world reaches from its lower end to its higher one, both within 1000 km of the "
+                   "world's zero";
+        }
+        if (i > 0 && !(layers[i - 1].low_m < layer.low_m && layers[i - 1].high_m < layer.high_m)) {
+            return "layers of the world go from low to high, both ends of each above those of the one before";
+        }
+    }
+    return std::nullopt;
 }
 
 BlurKind blurOf(const MomentOptions& options)
@@ -188,6 +235,9 @@ std::optional<std::string> refusal(Filter filter, MapFormat format, const Moment
     const double largest = largestExponent(filter, format, options);
     switch (filter) {
     case Filter::lvsm:
+        if (auto reason = worldRefusal(options)) {
+            return reason;
+        }
         return splitRefusal(options);
     case Filter::esm:
         return exponentRefusal("exponent", options.esm_exponent, format, largest);

@@ -277,6 +277,16 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     json.value("far_m", view.metric.far_m);
     json.vector("metric_ws", view.metric.metric_ws, 4);
     json.closeLine('}');
+    if (view.layers[0] != DepthSpan{}) {
+        json.openLine("world_layers", '[');
+        for (const DepthSpan& layer : view.layers) {
+            if (layer != DepthSpan{}) {
+                json.value({}, layer.near);
+                json.value({}, layer.far);
+            }
+        }
+        json.closeLine(']');
+    }
     json.openLine("casters", '[');
     for (std::uint32_t i = 0; i < view.caster_count; ++i) {
         json.value({}, plan.casters[view.first_caster + i]);

@@ -82,6 +82,7 @@ void Planner::reset()
         impl_->chooser = {};
         impl_->multi = {};
         impl_->turns.forget();
+        impl_->scene.forget();
     }
 }
 
@@ -120,6 +121,7 @@ const Plan& Planner::plan(const Frame& given)
         s.multi = {};
         s.moved.forget();
         s.turns.forget();
+        s.scene.forget();
         s.spoilt = false;
     }
     Frame frame = given;
@@ -178,6 +180,7 @@ void Planner::Impl::makePlan(const Frame& frame)
 {
     some_nowhere = frame.objects->nowhere() > 0;
     begin(frame);
+    scene.follow(*frame.objects);
     noteMovement(frame);
     admit(frame);
     placeInMask(plan);
@@ -251,6 +254,9 @@ void Planner::Impl::admit(const Frame& frame)
         planned.options = light.options;
         Setup& setup = setups[light.options];
         planned.outcome = setup.recipe.check(light);
+        if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.layersWorld()) {
+            planned.outcome = layer(frame, setup);
+        }
         if (planned.outcome.kind != OutcomeKind::ok) {
             continue;
         }
@@ -265,6 +271,29 @@ void Planner::Impl::admit(const Frame& frame)
     }
     foreseeTurns(frame);
     listTenants(frame);
+}
+
+/// Which layers of the world this frame's are: the options', the frame's, or found.
+Outcome Planner::Impl::layer(const Frame& frame, Setup& setup)
+{
+    const MomentOptions& moments = setup.recipe.options.moments;
+    const auto given = std::span(moments.world_layers).first(moments.layers);
+    if (given.front() != WorldLayer{} || given.back() != WorldLayer{}) {
+        setup.layers.assign(given.begin(), given.end());
+        return {};
+    }
+    if (frame.layers.empty() && moments.layer_axis == LayerAxis::light) {
+        return {OutcomeKind::refused,
+                "layers of the world that are found are layers of height; those along the light are to be given"};
+    }
+    const std::span<const WorldLayer> layers =
+        frame.layers.empty() ? scene.layers(*frame.objects, moments.layers) : frame.layers;
+    if (!frame.layers.empty() && (layers.size() != moments.layers || refusal(layers))) {
+        return {OutcomeKind::refused, "Frame::layers are not as many as the options' layers, from low to high, both "
+                                      "ends of each above those of the one before"};
+    }
+    setup.layers.assign(layers.begin(), layers.end());
+    return {};
 }
 
 /// Many lamps reach few objects each, so each of them asks for its own.
@@ -347,7 +376,7 @@ void Planner::Impl::look(const Frame& frame, Setup& setup)
     if (camera.outcome.kind != OutcomeKind::ok || setup.receivers.empty()) {
         return;
     }
-    setup.sighted = setup.recipe.predicts() || setup.recipe.grows();
+    setup.sighted = setup.recipe.predicts() || setup.recipe.grows() || setup.recipe.warps();
     if (setup.sighted) {
         setup.sight.look(frame, camera, setup.receivers);
     }

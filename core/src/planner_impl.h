@@ -13,6 +13,7 @@
 #include "motion/sun_steps.h"
 #include "partition/multi.h"
 #include "recipe.h"
+#include "scene_memory.h"
 #include "soften/moved_boxes.h"
 #include "store/map_store.h"
 
@@ -34,6 +35,7 @@ struct Setup {
     std::vector<std::uint32_t> receivers;
     bool sighted = false; // `sight` is of this frame: where the recipe predicts, or lights share what room there is
     Sight sight;
+    std::vector<WorldLayer> layers; // with layers of the world: this frame's
 };
 
 /// One position that a light shines from.
@@ -72,6 +74,7 @@ struct Planner::Impl {
     MovedBoxes moved;
     bool takes_turns = false; // some lights: their options bound what is drawn in a frame
     LightTurns turns;
+    SceneMemory scene;
     std::uint64_t converging = 0; // frames since the last cut: which sample is this frame's
 
     Plan plan;
@@ -112,6 +115,7 @@ struct Planner::Impl {
     void look(const Frame& frame, Setup& setup);
     void listReceivers(const Frame& frame);
     void admit(const Frame& frame);
+    [[nodiscard]] Outcome layer(const Frame& frame, Setup& setup);
     void listInReach(const Frame& frame, const Light& light);
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(std::uint32_t index, const Light& light) const;
     MapWish decide(const Frame& frame, std::uint32_t index);

@@ -221,7 +221,8 @@ Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const S
     const MapPlace& place = store.placeOf(slice.tenant, stand.slot, slice.frustum);
     const Outcome outcome =
         frustums.plan({frame, recipe, setup.camera, slice.receivers, recipe.steady() ? all_receivers : slice.receivers,
-                       stand.at, slice.slice, place.tile.width, slice.strength, on_gpu ? glm::dvec2(0.0) : grid_move},
+                       stand.at, slice.slice, place.tile.width, slice.strength, on_gpu ? glm::dvec2(0.0) : grid_move,
+                       scene.box_ws(), setup.layers, recipe.warps() ? &setup.sight : nullptr},
                       planned, plan.casters);
     if (!outcome.hasMap()) {
         return outcome;

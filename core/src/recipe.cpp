@@ -69,6 +69,10 @@ Outcome Recipe::check(const Light& light) const
         return {OutcomeKind::refused,
                 "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear"};
     }
+    if (light.type != LightType::directional && layersWorld() && options.moments.layer_axis == LayerAxis::height) {
+        return {OutcomeKind::refused, "layers of height are layers of depth under parallel light alone; a light with a "
+                                      "place needs lvsm.axis light"};
+    }
     return checkLight(light);
 }
 
@@ -116,7 +120,7 @@ std::uint32_t Recipe::mapsOf(const PartitionTraits& divided) const
 
 bool Recipe::levelsDepth() const
 {
-    return options.level_depth && filter != nullptr && filter->filterable;
+    return options.level_depth && filter != nullptr && filter->filterable && !layersWorld();
 }
 
 } // namespace gnomon

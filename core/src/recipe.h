@@ -47,9 +47,17 @@ struct Recipe {
     [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
     /// Its mask is a mean over frames.
     [[nodiscard]] bool converges() const { return options.technique.soften == Soften::converge; }
-    [[nodiscard]] bool steady() const { return motion != nullptr && motion->steady; }
+    [[nodiscard]] bool steady() const { return (motion != nullptr && motion->steady) || holdsScene(); }
+    /// One map around all of the scene, made once.
+    [[nodiscard]] bool holdsScene() const { return options.technique.fit == Fit::scene; }
+    [[nodiscard]] bool layersWorld() const { return hasWorldLayers(resolved.filter(), options.moments); }
     /// The planner finds out how strong a warp is (fit auto).
     [[nodiscard]] bool searchesWarp() const { return options.technique.fit == Fit::automatic && !steady(); }
+    /// Its fit warps maps by a rule, which is held against no warp.
+    [[nodiscard]] bool warps() const
+    {
+        return fit != nullptr && fit != fitUniform && fit != fitScene && !steady() && !grows();
+    }
     /// It also finds out how a light is divided (partition auto).
     [[nodiscard]] bool choosesPartition() const { return options.technique.partition == Partition::automatic; }
     /// One map around what the camera's depth shows, found on the GPU: what best quality spends on it. Not of a light

@@ -35,8 +35,21 @@ std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers, con
 
 std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options)
 {
-    return followsDepths(options.placement) ? std::vector<DepthLayer>{}
-                                            : describeLayers(firstDepthLayers(options), options);
+    const bool depends = followsDepths(options.placement) || options.placement == LayerPlacement::world;
+    return depends ? std::vector<DepthLayer>{} : describeLayers(firstDepthLayers(options), options);
+}
+
+shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& options)
+{
+    shared::GpuDepthLayers layers{};
+    for (std::uint32_t i = 0; i < shared::kDepthLayers; ++i) {
+        const double far_before = i > 0 ? view.layers[i - 1].far : 0.0;
+        layers.layer[i] = i < options.layers ? shared::layerOfWorld(i == 0, static_cast<float>(far_before),
+                                                                    static_cast<float>(view.layers[i].near),
+                                                                    static_cast<float>(view.layers[i].far))
+                                             : shared::noLayer();
+    }
+    return layers;
 }
 
 std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view)

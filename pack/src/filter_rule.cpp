@@ -103,6 +103,12 @@ float smoothiesReach(const ResolvedOptions& options)
     return options.hasSmoothies() ? static_cast<float>(options.asked().smoothies.reach_texels) : 0.0F;
 }
 
+void lighten(const ResolvedOptions& options, shared::MomentRule& rule)
+{
+    rule.lighten = options.asked().lighten;
+    rule.lighten_cut = options.asked().lighten_as == LightenAs::remap ? rule.lighten : 0.0F;
+}
+
 } // namespace
 
 /// Of hard and pcf the metric alone counts.
@@ -134,10 +140,12 @@ namespace {
 
 void fillMoments(const ResolvedOptions& options, shared::GpuRule& out)
 {
-    const shared::MomentRule rule = readingRuleOf(options);
+    shared::MomentRule rule = readingRuleOf(options);
+    lighten(options, rule);
     out.moment_warp = {rule.exponent, rule.exponent_negative, rule.moment_bias, rule.anisotropy};
-    out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding, rule.rounding_negative};
-    out.moment_shape = {rule.linstep, rule.power, rule.lighten, smoothiesReach(options)};
+    out.moment_variance = {rule.min_variance, rule.min_variance_texels, rule.rounding,
+                           options.hasSmoothies() ? smoothiesReach(options) : rule.rounding_negative};
+    out.moment_shape = {rule.linstep, rule.power, rule.lighten, rule.lighten_cut};
     out.moments = {rule.flags, rule.sampling, rule.layers, 0};
 }
 
@@ -212,7 +220,7 @@ shared::MomentRule momentRuleOf(const ResolvedOptions& options)
     }
     rule.linstep = o.bleeding_linstep;
     rule.power = o.bleeding_power;
-    rule.lighten = o.lighten;
+    lighten(options, rule);
     rule.anisotropy = static_cast<float>(o.anisotropy);
     return rule;
 }

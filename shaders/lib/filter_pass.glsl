@@ -71,6 +71,7 @@ MomentRule momentRule()
     rule.linstep = 0.0;
     rule.power = 1.0;
     rule.lighten = 0.0;
+    rule.lighten_cut = 0.0;
     rule.anisotropy = 1.0;
     return rule;
 }

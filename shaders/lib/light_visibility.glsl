@@ -110,7 +110,7 @@ FilterInput filterInput(vec2 pixel)
     f.smoothies = 0.0;
 #ifdef GNOMON_SMOOTHIES
     if (GNOMON_SMOOTHIES) {
-        f.smoothies = GNOMON_NUMBERS.rule.moment_shape.w; // 0 where options have none
+        f.smoothies = GNOMON_NUMBERS.rule.moment_variance.w;
     }
 #endif
     f.stood = gnomon.rule.moments.w;

@@ -138,6 +138,7 @@ GN_FN MomentRule momentsOf(int flags, int sampling, int layers, GN_VEC4 warp, GN
     rule.linstep = real(shape.x);
     rule.power = real(shape.y);
     rule.lighten = real(shape.z);
+    rule.lighten_cut = real(shape.w);
     return rule;
 }
 
@@ -217,7 +218,7 @@ GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoin
         input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
         input_here.footprint_y = footprintOf(rows, point.texel, point.w, p, n, steps.below, steps.along);
     }
-    return boundedVisibility(applyFilter(filter_number, point, input_here));
+    return lightenedVisibility(boundedVisibility(applyFilter(filter_number, point, input_here)), f.moments);
 }
 
 // The same without a screen: filterable maps are read at their finest level.

@@ -66,6 +66,17 @@ GN_FN real4 layerByHand(int i, int count, real split_before, real split_after, r
     return layerBetween(begins, ends, real(0.5) * (begins + ends), overlap);
 }
 
+// (1) A layer of the world, Marinescu 2011, eq. 5: near and far as they are, in the view's depths. Receivers between
+// two layers, or in both, are parted halfway between the end of the one and the beginning of the other; `far_before` is
+// that of the layer before, `first`: there is none. No receiver is beyond 1, so what begins there begins short of
+// noLayer().
+GN_CONST real kBeyondAll = real(1.25);
+GN_FN real4 layerOfWorld(bool first, real far_before, real near, real far)
+{
+    real begins = first ? real(0.0) : min(real(0.5) * (far_before + near), kBeyondAll);
+    return real4(near, far, begins, begins);
+}
+
 // A receiver is in the last layer for which this holds. What is not a number is in none.
 GN_FN bool beginsBefore(real4 layer, real d)
 {

@@ -79,8 +79,9 @@ struct GpuRule {
     GN_VEC4 kernel;      // gaussianWeights; of id and depth-id IdRule (object_ids.h)
     GN_VEC4 disc;        // x: radius, texels; y: frame, for noise; zw: one over the size of the maps' image in texels
     GN_VEC4 moment_warp; // exponent, negative exponent, moment bias, anisotropy
-    GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-
-    GN_VEC4 moment_shape;                 // linstep, power, lighten; w: texels that smoothies reach
+    GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-; of hard
+                                          // and pcf w: texels that smoothies reach, or 0
+    GN_VEC4 moment_shape;                 // linstep, power; of every filter lighten and its cut
     GN_IVEC4 reading;                     // gnomon::Filter, kernel width, taps of the disc, holding (paired_depth.h)
     GN_IVEC4 moments;                     // MomentRule's flags, sampling and layers; FilterInput::stood
     GN_VEC4 disc_points[kDiscPoints / 2]; // two points of the unit disc each

@@ -29,9 +29,17 @@ struct MomentRule {
     real rounding_negative;   // evsm, warp of c-: the same
     real linstep;
     real power;
-    real lighten;
+    real lighten;     // of every filter: lightenedVisibility()
+    real lighten_cut; // the same
     real anisotropy;
 };
+
+// Shadows are lightened by b = `lighten`: V (1 - cut) + b. Marinescu 2011 adds b as it is, cut = 0, and what exceeds 1
+// is cut off; with cut = b full shadow is b and penumbrae keep their shape.
+GN_FN real lightenedVisibility(real v, MomentRule rule)
+{
+    return min(v * (real(1.0) - rule.lighten_cut) + rule.lighten, real(1.0));
+}
 
 // What moments say of the depths before a receiver.
 struct Occluders {

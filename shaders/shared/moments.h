@@ -3,7 +3,7 @@
 // Based on: W. Donnelly, A. Lauritzen, "Variance Shadow Maps", I3D 2006; A. Lauritzen, "Summed-Area Variance Shadow
 // Maps", GPU Gems 3, chapter 8, 2007 (derivatives, linear step); A. Lauritzen, M. McCool, "Layered Variance Shadow
 // Maps", Graphics Interface 2008; A. Marinescu, "Achieving real-time soft shadows using LVSM in an RTS game", 2011
-// (power, lighten).
+// (power).
 #ifndef GNOMON_MOMENTS_H
 #define GNOMON_MOMENTS_H
 #include "depth_layers.h"
@@ -140,14 +140,13 @@ GN_FN real markovBound(real m1, real t, real slack)
     return t > most ? most / t : real(1.0);
 }
 
-// What is done against light bleeding, in this order: (3) linstep(a, 1, V), GPU Gems 3, ch. 8.4.1; (4) V^k; and (5)
-// shadows are lightened, V (1 - b) + b, Marinescu 2011. Always in [0, 1]; what is not a number is lit.
+// What is done against light bleeding, in this order: (3) linstep(a, 1, V), GPU Gems 3, ch. 8.4.1; (4) V^k, Marinescu
+// 2011. Always in [0, 1]; what is not a number is lit.
 GN_FN real shapeVisibility(real visibility, MomentRule rule)
 {
     real v = visibility < real(1.0) ? max(visibility, real(0.0)) : real(1.0);
     v = max(v - rule.linstep, real(0.0)) / max(real(1.0) - rule.linstep, real(0.01)); // (3)
     v = pow(clamp(v, real(0.0), real(1.0)), rule.power);                              // (4)
-    v = v * (real(1.0) - rule.lighten) + rule.lighten;                                // (5)
     return v < real(1.0) ? max(v, real(0.0)) : real(1.0);
 }
 

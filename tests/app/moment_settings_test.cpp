@@ -52,7 +52,9 @@ TEST(MomentSettings, DefaultsAreThoseOfTheLibrary)
     EXPECT_EQ(made.derivative_variance, library.derivative_variance);
     EXPECT_EQ(made.bleeding_linstep, library.bleeding_linstep);
     EXPECT_EQ(made.bleeding_power, library.bleeding_power);
-    EXPECT_EQ(made.lighten, library.lighten);
+    EXPECT_EQ(app::defaultSettings().shadow.lighten, ShadowOptions{}.lighten);
+    EXPECT_EQ(made.world_layers, library.world_layers);
+    EXPECT_EQ(made.layer_axis, library.layer_axis);
     EXPECT_EQ(made.layers, library.layers);
     EXPECT_EQ(made.placement, library.placement);
     EXPECT_EQ(made.splits, library.splits);
@@ -70,7 +72,7 @@ TEST(MomentSettings, EachReachesTheLibrary)
     const MomentOptions shared =
         set("vsm", {"msaa=1", "blur=box", "blur.radius=7", "blur.path=fragment", "map-sampling=anisotropic",
                     "anisotropy=4", "depth-metric=z-over-w", "depth-remap=1", "min-variance=0.25",
-                    "derivative-variance=1", "bleeding.linstep=0.5", "bleeding.power=2", "lighten=0.75"})
+                    "derivative-variance=1", "bleeding.linstep=0.5", "bleeding.power=2"})
             .shadow.moments;
     EXPECT_EQ(shared.samples, 1U);
     EXPECT_EQ(shared.blur, BlurKind::box);
@@ -84,7 +86,8 @@ TEST(MomentSettings, EachReachesTheLibrary)
     EXPECT_TRUE(shared.derivative_variance);
     EXPECT_EQ(shared.bleeding_linstep, 0.5F);
     EXPECT_EQ(shared.bleeding_power, 2.0F);
-    EXPECT_EQ(shared.lighten, 0.75F);
+    EXPECT_EQ(set("vsm", {"lighten=0.75"}).shadow.lighten, 0.75F);
+    EXPECT_EQ(set("hard", {"lighten=0.75", "lighten.as=add"}).shadow.lighten_as, LightenAs::add);
     EXPECT_EQ(set("msm", {"blur.sigma=2.5"}).shadow.moments.blur_sigma_texels, 2.5F);
 
     const MomentOptions layers =
@@ -131,6 +134,10 @@ const char* const kTexts[] = {
     "vsm+blur=none+map-sampling=nearest",
     "lvsm+lvsm.layers=3+lvsm.splits=0.3/0.6+lvsm.overlap=0.1",
     "lvsm+lvsm.layers=8+lvsm.placement=uniform",
+    "lvsm+lvsm.layers=3+lvsm.world=-2.5/8/10/40/40/90",
+    "lvsm+lvsm.placement=world+lvsm.layers=3",
+    "lvsm+lvsm.world=0/100/150/200+lvsm.axis=light",
+    "pcf+lighten=0.5+lighten.as=add",
     "esm+log-space=1+esm.exponent=300",
     "esm+map-format=r16f+esm.exponent=9.5",
     "evsm+evsm.positive=20+evsm.negative=8",
@@ -212,7 +219,11 @@ TEST(MomentSettings, ThePresetIsThePapersSetUp)
     EXPECT_EQ(moments.sampling, MapSampling::bilinear);
     EXPECT_EQ(moments.min_variance, 0.01F);
     EXPECT_EQ(moments.bleeding_power, 1.3F);
-    EXPECT_EQ(moments.lighten, 0.65F);
+    EXPECT_EQ(settings.shadow.lighten, 0.39F); // of linear light: 0.65 of what is displayed
+    EXPECT_EQ(settings.shadow.lighten_as, LightenAs::add);
+    EXPECT_EQ(moments.placement, LayerPlacement::world);
+    EXPECT_EQ(moments.world_layers[0], (WorldLayer{6.5, 12.0}));
+    EXPECT_EQ(moments.world_layers[1], (WorldLayer{10.0, 40.0}));
     EXPECT_TRUE(settings.bloom.on);
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// lispsm and lispsm-simple against their closed forms, and what these are for: the same error at both ends.
+// lispsm and lispsm-simple against their closed forms, and what these are for: the same error at both ends; and that a
+// warp which loses is weakened or given up.
+#include "fit/no_loss.h"
 #include "fit_stage.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace gnomon {
@@ -161,6 +164,67 @@ TEST(FitLispsm, IsTheSameFarFromTheOrigin)
         const Warp b = fitFunction(fit)(away.input());
         EXPECT_NEAR(b.n, a.n, 0.01 * a.n) << nameOf(fit); // the body grows with what a float may be off
         EXPECT_NEAR(glm::dot(a.along, b.along), 1.0, 1e-4) << nameOf(fit);
+    }
+}
+
+TEST(FitNoLoss, AWarpThatGainsStaysAsItIs)
+{
+    const FitStage stage(levelGround());
+    const Warp warp = fitLispsm(stage.input());
+    ASSERT_TRUE(warp.warped());
+    const Warp kept =
+        withoutLoss(stage.input(), warp, false, [](const Warp& tried) { return tried.warped() ? 1.0 : 2.0; });
+    EXPECT_EQ(kept.n, warp.n);
+    EXPECT_EQ(kept.outcome.kind, OutcomeKind::ok);
+}
+
+TEST(FitNoLoss, AWarpIsWeakenedToWhereItLosesNothing)
+{
+    const FitStage stage(levelGround());
+    const FitInput input = stage.input();
+    const Warp warp = fitLispsm(input);
+    const auto strengthOf = [&](const Warp& tried) {
+        double most = 1.0;
+        for (const glm::dvec2& q : input.outline) {
+            most = std::max(most, tried.wAt(q));
+        }
+        return most;
+    };
+    // Gains up to a strength of 2, loses from 3 on.
+    const auto coarsest = [&](const Warp& tried) {
+        const double s = strengthOf(tried);
+        return s <= 2.0 ? 1.0 - 0.25 * (s - 1.0) : 0.75 + 0.25 * (s - 2.0);
+    };
+    ASSERT_GT(strengthOf(warp), 4.0);
+    const Warp weaker = withoutLoss(input, warp, false, coarsest);
+    EXPECT_EQ(weaker.outcome.kind, OutcomeKind::ok);
+    EXPECT_NEAR(strengthOf(weaker), 3.04, 0.02) << "up to a hundredth over what none has";
+    EXPECT_FALSE(withoutLoss(input, warp, true, coarsest).warped()) << "of one strength alone";
+    const Warp none = withoutLoss(input, warp, false, [&](const Warp& tried) { return strengthOf(tried); });
+    EXPECT_FALSE(none.warped());
+    EXPECT_EQ(none.outcome.kind, OutcomeKind::fallback);
+    EXPECT_NE(none.outcome.reason, "");
+}
+
+/// The camera looks into a low sun over a meadow with trees: what is gained by a warp along the view is less than what
+/// is lost by turning the map to it.
+TEST(FitNoLoss, InADuelOverWhatStandsTheWarpFallsBack)
+{
+    Stage stage = levelGround(0.1);
+    stage.light = test::sun({0.0, -0.3, 1.0});
+    for (int i = -6; i <= 6; ++i) {
+        stage.set.add(test::boxAt({12.0 * i, 4.0, -30.0 - 9.0 * std::abs(i)}, {1.5, 4.0, 1.5}));
+    }
+    const Plan uniform = stage.plan(Fit::uniform);
+    const double area = uniform.views[0].texel_xy_m.x * uniform.views[0].texel_xy_m.y;
+    for (const Fit fit : {Fit::lispsm, Fit::tsm, Fit::lispsm_simple}) {
+        const Plan plan = stage.plan(fit);
+        const View& view = plan.views[0];
+        if (plan.lights[0].outcome.kind == OutcomeKind::fallback) {
+            EXPECT_EQ(view.clip_from_world, uniform.views[0].clip_from_world) << nameOf(fit);
+            continue;
+        }
+        EXPECT_LT(view.fit.finest_texel.x * view.fit.finest_texel.y, area) << nameOf(fit) << " gains somewhere";
     }
 }
 

@@ -97,8 +97,6 @@ TEST(MomentOptions, LimitsHoldAndWhatIsJustBeyondIsRefused)
          "bleeding.linstep is 0.995; it can be 0 to 0.99 visibility"},
         {"power", [](MomentOptions& o, float v) { o.bleeding_power = v; }, 0.1F, 16.0F, 0.09F, 16.5F,
          "bleeding.power is 0.09; it can be 0.1 to 16", "bleeding.power is 16.5; it can be 0.1 to 16"},
-        {"lighten", [](MomentOptions& o, float v) { o.lighten = v; }, 0.0F, 1.0F, -0.5F, 1.5F,
-         "lighten is -0.5; it can be 0 to 1 visibility", "lighten is 1.5; it can be 0 to 1 visibility"},
         {"bias", [](MomentOptions& o, float v) { o.moment_bias = v; }, 0.0F, 0.1F, -1e-6F, 0.101F,
          "msm.bias is -1e-06; it can be 0 to 0.1", "msm.bias is 0.101; it can be 0 to 0.1"},
         {"overlap", [](MomentOptions& o, float v) { o.layer_overlap = v; }, 0.0F, 0.5F, -0.01F, 0.501F,
@@ -141,7 +139,6 @@ TEST(MomentOptions, WhatIsNoNumberIsRefused)
         [](MomentOptions& o, float v) { o.min_variance = v; },
         [](MomentOptions& o, float v) { o.bleeding_linstep = v; },
         [](MomentOptions& o, float v) { o.bleeding_power = v; },
-        [](MomentOptions& o, float v) { o.lighten = v; },
         [](MomentOptions& o, float v) { o.moment_bias = v; },
         [](MomentOptions& o, float v) { o.layer_overlap = v; },
     };
@@ -323,7 +320,8 @@ TEST(MomentOptions, Names)
     EXPECT_EQ(namesOf<BlurKind>(4), (Names{"auto", "none", "gaussian", "box"}));
     EXPECT_EQ(namesOf<BlurPath>(4), (Names{"auto", "compute", "fragment", "?"}));
     EXPECT_EQ(namesOf<MapSampling>(5), (Names{"nearest", "bilinear", "trilinear", "anisotropic", "?"}));
-    EXPECT_EQ(namesOf<LayerPlacement>(5), (Names{"uniform", "hand", "lloyd", "gaps", "?"}));
+    EXPECT_EQ(namesOf<LayerPlacement>(6), (Names{"uniform", "hand", "lloyd", "gaps", "world", "?"}));
+    EXPECT_EQ(namesOf<LayerAxis>(3), (Names{"height", "light", "?"}));
     EXPECT_EQ(namesOf<MomentSolver>(3), (Names{"hamburger", "hausdorff", "?"}));
 }
 

@@ -56,10 +56,11 @@ TEST(Rts, HasWhatWasPromised)
     EXPECT_EQ(countNodes(scene, "unit/"), 3U * 400U);
     EXPECT_EQ(scene.lights.size(), 1U);
     EXPECT_EQ(scene.lights[0].type, LightType::directional);
-    ASSERT_EQ(scene.views.size(), 3U);
+    ASSERT_EQ(scene.views.size(), 4U);
     EXPECT_EQ(scene.views[0].name, "camp");
     EXPECT_EQ(scene.views[1].name, "unit");
     EXPECT_EQ(scene.views[2].name, "map");
+    EXPECT_EQ(scene.views[3].name, "giant");
     std::size_t trees = 0;
     for (const Node& node : scene.nodes) {
         if (node.name.starts_with("grove/")) {

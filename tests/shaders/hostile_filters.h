@@ -27,6 +27,7 @@ inline MomentRule ruleOf(const Options& o)
     rule.linstep = real(0.3);
     rule.power = real(1.3);
     rule.lighten = real(0.1);
+    rule.lighten_cut = real(0.1);
     rule.anisotropy = real(8.0);
     return rule;
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -282,6 +283,97 @@ TEST_F(Lvsm, numbersInTheTablesAreThoseOfTheEnum)
     e.first = layers[0];
     e.second = layers[1];
     EXPECT_EQ(encodeDepth(kFilterLvsm, e, input.moments), encodeLvsm(e, input.moments));
+}
+
+class LvsmOfTheWorld : public Lvsm {
+protected:
+    void placeWorld(const std::vector<glm::dvec2>& spans)
+    {
+        input.moments.layers = static_cast<int>(spans.size());
+        layers.assign(kDepthLayers, noLayer());
+        for (std::size_t i = 0; i < spans.size(); ++i) {
+            layers[i] = layerOfWorld(i == 0, i > 0 ? spans[i - 1].y : 0.0, spans[i].x, spans[i].y);
+        }
+    }
+};
+
+TEST_F(LvsmOfTheWorld, receiversReadTheLayerThatHoldsThemOrTheNearest)
+{
+    placeWorld({{-0.5, 0.2}, {0.3, 0.6}, {0.55, 1.4}});
+    const auto readBy = [&](double depth) {
+        int held = 0;
+        for (int i = 1; i < input.moments.layers; ++i) {
+            held = beginsBefore(layers[static_cast<std::size_t>(i)], depth) ? i : held;
+        }
+        return held;
+    };
+    EXPECT_EQ(readBy(0.0), 0);
+    EXPECT_EQ(readBy(0.2), 0);
+    EXPECT_EQ(readBy(0.24), 0) << "between two layers, nearer to the first";
+    EXPECT_EQ(readBy(0.26), 1);
+    EXPECT_EQ(readBy(0.57), 1) << "in both";
+    EXPECT_EQ(readBy(0.58), 2);
+    EXPECT_EQ(readBy(1.0), 2);
+    placeWorld({{0.1, 0.5}, {3.0, 4.0}}); // no receiver is there
+    EXPECT_EQ(readBy(1.0), 0);
+    EXPECT_TRUE(isLayer(layers[1])) << "but it is stored";
+}
+
+TEST_F(LvsmOfTheWorld, aLayerIsEquation5ClampedBeyondItsEnds)
+{
+    placeWorld({{-0.5, 0.2}, {0.3, 0.6}});
+    for (int i = 0; i <= 100; ++i) {
+        const double d = i / 100.0;
+        EXPECT_NEAR(layerMetric(d, layers[0]), std::clamp((d + 0.5) / 0.7, 0.0, 1.0), 1e-15);
+        EXPECT_NEAR(layerMetric(d, layers[1]), std::clamp((d - 0.3) / 0.3, 0.0, 1.0), 1e-15);
+    }
+}
+
+TEST_F(LvsmOfTheWorld, noSeamShowsWhereLayersOverlap)
+{
+    // Under an occluder, and half under it, across the border at 0.35.
+    placeWorld({{-0.2, 0.4}, {0.3, 0.7}});
+    input.moments.min_variance = 1e-6;
+    for (const double share : {0.0, 0.25, 1.0}) {
+        for (const double above : {0.01, 0.02, 0.045}) {
+            double before = -1.0;
+            for (int i = -20; i <= 20; ++i) {
+                const double receiver = 0.35 + 0.0002 * i;
+                fill({{receiver - above, share}, {receiver, 1.0 - share}});
+                const double v = visibility(receiver);
+                EXPECT_NEAR(v, 1.0 - share, 0.02) << above;
+                if (before >= 0.0) {
+                    EXPECT_NEAR(v, before, 0.02);
+                }
+                before = v;
+            }
+        }
+    }
+    // Without an overlap there is one: below its near end a layer knows of no depth. What must fail does.
+    placeWorld({{-0.2, 0.35}, {0.35, 0.7}});
+    fill({{0.33, 1.0}});
+    EXPECT_LT(visibility(0.3499), 0.02);
+    input.moments.min_variance = 0.01;
+    EXPECT_GT(visibility(0.3502), 0.5);
+}
+
+TEST_F(LvsmOfTheWorld, precisionIsALayersOwn)
+{
+    // At 16 bits a plate one part in 10,000 above a plane throws a shadow in a layer of a twentieth of the depths, and
+    // none where one layer spans all.
+    const auto seen = [&](const std::vector<glm::dvec2>& spans) {
+        placeWorld(spans);
+        input.moments.min_variance = varianceOfRounding(1.0 / 65535.0);
+        const double receiver = 0.52;
+        fill({{receiver - 0.0005, 1.0}});
+        const auto rounded = test::map_moments;
+        test::map_moments = [rounded](glm::dvec2 at, double level, double layer) {
+            return glm::round(rounded(at, level, layer) * 65535.0) / 65535.0;
+        };
+        return visibility(receiver);
+    };
+    EXPECT_GT(seen({{0.0, 1.0}, {1.0, 2.0}}), 0.9);
+    EXPECT_LT(seen({{0.0, 0.3}, {0.5, 0.55}}), 0.5);
 }
 
 } // namespace

@@ -87,6 +87,11 @@ VKAPI_ATTR void VKAPI_CALL cmdFill(VkCommandBuffer commands, VkBuffer buffer, Vk
     driverOf(commands).use(objectOf(buffer));
 }
 
+VKAPI_ATTR void VKAPI_CALL cmdUpdate(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize, VkDeviceSize, const void*)
+{
+    driverOf(commands).use(objectOf(buffer));
+}
+
 VKAPI_ATTR void VKAPI_CALL cmdClear(VkCommandBuffer commands, VkImage image, VkImageLayout, const VkClearColorValue*,
                                     std::uint32_t, const VkImageSubresourceRange*)
 {
@@ -160,6 +165,7 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(CmdSetBlendConstants, cmdIgnored),
     GNOMON_NULL(CmdDispatch, cmdDispatch),
     GNOMON_NULL(CmdFillBuffer, cmdFill),
+    GNOMON_NULL(CmdUpdateBuffer, cmdUpdate),
     GNOMON_NULL(CmdClearColorImage, cmdClear),
     GNOMON_NULL(CmdCopyImage, cmdCopyImage),
     GNOMON_NULL(CmdCopyBuffer, cmdCopyBuffer),

@@ -13,7 +13,9 @@ bool isFilterable(Filter filter)
 MomentNumbers momentNumbers(const ShadowOptions& filter)
 {
     if (!isFilterable(filter.technique.filter)) {
-        MomentNumbers none{};
+        MomentNumbers none{}; // but for what all filters have
+        none.lighten = filter.lighten;
+        none.lighten_cut = filter.lighten_as == LightenAs::remap ? filter.lighten : 0.0F;
         none.flags = pack::readingRuleOf(resolvedOrThrow(filter)).flags;
         return none;
     }
@@ -31,6 +33,7 @@ MomentNumbers momentNumbers(const ShadowOptions& filter)
             r.linstep,
             r.power,
             r.lighten,
+            r.lighten_cut,
             r.anisotropy};
 }
 

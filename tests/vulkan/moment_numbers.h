@@ -22,6 +22,7 @@ struct MomentNumbers {
     double linstep = 0.0;
     double power = 0.0;
     double lighten = 0.0;
+    double lighten_cut = 0.0;
     double anisotropy = 0.0;
 };
 [[nodiscard]] bool isFilterable(Filter filter);

@@ -309,6 +309,7 @@ shared::MomentRule momentsOf(const ShadowOptions& options)
     rule.linstep = n.linstep;
     rule.power = n.power;
     rule.lighten = n.lighten;
+    rule.lighten_cut = n.lighten_cut;
     rule.anisotropy = n.anisotropy;
     return rule;
 }
@@ -444,8 +445,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }
-            mask.push_back(shared::boundedVisibility(
-                shared::applyFilter(static_cast<int>(options.technique.filter), point, input)));
+            mask.push_back(shared::lightenedVisibility(shared::boundedVisibility(shared::applyFilter(
+                                                           static_cast<int>(options.technique.filter), point, input)),
+                                                       input.moments));
         }
     }
     current_maps = {};

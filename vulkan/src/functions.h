@@ -19,7 +19,7 @@
     X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) X(ResetQueryPool) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline) X(CmdBindDescriptorSets) \
     X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdPushConstants) X(CmdSetViewport) X(CmdSetScissor) X(CmdSetBlendConstants) \
-    X(CmdDispatch) X(CmdFillBuffer) X(CmdClearColorImage) X(CmdCopyImage) X(CmdCopyBuffer) X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
+    X(CmdDispatch) X(CmdFillBuffer) X(CmdUpdateBuffer) X(CmdClearColorImage) X(CmdCopyImage) X(CmdCopyBuffer) X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
 
 #define GNOMON_DEBUG_FUNCTIONS(X) \
     X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)

@@ -49,7 +49,7 @@ constexpr float kLaterShare = 0.5F;
 } // namespace
 
 LayerPlacer::LayerPlacer(Device& device, const ResolvedOptions& options, VkPipelineCache cache)
-    : device_(device), options_(options)
+    : device_(device), options_(options), of_world_(hasWorldLayers(options.filter(), options.moments()))
 {
     if (options.filter() == Filter::lvsm && followsDepths(options.moments().placement)) {
         passes_.emplace(device, options, cache);
@@ -62,8 +62,8 @@ void LayerPlacer::makeBuffer(std::uint32_t slots)
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     HostBuffer larger(device_, slots * sizeof(shared::GpuDepthLayers), kUsage, "depth layers");
-    const bool placed =
-        passes_ && std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.metric; });
+    const bool placed = (passes_ || of_world_) &&
+                        std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.metric; });
     if (placed && !outgrown_) {
         outgrown_ = std::move(buffer_);
     } else {
@@ -156,16 +156,37 @@ shared::GpuPlacePush LayerPlacer::placePush(const View& view, std::uint32_t inde
     return push;
 }
 
+/// Into the buffer in the order of the commands, because what was recorded before reads what was there before.
+void LayerPlacer::write(VkCommandBuffer commands, const View& view, std::uint32_t slot)
+{
+    constexpr VkPipelineStageFlags2 kShaders =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    constexpr VkPipelineStageFlags2 kCopy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    const shared::GpuDepthLayers layers = pack::worldDepthLayers(view, options_.moments());
+    recordBarrier(
+        device_, commands,
+        MemoryBarrier{kShaders | kCopy, VK_ACCESS_2_TRANSFER_WRITE_BIT, kCopy, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+    device_.vk.CmdUpdateBuffer(commands, buffer_.buffer(), slot * sizeof(layers), sizeof(layers), &layers);
+    recordBarrier(device_, commands,
+                  MemoryBarrier{kCopy, VK_ACCESS_2_TRANSFER_WRITE_BIT, kShaders | VK_PIPELINE_STAGE_2_HOST_BIT,
+                                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_HOST_READ_BIT});
+}
+
 void LayerPlacer::record(VkCommandBuffer commands, const Plan& plan, std::uint32_t view_index)
 {
-    if (!passes_) {
+    if (!passes_ && !of_world_) {
         return;
     }
     const View& view = plan.views[view_index];
     const std::uint32_t index = slotOf(plan, view_index);
     assert(index < slots_.size());
-    const bool held = optionsOf(plan, view).technique().motion != Motion::free;
-    passes_->record(commands, {histogramPush(view), placePush(view, index, held)});
+    if (of_world_) {
+        write(commands, view, index);
+    } else {
+        const Technique& technique = optionsOf(plan, view).technique();
+        const bool held = technique.motion != Motion::free || technique.fit == Fit::scene;
+        passes_->record(commands, {histogramPush(view), placePush(view, index, held)});
+    }
     slots_[index].map = view.map;
     slots_[index].light = view.light;
     slots_[index].metric = view.metric;

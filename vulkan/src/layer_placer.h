@@ -44,11 +44,13 @@ private:
 
     void makeBuffer(std::uint32_t slots);
     [[nodiscard]] shared::GpuDepthLayers* entries() const;
+    void write(VkCommandBuffer commands, const View& view, std::uint32_t slot);
     [[nodiscard]] shared::GpuHistogramPush histogramPush(const View& view) const;
     [[nodiscard]] shared::GpuPlacePush placePush(const View& view, std::uint32_t slot, bool held) const;
 
     Device& device_;
     ResolvedOptions options_;
+    bool of_world_ = false;             // lvsm with layers of the world
     std::optional<LayerPasses> passes_; // lvsm with layers that follow what is drawn
     HostBuffer buffer_;
     HostBuffer outgrown_; // what was placed is there until it has been copied

@@ -14,7 +14,7 @@ enum class LightType : std::uint8_t { directional, spot, point };
 /// automatic: of partition and fit the planner chooses, for each light and frame; of the filter resolve(), by quality
 /// (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
-enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, automatic };
+enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
 enum class Filter : std::uint8_t { hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm, id, depth_id, automatic };
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };

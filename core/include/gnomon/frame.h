@@ -4,6 +4,7 @@
 
 #include <gnomon/choices.h>
 #include <gnomon/geometry.h>
+#include <gnomon/moment_options.h>
 #include <gnomon/object_set.h>
 
 #include <glm/mat4x4.hpp>
@@ -85,6 +86,10 @@ struct Frame {
     glm::uvec2 size_px{1280, 720}; // of the picture; >= 1
     std::span<const Light> lights;
     const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate
+    /// Layers of the world for options with LayerPlacement::world that give none themselves: from low to high, as many
+    /// as their `layers`; else those lights get Outcome refused. Where they change, what was drawn with them is drawn
+    /// again. Empty: layers are found.
+    std::span<const WorldLayer> layers;
     /// The camera was cut: the picture goes on from no other. What is remembered of earlier pictures is not used.
     bool cut = false;
 };

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,7 +26,18 @@ enum class BlurPath : std::uint8_t { automatic, compute, fragment };
 /// such reads along its longer side.
 enum class MapSampling : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
 /// lvsm: where one layer of depth ends and the next begins.
-enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd, gaps };
+/// `world`: layers are volumes of the world, each with ends of its own, which no camera moves.
+enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd, gaps, world };
+/// Layers of the world: what their metres count. `height`: along +y, above the world's zero. `light`: along the light's
+/// direction, of a directional light from the world's zero on, of a light with a place from there.
+enum class LayerAxis : std::uint8_t { height, light };
+/// A layer of the world. All zero: none.
+struct WorldLayer {
+    double low_m = 0.0; // -1e6 .. 1e6 each; low_m < high_m
+    double high_m = 0.0;
+
+    bool operator==(const WorldLayer&) const = default;
+};
 /// msm: which of the paper's two bounds.
 enum class MomentSolver : std::uint8_t { hamburger, hausdorff };
 /// vsm, msm: how wide shadows' edges are. `fixed`: as the blur; `light`: as the light's size and the depth of occluders
@@ -59,7 +71,6 @@ struct MomentOptions {
     // all
     float bleeding_linstep = 0.0F; // visibility up to this is 0, above it is stretched to [0, 1]; 0 .. 0.99
     float bleeding_power = 1.0F;   // then raised to this; 0.1 .. 16
-    float lighten = 0.0F;          // then mapped to [this, 1]; 0 .. 1
 
     // lvsm
     std::uint32_t layers = 2; // 2 .. 8, two to a texel
@@ -68,6 +79,10 @@ struct MomentOptions {
     /// 1 count.
     std::array<float, kMaxDepthLayers - 1> splits{};
     float layer_overlap = 0.05F; // of its own range, how far a layer reaches into its neighbours; 0 .. 0.5
+    /// world: as many as `layers`, from low to high; they may leave room between them, or overlap. All zero: those of
+    /// Frame::layers, or where that is empty, layers found in the scene (docs/techniques/lvsm.md).
+    std::array<WorldLayer, kMaxDepthLayers> world_layers{};
+    LayerAxis layer_axis = LayerAxis::height; // height: refused for a light with a place
 
     // esm, evsm
     /// Store logarithms, averaged as what they are logarithms of: any exponent fits any format.
@@ -91,11 +106,16 @@ struct MomentOptions {
 [[nodiscard]] std::string_view nameOf(BlurPath value);
 [[nodiscard]] std::string_view nameOf(MapSampling value);
 [[nodiscard]] std::string_view nameOf(LayerPlacement value);
+[[nodiscard]] std::string_view nameOf(LayerAxis value);
 [[nodiscard]] std::string_view nameOf(MomentSolver value);
 [[nodiscard]] std::string_view nameOf(MomentPenumbra value);
 
 /// Does it go by what each map holds? Then layers are found on the GPU.
 [[nodiscard]] bool followsDepths(LayerPlacement placement);
+/// Are the filter's layers of depth volumes of the world?
+[[nodiscard]] bool hasWorldLayers(Filter filter, const MomentOptions& options);
+/// Why these layers of the world cannot be had, as a sentence; nothing when they can.
+[[nodiscard]] std::optional<std::string> refusal(std::span<const WorldLayer> layers);
 /// Does this filter, with these options, make penumbrae as wide as the light's size asks?
 [[nodiscard]] bool followsLight(Filter filter, const MomentOptions& options);
 /// The blur that is done: never automatic.

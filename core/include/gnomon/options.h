@@ -102,6 +102,13 @@ enum class Translucent : std::uint8_t {
 };
 [[nodiscard]] std::string_view nameOf(Translucent value);
 
+/// How shadows are lightened by b (ShadowOptions::lighten).
+enum class LightenAs : std::uint8_t {
+    remap, // V (1 - b) + b: full shadow is b, penumbrae keep their shape
+    add,   // V + b, at most 1, as A. Marinescu has it, 2011: what is lit by more than 1 - b is lit all over
+};
+[[nodiscard]] std::string_view nameOf(LightenAs value);
+
 /// The kernel of Filter::pcf.
 struct PcfOptions {
     PcfKernel kernel = PcfKernel::gaussian_3x3;
@@ -207,8 +214,12 @@ struct ShadowOptions {
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
     CasterCull cull = CasterCull::none;       // which triangles of all casters are left out
     Translucent translucent = Translucent::grey;
-    MomentOptions moments;         // filters vsm, lvsm, esm, evsm, msm; of hard and pcf the metric alone
-    ScreenBlurOptions screen_blur; // soften blur
+    /// What full shadow becomes, of each map that is read: 0 .. 1. Done to what the filter found, before maps of one
+    /// light are joined.
+    float lighten = 0.0F;
+    LightenAs lighten_as = LightenAs::remap; // add: refused with soften converge, which averages frames afterwards
+    MomentOptions moments;                   // filters vsm, lvsm, esm, evsm, msm; of hard and pcf the metric alone
+    ScreenBlurOptions screen_blur;           // soften blur
 
     bool operator==(const ShadowOptions&) const = default;
 };

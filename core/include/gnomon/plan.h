@@ -161,6 +161,15 @@ struct FitReport {
     glm::dvec2 coarsest_texel{0.0}; // and most coarsely
 };
 
+/// A layer of depth, in the view's own depths: d'' = clamp((d' - near) / (far - near), 0, 1). Both may lie outside of
+/// [0, 1]. Both zero: none.
+struct DepthSpan {
+    double near = 0.0;
+    double far = 0.0;
+
+    friend bool operator==(const DepthSpan&, const DepthSpan&) = default;
+};
+
 /// Which of a stepping sun's two positions a view belongs to (SunSteps).
 enum class SunPosition : std::uint8_t { only, earlier, later };
 
@@ -239,6 +248,8 @@ struct View {
     /// Filters id and depth-id: names the ids that its casters are drawn with. A map that was drawn with others is out
     /// of date. 0: no ids.
     std::uint64_t ids_key = 0;
+    /// LayerPlacement::world: the layers of the world as this view has them, from near to far. Else all are none.
+    std::array<DepthSpan, kMaxDepthLayers> layers{};
     /// With gpu_cascade: how far the view is to be moved over what it shows, in its own texels. Else it has been.
     glm::dvec2 grid_move_texels{0.0};
 };

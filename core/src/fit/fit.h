@@ -57,5 +57,6 @@ Warp fitLispsm(const FitInput& input);
 Warp fitLispsmSimple(const FitInput& input);
 Warp fitTsm(const FitInput& input);
 Warp fitPsm(const FitInput& input);
+Warp fitScene(const FitInput& input);
 
 } // namespace gnomon

@@ -10,7 +10,7 @@ struct Row {
 };
 constexpr Row kFits[] = {
     {Fit::uniform, fitUniform}, {Fit::lispsm, fitLispsm}, {Fit::lispsm_simple, fitLispsmSimple},
-    {Fit::tsm, fitTsm},         {Fit::psm, fitPsm},
+    {Fit::tsm, fitTsm},         {Fit::psm, fitPsm},       {Fit::scene, fitScene},
 };
 
 } // namespace

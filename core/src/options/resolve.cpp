@@ -170,6 +170,11 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (options.technique.soften == Soften::converge && options.keep_still == KeepStill::always) {
         return "keep-still always: soften converge moves its maps in each frame, so nothing of them can be kept";
     }
+    if (options.technique.soften == Soften::converge && options.lighten > 0.0F &&
+        options.lighten_as == LightenAs::add) {
+        return "lighten.as add: what is cut off at 1 has to be cut off last, and soften converge averages frames after "
+               "it; take lighten.as remap";
+    }
     if (options.cascades.pass == CascadePass::layered && filterTraits(filterOf(options))->filterable) {
         return "cascades.pass layered: maps that are averaged are made one by one; draw each in a pass of its own";
     }
@@ -227,6 +232,10 @@ std::string_view nameOf(IdTest value)
 std::string_view nameOf(IdDepth value)
 {
     return nameIn(std::array<std::string_view, 2>{"object", "global"}, value);
+}
+std::string_view nameOf(LightenAs value)
+{
+    return nameIn(std::array<std::string_view, 2>{"remap", "add"}, value);
 }
 std::string_view nameOf(StepBy value)
 {
@@ -380,6 +389,9 @@ Resolution resolve(const ShadowOptions& options)
     made.asked_.technique.filter = filterOf(options);
     if (options.technique.partition == Partition::paraboloid) {
         made.asked_.technique.fit = Fit::uniform; // auto
+    }
+    if (options.technique.fit == Fit::scene) {
+        made.asked_.technique.partition = Partition::single; // auto
     }
     made.traits_ = filterTraits(filterOf(options));
     made.format_ = formatOf(options);

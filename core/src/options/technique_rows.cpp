@@ -8,6 +8,10 @@ namespace {
 
 using enum OptionType;
 
+bool lightens(const ShadowOptions& o)
+{
+    return o.lighten > 0.0F;
+}
 bool isPcf(const ShadowOptions& o)
 {
     return filterOf(o) == Filter::pcf;
@@ -92,6 +96,8 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "caster-faces", .type = choice, .form = "NAME", .choices = namesOf<CasterFaces>, .doc = "what of casters a map holds: the nearest surface, the nearest that faces away from the light, or midway between first and second", GNOMON_MEMBER(faces)},
         {.key = "caster-cull", .type = choice, .form = "NAME", .choices = namesOf<CasterCull>, .doc = "triangles of all casters that are left out, seen from the light: none, back or front faces", GNOMON_MEMBER(cull)},
         {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", GNOMON_MEMBER(translucent)},
+        {.key = "lighten", .type = real, .form = "V", .unit = "visibility", .min = 0, .max = 1, .doc = "what full shadow becomes, last of all", GNOMON_MEMBER(lighten)},
+        {.key = "lighten.as", .type = choice, .form = "KIND", .choices = namesOf<LightenAs>, .doc = "remap: V (1 - b) + b; add: V + b, at most 1, which eats penumbrae", .used = lightens, .used_when = "lighten above 0", GNOMON_MEMBER(lighten_as)},
         {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs; 3x3-box nine equal points, 3x3-projected the same as published in 2005", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
         {.key = "pcf.taps", .type = integer, .form = "N", .unit = "taps", .min = 4, .max = 64, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.taps)},
         {.key = "pcf.radius", .type = real, .form = "R", .unit = "texels", .min = 0.5, .max = 16, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.radius_texels)},

@@ -5,6 +5,7 @@
 #include <gnomon/object_set.h>
 #include <gnomon/plan.h>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct MapProjection {
     bool orthographic = true;
     bool clamp_near = true;
     std::uint64_t ids_key = 0;
+    std::array<DepthSpan, kMaxDepthLayers> layers{};
 
     friend bool operator==(const MapProjection&, const MapProjection&) = default;
 };

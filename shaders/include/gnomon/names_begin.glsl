@@ -139,6 +139,7 @@
 #define joined gnomon_joined
 #define joinedBlocks gnomon_joinedBlocks
 #define joinedMean gnomon_joinedMean
+#define kBeyondAll gnomon_kBeyondAll
 #define kBiasFourth gnomon_kBiasFourth
 #define kBiasMoment gnomon_kBiasMoment
 #define kBiasSecond gnomon_kBiasSecond
@@ -268,6 +269,7 @@
 #define layerByHand gnomon_layerByHand
 #define layerHoldsBin gnomon_layerHoldsBin
 #define layerMetric gnomon_layerMetric
+#define layerOfWorld gnomon_layerOfWorld
 #define leastLastPivot gnomon_leastLastPivot
 #define leastVariance gnomon_leastVariance
 #define leaveSquare gnomon_leaveSquare
@@ -276,6 +278,7 @@
 #define lightRay gnomon_lightRay
 #define lightSpread gnomon_lightSpread
 #define lightVisibility gnomon_lightVisibility
+#define lightenedVisibility gnomon_lightenedVisibility
 #define lloydMean gnomon_lloydMean
 #define lloydSplit gnomon_lloydSplit
 #define lloydStart gnomon_lloydStart

@@ -139,6 +139,7 @@
 #undef joined
 #undef joinedBlocks
 #undef joinedMean
+#undef kBeyondAll
 #undef kBiasFourth
 #undef kBiasMoment
 #undef kBiasSecond
@@ -268,6 +269,7 @@
 #undef layerByHand
 #undef layerHoldsBin
 #undef layerMetric
+#undef layerOfWorld
 #undef leastLastPivot
 #undef leastVariance
 #undef leaveSquare
@@ -276,6 +278,7 @@
 #undef lightRay
 #undef lightSpread
 #undef lightVisibility
+#undef lightenedVisibility
 #undef lloydMean
 #undef lloydSplit
 #undef lloydStart

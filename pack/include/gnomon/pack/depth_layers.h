@@ -19,10 +19,14 @@ struct DepthLayer {
     float far = 1.0F;
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };
-/// The layers of every view where they do not depend on what is drawn (uniform, by hand); else empty.
+/// The layers of every view where they depend neither on what is drawn nor on the view (uniform, by hand); else empty.
 [[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
 [[nodiscard]] std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
                                                      const MomentOptions& options);
+
+/// LayerPlacement::world: the layers of View::layers, which change with the view's depths. As long as its map is not
+/// drawn again, they do not.
+[[nodiscard]] shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& options);
 
 /// What a buffer of layers is filled with. Where they depend on what is drawn, it is where they start.
 [[nodiscard]] shared::GpuDepthLayers firstDepthLayers(const MomentOptions& options);

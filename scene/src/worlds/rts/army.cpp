@@ -3,6 +3,7 @@
 #include "../rng.h"
 #include "../scene_maker.h"
 #include "crowds.h"
+#include "turns.h"
 
 #include <glm/geometric.hpp>
 
@@ -157,22 +158,6 @@ Mesh makeLeg(const Palette& palette, std::uint32_t team)
     part.colour = rgb(0x4B3320);
     part.box({-0.11F, -kHip_m, -0.12F}, {0.11F, -0.38F, 0.20F}, 0.85F, true);
     return maker.take(team == 0 ? "blue leg" : "red leg");
-}
-
-/// cos and sin of half of a small angle; exact enough below one radian.
-glm::quat aboutX(float angle_rad)
-{
-    const float h = angle_rad * 0.5F;
-    const float s = h - h * h * h * (1.0F / 6.0F);
-    return {std::sqrt(1.0F - s * s), s, 0.0F, 0.0F};
-}
-
-/// Turn about +y that takes +z to `direction` (x, z).
-glm::quat heading(const glm::vec2& direction)
-{
-    const float c = std::sqrt(std::max(0.0F, 0.5F * (1.0F + direction.y)));
-    const float s = std::sqrt(std::max(0.0F, 0.5F * (1.0F - direction.y)));
-    return {c, 0.0F, direction.x < 0.0F ? -s : s, 0.0F};
 }
 
 constexpr std::array<std::uint32_t, kLoopCount> kSquadsOnLoop{6, 5, 5, 5, 4};

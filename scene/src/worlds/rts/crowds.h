@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves in the world `rts`: squads on their loops, debris in its swarms, sails and flags. All are pure functions
-// of the time.
+// What moves in the world `rts`: squads on their loops, a giant, debris in its swarms, sails and flags. All are pure
+// functions of the time.
 #pragma once
 
 #include "loops.h"
@@ -40,6 +40,19 @@ private:
     };
     std::vector<Unit> units_;
     std::vector<Squad> squads_;
+};
+
+/// A figure of three metres with a skin over eleven joints, who walks the far round by himself.
+class Giant {
+public:
+    /// `start_m`: how far along his loop he is at time 0.
+    Giant(Scene& scene, const Palette& palette, float start_m);
+    void pose(double time_s, const Terrain& terrain, const Loop& loop, std::vector<Node>& nodes) const;
+    [[nodiscard]] Loop::Place place(double time_s, const Loop& loop) const;
+
+private:
+    std::uint32_t root_ = 0; // node; the joints follow
+    float start_m_ = 0.0F;
 };
 
 /// 2,000 shards and crystals in ten swarms that drift over the map.

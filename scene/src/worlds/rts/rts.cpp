@@ -33,7 +33,12 @@ struct Actors {
     Army army;
     Debris debris;
     Turners turners;
+    Giant giant;
 };
+
+/// The giant's loop, the far round, and where on it he is at first: out of sight of `camp` and `unit`.
+constexpr std::size_t kGiantsLoop = 3;
+constexpr float kGiantStarts = 0.25F; // of the loop
 
 void addSun(Scene& scene)
 {
@@ -57,10 +62,18 @@ void addViews(Scene& scene, const Actors& actors)
     const glm::vec2 stand = squad.position + squad.direction * 8.2F - right * 4.2F;
     glm::vec3 eye = actors.terrain.ground(stand);
     eye.y += 2.1F;
+    const Loop::Place giant = actors.giant.place(0.0, actors.loops[kGiantsLoop]);
+    const glm::vec2 beside(-giant.direction.y, giant.direction.x);
+    glm::vec3 giants_eye = actors.terrain.ground(giant.position + giant.direction * 6.5F - beside * 5.0F);
+    giants_eye.y += 2.6F;
     scene.views = {
         {.name = "camp", .eye = {14.0F, 54.0F, 76.0F}, .target = {-1.0F, 7.0F, -1.0F}, .fov_y_rad = 0.72F},
         {.name = "unit", .eye = eye, .target = middle + glm::vec3(0.0F, 1.25F, 0.0F), .fov_y_rad = 0.8F},
         {.name = "map", .eye = {45.0F, 400.0F, 510.0F}, .target = {0.0F, -30.0F, 22.0F}, .fov_y_rad = 0.70F},
+        {.name = "giant",
+         .eye = giants_eye,
+         .target = actors.terrain.ground(giant.position) + glm::vec3(0.0F, 1.3F, 0.0F),
+         .fov_y_rad = 0.8F},
     };
 }
 
@@ -79,14 +92,16 @@ Scene makeRts(std::uint64_t seed)
     addWilds(scene, palette, terrain, built, seed);
     Army army(scene, palette, seed);
     Debris debris(scene, palette, seed);
+    Giant giant(scene, palette, kGiantStarts * loops[kGiantsLoop].length_m());
     addSun(scene);
     const auto actors = std::make_shared<const Actors>(
-        Actors{std::move(loops), std::move(terrain), std::move(army), std::move(debris), std::move(turners)});
+        Actors{std::move(loops), std::move(terrain), std::move(army), std::move(debris), std::move(turners), giant});
     addViews(scene, *actors);
     scene.procedural = [actors](double time_s, std::vector<Node>& nodes) {
         actors->army.pose(time_s, actors->terrain, actors->loops, nodes);
         actors->debris.pose(time_s, nodes);
         actors->turners.pose(time_s, nodes);
+        actors->giant.pose(time_s, actors->terrain, actors->loops[kGiantsLoop], nodes);
     };
     scene.procedural(0.0, scene.nodes);
     finishScene(scene);
