@@ -119,6 +119,9 @@ struct Settings {
     std::optional<Sweep> sweep;
     std::string test_image; // metrics: the two files
     std::string truth_image;
+    std::vector<std::string> claims; // claims: their names; empty: all
+    bool quick = false;              // claims: only those that take seconds
+    bool markdown = false;           // claims: the tables of docs/claims.md
 
     /// The text of every setting that has a value, by key; defaults included.
     std::map<std::string, std::string, std::less<>> values;
@@ -144,6 +147,7 @@ inline constexpr std::uint32_t kBench = 4;
 inline constexpr std::uint32_t kList = 8;
 inline constexpr std::uint32_t kCompare = 16;
 inline constexpr std::uint32_t kMetrics = 32;
+inline constexpr std::uint32_t kClaims = 64;
 inline constexpr std::uint32_t kDraw = kRender | kBench | kCompare;           // all that draw
 inline constexpr std::uint32_t kFrames = kRender | kPlan | kBench | kCompare; // all that take a scene
 

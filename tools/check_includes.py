@@ -79,7 +79,7 @@ RULES = [
     ("lab/score/", {"std", "glm", "core-geometry", "core-public", "scene", "image", "truth", "metrics"},
      "scores are had without our host, by whoever has plain images"),
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
-    ("app/", ABOVE | {"cli", "text"}, "the program knows public headers"),
+    ("app/", ABOVE | {"cli", "text", "shared"}, "the program knows public headers"),
     ("examples/", STD | PUBLIC | {"glm", "vulkan-api", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
 ]

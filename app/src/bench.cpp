@@ -4,6 +4,7 @@
 #include "app/visual.h"
 #include "bench_report.h"
 #include "contestants.h"
+#include "findings.h"
 #include "progress.h"
 #include "streams.h"
 #include "subcommands.h"
@@ -16,6 +17,8 @@
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace gnomon::app {
 namespace {
@@ -104,32 +107,48 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
     return result;
 }
 
+/// What was found, and of what.
+struct BenchRun {
+    Shot shot;
+    BenchResult result;
+};
+
+BenchRun runTimes(const Settings& settings)
+{
+    const std::vector<Settings> techniques = contestants(settings);
+    BenchRun run{makeShot(settings), {}};
+    const auto gpu = openGpu(settings);
+    std::for_each(run.shot.notices.begin(), run.shot.notices.end(), notice);
+    run.result = measure(*gpu, run.shot, settings, techniques);
+    requireSilence(*gpu);
+    for (const BenchedTechnique& technique : run.result.techniques) {
+        if (const std::optional<std::string> waits = waitNote(technique.reused.waits)) {
+            notice(fmt::format("{}: {}", describeTechnique(technique.settings), *waits));
+        }
+    }
+    run.result.device = gpu->properties().deviceName;
+    run.result.driver = gpu->driver();
+    return run;
+}
+
 } // namespace
+
+Json findByTiming(const Settings& settings)
+{
+    const BenchRun run = runTimes(settings);
+    return benchJson(run.result, run.shot, settings);
+}
 
 int runBench(const Settings& settings)
 {
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    const std::vector<Settings> techniques = contestants(settings);
-    Shot shot = makeShot(settings);
-    const auto gpu = openGpu(settings);
-    for (const std::string& text : shot.notices) {
-        notice(text);
-    }
-    BenchResult result = measure(*gpu, shot, settings, techniques);
-    requireSilence(*gpu);
-    for (const BenchedTechnique& technique : result.techniques) {
-        if (const std::optional<std::string> waits = waitNote(technique.reused.waits)) {
-            notice(fmt::format("{}: {}", describeTechnique(technique.settings), *waits));
-        }
-    }
-    result.device = gpu->properties().deviceName;
-    result.driver = gpu->driver();
+    const BenchRun run = runTimes(settings);
     if (settings.json.empty()) {
-        writeStdout(benchTable(result, shot, settings));
+        writeStdout(benchTable(run.result, run.shot, settings));
     } else {
-        writeResult(settings.json, jsonText(benchJson(result, shot, settings)));
+        writeResult(settings.json, jsonText(benchJson(run.result, run.shot, settings)));
     }
     return 0;
 }

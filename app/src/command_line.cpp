@@ -2,6 +2,7 @@
 #include "app/command_line.h"
 
 #include "app/preset.h"
+#include "claims/claim.h"
 #include "contestants.h"
 #include "files/files.h"
 
@@ -74,6 +75,7 @@ std::string_view aliasOf(std::string_view key)
 struct Parsed {
     std::vector<std::string> scenes;
     std::vector<std::string> images;
+    std::vector<std::string> claims;
     std::vector<std::string> sets;
     std::vector<std::string> presets;
     std::deque<std::pair<const Setting*, std::vector<std::string>>> options;
@@ -111,6 +113,9 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
     if (subcommand.bit == kMetrics) {
         cli.add_option("images", parsed.images)->expected(-1);
     }
+    if (subcommand.bit == kClaims) {
+        cli.add_option("names", parsed.claims)->expected(-1);
+    }
     cli.add_flag("-h,--help", parsed.help);
     cli.allow_extras();
 }
@@ -120,6 +125,9 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
 {
     if (subcommand.bit == kMetrics) {
         return !word.starts_with("-") && !hasExtension(word, ".png") && !hasExtension(word, ".exr");
+    }
+    if (subcommand.bit == kClaims) {
+        return !word.starts_with("-") && findClaim(word) == nullptr;
     }
     const auto worlds = scene::worlds();
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&
@@ -153,7 +161,10 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
         } else if (i + 1 < arguments.size() && isStrayFile(arguments[i + 1], subcommand)) {
             throw UsageError(fmt::format("--json: \"{0}\" is no {1}, and a file for JSON must end in .json or be given "
                                          "as --json={0}",
-                                         arguments[i + 1], subcommand.bit == kMetrics ? "image" : "scene"));
+                                         arguments[i + 1],
+                                         subcommand.bit == kMetrics  ? "image"
+                                         : subcommand.bit == kClaims ? "claim"
+                                                                     : "scene"));
         } else {
             json = "-";
         }
@@ -168,6 +179,8 @@ void takeWords(std::span<const std::string> words, const Subcommand& subcommand,
         parsed.scenes.insert(parsed.scenes.end(), words.begin(), words.end());
     } else if (subcommand.bit == kMetrics) {
         parsed.images.insert(parsed.images.end(), words.begin(), words.end());
+    } else if (subcommand.bit == kClaims) {
+        parsed.claims.insert(parsed.claims.end(), words.begin(), words.end());
     } else if (!words.empty()) {
         throw UsageError(fmt::format("{} takes no argument \"{}\"", subcommand.name, words.front()));
     }
@@ -323,6 +336,7 @@ Command parseCommandLine(std::span<const std::string> arguments)
     } else if (command.subcommand->bit == kMetrics) {
         applyImages(command.settings, parsed);
     }
+    command.settings.claims = parsed.claims;
     applyAll(command.settings, parsed, *command.subcommand);
     if (json) {
         applyGiven(command.settings, *findSetting("json"), *json, *command.subcommand);

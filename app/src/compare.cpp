@@ -7,6 +7,7 @@
 #include "compare_path.h"
 #include "compare_text.h"
 #include "contestants.h"
+#include "findings.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "streams.h"
@@ -216,7 +217,8 @@ void Comparison::sweep(const SweepPlan& plan)
     result_.standard_error = result_.sweep->places.front().standard_error;
 }
 
-void put(const CompareResult& result, const Shot& shot, const Settings& settings, ReportFolder* folder)
+/// The result; its notes are told and its report is written.
+Json tell(const CompareResult& result, const Shot& shot, const Settings& settings, ReportFolder* folder)
 {
     Json json = compareJson(result, shot, settings);
     for (const Json& note : json.at("notes")) {
@@ -228,11 +230,7 @@ void put(const CompareResult& result, const Shot& shot, const Settings& settings
             notice(*no_plots);
         }
     }
-    if (settings.json.empty()) {
-        writeStdout(compareText(json));
-    } else {
-        writeResult(settings.json, jsonText(json));
-    }
+    return json;
 }
 
 /// Of the shot that is made first.
@@ -243,12 +241,9 @@ Settings firstOf(const std::optional<SweepPlan>& sweep, const Settings& settings
 
 } // namespace
 
-int runCompare(const Settings& settings)
+Json findByComparing(const Settings& settings)
 {
     validateSweep(settings);
-    if (!settings.json.empty() && settings.json != "-") {
-        requireWritable(settings.json);
-    }
     const std::vector<Settings> techniques = contestants(settings);
     std::optional<SweepPlan> sweep;
     if (settings.sweep) {
@@ -286,7 +281,20 @@ int runCompare(const Settings& settings)
     }
     requireSilence(*gpu);
     requireNotInterrupted();
-    put(comparison.result(), shot, settings, folder.get());
+    return tell(comparison.result(), shot, settings, folder.get());
+}
+
+int runCompare(const Settings& settings)
+{
+    if (!settings.json.empty() && settings.json != "-") {
+        requireWritable(settings.json);
+    }
+    const Json json = findByComparing(settings);
+    if (settings.json.empty()) {
+        writeStdout(compareText(json));
+    } else {
+        writeResult(settings.json, jsonText(json));
+    }
     return 0;
 }
 

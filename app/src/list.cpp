@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon list`: every value of every choice, every rule that refuses, every setting, preset and world.
 #include "app/preset.h"
+#include "claims/claim_report.h"
 #include "result_json.h"
 #include "streams.h"
 #include "subcommands.h"
@@ -163,6 +164,12 @@ std::string textList()
     for (const Preset& preset : presets()) {
         text += fmt::format("  {:<20} {}\n", preset.name, preset.summary);
     }
+    text += "\nClaims of the source documents, which `gnomon claims` tries:\n";
+    for (const ClaimDocument& document : claimDocuments()) {
+        for (const Claim& claim : document.claims) {
+            text += fmt::format("  {:<26} {}\n", claim.id, claim.claim);
+        }
+    }
     text += "\nBuilt-in worlds:\n";
     for (const scene::World& world : scene::worlds()) {
         text += fmt::format("  {:<20} {}\n", world.name, world.summary);
@@ -203,6 +210,7 @@ Json jsonList()
     for (const scene::World& world : scene::worlds()) {
         json["worlds"].push_back({{"name", world.name}, {"summary", world.summary}});
     }
+    json["claims"] = recordedClaimsJson();
     return json;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon metrics`: how far one image is from another, without a scene.
+#include "findings.h"
 #include "image_metrics.h"
 #include "result_json.h"
 #include "streams.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::app {
 namespace {
@@ -74,14 +76,15 @@ std::string metricsText(const ImageMetrics& metrics, const Settings& settings, c
                        metrics.flip);
 }
 
-} // namespace
+/// The images in memory and how far apart they are.
+struct MeasuredImages {
+    ImageF test;
+    ImageMetrics metrics;
+};
 
-int runMetrics(const Settings& settings)
+MeasuredImages measureFiles(const Settings& settings)
 {
-    if (!settings.json.empty() && settings.json != "-") {
-        requireWritable(settings.json);
-    }
-    const ImageF test = readFinite(settings.test_image);
+    ImageF test = readFinite(settings.test_image);
     const ImageF truth = readFinite(settings.truth_image);
     if (test.width != truth.width || test.height != truth.height) {
         throw Error(
@@ -104,10 +107,27 @@ int runMetrics(const Settings& settings)
                         "their values are too large for the error numbers");
         }
     }
+    return {std::move(test), metrics};
+}
+
+} // namespace
+
+Json findByMeasuring(const Settings& settings)
+{
+    const MeasuredImages measured = measureFiles(settings);
+    return metricsJson(measured.metrics, settings, measured.test);
+}
+
+int runMetrics(const Settings& settings)
+{
+    if (!settings.json.empty() && settings.json != "-") {
+        requireWritable(settings.json);
+    }
+    const MeasuredImages measured = measureFiles(settings);
     if (settings.json.empty()) {
-        writeStdout(metricsText(metrics, settings, test));
+        writeStdout(metricsText(measured.metrics, settings, measured.test));
     } else {
-        writeResult(settings.json, jsonText(metricsJson(metrics, settings, test)));
+        writeResult(settings.json, jsonText(metricsJson(measured.metrics, settings, measured.test)));
     }
     return 0;
 }

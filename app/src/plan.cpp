@@ -3,6 +3,7 @@
 // says the same on every machine; but for lvsm's layers of depth where they follow what is drawn (lloyd): those are
 // drawn and read back.
 #include "app/shot.h"
+#include "findings.h"
 #include "plan_layers.h"
 #include "progress.h"
 #include "result_json.h"
@@ -16,6 +17,8 @@
 #include <gnomon/planner.h>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace gnomon::app {
 namespace {
@@ -149,36 +152,55 @@ void drawPlan(const Settings& settings, const Shot& shot, const PlannedFrames& p
                             describeTechnique(settings)));
 }
 
+/// Everything: what moved over --frames, and what is told of it on the way.
+struct PlanRun {
+    explicit PlanRun(const Settings& settings)
+        : shot(makeShot(settings)), layers(settings, shot), planned(shot, settings)
+    {
+        std::for_each(shot.notices.begin(), shot.notices.end(), notice);
+        planned.planAll(layers);
+        if (const std::optional<std::string> waits = waitNote(planned.waits())) {
+            notice(*waits);
+        }
+    }
+
+    Shot shot;
+    PlanLayers layers;
+    PlannedFrames planned;
+};
+
+Json planJson(const Settings& settings, PlanRun& run)
+{
+    const Plan& plan = run.planned.plan();
+    Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"camera", run.shot.camera}};
+    json["settings"] = settingsJson(settings, kPlan);
+    json.update(Json::parse(toJson(plan)));
+    run.layers.describe(plan, json["views"]);
+    for (std::size_t i = 0; i < run.shot.lights.size() && i < json["lights"].size(); ++i) {
+        describeLight(run.shot.lights[i], json["lights"][i]);
+    }
+    json["objects"] = objectsJson(run.shot, run.planned.objects());
+    return json;
+}
+
 } // namespace
+
+Json findByPlanning(const Settings& settings)
+{
+    PlanRun run(settings);
+    return planJson(settings, run);
+}
 
 int runPlan(const Settings& settings)
 {
-    Shot shot = makeShot(settings);
-    for (const std::string& text : shot.notices) {
-        notice(text);
-    }
-    PlanLayers layers(settings, shot);
-    PlannedFrames planned(shot, settings);
-    planned.planAll(layers);
-    if (const std::optional<std::string> waits = waitNote(planned.waits())) {
-        notice(*waits);
-    }
+    PlanRun run(settings);
     if (!settings.draw.empty()) {
-        drawPlan(settings, shot, planned);
+        drawPlan(settings, run.shot, run.planned);
         if (settings.json.empty()) {
             return 0;
         }
     }
-    const Plan& plan = planned.plan();
-    Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"camera", shot.camera}};
-    json["settings"] = settingsJson(settings, kPlan);
-    json.update(Json::parse(toJson(plan)));
-    layers.describe(plan, json["views"]);
-    for (std::size_t i = 0; i < shot.lights.size() && i < json["lights"].size(); ++i) {
-        describeLight(shot.lights[i], json["lights"][i]);
-    }
-    json["objects"] = objectsJson(shot, planned.objects());
-    writeResult(settings.json, jsonText(json));
+    writeResult(settings.json, jsonText(planJson(settings, run)));
     return 0;
 }
 

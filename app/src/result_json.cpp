@@ -100,9 +100,9 @@ Json settingJson(const Setting& setting)
     }
     json["option"] = setting.own_option;
     Json commands = Json::array();
-    constexpr std::pair<std::uint32_t, std::string_view> kNames[] = {{kRender, "render"},   {kCompare, "compare"},
-                                                                     {kMetrics, "metrics"}, {kPlan, "plan"},
-                                                                     {kBench, "bench"},     {kList, "list"}};
+    constexpr std::pair<std::uint32_t, std::string_view> kNames[] = {
+        {kRender, "render"}, {kCompare, "compare"}, {kMetrics, "metrics"}, {kPlan, "plan"},
+        {kBench, "bench"},   {kList, "list"},       {kClaims, "claims"}};
     for (const auto& [bit, name] : kNames) {
         if ((setting.subcommands & bit) != 0) {
             commands.push_back(name);

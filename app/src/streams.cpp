@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <fcntl.h>
@@ -16,6 +17,8 @@
 
 namespace gnomon::app {
 namespace {
+
+std::atomic<int> silences = 0; // how many NoNotices there are
 
 /// Waits until a pipe or terminal takes bytes. False when the run is to end and it still takes none.
 bool waitFor(int descriptor) noexcept
@@ -83,8 +86,21 @@ void writeStderr(std::string_view text) noexcept
     (void)writeTo(STDERR_FILENO, text);
 }
 
+NoNotices::NoNotices() noexcept
+{
+    ++silences;
+}
+
+NoNotices::~NoNotices()
+{
+    --silences;
+}
+
 void notice(std::string_view text) noexcept
 {
+    if (silences != 0) {
+        return;
+    }
     std::array<char, 4096> line{}; // a line in one piece, so that those of several processes do not mix
     std::size_t length = 0;
     const auto add = [&](std::string_view more) {

@@ -21,4 +21,13 @@ void writeStderr(std::string_view text) noexcept;
 /// blanks. Otherwise as writeStderr().
 void notice(std::string_view text) noexcept;
 
+/// As long as there is one, notice() says nothing.
+class NoNotices {
+public:
+    NoNotices() noexcept;
+    ~NoNotices();
+    NoNotices(const NoNotices&) = delete;
+    NoNotices& operator=(const NoNotices&) = delete;
+};
+
 } // namespace gnomon::app

@@ -14,6 +14,7 @@ int runMetrics(const Settings& settings);
 int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);
+int runClaims(const Settings& settings);
 
 /// To the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// What A. Marinescu claims of layered variance shadow maps and of the settings of his game.
+#include "claim.h"
+#include "claim_runs.h"
+#include "shared_commands.h"
+#include "worked_out.h"
+
+#include <algorithm>
+
+namespace gnomon::app {
+namespace {
+
+using Runs = ClaimRuns;
+
+/// The largest range of depth that a layer of the plan's first view has, in metres.
+double thickestLayer(const Json& plan)
+{
+    double thickest = 0.0;
+    for (const Json& layer : plan.at("views").at(0).at("layers")) {
+        thickest = std::max(thickest, layer.at("far_m").get<double>() - layer.at("near_m").get<double>());
+    }
+    return thickest;
+}
+
+/// Casters that the first view draws, of all objects that cast.
+double drawnShare(const Json& plan)
+{
+    const Json& objects = plan.at("objects");
+    const auto casters =
+        std::count_if(objects.begin(), objects.end(), [](const Json& object) { return object.at("casts") == true; });
+    return static_cast<double>(plan.at("views").at(0).at("casters").size()) / static_cast<double>(casters);
+}
+
+const std::vector<Claim>& table2011()
+{
+    static const std::vector<Claim> table{
+        {.id = "2011-range",
+         .claim = "Near and far planes at 1 and 100 make stored depth 100 times as accurate as at 1 and 10,000",
+         .parts = {{"a metre takes", "times as much of the range", [](const Runs&) { return precisionOfTightPlanes(); },
+                    90.0, 110.0}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Depth is linear, so its step is the range's length over the number of codes: 9999 over 99."},
+        {.id = "2011-float-digits",
+         .claim = "Floats of 32 bits are accurate to 1e-6 only: finer differences of depth are not seen",
+         .parts = {{"a step of floats just below 1 is", "", [](const Runs&) { return stepOfFloats(); }, 1e-6},
+                   {"two moments lose a deviation of", "of the range",
+                    [](const Runs&) { return deviationLostByMoments(); }, 1e-6}},
+         .verdict = Verdict::partly,
+         .quick = true,
+         .why = "A plain map keeps far finer steps. A map of moments keeps far coarser ones, because a variance is the "
+                "difference of two squares."},
+        {.id = "2011-vertex-distance",
+         .claim = "Under a sun the distance to the light's plane may be worked out per vertex; that to a place may not",
+         .parts = {{"interpolated distance to a plane errs by", "m", [](const Runs&) { return errorOfPlaneDistance(); },
+                    0.0, 1e-12},
+                   {"to a place by", "m", [](const Runs&) { return errorOfPlaceDistance(); }, 0.1}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why =
+             "The first is affine in the point, the second is not. A triangle 20 m across was tried, some 10 m away."},
+        {.id = "2011-planar-bound",
+         .claim = "Chebyshev's bound is exact for one flat occluder over one flat receiver",
+         .parts = {{"the bound errs by", "at most", [](const Runs&) { return errorOfPlanarBound(); }, 0.0, 1e-9}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Two depths with shares p and 1 - p have the variance that makes it an equality."},
+        {.id = "2011-double-storage",
+         .claim = "A variance map takes twice the memory of a plain map",
+         .commands = {kCanopies},
+         .parts = {{"the map takes", "times as much",
+                    [](const Runs& r) { return r.ratio("vsm", "hard", "/map/bytes"); }, 1.9, 2.1},
+                   {"all that is needed", "times as much",
+                    [](const Runs& r) { return r.ratio("vsm", "hard", "/memory_bytes"); }, 1.9, 2.1}},
+         .verdict = Verdict::partly,
+         .quick = true,
+         .why = "True of what is kept. Four samples a texel and the blur's second image come on top while it is made."},
+        {.id = "2011-minimum-variance",
+         .claim = "A small least variance, once tuned, nearly removes the artefacts of inexact numbers",
+         .commands = {kCamp},
+         .parts = {{"acne left by a least variance of 0.0001,", "of that without, moments in 16 bits",
+                    [](const Runs& r) {
+                        return r.ratio("vsm+bias=none+map-format=rg16+msaa=1+blur=none+min-variance=0.0001",
+                                       "vsm+bias=none+map-format=rg16+msaa=1+blur=none+min-variance=0", "/error/acne");
+                    },
+                    0.0, 0.1}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "No bias, blur or samples helped. It is a hundredth of the paper's value."},
+        {.id = "2011-published-variance",
+         .claim = "0.01 is such a value",
+         .commands = {kCamp},
+         .parts = {{"light at contacts", "times that of the automatic value",
+                    [](const Runs& r) { return r.ratio("vsm+min-variance=0.01", "vsm", "/error/detached"); }, 0.0, 1.5},
+                   {"rmse", "times",
+                    [](const Runs& r) { return r.ratio("vsm+min-variance=0.01", "vsm", "/error/rmse"); }, 0.0, 1.05}},
+         .verdict = Verdict::fails,
+         .quick = true,
+         .why =
+             "It is a deviation of a tenth of the range. Over a range of more than 100 m no unit casts a dark shadow; "
+             "the paper's layers are thin volumes of the world."},
+        {.id = "2011-bleeding-reduction",
+         .claim = "Light bleeding is attenuated by cutting off low visibility, or by a power of it",
+         .commands = {kCanopies},
+         .parts = {{"cut off at 0.3, bleeding left", "of that without",
+                    [](const Runs& r) { return r.ratio("vsm+bleeding.linstep=0.3", "vsm", "/error/bleeding"); }, 0.0,
+                    0.5},
+                   {"the paper's power of 1.3 leaves", "of it",
+                    [](const Runs& r) { return r.ratio("vsm+bleeding.power=1.3", "vsm", "/error/bleeding"); }, 0.0,
+                    0.75}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "What it costs is in 2014-fat-shadows."},
+        {.id = "2011-one-layer",
+         .claim = "It is enough to sample the one layer that holds the receiver, and layers reduce bleeding",
+         .commands = {kCanopies},
+         .parts = {{"bleeding with two layers", "of vsm's",
+                    [](const Runs& r) { return r.ratio("lvsm", "vsm", "/error/bleeding"); }, 0.0, 0.05},
+                   {"rmse", "times vsm's", [](const Runs& r) { return r.ratio("lvsm", "vsm", "/error/rmse"); }, 0.0,
+                    0.9}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "For the layer of the receiver all casters of nearer layers are one flat caster."},
+        {.id = "2011-layers-precision",
+         .claim = "Layers make depth more precise, because their near and far planes are closer together",
+         .commands = {"gnomon compare rts --preset plain --camera map --size 320x180 --samples 64 --repetitions 1 "
+                      "--warmup 0 --map-size 512 --bias none --set msaa=1 --set blur=none --set min-variance=0 "
+                      "--techniques vsm+map-format=rg16,lvsm+lvsm.placement=uniform,"
+                      "lvsm+lvsm.placement=uniform+lvsm.layers=4"},
+         .parts = {{"acne of two layers of 16 bits", "of vsm's",
+                    [](const Runs& r) {
+                        return r.ratio("lvsm+lvsm.placement=uniform", "vsm+map-format=rg16", "/error/acne");
+                    },
+                    0.0, 0.75},
+                   {"of four", "of vsm's",
+                    [](const Runs& r) {
+                        return r.ratio("lvsm+lvsm.placement=uniform+lvsm.layers=4", "vsm+map-format=rg16",
+                                       "/error/acne");
+                    },
+                    0.0, 0.5}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Nothing else hides rounding here: no bias, no blur, one sample, no least variance."},
+        {.id = "2011-uniform-layers",
+         .claim = "Layers of equal thickness are the most precise; against bleeding, place them by what is there",
+         .commands = {"gnomon plan rts --preset plain --camera camp --filter lvsm --set lvsm.placement=uniform --json",
+                      "gnomon plan rts --preset plain --camera camp --filter lvsm --set lvsm.placement=hand --set "
+                      "lvsm.splits=0.65 --json",
+                      kCanopies},
+         .parts = {{"the thickest equal layer is", "of the thickest when they meet at 0.65",
+                    [](const Runs& r) { return thickestLayer(r.json(0)) / thickestLayer(r.json(1)); }, 0.0, 1.0},
+                   {"layers placed in gaps bleed", "of what equal ones do",
+                    [](const Runs& r) {
+                        return r.of(2, "lvsm", "/error/bleeding") /
+                               r.of(2, "lvsm+lvsm.placement=uniform", "/error/bleeding");
+                    },
+                    0.0, 0.5}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "The default, `gaps`, looks for where the least light bleeds."},
+        {.id = "2011-filtering-cheap",
+         .claim = "Blur, mip levels, anisotropic reading and samples make variance maps much better",
+         .commands = {kCanopies},
+         .parts =
+             {{"rmse with blur and four samples", "of that without",
+               [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none+map-sampling=nearest", "/error/rmse"); },
+               0.0, 0.85},
+              {"with error at edges", "of that without",
+               [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none+map-sampling=nearest", "/error/edge"); },
+               0.0, 0.5}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Averages have penumbrae. They also bleed, which takes back a part."},
+        {.id = "2011-filtering-cost",
+         .claim = "and at almost no extra cost",
+         .commands = {kTimes},
+         .parts = {{"a frame with blur and four samples takes", "times that without",
+                    [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none", "/time_ms/frame"); }, 0.0, 1.1},
+                   {"the mask, reading anisotropically,", "times that of reading bilinearly",
+                    [](const Runs& r) { return r.ratio("vsm+map-sampling=anisotropic", "vsm", "/time_ms/mask"); }, 0.0,
+                    1.1}},
+         .verdict = Verdict::fails,
+         .quick = false,
+         .why = "On a software rasteriser, which has no fixed units for samples and filters. No GPU was measured."},
+        {.id = "2011-bloom",
+         .claim = "Bloom helps to hide what artefacts remain",
+         .commands = {"gnomon render rts --camera camp --size 320x180 --truth area --samples 64 -o truth.png",
+                      "gnomon render rts --camera camp --size 320x180 --truth area --samples 64 --set bloom=1 -o "
+                      "truth_bloom.png",
+                      "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 -o "
+                      "vsm.png",
+                      "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 --set "
+                      "bloom=1 -o vsm_bloom.png",
+                      "gnomon metrics vsm.png truth.png --json", "gnomon metrics vsm_bloom.png truth_bloom.png --json"},
+         .parts = {{"FLIP to the truth with bloom in both", "of that without",
+                    [](const Runs& r) { return r.number(5, "/error/flip") / r.number(4, "/error/flip"); }, 0.0, 0.95}},
+         .verdict = Verdict::fails,
+         .quick = true,
+         .why = "Bloom adds to what is bright; an edge that is wrong lies beside it as before."},
+        {.id = "2011-4096",
+         .claim = "There are situations in which even a map of 4096 texels is too small",
+         .commands = {"gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
+                      "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024"},
+         .parts = {{"texels a pixel, in the median,", "",
+                    [](const Runs& r) { return r.of("hard+map-size=4096", "/texel_density/p50"); }, 0.0, 1.0}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "One map from a unit's feet to the horizon; 320x180 pixels were too many for it."},
+        {.id = "2011-larger-maps",
+         .claim = "Larger maps make shadows better, and cost memory",
+         .commands = {"gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
+                      "--warmup 0 --techniques hard+map-size=4096,hard+map-size=1024"},
+         .parts = {{"rmse of a map of 4096", "of one of 1024",
+                    [](const Runs& r) { return r.ratio("hard+map-size=4096", "hard+map-size=1024", "/error/rmse"); },
+                    0.0, 0.8},
+                   {"memory", "times as much",
+                    [](const Runs& r) { return r.ratio("hard+map-size=4096", "hard+map-size=1024", "/map/bytes"); },
+                    15.0, 17.0}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Sixteen times the memory does not nearly divide the error by four: what is thinner than a texel "
+                "is missed until texels are finer."},
+        {.id = "2011-octree",
+         .claim = "An octree culls efficiently what need not be drawn",
+         .commands = {"gnomon plan rts --preset plain --camera unit --json"},
+         .parts = {{"casters drawn", "of all", [](const Runs& r) { return drawnShare(r.json(0)); }, 0.0, 0.5}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Of a view to the horizon; those that cannot shadow anything in sight are left out."},
+    };
+    return table;
+}
+
+} // namespace
+
+std::span<const Claim> claimsOf2011()
+{
+    return table2011();
+}
+
+} // namespace gnomon::app
