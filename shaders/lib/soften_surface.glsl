@@ -30,7 +30,8 @@ layout(constant_id = 2) const bool kHasNormals = true;
 layout(constant_id = 3) const int kKernel = 0; // screen_blur.h
 
 #define GNOMON_NUMBERS gnomon
-#include "pixel_surface.glsl"
+#define GNOMON_SURFACE_SCREEN GNOMON_NUMBERS.screen
+#include "screen_surface.glsl"
 
 // A pixel's plane. Depth is affine on the screen, so a point is on it where dot(plane, ndc) / dot(eye_w, ndc) = at.
 struct Surface {

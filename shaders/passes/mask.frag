@@ -118,7 +118,8 @@ GnomonTileLight nextLight(inout Left left)
     return one;
 }
 
-#include "../lib/pixel_surface.glsl"
+#define GNOMON_SURFACE_SCREEN numbers.screen
+#include "../lib/screen_surface.glsl"
 
 void main()
 {

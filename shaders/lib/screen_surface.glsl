@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL only: where a pixel's surface is and how it lies. The includer has GNOMON_NUMBERS, a GpuConstants, and a
-// sampler2D `depths`, the camera's.
-#ifndef GNOMON_PIXEL_SURFACE_GLSL
-#define GNOMON_PIXEL_SURFACE_GLSL
+// GLSL only: the surface that a pixel shows, from the camera's depth. The includer has a sampler2D `depths`, and defines
+// GNOMON_SURFACE_SCREEN, a GpuScreen.
+#ifndef GNOMON_SCREEN_SURFACE_GLSL
+#define GNOMON_SCREEN_SURFACE_GLSL
 
 // Eye-relative position of a pixel, homogeneous.
 vec4 pointAt(ivec2 pixel, float depth)
 {
-    vec4 ndc = vec4((vec2(pixel) + 0.5) * GNOMON_NUMBERS.screen.size.zw * 2.0 - 1.0, depth, 1.0);
-    return vec4(dot(GNOMON_NUMBERS.screen.eye_x, ndc), dot(GNOMON_NUMBERS.screen.eye_y, ndc), dot(GNOMON_NUMBERS.screen.eye_z, ndc), dot(GNOMON_NUMBERS.screen.eye_w, ndc));
+    vec4 ndc = vec4((vec2(pixel) + 0.5) * GNOMON_SURFACE_SCREEN.size.zw * 2.0 - 1.0, depth, 1.0);
+    return vec4(dot(GNOMON_SURFACE_SCREEN.eye_x, ndc), dot(GNOMON_SURFACE_SCREEN.eye_y, ndc), dot(GNOMON_SURFACE_SCREEN.eye_z, ndc), dot(GNOMON_SURFACE_SCREEN.eye_w, ndc));
 }
 
 vec3 positionAt(ivec2 pixel, float depth)
@@ -21,7 +21,7 @@ vec3 positionAt(ivec2 pixel, float depth)
 vec3 side(ivec2 pixel, ivec2 step_px, float depth)
 {
     ivec2 far = pixel + 2 * step_px;
-    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), GNOMON_NUMBERS.screen.size.xy))) {
+    if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), GNOMON_SURFACE_SCREEN.size.xy))) {
         return vec3(depth, depth, 3e38);
     }
     float a = texelFetch(depths, pixel + step_px, 0).r;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of a surface and a light without any map: whether it faces the light, where it takes its light from, and
+// how shadows fade with distance.
+#ifndef GNOMON_FACING_GLSL
+#define GNOMON_FACING_GLSL
+#include "../shared/bias.h"
+#include "../shared/gpu_structs.h"
+#include "../shared/smooth_surface.h"
+GN_BEGIN
+
+// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err
+// by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
+GN_CONST real kGrazing = real(0.002);
+
+// Does a surface with normal `n` face a light in direction `to_light` (any length)?
+GN_FN bool facesDirection(real3 n, real3 to_light)
+{
+    return dot(n, to_light) > kGrazing * length(to_light);
+}
+
+// Where a surface takes its light from.
+struct LightPoint {
+    real3 p;
+    real3 n;    // of the plane that the surface is taken for there
+    bool faces; // the light; else its visibility is 0
+};
+
+// Below this cosine between a triangle and the light, some three degrees, its neighbours on a smooth body rise over its
+// plane by as much as the map errs; and of a wide sun they hide a part.
+GN_CONST real kHardlyFaces = real(0.05);
+
+// Of the point `p` of a triangle with unit normal `n`, for a light in direction `to_light` (any length). Whether it
+// faces the light the smooth normal over it says, as for shading. Where that faces the light and the triangle does not,
+// or hardly, light arrives at the smooth surface, whose plane no part of a convex body rises over. Where the light all
+// but grazes, the plane is leant back to where filters can follow it: the bias of a steeper one would let light through
+// whatever shades the body.
+GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
+{
+    LightPoint at;
+    at.p = p;
+    at.n = n;
+    at.faces = facesDirection(n, to_light);
+    if (s.lift > real(0.0)) {
+        real3 l = normalize(to_light);
+        bool lifts = dot(n, l) < kHardlyFaces;
+        at.p = lifts ? p + s.n * s.lift : p;
+        at.n = lifts ? normalize(s.n + l * max(real(1.0) / kSteepest - dot(s.n, l), real(0.0))) : n;
+        at.faces = facesDirection(s.n, to_light);
+    }
+    return at;
+}
+
+// From a surface's eye-relative point `p` to the light's centre, as FilterInput has it.
+GN_FN real3 towardLight(GN_VEC4 place, real3 p)
+{
+    return real3(real(place.x), real(place.y), real(place.z)) - p * real(place.w);
+}
+
+// Visibility at a distance from the eye, of each colour: shadows fade away before the distance to which they are drawn.
+GN_FN real4 fadedVisibility(GN_VEC4 fade, real4 v, real distance)
+{
+    return mix(v, real4(1.0), clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0)));
+}
+
+GN_END
+#endif
