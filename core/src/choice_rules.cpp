@@ -22,10 +22,17 @@ bool isOfScene(const Technique& technique)
     return technique.fit == Fit::scene;
 }
 
+bool isVolumes(const Technique& technique)
+{
+    return technique.filter == Filter::volumes;
+}
+
 constexpr std::array kRules{
     ChoiceRule{
-        [](LightType light, const Technique& t) { return light == LightType::point && !goesAround(t.partition); },
-        "light point with every partition but cube, paraboloid, multi and auto",
+        [](LightType light, const Technique& t) {
+            return light == LightType::point && !goesAround(t.partition) && !isVolumes(t);
+        },
+        "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart",
         "a point light shines all around, and no one frustum does; it needs partition cube, paraboloid, multi or auto"},
     ChoiceRule{
         [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
@@ -93,6 +100,25 @@ constexpr std::array kRules{
     ChoiceRule{[](LightType, const Technique& t) { return isOfScene(t) && t.soften == Soften::converge; },
                "fit scene with soften converge",
                "converge moves its maps in each frame, and those of scene stay as they are; it needs another fit"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return isVolumes(t) && t.partition != Partition::single && t.partition != Partition::automatic;
+               },
+               "filter volumes with every partition but single and auto",
+               "volumes has no maps, so there are no frustums to divide a light among; it needs partition single or "
+               "auto, for a point light too"},
+    ChoiceRule{
+        [](LightType, const Technique& t) { return isVolumes(t) && t.fit != Fit::uniform && t.fit != Fit::automatic; },
+        "filter volumes with every fit but uniform and auto",
+        "volumes has no maps, so there is no frustum to shape; it needs fit uniform or auto"},
+    ChoiceRule{
+        [](LightType, const Technique& t) { return isVolumes(t) && t.motion != Motion::free; },
+        "filter volumes with every motion but free",
+        "volumes has no maps to hold still or to step with, and counts anew in each frame; it needs motion free"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return isVolumes(t) && t.soften != Soften::none && t.soften != Soften::blur;
+               },
+               "filter volumes with soften smoothies and converge",
+               "volumes has no maps, which smoothies and converge work on; it needs soften none or blur"},
     ChoiceRule{[](LightType, const Technique& t) { return t.soften == Soften::converge && t.motion != Motion::free; },
                "soften converge with every motion but free",
                "converge moves its maps in each frame, so nobody can hold them still; it needs motion free"},

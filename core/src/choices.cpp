@@ -95,6 +95,10 @@ constexpr std::array kValues{
     ChoiceValue{kFilter, "id", number(Filter::id), true, "object ids instead of depth", kForsyth},
     ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), true, "object id, then depth inside the object",
                 kForsyth},
+    ChoiceValue{kFilter, "volumes", number(Filter::volumes), true,
+                "no texel: counts the faces of casters' shadow volumes at each pixel",
+                "M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, Fast, Practical and Robust Shadows, "
+                "2003"},
     ChoiceValue{kFilter, "auto", number(Filter::automatic), true, "raymarch, or pcf of quality fast", kRays},
 
     ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
@@ -152,6 +156,7 @@ constexpr std::array kLvsmFormats{MapFormat::rgba16, MapFormat::rgba16f, MapForm
 constexpr std::array kEsmFormats{MapFormat::r32f, MapFormat::r16f};
 // Two channels: the positive warp alone.
 constexpr std::array kEvsmFormats{MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f};
+constexpr std::array kNoFormats{MapFormat::d32f}; // of a filter without maps; nothing is stored so
 constexpr std::array kMsmFormats{MapFormat::rgba16, MapFormat::rgba32f};
 constexpr std::array kFilters{
     FilterTraits{Filter::hard, kDepthFormats, true, true, false, false, true},
@@ -165,6 +170,7 @@ constexpr std::array kFilters{
     FilterTraits{Filter::msm, kMsmFormats, false, true, true, false, false},
     FilterTraits{Filter::id, kIdFormats, false, true, false, false, false, true},
     FilterTraits{Filter::depth_id, kDepthIdFormats, false, true, false, false, false, true},
+    FilterTraits{Filter::volumes, kNoFormats, true, true, false, false, false, false, false},
 };
 
 /// What a user reads who asks a filter for a format that it cannot use.
@@ -192,6 +198,8 @@ constexpr std::string_view formatReason(Filter filter)
         return "id stores an object's id and nothing else: r16 or r8";
     case Filter::depth_id:
         return "depth-id stores an object's id and a depth: rg16, rg8 or rg32f";
+    case Filter::volumes:
+        return "volumes counts faces and has no maps, so nothing is stored in texels";
     default:
         return "this filter compares one depth per texel; it stores d32f, d24, r32f or d16, or two maps a "
                "texel: rg16, rg16f or rgba8";

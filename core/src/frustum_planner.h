@@ -47,6 +47,10 @@ public:
     /// appends its casters, ascending. Else both are as they were. Keeps its memory.
     Outcome plan(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters);
 
+    /// Appends, ascending, who can cast on what the camera sees of the slice; of a point light all around it. ok,
+    /// no_receiver or no_caster. volume_casters.cpp.
+    Outcome listCasters(const FrustumInput& input, std::vector<std::uint32_t>& casters);
+
     /// With what error the slice's map will be read, found before it is drawn. With fit auto `strength` is that of the
     /// frame before (0: there was none) and becomes the one to draw by. Keeps its memory.
     [[nodiscard]] Prediction predict(const FrustumInput& input, const Sight& sight, double& strength);
@@ -82,6 +86,7 @@ private:
     Outcome planHalf(const FrustumInput& input, View& view, std::vector<std::uint32_t>& casters);
     [[nodiscard]] Prediction predictHalf(const FrustumInput& input, const Sight& sight);
     [[nodiscard]] DepthRange rangeOf(const FrustumInput& input, const LightSpace& space, const View& view) const;
+    Outcome listCastersAround(const FrustumInput& input, std::vector<std::uint32_t>& casters);
     void measureDepth(const FrustumInput& input, const LightSpace& space, const DepthRange& range, View& view) const;
 
     Region region_;

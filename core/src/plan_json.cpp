@@ -149,6 +149,11 @@ void writeLight(JsonWriter& json, const Plan& plan, std::uint32_t index)
     json.value("reason", light.outcome.reason);
     json.value("first_view", light.first_view);
     json.value("view_count", light.view_count);
+    if (light.volume_count > 0 || light.left_out > 0) {
+        json.value("first_volume", light.first_volume);
+        json.value("volume_count", light.volume_count);
+        json.value("left_out", light.left_out);
+    }
     json.value("mask_layer", light.mask_layer);
     json.value("mask_channel", light.mask_channel);
     json.flag("mask_coloured", light.mask_coloured);

@@ -263,6 +263,9 @@ void Planner::Impl::admit(const Frame& frame)
         look(frame, setup);
         listInReach(frame, light);
         reach_ends.back() = static_cast<std::uint32_t>(in_reach.size());
+        if (!setup.recipe.hasMaps()) {
+            continue;
+        }
         if (setup.recipe.grows()) {
             divide(frame, index);
         } else {

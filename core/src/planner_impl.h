@@ -152,6 +152,8 @@ struct Planner::Impl {
     const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
     Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice);
     void addView(const Stand& stand, const MapPlace& place, const View& planned);
+    void planVolumes(const Frame& frame, std::uint32_t index);
+    Outcome listVolumes(const Frame& frame, std::uint32_t index);
 };
 
 } // namespace gnomon

@@ -29,6 +29,10 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
     LightPlan& planned = plan.lights[index];
     const Setup& setup = setups[planned.options];
     planned.first_view = static_cast<std::uint32_t>(plan.views.size());
+    if (!setup.recipe.hasMaps()) {
+        planVolumes(frame, index);
+        return;
+    }
     if (isKeptBack(index)) {
         return; // its views are those of the plan before
     }
@@ -90,7 +94,7 @@ bool Planner::Impl::hasRoom(std::uint32_t index, const Setup& setup) const
 /// Can a light that may have maps have any in this frame?
 Outcome Planner::Impl::prospect(std::uint32_t index, const Setup& setup) const
 {
-    if (!hasRoom(index, setup)) {
+    if (setup.recipe.hasMaps() && !hasRoom(index, setup)) {
         return {OutcomeKind::atlas_full, "the atlas has no layer left for this light"};
     }
     if (setup.camera.outcome.kind != OutcomeKind::ok) {

@@ -45,6 +45,8 @@ struct Recipe {
     [[nodiscard]] bool levelsDepth() const;
     /// A map needs the receiver itself: its depth, or its id.
     [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
+    /// Filter volumes has none: its lights want none, and have casters instead (planner_volumes.cpp).
+    [[nodiscard]] bool hasMaps() const { return resolved.hasMaps(); }
     /// Its mask is a mean over frames.
     [[nodiscard]] bool converges() const { return options.technique.soften == Soften::converge; }
     [[nodiscard]] bool steady() const { return (motion != nullptr && motion->steady) || holdsScene(); }
@@ -71,7 +73,10 @@ struct Recipe {
     /// It also finds out how many texels are of use (map-size auto).
     [[nodiscard]] bool sizesMap() const { return !options.map_size && !steady(); }
     /// AutoChooser decides for it.
-    [[nodiscard]] bool predicts() const { return !grows() && (searchesWarp() || choosesPartition() || sizesMap()); }
+    [[nodiscard]] bool predicts() const
+    {
+        return hasMaps() && !grows() && (searchesWarp() || choosesPartition() || sizesMap());
+    }
 };
 
 } // namespace gnomon

@@ -15,7 +15,21 @@ enum class LightType : std::uint8_t { directional, spot, point };
 /// (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
-enum class Filter : std::uint8_t { hard, pcf, pcss, raymarch, vsm, lvsm, esm, evsm, msm, id, depth_id, automatic };
+enum class Filter : std::uint8_t {
+    hard,
+    pcf,
+    pcss,
+    raymarch,
+    vsm,
+    lvsm,
+    esm,
+    evsm,
+    msm,
+    id,
+    depth_id,
+    volumes,
+    automatic
+};
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
@@ -99,6 +113,7 @@ struct FilterTraits {
     bool weighs_frames;    // Soften::converge: a frame counts the more, the nearer it reads to a texel's centre
     bool ids = false;      // texels hold ids of objects (object_ids.h): receivers are drawn too, and the mask is told
                            // whose pixel it is
+    bool has_maps = true;  // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// Null for a filter that is not available, and for automatic, which stands for another (filterOf()).
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);

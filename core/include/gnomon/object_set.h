@@ -20,6 +20,10 @@ struct ObjectFlags {
     bool casts = true;
     bool receives = true;
     bool dynamic = false; // a hint: expected to move; kept apart from what stands still
+    /// Filter volumes counts faces of what casts, and only of a closed body is the count right: each edge of its
+    /// triangles is run along as often one way as the other, by opaque triangles of this object or of others that cast
+    /// too, and nothing is cut away. Others are refused or left out (VolumeOptions::open).
+    bool closed = false;
 };
 
 /// Names an object for as long as it lives. Its index is its place in plans and in the host's own arrays; when the

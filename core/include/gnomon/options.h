@@ -158,6 +158,19 @@ struct IdOptions {
     bool operator==(const IdOptions&) const = default;
 };
 
+/// What becomes of casters that filter volumes cannot count (ObjectFlags::closed).
+enum class OpenCasters : std::uint8_t {
+    refuse, // a light that such a caster may shade by gets Outcome refused
+    skip,   // they cast nothing (LightPlan::left_out)
+};
+[[nodiscard]] std::string_view nameOf(OpenCasters value);
+
+/// Filter volumes.
+struct VolumeOptions {
+    OpenCasters open = OpenCasters::refuse;
+    bool operator==(const VolumeOptions&) const = default;
+};
+
 /// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
     fast,     // one map; filter pcf
@@ -220,6 +233,7 @@ struct ShadowOptions {
     LightenAs lighten_as = LightenAs::remap; // add: refused with soften converge, which averages frames afterwards
     MomentOptions moments;                   // filters vsm, lvsm, esm, evsm, msm; of hard and pcf the metric alone
     ScreenBlurOptions screen_blur;           // soften blur
+    VolumeOptions volumes;                   // filter volumes
 
     bool operator==(const ShadowOptions&) const = default;
 };
@@ -234,6 +248,7 @@ public:
     [[nodiscard]] const FilterTraits& traits() const { return *traits_; }
     [[nodiscard]] MapFormat format() const { return format_; }
     [[nodiscard]] bool filterable() const { return traits_->filterable; }
+    [[nodiscard]] bool hasMaps() const { return traits_->has_maps; }
     [[nodiscard]] const PcfOptions& pcf() const { return asked_.pcf; }
     [[nodiscard]] const IdOptions& ids() const { return asked_.ids; }
     /// IdOptions::test, with what automatic stands for.
@@ -300,6 +315,9 @@ struct Resolution {
 /// The filter that is used: the one asked for, or what automatic stands for: pcf where soften or partition cannot have
 /// raymarch.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);
+/// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses
+/// a format, a size, budgets, caster faces, a kept map or colours that are asked for all the same.
+[[nodiscard]] bool hasMaps(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);

@@ -44,7 +44,8 @@ struct Outcome {
     OutcomeKind kind = OutcomeKind::ok;
     std::string_view reason; // a sentence with static lifetime; empty for ok
 
-    /// Its mask channel comes from a map (ok, fallback); otherwise it reads 1 everywhere.
+    /// Its mask channel comes from a map, or with filter volumes from counts (ok, fallback); otherwise it reads 1
+    /// everywhere.
     [[nodiscard]] bool hasMap() const { return kind == OutcomeKind::ok || kind == OutcomeKind::fallback; }
 };
 
@@ -335,6 +336,11 @@ struct LightPlan {
     SunSteps steps;
     AutoChoice choice;
     LightSample sample;
+    /// Filter volumes: it has no views. Range of Plan::casters: the objects whose shadow volumes are to be counted,
+    /// ascending; all of them ObjectFlags::closed. 0 for every other filter.
+    std::uint32_t first_volume = 0;
+    std::uint32_t volume_count = 0;
+    std::uint32_t left_out = 0; // casters that are not closed, with OpenCasters::skip
 };
 
 /// The images that the maps of one of the planner's options lie in. None of the numbers falls while a map is in use, so
@@ -364,8 +370,8 @@ struct Plan {
     std::shared_ptr<const std::vector<ResolvedOptions>> options;
     std::vector<LightPlan> lights; // one per light of the frame, in its order
     std::vector<View> views;
-    std::vector<std::uint32_t> casters;                     // object indices, view after view
-    std::vector<std::uint32_t> receivers;                   // object indices that the camera sees, ascending
+    std::vector<std::uint32_t> casters;   // object indices, view after view; with filter volumes light after light
+    std::vector<std::uint32_t> receivers; // object indices that the camera sees, ascending
     std::vector<MapPages> pages = std::vector<MapPages>(1); // one for each of the planner's options
     /// One past the largest MapId::index that any light has, in sight or not, kept layers included.
     std::uint32_t map_count = 0;

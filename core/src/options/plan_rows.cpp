@@ -15,7 +15,9 @@ using enum OptionType;
 bool hasCascades(const ShadowOptions& o)
 {
     const Partition partition = o.technique.partition;
-    return partition == Partition::cascades || partition == Partition::sdsm || partition == Partition::automatic;
+    const bool divides =
+        partition == Partition::cascades || partition == Partition::sdsm || partition == Partition::automatic;
+    return divides && hasMaps(o);
 }
 bool hasSplits(const ShadowOptions& o)
 {
@@ -94,10 +96,10 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .doc = "what multi gives each part of the picture, as long as a light's texels last", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
         {.key = "multi.most-times", .type = real, .form = "X", .min = 0, .max = 1024, .doc = "how many times as many texels a pixel one place may need as another in a frustum of multi; 0: divide where that saves texels", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.most_times)},
         {.key = "multi.fade", .type = integer, .form = "N", .unit = "frames", .min = 0, .max = 64, .doc = "over which frustums of multi fade over into others, where motion snap has to change them", .used = holdsMulti, .used_when = "partition multi and motion snap", GNOMON_MEMBER(multi.fade_frames)},
-        {.key = "budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "that the maps of all lights may have together; those that the picture owes least to get smaller ones; 0: no limit but memory", GNOMON_MEMBER(budget_texels)},
-        {.key = "draw-budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "of maps that may be drawn in one frame; lights whose maps are out of date take turns; 0: no bound", GNOMON_MEMBER(draw_budget_texels)},
+        {.key = "budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "that the maps of all lights may have together; those that the picture owes least to get smaller ones; 0: no limit but memory", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(budget_texels)},
+        {.key = "draw-budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "of maps that may be drawn in one frame; lights whose maps are out of date take turns; 0: no bound", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(draw_budget_texels)},
         {.key = "draw-budget.wait", .type = integer, .form = "N", .unit = "frames", .min = 1, .max = 64, .doc = "after which a light is drawn whatever the draw-budget is", .used = takesTurns, .used_when = "draw-budget above 0", GNOMON_MEMBER(longest_wait)},
-        {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", GNOMON_MEMBER(border_texels)},
+        {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(border_texels)},
         // clang-format on
     };
     table.insert(table.end(), std::begin(rows), std::end(rows));

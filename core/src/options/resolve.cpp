@@ -78,6 +78,33 @@ std::optional<std::string> idsRefusal(const ShadowOptions& options)
     return std::nullopt;
 }
 
+/// What is said of maps where there are none.
+std::optional<std::string> volumesRefusal(const ShadowOptions& options)
+{
+    if (hasMaps(options)) {
+        return std::nullopt;
+    }
+    if (options.format || options.map_size) {
+        return "map-format, map-size: filter volumes counts faces and has no maps; leave both out";
+    }
+    if (options.budget_texels != 0 || options.draw_budget_texels != 0) {
+        return "budget, draw-budget: filter volumes has no maps that could share texels or wait; leave both out";
+    }
+    if (options.keep_still == KeepStill::always) {
+        return "keep-still always: filter volumes has no maps that could be kept";
+    }
+    if (options.faces != CasterFaces::nearest) {
+        return "caster-faces: filter volumes counts all faces of a closed caster; leave it out";
+    }
+    if (options.cull != CasterCull::none) {
+        return "caster-cull: filter volumes counts all faces of a closed caster; leave it out";
+    }
+    if (options.translucent == Translucent::colour) {
+        return "translucent colour: filter volumes counts what blocks light, and tints nothing; choose grey or none";
+    }
+    return std::nullopt;
+}
+
 /// The midpoint is found in two images of depth, of all casters of one map.
 std::optional<std::string> facesRefusal(const ShadowOptions& options)
 {
@@ -161,6 +188,9 @@ std::optional<std::string> refusalOf(const ShadowOptions& options)
     if (options.max_layers < 1 || options.max_layers > 2048) {
         return "max_layers is " + std::to_string(options.max_layers) + "; it can be 1 to 2048";
     }
+    if (auto reason = volumesRefusal(options)) {
+        return reason;
+    }
     if (auto reason = budgetRefusal(options)) {
         return reason;
     }
@@ -220,6 +250,10 @@ std::string_view nameOf(CasterFaces value)
 std::string_view nameOf(CasterCull value)
 {
     return nameIn(std::array<std::string_view, 3>{"none", "back", "front"}, value);
+}
+std::string_view nameOf(OpenCasters value)
+{
+    return nameIn(std::array<std::string_view, 2>{"refuse", "skip"}, value);
 }
 std::string_view nameOf(Translucent value)
 {
@@ -302,6 +336,12 @@ Filter filterOf(const ShadowOptions& options)
     return plain ? Filter::pcf : Filter::raymarch;
 }
 
+bool hasMaps(const ShadowOptions& options)
+{
+    const FilterTraits* const traits = filterTraits(filterOf(options));
+    return traits == nullptr || traits->has_maps;
+}
+
 MapFormat formatOf(const ShadowOptions& options)
 {
     const FilterTraits* const traits = filterTraits(filterOf(options));
@@ -346,9 +386,9 @@ float reachTexels(const ShadowOptions& options)
 bool fitsOnGpu(const ShadowOptions& options)
 {
     const Technique& technique = options.technique;
-    return technique.partition == Partition::sdsm ||
-           (technique.partition == Partition::automatic && options.quality == Quality::best &&
-            technique.motion == Motion::free);
+    return hasMaps(options) && (technique.partition == Partition::sdsm ||
+                                (technique.partition == Partition::automatic && options.quality == Quality::best &&
+                                 technique.motion == Motion::free));
 }
 
 IdTest ResolvedOptions::idTest() const
@@ -392,6 +432,10 @@ Resolution resolve(const ShadowOptions& options)
     }
     if (options.technique.fit == Fit::scene) {
         made.asked_.technique.partition = Partition::single; // auto
+    }
+    if (!hasMaps(options)) {
+        made.asked_.technique.partition = Partition::single; // auto
+        made.asked_.technique.fit = Fit::uniform;
     }
     made.traits_ = filterTraits(filterOf(options));
     made.format_ = formatOf(options);

@@ -78,7 +78,7 @@ void addStepRows(std::vector<OptionRow>& table)
         {.key = "step.band", .type = real, .form = "W", .unit = "of the picture's width", .min = 0.01, .max = 1, .doc = "width of the band in which both positions are mixed", .used = hasBand, .used_when = "motion step-band", GNOMON_MEMBER(steps.band)},
         {.key = "step.wait", .type = choice, .form = "NAME", .choices = namesOf<StepWait>, .doc = "what a jump that is due waits for: nothing, or the camera to move", .used = jumps, .used_when = "motion step-jump", GNOMON_MEMBER(steps.wait)},
         {.key = "step.longest-wait", .type = real, .form = "S", .unit = "s", .min = 0, .max = 86400, .doc = "after which it waits no longer, of the scene's time", .used = waits, .used_when = "motion step-jump and step.wait camera", GNOMON_MEMBER(steps.longest_wait_s)},
-        {.key = "keep-still", .type = choice, .form = "NAME", .choices = namesOf<KeepStill>, .doc = "keep maps of what stands still apart; auto: with motions that step", GNOMON_MEMBER(keep_still)},
+        {.key = "keep-still", .type = choice, .form = "NAME", .choices = namesOf<KeepStill>, .doc = "keep maps of what stands still apart; auto: with motions that step", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(keep_still)},
         // clang-format on
     };
     table.insert(table.end(), std::begin(rows), std::end(rows));

@@ -18,11 +18,15 @@ bool isPcf(const ShadowOptions& o)
 }
 bool choosesByQuality(const ShadowOptions& o)
 {
-    return o.technique.partition == Partition::automatic || o.technique.filter == Filter::automatic;
+    return hasMaps(o) && (o.technique.partition == Partition::automatic || o.technique.filter == Filter::automatic);
 }
 bool sizesItself(const ShadowOptions& o)
 {
-    return !o.map_size;
+    return !o.map_size && hasMaps(o);
+}
+bool isVolumes(const ShadowOptions& o)
+{
+    return filterOf(o) == Filter::volumes;
 }
 bool isDisc(const ShadowOptions& o)
 {
@@ -85,17 +89,17 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "partition", .type = choice, .form = "NAME", .choices = namesOf<Partition>, .doc = "how a light's receivers are divided among frustums", .own_option = true, GNOMON_MEMBER(technique.partition)},
         {.key = "soften", .type = choice, .form = "NAME", .choices = namesOf<Soften>, .doc = "what happens to the visibility in screen space", .own_option = true, GNOMON_MEMBER(technique.soften)},
         {.key = "motion", .type = choice, .form = "NAME", .choices = namesOf<Motion>, .doc = "how the map follows a moving camera or sun", .own_option = true, GNOMON_MEMBER(technique.motion)},
-        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: pcf and one map, or rays and cascades too, or one map fitted to the camera's depth", .own_option = true, .used = choosesByQuality, .used_when = "partition or filter auto", GNOMON_MEMBER(quality)},
-        {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .none_text = "auto", .doc = "side of one map; auto: as large as texels lets it be, or less where no more is of use", .own_option = true, GNOMON_MEMBER(map_size)},
-        {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .doc = "that a light's maps may have together", .own_option = true, .used = sizesItself, .used_when = "map-size auto", GNOMON_MEMBER(max_texels)},
-        {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, GNOMON_MEMBER(format)},
-        {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", GNOMON_BIAS(constant_m)},
-        {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", GNOMON_BIAS(slope)},
-        {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", GNOMON_BIAS(normal_texels)},
-        {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", GNOMON_BIAS(receiver_plane)},
-        {.key = "caster-faces", .type = choice, .form = "NAME", .choices = namesOf<CasterFaces>, .doc = "what of casters a map holds: the nearest surface, the nearest that faces away from the light, or midway between first and second", GNOMON_MEMBER(faces)},
-        {.key = "caster-cull", .type = choice, .form = "NAME", .choices = namesOf<CasterCull>, .doc = "triangles of all casters that are left out, seen from the light: none, back or front faces", GNOMON_MEMBER(cull)},
-        {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", GNOMON_MEMBER(translucent)},
+        {.key = "quality", .type = choice, .form = "NAME", .choices = namesOf<Quality>, .doc = "what auto may spend: pcf and one map, or rays and cascades too, or one map fitted to the camera's depth", .own_option = true, .used = choosesByQuality, .used_when = "partition or filter auto, but filter volumes", GNOMON_MEMBER(quality)},
+        {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .none_text = "auto", .doc = "side of one map; auto: as large as texels lets it be, or less where no more is of use", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(map_size)},
+        {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .doc = "that a light's maps may have together", .own_option = true, .used = sizesItself, .used_when = "map-size auto, but filter volumes", GNOMON_MEMBER(max_texels)},
+        {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(format)},
+        {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(constant_m)},
+        {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(slope)},
+        {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(normal_texels)},
+        {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(receiver_plane)},
+        {.key = "caster-faces", .type = choice, .form = "NAME", .choices = namesOf<CasterFaces>, .doc = "what of casters a map holds: the nearest surface, the nearest that faces away from the light, or midway between first and second", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(faces)},
+        {.key = "caster-cull", .type = choice, .form = "NAME", .choices = namesOf<CasterCull>, .doc = "triangles of all casters that are left out, seen from the light: none, back or front faces", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(cull)},
+        {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(translucent)},
         {.key = "lighten", .type = real, .form = "V", .unit = "visibility", .min = 0, .max = 1, .doc = "what full shadow becomes, last of all", GNOMON_MEMBER(lighten)},
         {.key = "lighten.as", .type = choice, .form = "KIND", .choices = namesOf<LightenAs>, .doc = "remap: V (1 - b) + b; add: V + b, at most 1, which eats penumbrae", .used = lightens, .used_when = "lighten above 0", GNOMON_MEMBER(lighten_as)},
         {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs; 3x3-box nine equal points, 3x3-projected the same as published in 2005", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
@@ -106,6 +110,7 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "id.test", .type = choice, .form = "NAME", .choices = namesOf<IdTest>, .doc = "which texels count: any of the four nearest, the nearest by priority of what is in front, or the nearest alone; auto: any, of depth-id priority", .used = hasIds, .used_when = "filter id or depth-id", GNOMON_MEMBER(ids.test)},
         {.key = "id.depth", .type = choice, .form = "NAME", .choices = namesOf<IdDepth>, .doc = "what depth-id keeps beside an id: depth within the object's own range, or the map's", .used = isDepthId, .used_when = "filter depth-id", GNOMON_MEMBER(ids.depth)},
         {.key = "id.bias", .type = real, .form = "V", .unit = "of the radius", .min = 0, .max = 1, .none_text = "auto", .doc = "how far towards the light an object is compared with itself; auto: as bias.* say", .used = isDepthId, .used_when = "filter depth-id", GNOMON_MEMBER(ids.bias)},
+        {.key = "volumes.open", .type = choice, .form = "NAME", .choices = namesOf<OpenCasters>, .doc = "casters that are open, masked, blended or cut: refuse them by name, or leave them out", .used = isVolumes, .used_when = "filter volumes", GNOMON_MEMBER(volumes.open)},
         // clang-format on
     };
     table.insert(table.end(), std::begin(rows), std::end(rows));

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light that has no maps: whose shadow volumes are to be counted (filter volumes).
+// Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
+// 2003, section 2.4 (which casters count for a view).
+#include "planner_impl.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+constexpr Outcome kOpenCaster{
+    OutcomeKind::refused,
+    "filter volumes counts faces of closed casters, and one that may shade here is none (ObjectFlags::closed); close "
+    "it, or leave such casters out by volumes.open=skip"};
+
+} // namespace
+
+void Planner::Impl::planVolumes(const Frame& frame, std::uint32_t index)
+{
+    LightPlan& planned = plan.lights[index];
+    planned.first_volume = static_cast<std::uint32_t>(plan.casters.size());
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        planned.outcome = prospect(index, setups[planned.options]);
+    }
+    if (planned.outcome.kind == OutcomeKind::ok) {
+        planned.outcome = listVolumes(frame, index);
+    }
+    if (!planned.outcome.hasMap()) {
+        plan.casters.resize(planned.first_volume);
+    }
+    planned.volume_count = static_cast<std::uint32_t>(plan.casters.size()) - planned.first_volume;
+}
+
+Outcome Planner::Impl::listVolumes(const Frame& frame, std::uint32_t index)
+{
+    LightPlan& planned = plan.lights[index];
+    const Setup& setup = setups[planned.options];
+    const Light& light = frame.lights[index];
+    const Slice all = wholeSlice(light);
+    const std::span<const std::uint32_t> receivers = receiversOf(index, light);
+    const Outcome found =
+        frustums.listCasters({frame, setup.recipe, setup.camera, receivers, receivers, light, all}, plan.casters);
+    if (found.kind != OutcomeKind::ok) {
+        return found;
+    }
+    const auto first = plan.casters.begin() + planned.first_volume;
+    const auto open = std::stable_partition(first, plan.casters.end(),
+                                            [&](std::uint32_t object) { return frame.objects->flags(object).closed; });
+    planned.left_out = static_cast<std::uint32_t>(plan.casters.end() - open);
+    if (planned.left_out > 0 && setup.recipe.options.volumes.open == OpenCasters::refuse) {
+        return kOpenCaster;
+    }
+    plan.casters.erase(open, plan.casters.end());
+    return first == plan.casters.end()
+               ? Outcome{OutcomeKind::no_caster,
+                         "every caster that could shade what is seen is left out: none is closed"}
+               : Outcome{};
+}
+
+} // namespace gnomon
