@@ -34,11 +34,14 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
         out.push_back({FramePassKind::bounds});
     }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        if (hasLights(plan, i)) {
+        if ((*plan.options)[i].hasMaps() && hasLights(plan, i)) {
             out.push_back({FramePassKind::maps, i});
         }
     }
     out.push_back({FramePassKind::mask});
+    if (std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.volume_count > 0; })) {
+        out.push_back({FramePassKind::volumes});
+    }
     if (std::ranges::any_of(plan.lights, takesTurns)) {
         out.push_back({FramePassKind::history});
     }

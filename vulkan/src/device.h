@@ -38,6 +38,7 @@ public:
 
     [[nodiscard]] VkDevice handle() const { return view_.device; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    [[nodiscard]] bool depthBounds() const { return view_.depth_bounds; }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
     [[nodiscard]] const MemoryAccount& account() const { return account_; }

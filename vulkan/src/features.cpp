@@ -27,7 +27,7 @@ struct Chain {
     Chain& operator=(const Chain&) = delete;
 };
 
-enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered, clip_planes };
+enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered, clip_planes, depth_bounds };
 
 bool isNeeded(Need need, const FeatureUses& uses)
 {
@@ -42,6 +42,8 @@ bool isNeeded(Need need, const FeatureUses& uses)
         return uses.layered;
     case Need::clip_planes:
         return uses.clip_planes;
+    case Need::depth_bounds:
+        return uses.depth_bounds;
     default:
         return true;
     }
@@ -71,6 +73,8 @@ constexpr Feature kFeatures[] = {
     // Casters clamped onto the near plane.
     {"depthClamp", Need::caster_drawer, GNOMON_CORE(depthClamp)},
     {"shaderClipDistance", Need::clip_planes, GNOMON_CORE(shaderClipDistance)},
+    // Volumes counted no farther than a lamp reaches.
+    {"depthBounds", Need::depth_bounds, GNOMON_CORE(depthBounds)},
     {"pipelineStatisticsQuery", Need::profiler, GNOMON_CORE(pipelineStatisticsQuery)},
     // The linear metric of perspective views in each sample, not only in each texel.
     {"sampleRateShading", Need::filterable, GNOMON_CORE(sampleRateShading)},
@@ -132,10 +136,11 @@ void query(const DeviceView& view, Chain& chain)
 
 const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
 {
-    static std::array<Chain, 32> chains;
+    static std::array<Chain, 64> chains;
     static const bool filled = [] {
         for (std::size_t i = 0; i < chains.size(); ++i) {
-            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0, (i & 4U) != 0, (i & 8U) != 0, (i & 16U) != 0};
+            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0,  (i & 4U) != 0,
+                                          (i & 8U) != 0, (i & 16U) != 0, (i & 32U) != 0};
             for (const Feature& feature : kFeatures) {
                 bitIn(chains[i], feature) = isNeeded(feature.need, combination) ? VK_TRUE : VK_FALSE;
             }
@@ -144,7 +149,7 @@ const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
     }();
     (void)filled;
     return chains[(uses.filterable ? 1U : 0U) | (uses.caster_drawer ? 2U : 0U) | (uses.profiler ? 4U : 0U) |
-                  (uses.layered ? 8U : 0U) | (uses.clip_planes ? 16U : 0U)]
+                  (uses.layered ? 8U : 0U) | (uses.clip_planes ? 16U : 0U) | (uses.depth_bounds ? 32U : 0U)]
         .core;
 }
 
@@ -237,6 +242,13 @@ bool supportsLayered(const DeviceView& view)
     Chain have;
     query(view, have);
     return have.v12.shaderOutputLayer == VK_TRUE;
+}
+
+bool supportsDepthBounds(const DeviceView& view)
+{
+    Chain have;
+    query(view, have);
+    return have.core.features.depthBounds == VK_TRUE;
 }
 
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses)

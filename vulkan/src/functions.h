@@ -18,7 +18,7 @@
     X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) X(UpdateDescriptorSets) \
     X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) X(ResetQueryPool) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline) X(CmdBindDescriptorSets) \
-    X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdPushConstants) X(CmdSetViewport) X(CmdSetScissor) X(CmdSetBlendConstants) \
+    X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdPushConstants) X(CmdSetViewport) X(CmdSetScissor) X(CmdSetBlendConstants) X(CmdSetDepthBounds) X(CmdClearAttachments) \
     X(CmdDispatch) X(CmdFillBuffer) X(CmdUpdateBuffer) X(CmdClearColorImage) X(CmdCopyImage) X(CmdCopyBuffer) X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
 
 #define GNOMON_DEBUG_FUNCTIONS(X) \

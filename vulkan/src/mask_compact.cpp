@@ -36,6 +36,10 @@ void MaskPassRecorder::checkCompact(const Plan& plan) const
             refuseUse(kTried, "a sun that moves in steps is seen from two positions, and a tile has room for one",
                       kInstead);
         }
+        if (light.volume_count > 0) {
+            refuseUse(kTried, "volumes are counted light by light, each into a channel of its own (filter=volumes)",
+                      kInstead);
+        }
         if (pack::joinsFrames(light)) {
             refuseUse(kTried, "frames converge light by light, and a channel has another light in the next frame",
                       kInstead);

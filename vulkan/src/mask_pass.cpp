@@ -186,6 +186,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
     }
     prepareHistories(plan);
     prepareSoften(plan);
+    prepareVolumes(plan);
     return !fits;
 }
 
@@ -334,7 +335,16 @@ void MaskPassRecorder::recordLayers(VkCommandBuffer commands, const Plan& plan, 
     for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
         recordLayer(commands, plan, slot, target, layer);
     }
-    toReadable(device_, commands, target);
+}
+
+/// Beside what the lights with maps have drawn.
+void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                                     const MaskInputs& inputs, const Image& target)
+{
+    if (VolumePassRecorder::draws(plan)) {
+        volumes_->record(commands, slot, frame, plan, inputs, {slots_[slot].constants.buffer(), room_.constants_stride},
+                         target);
+    }
 }
 
 void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index, const Frame& frame, const Plan& plan,
@@ -366,7 +376,10 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     const AlternateInputs seen{inputs.depth, inputs.depth_layout, slot.constants.buffer()};
     // From pass to pass: what the maps alone say, what turns make of it, what frames make of that.
     const Image& joined = converges ? converge_->target() : mask_;
-    recordLayers(commands, plan, slot, takes_turns ? alternate_->target() : joined);
+    const Image& drawn = takes_turns ? alternate_->target() : joined;
+    recordLayers(commands, plan, slot, drawn);
+    recordVolumes(commands, slot_index, frame, plan, inputs, drawn);
+    toReadable(device_, commands, drawn);
     if (takes_turns) {
         toAttachment(device_, commands, joined);
         alternate_->record(commands, slot_index, frame, plan, seen, joined);

@@ -8,6 +8,7 @@
 #include "map_class.h"
 #include "mask_pipelines.h"
 #include "soften_pass.h"
+#include "volume_pass.h"
 
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/shading_buffers.h>
@@ -53,6 +54,8 @@ public:
     /// Did prepare() make what recordSoften() needs for this plan?
     [[nodiscard]] bool holdsSoften(const Plan& plan) const { return soften_ && soften_->holds(mask_.info(), plan); }
     [[nodiscard]] const Image& mask() const { return mask_; }
+    /// Was the last prepare() for a plan with shadow volumes?
+    [[nodiscard]] bool countsVolumes() const { return counts_volumes_; }
     /// ShadowRenderer::maskTiles().
     [[nodiscard]] BufferRef tiles(std::uint32_t slot) const;
 
@@ -91,8 +94,12 @@ private:
     void makeConverge();
     void makeSoften();
     void prepareSoften(const Plan& plan);
+    void makeVolumes();
+    void prepareVolumes(const Plan& plan);
     void prepareHistories(const Plan& plan);
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
+    void recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                       const MaskInputs& inputs, const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
     void warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge);
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
@@ -119,15 +126,17 @@ private:
     MaskPipelines pipelines_;
     std::vector<Slot> slots_;
     Room room_;
-    std::vector<pack::MaskDraw> draws_;      // of the frame that is being recorded
-    std::vector<pack::MapImage> map_images_; // likewise, by options
-    std::vector<std::uint8_t> tinted_;       // by options: some view has a map of tints
-    pack::LightLists lists_;                 // of the frame, for a compact mask
-    pack::CompactMask tiles_;                // likewise
-    std::optional<AlternatePass> alternate_; // made when a plan first needs it
-    std::optional<ConvergePass> converge_;   // likewise
-    std::optional<SoftenPass> soften_;       // likewise
-    std::optional<MaskShape> shape_;         // of the inputs, as far as it is known
+    std::vector<pack::MaskDraw> draws_;         // of the frame that is being recorded
+    std::vector<pack::MapImage> map_images_;    // likewise, by options
+    std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
+    pack::LightLists lists_;                    // of the frame, for a compact mask
+    pack::CompactMask tiles_;                   // likewise
+    std::optional<AlternatePass> alternate_;    // made when a plan first needs it
+    std::optional<ConvergePass> converge_;      // likewise
+    std::optional<SoftenPass> soften_;          // likewise
+    std::optional<VolumePassRecorder> volumes_; // likewise
+    bool counts_volumes_ = false;
+    std::optional<MaskShape> shape_; // of the inputs, as far as it is known
 };
 
 } // namespace gnomon::vulkan

@@ -90,6 +90,26 @@ void MaskPassRecorder::makeSoften()
     }
 }
 
+void MaskPassRecorder::makeVolumes()
+{
+    if (!volumes_) {
+        volumes_.emplace(device_, slot_count_, cache_);
+    }
+}
+
+/// By all inputs that there are, where nobody has told yet which come.
+void MaskPassRecorder::prepareVolumes(const Plan& plan)
+{
+    counts_volumes_ = VolumePassRecorder::draws(plan);
+    if (counts_volumes_) {
+        makeVolumes();
+        const VkFormat format = mask_.info().format;
+        volumes_->prepare(plan, mask_.info().extent,
+                          drawsToConverge(plan) ? ConvergePass::targetFormat(format) : format,
+                          shape_.value_or(MaskShape{true, true, true}));
+    }
+}
+
 void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp& what, bool to_converge)
 {
     MaskPipelineKey key = maskPipelineKey(options, what.inputs);
@@ -138,6 +158,14 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
 
 void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
+    if (!options.hasMaps()) {
+        makeVolumes();
+        volumes_->warmUp(maskFormat(channelsAlone(options)), 1, what.inputs);
+        for (std::uint32_t channel = 0; what.several_lights && channel < shared::kLightsPerLayer; ++channel) {
+            volumes_->warmUp(maskFormat(4), 1U << channel, what.inputs);
+        }
+        return;
+    }
     const bool converges = options.technique().soften == Soften::converge;
     if (converges || what.several_options) {
         warmUpDraws(options, what, true);

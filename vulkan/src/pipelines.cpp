@@ -33,6 +33,8 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
     VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.depthBiasEnable = state.depth_bias_slope != 0.0F ? VK_TRUE : VK_FALSE;
+    raster.depthBiasSlopeFactor = state.depth_bias_slope;
     raster.depthClampEnable = state.depth_clamp ? VK_TRUE : VK_FALSE;
     raster.cullMode = state.cull;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -45,6 +47,9 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     depth.depthTestEnable = state.depth_format != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = state.tints ? VK_FALSE : depth.depthTestEnable;
     depth.depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
+    if (state.depth_stencil != nullptr) {
+        depth = *state.depth_stencil;
+    }
     std::array<VkPipelineColorBlendAttachmentState, 3> attachments{};
     attachments[0].colorWriteMask = state.colour_mask;
     attachments[0].blendEnable = state.keeps_least ? VK_TRUE : VK_FALSE;
@@ -77,15 +82,21 @@ Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state)
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = colours;
     blend.pAttachments = attachments.data();
-    const std::array<VkDynamicState, 3> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                                       VK_DYNAMIC_STATE_BLEND_CONSTANTS};
+    std::array<VkDynamicState, 4> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = state.chooses_channels ? 3 : 2;
+    dynamic.dynamicStateCount = 2;
+    if (state.chooses_channels) {
+        dynamic_states[dynamic.dynamicStateCount++] = VK_DYNAMIC_STATE_BLEND_CONSTANTS;
+    }
+    if (depth.depthBoundsTestEnable == VK_TRUE) {
+        dynamic_states[dynamic.dynamicStateCount++] = VK_DYNAMIC_STATE_DEPTH_BOUNDS;
+    }
     dynamic.pDynamicStates = dynamic_states.data();
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = colours;
     rendering.pColorAttachmentFormats = colour_formats.data();
     rendering.depthAttachmentFormat = state.depth_format;
+    rendering.stencilAttachmentFormat = state.stencil_format;
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
     create.stageCount = static_cast<std::uint32_t>(state.stages.size());

@@ -33,11 +33,16 @@ struct GraphicsState {
     bool shade_samples = false;               // the fragment shader runs for each
     VkCullModeFlags cull = VK_CULL_MODE_NONE; // counter-clockwise is front
     bool depth_clamp = false;
+    /// In place of what `depth_format` says of tests; its stencil is of `stencil_format`.
+    const VkPipelineDepthStencilStateCreateInfo* depth_stencil = nullptr;
+    VkFormat stencil_format = VK_FORMAT_UNDEFINED;
+    float depth_bias_slope = 0.0F;
     VkPipelineCache cache = VK_NULL_HANDLE;
     const char* name = "";
 };
 
-/// Viewport and scissor are dynamic, and with chooses_channels the blend constants.
+/// Viewport and scissor are dynamic; so are the blend constants with chooses_channels, and depth bounds where
+/// `depth_stencil` tests them.
 [[nodiscard]] Pipeline makeGraphicsPipeline(Device& device, const GraphicsState& state);
 
 struct ComputeState {

@@ -76,6 +76,10 @@ void ShadowRenderer::warmUp(const ResolvedOptions& options, const WarmUp& what)
 {
     impl_->mend();
     impl_->whole([&](RendererParts& parts) {
+        if (!options.hasMaps()) {
+            parts.mask.warmUp(options, what);
+            return;
+        }
         // Two options may have maps of one kind and be in one plan: each gets its own.
         if (std::ranges::find(parts.spares, options, &Spare::options) == parts.spares.end()) {
             std::unique_ptr<MapClass> maps = parts.makeClass(options);

@@ -29,7 +29,9 @@ void RendererParts::checkPrepared(const char* tried, const Plan& plan) const
     bool fits = prepared.holds(plan);
     for (const LightPlan& light : plan.lights) {
         const std::uint32_t i = light.options;
-        fits = fits && i < classes.size() && classes[i] && classes[i]->serves((*plan.options)[i]);
+        const bool needs_maps = (*plan.options)[i].hasMaps();
+        fits = fits && (!needs_maps || (i < classes.size() && classes[i] && classes[i]->serves((*plan.options)[i])));
+        fits = fits && (light.volume_count == 0 || !has_mask || mask.countsVolumes());
     }
     if (!fits) {
         refuseUse(tried, "the plan needs other images than those that are there", "call prepare() with it first");
@@ -43,6 +45,10 @@ void RendererParts::checkInputs(const char* tried, const Frame& frame, const Pla
     }
     if (inputs.depth == VK_NULL_HANDLE) {
         refuseUse(tried, "MaskInputs::depth is null", "hand in the camera's depth");
+    }
+    if (VolumePassRecorder::draws(plan) && !inputs.volumes) {
+        refuseUse(tried, "the plan has lights with filter volumes, and MaskInputs::volumes is null",
+                  "hand in a DrawVolumes");
     }
     if (inputs.extent.width == 0 || inputs.extent.height == 0) {
         refuseUse(tried, "MaskInputs::extent is 0", "say how large the camera's depth is");

@@ -60,6 +60,9 @@ const char* wrongOf(const Plan& plan)
              !isRange(light.first_object_id, plan.object_bounds.size(), plan.object_ids.size()))) {
             return "a light's ids of objects are beyond the plan's list";
         }
+        if (!isRange(light.first_volume, light.volume_count, plan.casters.size())) {
+            return "a light names casters that the plan has not";
+        }
         if (light.mask_layer >= plan.mask_layers || light.mask_channel > 3) {
             return "a light's channel is beyond the mask's layers";
         }

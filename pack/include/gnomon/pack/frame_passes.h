@@ -13,6 +13,7 @@ enum class FramePassKind : std::uint8_t {
     bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
     maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
     mask,    // listMaskDraws()
+    volumes, // listVolumeDraws(): into the mask, the lights of filter volumes
     history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
     converge, // join it with the mean of all frames before (LightPlan::sample)
     blur,     // listSoftenDraws()

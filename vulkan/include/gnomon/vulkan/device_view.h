@@ -52,6 +52,7 @@ struct DeviceView {
     MemoryHooks memory;        // empty: a dedicated allocation per resource
     bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes
     bool layered = false;      // the device has the feature shaderOutputLayer on, for CascadePass::layered
+    bool depth_bounds = false; // the device has depthBounds on: filter volumes counts no farther than lamps reach
 };
 
 /// What a host uses of the library, as far as it takes features of the device.
@@ -61,6 +62,7 @@ struct FeatureUses {
     bool profiler = true;      // Profiler
     bool layered = false;      // CascadePass::layered; supportsLayered() says whether the device can
     bool clip_planes = false;  // CasterBatch::clip_planes
+    bool depth_bounds = false; // DeviceView::depth_bounds; supportsDepthBounds() says whether the device can
 };
 
 /// The features that these uses rely on, chained for VkDeviceCreateInfo::pNext: for a host that wants no others. Static
@@ -88,6 +90,8 @@ private:
 
 /// Has the physical device shaderOutputLayer?
 [[nodiscard]] bool supportsLayered(const DeviceView& view);
+/// Has it depthBounds?
+[[nodiscard]] bool supportsDepthBounds(const DeviceView& view);
 /// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
 /// at most `capacity` bytes to `text`, the last one a zero.
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses = {});

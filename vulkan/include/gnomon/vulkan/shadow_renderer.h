@@ -48,8 +48,8 @@ struct ShadowRendererOptions {
     std::function<bool(std::uint32_t object)> is_blended;
     /// With channels 4 or 8 the mask is compact: one or two layers of RGBA8, however many lights there are. Which light
     /// of a tile of the screen is in which channel maskTiles() says. Suns that move in steps, lights whose frames
-    /// converge, lights whose mask is blurred and lights in colour are refused (Error from prepare()), and so are more
-    /// than 65,535 lights.
+    /// converge, lights with filter volumes, those whose mask is blurred and lights in colour are refused (Error from
+    /// prepare()), and so are more than 65,535 lights.
     pack::CompactMaskRule compact;
     /// To look for what rays cost: the mask of lights with filter raymarch says, instead of visibility, how their rays
     /// fared: 0.25 where blocks decided without a ray, 0.5 where there were as many as wanted, 0.75 where there were
@@ -57,6 +57,25 @@ struct ShadowRendererOptions {
     /// away from the light or are in no map have 0 and 1 as ever.
     bool shows_rays = false;
 };
+
+/// One light's shadow volumes to draw (pack::VolumeDraw), given to the host's callback. Rendering has begun, and the
+/// camera's depth is in the depth buffer; viewport, scissor and, with DeviceView::depth_bounds, depth bounds are set.
+/// The callback binds its pipelines and draws; it must not end rendering. Its pipelines clamp depth, test it and do not
+/// write it: GREATER with `reversed_z`, else LESS. Where the test fails they add 1 to the stencil for faces that turn
+/// away from the eye and take 1 away for those that turn to it, wrapping. They write no colour.
+struct VolumePass {
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFormat colour = VK_FORMAT_UNDEFINED; // of the one colour attachment
+    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT;
+    bool reversed_z = true;
+    const Plan* plan = nullptr;
+    std::uint32_t light = 0;                // of the plan
+    std::span<const std::uint32_t> casters; // object indices: all of them must be drawn
+    glm::mat4 clip_from_eye{1.0F};          // the camera's, of points relative to the eye
+    glm::dvec3 eye_ws{0.0};
+    glm::vec4 place{0.0F}; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+};
+using DrawVolumes = std::function<void(const VolumePass&)>;
 
 /// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
 /// DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads by the host.
@@ -74,6 +93,8 @@ struct MaskInputs {
     /// Index of the object in Frame::objects + 1, in R32_UINT, 0 where a receiver wants no shadow at all;
     /// VK_NULL_HANDLE: everything receives. Filters id and depth-id need it.
     VkImageView object_id = VK_NULL_HANDLE;
+    /// Draws shadow volumes (VolumeDrawer is such a callback). Needed where the plan has lights with filter volumes.
+    DrawVolumes volumes;
 };
 
 /// What the host's caster pipelines must be made for.
@@ -215,6 +236,7 @@ struct WarmUp {
 ///   a plan recorded that needs other images than the last prepare() made            Error
 ///   views asked to have tints placed that are fewer than the plan's                 Error
 ///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
+///   volumes on a device that draws to no D32_SFLOAT_S8_UINT                         Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() of lights with filter id or depth-id without MaskInputs::object_id  Error

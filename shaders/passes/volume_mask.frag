@@ -1,0 +1,48 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// A light's channel of the mask, where its shadow volumes have been counted: drawn once for what is outside of all of
+// them and once for what is inside of some.
+#extension GL_GOOGLE_include_directive : require
+#include "../lib/facing.glsl"
+
+layout(constant_id = 0) const bool kHasNormals = true;
+layout(constant_id = 1) const bool kHasSmooth = false;
+layout(constant_id = 2) const bool kIsInside = false;
+layout(push_constant) uniform Push
+{
+    vec4 place; // of the light, GpuLight::place
+};
+layout(set = 0, binding = 0, std140) uniform Constants
+{
+    GpuConstants constants;
+};
+layout(set = 0, binding = 1) uniform sampler2D depths;
+layout(set = 0, binding = 2) uniform sampler2D normals;
+layout(set = 0, binding = 3) uniform sampler2D smooth_surfaces;
+#ifdef GNOMON_OBJECT_IDS
+layout(set = 0, binding = 4) uniform usampler2D object_ids;
+#endif
+layout(location = 0) out vec4 visibility;
+
+#define GNOMON_SURFACE_SCREEN constants.screen
+#include "../lib/screen_surface.glsl"
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depths, pixel, 0).r;
+    if (depth == constants.screen.fade.z) {
+        discard; // what is not drawn stays lit
+    }
+#ifdef GNOMON_OBJECT_IDS
+    if (texelFetch(object_ids, pixel, 0).r == 0) {
+        discard;
+    }
+#endif
+    vec3 p = positionAt(pixel, depth);
+    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
+    SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
+    LightPoint at = lightPoint(p, n, s, towardLight(place, p));
+    vec4 v = fadedVisibility(constants.screen.fade, vec4(kIsInside ? 0.0 : 1.0), length(p));
+    visibility = at.faces ? v : vec4(0.0);
+}

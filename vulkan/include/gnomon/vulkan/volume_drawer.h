@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws shadow volumes for hosts with ordinary meshes: a ready-made DrawVolumes callback. The volumes are made on the
+// GPU, from positions where they are when they are drawn, so skinned and morphed meshes need nothing more.
+// Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows",
+// 2003.
+#pragma once
+
+#include <gnomon/pack/caster_rows.h>
+#include <gnomon/vulkan/shadow_renderer.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+using pack::Rows3x4;
+
+/// The volume of one object: a range of VolumeGeometry::elements. Without elements it casts nothing.
+struct VolumeMesh {
+    std::uint32_t first_element = 0;
+    std::uint32_t element_count = 0;
+    std::uint32_t first_vertex = 0; // of positions; its elements and triangles count from there
+};
+
+/// Storage buffers that vertex shaders read while drawing. Positions may differ from slot to slot (skinned meshes).
+/// Elements and triangles name one vertex for all that are in one place, so it does not matter where the others are.
+struct VolumeGeometry {
+    BufferRef positions; // three floats a vertex, packed
+    /// Four 32-bit numbers each. An edge: the vertices that it leads from and to, as its left triangle runs along it,
+    /// and the triangles on its left and right. The caps of a triangle: 0xFFFFFFFF, 0, the triangle, 0. Triangles count
+    /// from the first of `triangles`; 0xFFFFFFFF on the right: there is none in this object.
+    BufferRef elements;
+    BufferRef triangles; // three 32-bit vertices each, counter-clockwise seen from outside
+};
+
+struct VolumeDrawerOptions {
+    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+};
+
+/// What becomes of a wrong call, in every build:
+///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
+///   fewer transforms than objects, null buffers, or larger than a device binds      Error
+///   draw() before beginFrame(), or of a null pass                                   Error
+///   an object of the plan that setScene() was not given                             draws nothing
+///
+/// Not thread-safe. Needs the feature depthClamp. After a call that threw, beginFrame() again.
+class VolumeDrawer {
+public:
+    /// Throws Error when a function is missing or memory runs out.
+    VolumeDrawer(const DeviceView& device, const VolumeDrawerOptions& options);
+    ~VolumeDrawer();
+    VolumeDrawer(const VolumeDrawer&) = delete;
+    VolumeDrawer& operator=(const VolumeDrawer&) = delete;
+
+    /// By object index of the plans. May allocate.
+    void setScene(std::span<const VolumeMesh> objects);
+    /// Before recordMask() of a frame with volumes. `world_from_object` is indexed by object index and read until the
+    /// frame is recorded. Allocates nothing.
+    void beginFrame(std::uint32_t slot, const VolumeGeometry& geometry, std::span<const Rows3x4> world_from_object);
+    /// Draws one light's volumes; to be called from the DrawVolumes callback. Makes its pipeline the first time that it
+    /// draws in such formats. Returns the number of draws, for Profiler::addDraws.
+    std::uint32_t draw(const VolumePass& pass);
+
+    [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame(), those that came to nothing included
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, "Fast, Practical and Robust Shadows", 2003
+// (z-fail with both caps, the scissor and the depth bounds of a light's reach). Departures: depth is clamped in place
+// of a far plane at infinity, so that every camera will do; and faces are counted behind what is seen (z-fail) wherever
+// the eye is, as counting those before it (z-pass) saves caps alone. shadow_volume.h has a third one.
+#include "volume_pass.h"
+
+#include "barriers.h"
+#include "pipelines.h"
+#include "samplers.h"
+#include "specialisation.h"
+#include "usage.h"
+
+#include <gnomon/plan_views.h>
+
+#include <gnomon_spirv.h>
+#include <gpu_structs.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::vulkan {
+namespace {
+
+// Its 8 bits of stencil count modulo 256: a pixel in as many volumes as that would be lit.
+constexpr VkFormat kDepthStencil = VK_FORMAT_D32_SFLOAT_S8_UINT;
+
+enum CountBinding : std::uint32_t {
+    kCountConstants,
+    kCountDepth,
+    kCountNormal,
+    kCountSmooth,
+    kCountId,
+    kCountBindings
+};
+constexpr std::array<VkDescriptorType, kCountBindings> kCountTypes{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
+// Specialisation constants of volume_mask.frag.
+struct VolumeMaskConstants {
+    VkBool32 has_normals;
+    VkBool32 has_smooth;
+    VkBool32 is_inside;
+};
+
+// Of volume_depth.frag.
+struct VolumeDepthConstants {
+    VkBool32 has_smooth;
+};
+
+VkRect2D rectOf(const pack::ScreenBounds& pixels)
+{
+    return {{static_cast<std::int32_t>(pixels.x0), static_cast<std::int32_t>(pixels.y0)},
+            {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0}};
+}
+
+glm::mat4 clipFromEye(const Camera& camera)
+{
+    glm::dmat4 clip = camera.clip_from_world;
+    clip[3] = camera.clip_from_world * glm::dvec4(camera.eye_ws, 1.0);
+    return {clip};
+}
+
+MaskShape shapeOf(const MaskInputs& inputs)
+{
+    return {inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
+}
+
+bool isSame(const MaskShape& a, const MaskShape& b)
+{
+    return a.normals == b.normals && a.ids == b.ids && a.smooth == b.smooth;
+}
+
+/// What was drawn to the mask comes before, and the depth buffer is free again.
+void awaitBefore(const Device& device, VkCommandBuffer commands, const Image& depth)
+{
+    constexpr VkPipelineStageFlags2 kTests =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    BarrierBatch batch(device, commands);
+    ImageBarrier to_depth;
+    to_depth.image = depth.image();
+    to_depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    to_depth.new_layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    to_depth.source_stages = kTests;
+    to_depth.source_access = kWrites;
+    to_depth.target_stages = kTests;
+    to_depth.target_access = kWrites | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+    batch.add(to_depth);
+    MemoryBarrier colour;
+    colour.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    colour.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    colour.target_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    colour.target_access = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    batch.add(colour);
+}
+
+} // namespace
+
+VolumePassRecorder::VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
+    : device_(device), slot_count_(frames_in_flight), cache_(cache), nearest_(makeSampler(device, VK_FILTER_NEAREST)),
+      sets_(device, kCountTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
+      layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(glm::vec4))),
+      triangle_(makeShader(device, spirv::mask_vert))
+{
+}
+
+bool VolumePassRecorder::draws(const Plan& plan)
+{
+    return std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.volume_count > 0; });
+}
+
+void VolumePassRecorder::makeSets(std::uint32_t options)
+{
+    options_ = options;
+    sets_.reset(slot_count_ * options);
+    slot_sets_.clear();
+    for (std::uint32_t i = 0; i < slot_count_ * options; ++i) {
+        slot_sets_.push_back(sets_.take("mask by volumes"));
+    }
+}
+
+void VolumePassRecorder::prepare(const Plan& plan, VkExtent2D screen, VkFormat mask_format, const MaskShape& shape)
+{
+    draws_.reserve(plan.lights.size());
+    if (const auto options = static_cast<std::uint32_t>(plan.options->size()); options > options_) {
+        makeSets(options);
+    }
+    const VkExtent2D have = depth_.info().extent;
+    if (!depth_ || have.width != screen.width || have.height != screen.height) {
+        if ((device_.features(kDepthStencil) & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
+            refuseUse("make a stencil buffer for shadow volumes", "the device draws to no D32_SFLOAT_S8_UINT",
+                      "choose a filter with maps");
+        }
+        device_.retire(std::move(depth_));
+        depth_ = Image(device_, {kDepthStencil, screen, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                 VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT, "volume stencil"});
+    }
+    for (const LightPlan& light : plan.lights) {
+        if (light.volume_count > 0) {
+            warmUp(mask_format, maskChannelsOf(light), shape);
+        }
+    }
+}
+
+void VolumePassRecorder::warmUp(VkFormat mask_format, std::uint32_t channels, const MaskShape& shape)
+{
+    (void)copyPipeline(mask_format, shape.smooth);
+    for (const bool inside : {false, true}) {
+        (void)maskPipeline({mask_format, channels, shape, inside});
+    }
+}
+
+VkPipeline VolumePassRecorder::maskPipeline(const Key& key)
+{
+    const auto found = std::ranges::find_if(pipelines_, [&](const Made& made) {
+        return made.key.format == key.format && made.key.channels == key.channels && made.key.inside == key.inside &&
+               isSame(made.key.shape, key.shape);
+    });
+    return found != pipelines_.end() ? found->pipeline.get()
+                                     : pipelines_.emplace_back(Made{key, makeMaskPipeline(key)}).pipeline.get();
+}
+
+Pipeline VolumePassRecorder::makeMaskPipeline(const Key& key)
+{
+    const ShaderModule fragment =
+        makeShader(device_, key.shape.ids ? spirv::volume_mask_ids_frag : spirv::volume_mask_frag);
+    const Specialisation constants(VolumeMaskConstants{key.shape.normals ? VK_TRUE : VK_FALSE,
+                                                       key.shape.smooth ? VK_TRUE : VK_FALSE,
+                                                       key.inside ? VK_TRUE : VK_FALSE});
+    const TwoStages stages = stagesOf(triangle_, fragment, constants.info());
+    VkPipelineDepthStencilStateCreateInfo counted{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    counted.stencilTestEnable = VK_TRUE;
+    counted.front.failOp = VK_STENCIL_OP_KEEP;
+    counted.front.passOp = VK_STENCIL_OP_KEEP;
+    counted.front.depthFailOp = VK_STENCIL_OP_KEEP;
+    counted.front.compareOp = key.inside ? VK_COMPARE_OP_NOT_EQUAL : VK_COMPARE_OP_EQUAL;
+    counted.front.compareMask = 0xFF;
+    counted.back = counted.front;
+    GraphicsState state;
+    state.stages = stages;
+    state.layout = layout_.get();
+    state.colour_format = key.format;
+    state.colour_mask = key.channels; // channel i is bit i there, too
+    state.depth_format = kDepthStencil;
+    state.stencil_format = kDepthStencil;
+    state.depth_stencil = &counted;
+    state.cache = cache_;
+    state.name = "mask by volumes";
+    return makeGraphicsPipeline(device_, state);
+}
+
+VkPipeline VolumePassRecorder::copyPipeline(VkFormat format, bool smooth)
+{
+    const auto found =
+        std::ranges::find_if(copies_, [&](const Copy& copy) { return copy.format == format && copy.smooth == smooth; });
+    return found != copies_.end()
+               ? found->pipeline.get()
+               : copies_.emplace_back(Copy{format, smooth, makeCopyPipeline(format, smooth)}).pipeline.get();
+}
+
+Pipeline VolumePassRecorder::makeCopyPipeline(VkFormat format, bool smooth)
+{
+    const ShaderModule fragment = makeShader(device_, spirv::volume_depth_frag);
+    const Specialisation constants(VolumeDepthConstants{smooth ? VK_TRUE : VK_FALSE});
+    const TwoStages stages = stagesOf(triangle_, fragment, constants.info());
+    VkPipelineDepthStencilStateCreateInfo written{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    written.depthTestEnable = VK_TRUE;
+    written.depthWriteEnable = VK_TRUE;
+    written.depthCompareOp = VK_COMPARE_OP_ALWAYS;
+    GraphicsState state;
+    state.stages = stages;
+    state.layout = layout_.get();
+    state.colour_format = format;
+    state.colour_mask = 0;
+    state.depth_format = kDepthStencil;
+    state.stencil_format = kDepthStencil;
+    state.depth_stencil = &written;
+    state.cache = cache_;
+    state.name = "depth for volumes";
+    return makeGraphicsPipeline(device_, state);
+}
+
+void VolumePassRecorder::writeSets(std::uint32_t slot, const MaskInputs& inputs, const ConstantsRef& constants)
+{
+    constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkSampler sampler = nearest_.get();
+    // Every descriptor is written, because lavapipe 22.3 crashes on one that never was.
+    const auto orDepth = [&](std::uint32_t binding, VkImageView view) {
+        return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
+                                      : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);
+    };
+    for (std::uint32_t options = 0; options < options_; ++options) {
+        const std::array<DescriptorSets::Write, kCountBindings> writes{
+            DescriptorSets::buffer(kCountConstants, constants.buffer, sizeof(shared::GpuConstants),
+                                   options * constants.stride),
+            DescriptorSets::image(kCountDepth, sampler, inputs.depth, inputs.depth_layout),
+            orDepth(kCountNormal, inputs.normal), orDepth(kCountSmooth, inputs.smooth),
+            orDepth(kCountId, inputs.object_id)};
+        sets_.write(setOf(slot, options), writes);
+    }
+}
+
+void VolumePassRecorder::beginLayer(VkCommandBuffer commands, const Image& target, std::uint32_t layer)
+{
+    awaitBefore(device_, commands, depth_);
+    VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    colour.imageView = target.layer(layer);
+    colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    depth.imageView = depth_.layer(0);
+    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    const VkExtent2D extent = target.info().extent;
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea.extent = extent;
+    info.layerCount = 1;
+    info.colorAttachmentCount = 1;
+    info.pColorAttachments = &colour;
+    info.pDepthAttachment = &depth;
+    info.pStencilAttachment = &depth;
+    device_.vk.CmdBeginRendering(commands, &info);
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0F, 1.0F};
+    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
+}
+
+/// Where some light of the layer counts.
+void VolumePassRecorder::copyDepth(const Job& job, std::uint32_t layer)
+{
+    pack::ScreenBounds all{~0U, ~0U, 0, 0};
+    for (const pack::VolumeDraw& draw : draws_) {
+        if (draw.layer == layer) {
+            all = {std::min(all.x0, draw.pixels.x0), std::min(all.y0, draw.pixels.y0), std::max(all.x1, draw.pixels.x1),
+                   std::max(all.y1, draw.pixels.y1)};
+        }
+    }
+    const VkRect2D scissor = rectOf(all);
+    const VkDescriptorSet set = setOf(job.slot, 0);
+    device_.vk.CmdSetScissor(job.commands, 0, 1, &scissor);
+    device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               copyPipeline(job.format, job.inputs.smooth != VK_NULL_HANDLE));
+    device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0,
+                                     nullptr);
+    device_.vk.CmdDraw(job.commands, 3, 1, 0, 0);
+}
+
+void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw)
+{
+    const LightPlan& light = job.plan.lights[draw.light];
+    const VkRect2D scissor = rectOf(draw.pixels);
+    device_.vk.CmdSetScissor(job.commands, 0, 1, &scissor);
+    VkClearAttachment uncounted{};
+    uncounted.aspectMask = VK_IMAGE_ASPECT_STENCIL_BIT;
+    const VkClearRect where{scissor, 0, 1};
+    device_.vk.CmdClearAttachments(job.commands, 1, &uncounted, 1, &where);
+    if (device_.depthBounds()) {
+        device_.vk.CmdSetDepthBounds(job.commands, draw.least_depth, draw.most_depth);
+    }
+    VolumePass pass;
+    pass.commands = job.commands;
+    pass.colour = job.format;
+    pass.depth_stencil = kDepthStencil;
+    pass.reversed_z = job.frame.camera.reversed_z;
+    pass.plan = &job.plan;
+    pass.light = draw.light;
+    pass.casters = std::span(job.plan.casters).subspan(light.first_volume, light.volume_count);
+    pass.clip_from_eye = clipFromEye(job.frame.camera);
+    pass.eye_ws = job.frame.camera.eye_ws;
+    pass.place = draw.place;
+    job.inputs.volumes(pass);
+}
+
+void VolumePassRecorder::drawLight(const Job& job, const pack::VolumeDraw& draw)
+{
+    const VkDescriptorSet set = setOf(job.slot, job.plan.lights[draw.light].options);
+    for (const bool inside : {false, true}) {
+        device_.vk.CmdBindPipeline(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                   maskPipeline({job.format, draw.channels, shapeOf(job.inputs), inside}));
+        device_.vk.CmdBindDescriptorSets(job.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0,
+                                         nullptr);
+        device_.vk.CmdPushConstants(job.commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof draw.place,
+                                    &draw.place);
+        device_.vk.CmdDraw(job.commands, 3, 1, 0, 0);
+    }
+}
+
+void VolumePassRecorder::record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
+                                const MaskInputs& inputs, const ConstantsRef& constants, const Image& target)
+{
+    const VkExtent2D extent = target.info().extent;
+    pack::listVolumeDraws(frame, plan, {extent.width, extent.height}, draws_);
+    if (draws_.empty()) {
+        return;
+    }
+    writeSets(slot, inputs, constants);
+    device_.beginLabel(commands, "shadow volumes");
+    const Job job{commands, slot, frame, plan, inputs, target.info().format};
+    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
+        const auto is_here = [&](const pack::VolumeDraw& draw) {
+            return draw.layer == layer;
+        };
+        if (std::ranges::none_of(draws_, is_here)) {
+            continue;
+        }
+        beginLayer(commands, target, layer);
+        copyDepth(job, layer);
+        for (const pack::VolumeDraw& draw : draws_) {
+            if (is_here(draw)) {
+                countLight(job, draw);
+                drawLight(job, draw);
+            }
+        }
+        device_.vk.CmdEndRendering(commands);
+    }
+    device_.endLabel(commands);
+}
+
+} // namespace gnomon::vulkan
