@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,18 @@ inline constexpr std::size_t kMaxLights = 128;
 
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
-/// Fills an ObjectSet with a state's objects (index by index) or updates it.
-void fillObjectSet(const scene::State& state, ObjectSet& objects);
+/// Fills an ObjectSet with a state's objects (index by index) or updates it. `closed`: closedObjects(), for
+/// ObjectFlags::closed of those that it adds; empty: none is.
+void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed = {});
+
+/// By object, 1 where its shadow volume can be counted: it is opaque, nothing cuts it, and its edges are shared by as
+/// many triangles one way as the other, by its own or with those of its mesh's other primitives.
+[[nodiscard]] std::vector<std::uint8_t> closedObjects(const scene::Scene& scene, const scene::State& state);
+/// What casts and is not so.
+struct VolumeFaults {
+    std::size_t objects = 0;
+    std::vector<std::string> sentences; // different ones: "mesh M is open: 12 of its edges have one triangle"
+};
+[[nodiscard]] VolumeFaults volumeFaults(const scene::Scene& scene, const scene::State& state);
 
 } // namespace gnomon::host

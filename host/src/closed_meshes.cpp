@@ -1,95 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "closed_meshes.h"
 
+#include "host/view.h"
+
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <span>
-#include <tuple>
-#include <utility>
+#include <string_view>
 
 namespace gnomon::host {
 namespace {
 
-auto placeOf(const glm::vec3& p)
+enum class Fault : std::uint8_t { none, masked, blended, cut, open };
+
+scene::AlphaMode alphaOf(const scene::Scene& scene, std::uint32_t material)
 {
-    return std::tuple(p.x, p.y, p.z);
+    return material < scene.materials.size() ? scene.materials[material].alpha_mode : scene::AlphaMode::opaque;
 }
 
-/// A number for each vertex of the mesh, primitive after primitive: the same for those in one place.
-std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions)
+bool isOpaque(const scene::Scene& scene, const scene::Mesh& mesh)
 {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return placeOf(positions[i]); });
-    std::vector<std::uint32_t> numbers(positions.size());
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && positions[order[i]] != positions[order[i - 1]]) {
-            ++number;
-        }
-        numbers[order[i]] = number;
-    }
-    return numbers;
+    return std::ranges::all_of(mesh.primitives, [&](const scene::Primitive& primitive) {
+        return alphaOf(scene, primitive.material) == scene::AlphaMode::opaque;
+    });
 }
 
-/// An edge, its lesser vertex first, and which way a triangle runs along it.
-using Edge = std::tuple<std::uint32_t, std::uint32_t, bool>;
-
-void addEdges(const std::vector<std::uint32_t>& indices, std::span<const std::uint32_t> numbers,
-              std::vector<Edge>& edges)
+/// A primitive that is open alone may be closed by the mesh's others, which then have to cast as it does.
+Fault faultOf(const scene::Scene& scene, const scene::Object& object, const scene::MeshClosure& closure)
 {
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const std::array<std::uint32_t, 3> corners{numbers[indices[i]], numbers[indices[i + 1]],
-                                                   numbers[indices[i + 2]]};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-            continue; // it has no area
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [lesser, greater] = std::minmax(corners[k], corners[(k + 1) % 3]);
-            edges.emplace_back(lesser, greater, corners[k] == lesser);
-        }
+    const scene::AlphaMode alpha = alphaOf(scene, object.material);
+    if (alpha != scene::AlphaMode::opaque) {
+        return alpha == scene::AlphaMode::blend ? Fault::blended : Fault::masked;
     }
+    if (object.clip_planes != scene::kNoClipPlanes) {
+        return Fault::cut;
+    }
+    const bool closed = closure.open_edges_of[object.primitive] == 0 ||
+                        (closure.closed() && isOpaque(scene, scene.meshes[object.mesh]));
+    return closed ? Fault::none : Fault::open;
+}
+
+std::string sentenceOf(Fault fault, std::uint32_t open_edges)
+{
+    switch (fault) {
+    case Fault::masked:
+        return "is masked by its texture";
+    case Fault::blended:
+        return "is blended";
+    case Fault::cut:
+        return "is cut by clip planes";
+    default:
+        return "is open: " + std::to_string(open_edges) + " of its edges have one triangle";
+    }
+}
+
+std::string_view named(const std::string& name)
+{
+    return name.empty() ? std::string_view("without a name") : std::string_view(name);
 }
 
 } // namespace
 
 bool isClosed(const scene::Mesh& mesh)
 {
-    std::vector<glm::vec3> positions;
-    for (const scene::Primitive& primitive : mesh.primitives) {
-        positions.insert(positions.end(), primitive.positions.begin(), primitive.positions.end());
+    return scene::closureOf(mesh).closed();
+}
+
+std::vector<scene::MeshClosure> closures(const scene::Scene& scene)
+{
+    std::vector<scene::MeshClosure> found;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        found.push_back(scene::closureOf(mesh));
     }
-    const std::vector<std::uint32_t> numbers = weld(positions);
-    std::vector<Edge> edges;
-    std::size_t first = 0;
-    for (const scene::Primitive& primitive : mesh.primitives) {
-        addEdges(primitive.indices, std::span(numbers).subspan(first, primitive.positions.size()), edges);
-        first += primitive.positions.size();
-    }
-    std::ranges::sort(edges);
-    for (std::size_t i = 0; i < edges.size();) {
-        const auto [lesser, greater, ignored] = edges[i];
-        std::ptrdiff_t balance = 0;
-        for (; i < edges.size() && std::get<0>(edges[i]) == lesser && std::get<1>(edges[i]) == greater; ++i) {
-            balance += std::get<2>(edges[i]) ? 1 : -1;
-        }
-        if (balance != 0) {
-            return false;
-        }
-    }
-    return !edges.empty();
+    return found;
 }
 
 std::vector<bool> closedMeshes(const scene::Scene& scene)
 {
     std::vector<bool> closed;
-    for (const scene::Mesh& mesh : scene.meshes) {
-        closed.push_back(isClosed(mesh));
+    for (const scene::MeshClosure& closure : closures(scene)) {
+        closed.push_back(closure.closed());
     }
     return closed;
+}
+
+std::vector<std::uint8_t> closedObjects(const scene::Scene& scene, const scene::State& state,
+                                        const std::vector<scene::MeshClosure>& closures)
+{
+    std::vector<std::uint8_t> closed;
+    closed.reserve(state.objects.size());
+    for (const scene::Object& object : state.objects) {
+        closed.push_back(faultOf(scene, object, closures[object.mesh]) == Fault::none ? 1 : 0);
+    }
+    return closed;
+}
+
+std::vector<std::uint8_t> closedObjects(const scene::Scene& scene, const scene::State& state)
+{
+    return closedObjects(scene, state, closures(scene));
+}
+
+VolumeFaults volumeFaults(const scene::Scene& scene, const scene::State& state)
+{
+    const std::vector<scene::MeshClosure> found = closures(scene);
+    VolumeFaults open;
+    for (const scene::Object& object : state.objects) {
+        const scene::MeshClosure& closure = found[object.mesh];
+        const Fault fault = faultOf(scene, object, closure);
+        if (!object.casts || fault == Fault::none) {
+            continue;
+        }
+        std::string sentence = "mesh ";
+        sentence += named(scene.meshes[object.mesh].name);
+        sentence += ' ';
+        sentence += sentenceOf(fault, closure.open_edges_of[object.primitive]);
+        ++open.objects;
+        if (std::ranges::find(open.sentences, sentence) == open.sentences.end()) {
+            open.sentences.push_back(std::move(sentence));
+        }
+    }
+    return open;
 }
 
 } // namespace gnomon::host

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which meshes have an inside, so that leaving out the triangles that face a light leaves no hole in their shadow.
+// Which meshes have an inside, so that leaving out the triangles that face a light leaves no hole in their shadow, and
+// that their shadow volumes can be counted.
 #pragma once
 
+#include "scene/adjacency.h"
 #include "scene/model.h"
+#include "scene/state.h"
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace gnomon::host {
@@ -13,5 +18,9 @@ namespace gnomon::host {
 [[nodiscard]] bool isClosed(const scene::Mesh& mesh);
 /// By mesh of the scene.
 [[nodiscard]] std::vector<bool> closedMeshes(const scene::Scene& scene);
+[[nodiscard]] std::vector<scene::MeshClosure> closures(const scene::Scene& scene);
+/// As closedObjects() in host/view.h.
+[[nodiscard]] std::vector<std::uint8_t> closedObjects(const scene::Scene& scene, const scene::State& state,
+                                                      const std::vector<scene::MeshClosure>& closures);
 
 } // namespace gnomon::host

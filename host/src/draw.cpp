@@ -132,7 +132,7 @@ void FrameRenderer::Impl::finish()
 void FrameRenderer::Impl::update(const scene::State& state)
 {
     if (objects.size() == 0) {
-        fillObjectSet(state, objects);
+        fillObjectSet(state, objects, scene.table.closed);
     }
     const bool deforms = scene.geometry.deforms();
     const bool deformed = deforms && deformed_at_s != state.time_s;

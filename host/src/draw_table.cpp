@@ -81,7 +81,8 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         batches.push_back(batch);
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
-    const std::vector<bool> closed = closedMeshes(scene);
+    const std::vector<scene::MeshClosure> closed_meshes = closures(scene);
+    closed = closedObjects(scene, state, closed_meshes);
     OtherBatches other_batches(caster_batches, cuts);
     std::map<Key, std::uint32_t> part_ids;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -90,11 +91,13 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         if (fresh) {
             const vulkan::MeshRange range = geometry.range(state.objects[i]);
             parts.push_back({range, batch_ids[batch]});
-            const bool one_sided = caster_ids[batch.material] == kOpaque && closed[state.objects[i].mesh];
+            const bool one_sided =
+                caster_ids[batch.material] == kOpaque && closed_meshes[state.objects[i].mesh].closed();
             const std::uint32_t caster_batch = one_sided ? kOpaqueClosed : caster_ids[batch.material];
             caster_parts.push_back({range, other_batches.of(caster_batch, batch.cut, batch.mirrored)});
         }
         objects.push_back({part->second, 1U});
+        sources.push_back({state.objects[i].mesh, state.objects[i].primitive});
         // Maps of averages draw receivers, too, and what is blended is none.
         const bool is_blended = materials.all()[batch.material].blended;
         caster_objects.push_back({part->second, is_blended && !state.objects[i].casts ? 0U : 1U});

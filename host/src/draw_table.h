@@ -37,6 +37,14 @@ struct DrawTable {
     std::vector<vulkan::DrawPart> caster_parts;
     std::vector<vulkan::DrawObject> caster_objects;
     std::vector<std::uint8_t> blended; // per object: it tints the light instead of blocking it
+    std::vector<std::uint8_t> closed;  // closedObjects()
+    /// Per object, which primitive of which mesh it is.
+    struct Source {
+        std::uint32_t mesh = 0;
+        std::uint32_t primitive = 0;
+        auto operator<=>(const Source&) const = default; // NOLINT(modernize-use-nullptr)
+    };
+    std::vector<Source> sources;
 
 private:
     std::vector<std::uint32_t> numberCuts(const scene::State& state);

@@ -175,6 +175,9 @@ std::vector<vulkan::MemoryUse> FrameRenderer::memory() const
     if (self.shadows) {
         add(self.shadows->renderer.memory());
         add(self.shadows->casters.memory());
+        if (self.shadows->volume_meshes) {
+            add(self.shadows->volume_meshes->memory());
+        }
         if (self.shadows->forward) {
             add(self.shadows->forward->memory());
         }

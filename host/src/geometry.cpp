@@ -61,7 +61,9 @@ Geometry::Geometry(Memory& memory, Uploader& uploader, const scene::Scene& scene
     place(scene, state);
     const VkDeviceSize vertices = VkDeviceSize{static_vertices_} + deformed_vertices_;
     constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    positions = memory.buffer("scene positions", vertices * sizeof(glm::vec3), kVertex, Place::device);
+    // Shadow volumes pull them.
+    positions = memory.buffer("scene positions", vertices * sizeof(glm::vec3),
+                              kVertex | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Place::device);
     uvs = memory.buffer("scene texture coordinates", vertices * sizeof(glm::vec2), kVertex, Place::device);
     attributes = memory.buffer("scene attributes", vertices * sizeof(VertexAttributes), kVertex, Place::device);
     indices = memory.buffer("scene indices", VkDeviceSize{index_total_} * 4,
@@ -199,7 +201,8 @@ void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& stat
 
 void Geometry::recordDeformed(VkCommandBuffer commands, const Buffer& staging) const
 {
-    const Access read{VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT};
+    const Access read{VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
     memoryBarrier(commands, read, kCopyTarget); // frames before this one may still read them
     const VkDeviceSize position_bytes = VkDeviceSize{deformed_vertices_} * sizeof(glm::vec3);
     const VkDeviceSize attribute_bytes = VkDeviceSize{deformed_vertices_} * sizeof(VertexAttributes);

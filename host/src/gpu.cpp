@@ -239,7 +239,9 @@ void Gpu::Impl::makeDevice()
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     view.layered = vulkan::supportsLayered(view);
-    info.pNext = &vulkan::requiredFeatures({.layered = view.layered, .clip_planes = true});
+    view.depth_bounds = vulkan::supportsDepthBounds(view);
+    info.pNext =
+        &vulkan::requiredFeatures({.layered = view.layered, .clip_planes = true, .depth_bounds = view.depth_bounds});
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     const char* const opening = "opening the Vulkan device";

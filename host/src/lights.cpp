@@ -57,13 +57,14 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
     return lights;
 }
 
-void fillObjectSet(const scene::State& state, ObjectSet& objects)
+void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed)
 {
     const std::uint32_t known = objects.size();
     for (std::uint32_t i = 0; i < state.objects.size(); ++i) {
         const scene::Object& object = state.objects[i];
         if (i >= known) {
-            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic});
+            const bool is_closed = i < closed.size() && closed[i] != 0;
+            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed});
         } else if (object.dynamic) {
             (void)objects.update(objects.idAt(i), object.bounds_ws);
         }

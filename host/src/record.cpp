@@ -113,6 +113,13 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     renderer.recordMaps(
         cmd, slot, frame, *plan, [&](const vulkan::MapPass& pass) { profiler.addDraws(casters.draw(pass)); },
         &profiler);
+    if (shadows->volumes) {
+        shadows->volumes->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions),
+                                     draws.transforms());
+        inputs.volumes = [this](const vulkan::VolumePass& pass) {
+            profiler.addDraws(shadows->volumes->draw(pass));
+        };
+    }
     if (!frame_lights.empty()) {
         renderer.recordMask(cmd, slot, frame, *plan, inputs, &profiler);
     }

@@ -45,8 +45,14 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     if (options.compact_mask.channels > 0) {
         tiles.emplace(scene, options.frames_in_flight);
     }
-    if (scene.pipelines.blended.whole != VK_NULL_HANDLE) {
-        forward.emplace(scene, resolvedOrThrow(options.shadow), options.frames_in_flight);
+    const ResolvedOptions resolved = resolvedOrThrow(options.shadow);
+    if (!resolved.hasMaps()) { // nor has what is blended any to look up its shadows in
+        volume_meshes.emplace(scene);
+        volumes.emplace(scene.gpu.view(),
+                        vulkan::VolumeDrawerOptions{options.frames_in_flight, scene.gpu.pipelineCache()});
+        volumes->setScene(volume_meshes->objects());
+    } else if (scene.pipelines.blended.whole != VK_NULL_HANDLE) {
+        forward.emplace(scene, resolved, options.frames_in_flight);
     }
 }
 

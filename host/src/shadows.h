@@ -5,6 +5,7 @@
 #include "forward_shadows.h"
 #include "mask_tiles.h"
 #include "scene_data.h"
+#include "volume_meshes.h"
 
 #include "host/frame_renderer.h"
 
@@ -25,9 +26,11 @@ struct Shadows {
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;
-    std::optional<MaskTiles> tiles;        // of a compact mask
-    std::optional<ForwardShadows> forward; // of scenes with blended surfaces
-    const Plan* plan = nullptr;            // the last one
+    std::optional<MaskTiles> tiles;              // of a compact mask
+    std::optional<ForwardShadows> forward;       // of scenes with blended surfaces
+    std::optional<VolumeMeshes> volume_meshes;   // of filter volumes
+    std::optional<vulkan::VolumeDrawer> volumes; // likewise
+    const Plan* plan = nullptr;                  // the last one
 
 private:
     Plan kept_;
