@@ -10,6 +10,7 @@
 namespace gnomon::app {
 namespace {
 
+// Not volumes, which many a scene's casters are too open for.
 constexpr std::string_view kAll[] = {"hard",
                                      "pcf+pcf.kernel=2x2",
                                      "pcf+pcf.kernel=3x3",

@@ -143,6 +143,11 @@ bool always(const Settings&)
     return true;
 }
 
+bool isMapped(const Settings& s)
+{
+    return hasMaps(s.shadow);
+}
+
 bool fades(const Settings& s)
 {
     const Technique& technique = s.shadow.technique;
@@ -157,19 +162,19 @@ bool steps(const Settings& s)
 }
 
 constexpr std::array kViews{
-    DebugView{"density", always, "a technique that has a map", densityView},
+    DebugView{"density", isMapped, "a technique that has a map", densityView},
     DebugView{"faded", fades, "partition multi, motion snap and multi.fade not 0", fadedView},
     DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"light-count", always, "a technique that has a map", lightCountView},
-    DebugView{"map", always, "a technique that has a map", mapPicture},
+    DebugView{"map", isMapped, "a technique that has a map", mapPicture},
     DebugView{"rays",
               [](const Settings& s) {
                   return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none;
               },
               "filter raymarch and soften none", raysView},
     DebugView{"steps", steps, "a motion that steps", stepsView},
-    DebugView{"views", always, "a technique that has a map", viewsView},
+    DebugView{"views", isMapped, "a technique that has a map", viewsView},
 };
 
 const DebugView* findView(std::string_view name)

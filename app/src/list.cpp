@@ -48,8 +48,9 @@ struct RefusedFormats {
 RefusedFormats formatsRefusedBy(Filter filter)
 {
     RefusedFormats row{std::string(nameOf(filter)), {}, {}};
+    const bool stores = filterTraits(filter)->has_maps;
     for (auto format = MapFormat{}; format <= MapFormat::rg8; format = MapFormat(std::uint8_t(format) + 1)) {
-        if (const auto reason = refusal(filter, format)) {
+        if (const auto reason = refusal(filter, stores ? format : MapFormat::d16)) {
             row.formats += fmt::format("{}{}", row.formats.empty() ? "" : "|", nameOf(format));
             row.reason = *reason;
         }
@@ -86,6 +87,9 @@ void addRefusedMoments(std::vector<Refused>& refused)
     for (const Filter filter : availableFilters()) {
         for (const std::string_view option : kOptions) {
             for (const MapFormat format : filterTraits(filter)->formats) {
+                if (!filterTraits(filter)->has_maps) {
+                    continue;
+                }
                 const std::string text = fmt::format("{}+map-format={}", nameOf(filter), nameOf(format));
                 Settings settings = parseTechnique(defaults, text);
                 const std::size_t equals = option.find('=');

@@ -73,7 +73,9 @@ class PlannedFrames {
 public:
     PlannedFrames(Shot& shot, const Settings& settings) : shot_(shot), settings_(settings), planner_(settings.shadow)
     {
-        host::fillObjectSet(shot.state, objects_);
+        const bool counts = !hasMaps(settings.shadow);
+        host::fillObjectSet(shot.state, objects_,
+                            counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>());
     }
     void planAll(PlanLayers& layers)
     {

@@ -129,7 +129,7 @@ bool mayBeCompact(const Settings& s)
     const Technique& technique = s.shadow.technique;
     const bool is_shadowed_picture = !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
     return is_shadowed_picture && technique.soften == Soften::none && s.shadow.translucent == Translucent::grey &&
-           (technique.motion == Motion::free || technique.motion == Motion::snap);
+           (technique.motion == Motion::free || technique.motion == Motion::snap) && hasMaps(s.shadow);
 }
 bool isCompact(const Settings& s)
 {

@@ -4,6 +4,7 @@
 #include "shot_camera.h"
 #include "shot_notices.h"
 #include "shot_range.h"
+#include "shot_volumes.h"
 
 #include "scene/range.h"
 
@@ -308,6 +309,7 @@ Shot makeShot(const Settings& settings)
     requireInRange(shot, settings);
     requireSizedLights(settings, shot.lights);
     noteWhatSurprises(shot, settings);
+    requireClosedCasters(shot, settings);
     return shot;
 }
 

@@ -98,6 +98,10 @@ Setting biasSetting()
     setting.form = "BIAS";
     setting.default_text = "auto";
     setting.doc = "auto, none or constant=M,slope=S,normal=T,receiver-plane=0|1";
+    setting.used = [](const Settings& s) {
+        return hasMaps(s.shadow);
+    };
+    setting.used_when = "every filter but volumes";
     setting.apply = applyBias;
     return setting;
 }
