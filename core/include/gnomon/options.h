@@ -222,7 +222,7 @@ struct ShadowOptions {
     std::uint32_t longest_wait = 8;
     PcfOptions pcf; // filter pcf
     SmoothiesOptions smoothies;
-    IdOptions ids;  // filters id, depth-id
+    IdOptions ids; // filters id, depth-id
     BiasOptions bias;
     CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
     CasterCull cull = CasterCull::none;       // which triangles of all casters are left out

@@ -11,8 +11,7 @@ namespace gnomon {
 
 MapProjection projectionOf(const View& view)
 {
-    return {view.clip_from_world, view.metric.metric_ws, view.orthographic,
-            view.clamp_near,      view.ids_key,          view.layers};
+    return {view.clip_from_world, view.metric.metric_ws, view.orthographic, view.clamp_near, view.ids_key, view.layers};
 }
 
 bool MapContents::show(const MapProjection& now, std::span<const std::uint32_t> casters,
