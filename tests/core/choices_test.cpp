@@ -54,7 +54,7 @@ TEST(Choices, KernelsAndFormatsRoundTrip)
 {
     for (int i = 0; i <= static_cast<int>(PcfKernel::projected_3x3); ++i)
         EXPECT_EQ(findPcfKernel(nameOf(static_cast<PcfKernel>(i))), static_cast<PcfKernel>(i));
-    for (int i = 0; i <= static_cast<int>(MapFormat::rgba8); ++i)
+    for (int i = 0; i <= static_cast<int>(MapFormat::rg8); ++i)
         EXPECT_EQ(findMapFormat(nameOf(static_cast<MapFormat>(i))), static_cast<MapFormat>(i));
     EXPECT_EQ(findPcfKernel("4x4"), std::nullopt);
     EXPECT_EQ(findMapFormat(""), std::nullopt);
@@ -203,17 +203,19 @@ TEST(Choices, AFormatIsRefusedUnlessItsFilterListsIt)
 {
     const std::map<Filter, std::set<MapFormat>> usable{
         {Filter::hard,
-         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8}},
+         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8, MapFormat::d24}},
         {Filter::pcf,
-         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8}},
+         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8, MapFormat::d24}},
         {Filter::vsm, {MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f}},
         {Filter::lvsm, {MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f}},
         {Filter::esm, {MapFormat::r32f, MapFormat::r16f}},
         {Filter::evsm, {MapFormat::rgba32f, MapFormat::rgba16f, MapFormat::rg32f, MapFormat::rg16f}},
         {Filter::msm, {MapFormat::rgba16, MapFormat::rgba32f}},
+        {Filter::id, {MapFormat::r16, MapFormat::r8}},
+        {Filter::depth_id, {MapFormat::rg16, MapFormat::rg8, MapFormat::rg32f}},
     };
     for (const auto& [filter, formats] : usable)
-        for (int i = 0; i <= static_cast<int>(MapFormat::rgba8); ++i) {
+        for (int i = 0; i <= static_cast<int>(MapFormat::rg8); ++i) {
             const auto format = static_cast<MapFormat>(i);
             const auto reason = refusal(filter, format);
             EXPECT_EQ(reason.has_value(), !formats.contains(format)) << nameOf(filter) << " " << nameOf(format);
