@@ -16,6 +16,7 @@
 #include "files/files.h"
 #include "scene/hash.h"
 
+#include <gnomon/choice_rules.h>
 #include <gnomon/choices.h>
 #include <gnomon/error.h>
 
@@ -44,7 +45,7 @@ void requireCaster(const host::ShadedLight& light, const std::vector<Settings>& 
 {
     std::optional<std::string_view> why;
     for (const Settings& technique : techniques) {
-        why = refusal(light.caster.type, technique.shadow.technique);
+        why = refusal(light.caster.type, technique.shadow);
         if (!why) {
             return;
         }

@@ -5,6 +5,8 @@
 
 #include "scene/hash.h"
 
+#include <gnomon/choice_rules.h>
+
 #include <fmt/format.h>
 
 namespace gnomon::app {
@@ -76,7 +78,7 @@ void noteScene(Shot& shot, const Settings& settings)
 std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings)
 {
     const bool traced_alone = settings.truth && settings.subcommand != kCompare;
-    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.shadow.technique);
+    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.shadow);
 }
 
 void noteWhatSurprises(Shot& shot, const Settings& settings)

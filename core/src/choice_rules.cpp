@@ -131,4 +131,19 @@ std::span<const ChoiceRule> choiceRules()
     return kRules;
 }
 
+std::optional<std::string_view> refusal(LightType light, const ShadowOptions& options)
+{
+    if (const auto reason = refusal(light, options.technique)) {
+        return reason;
+    }
+    const Filter filter = filterOf(options);
+    const FilterTraits* const traits = filterTraits(filter);
+    const bool has_metric =
+        traits != nullptr && (traits->filterable || filter == Filter::hard || filter == Filter::pcf);
+    if (has_metric && light == LightType::directional && options.moments.metric == DepthMetricKind::z_over_w) {
+        return "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear";
+    }
+    return std::nullopt;
+}
+
 } // namespace gnomon

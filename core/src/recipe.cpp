@@ -3,6 +3,8 @@
 
 #include "light_space.h"
 
+#include <gnomon/choice_rules.h>
+
 #include <algorithm>
 #include <mutex>
 #include <set>
@@ -30,14 +32,6 @@ std::uint32_t sideOfShared(std::uint32_t side, std::uint32_t count)
     return std::max(side >> level, kSmallestMap);
 }
 
-/// A map holds what a perspective makes of depth.
-bool keepsOverW(const ShadowOptions& options)
-{
-    const Filter filter = options.technique.filter;
-    const bool has_metric = filterTraits(filter)->filterable || filter == Filter::hard || filter == Filter::pcf;
-    return has_metric && options.moments.metric == DepthMetricKind::z_over_w;
-}
-
 /// Options that can be had, whatever was asked for: nobody plans by those that were refused.
 ResolvedOptions usable(const Resolution& resolution)
 {
@@ -59,15 +53,11 @@ Outcome Recipe::check(const Light& light) const
     if (!light.casts_shadow) {
         return {OutcomeKind::no_shadow_wanted, "the light casts no shadow"};
     }
-    if (const auto reason = refusal(light.type, asked.technique)) {
+    if (const auto reason = refusal(light.type, asked)) {
         return {OutcomeKind::refused, *reason};
     }
     if (!resolution) {
         return {OutcomeKind::refused, refusal_reason};
-    }
-    if (keepsOverW(options) && light.type == LightType::directional) {
-        return {OutcomeKind::refused,
-                "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear"};
     }
     if (light.type != LightType::directional && layersWorld() && options.moments.layer_axis == LayerAxis::height) {
         return {OutcomeKind::refused, "layers of height are layers of depth under parallel light alone; a light with a "
