@@ -45,14 +45,14 @@ Outcome Planner::Impl::listVolumes(const Frame& frame, std::uint32_t index)
         return found;
     }
     const auto first = plan.casters.begin() + planned.first_volume;
-    const auto open = std::stable_partition(first, plan.casters.end(),
-                                            [&](std::uint32_t object) { return frame.objects->flags(object).closed; });
+    const auto open = std::remove_if(first, plan.casters.end(),
+                                     [&](std::uint32_t object) { return !frame.objects->flags(object).closed; });
     planned.left_out = static_cast<std::uint32_t>(plan.casters.end() - open);
     if (planned.left_out > 0 && setup.recipe.options.volumes.open == OpenCasters::refuse) {
         return kOpenCaster;
     }
     plan.casters.erase(open, plan.casters.end());
-    return first == plan.casters.end()
+    return plan.casters.size() == planned.first_volume
                ? Outcome{OutcomeKind::no_caster,
                          "every caster that could shade what is seen is left out: none is closed"}
                : Outcome{};

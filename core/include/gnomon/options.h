@@ -316,7 +316,7 @@ struct Resolution {
 /// raymarch.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);
 /// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses
-/// a format, a size, budgets, caster faces, a kept map or colours that are asked for all the same.
+/// a format, budgets, caster faces, a kept map or colours that are asked for all the same.
 [[nodiscard]] bool hasMaps(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
 /// not available.

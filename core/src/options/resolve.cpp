@@ -84,8 +84,8 @@ std::optional<std::string> volumesRefusal(const ShadowOptions& options)
     if (hasMaps(options)) {
         return std::nullopt;
     }
-    if (options.format || options.map_size) {
-        return "map-format, map-size: filter volumes counts faces and has no maps; leave both out";
+    if (options.format) {
+        return "map-format: filter volumes counts faces and has no maps; leave it out";
     }
     if (options.budget_texels != 0 || options.draw_budget_texels != 0) {
         return "budget, draw-budget: filter volumes has no maps that could share texels or wait; leave both out";
