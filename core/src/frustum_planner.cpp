@@ -255,11 +255,12 @@ Warp FrustumPlanner::warpOf(const FrustumInput& input, const Lie& lie) const
     return none;
 }
 
-/// That of the recipe's fit, as far as what is probably seen gains by it.
+/// That of the recipe's fit, as far as what is probably seen gains by it. Of parallel light: amid the rays of a lamp
+/// the points tell too little, and warps would come and go. PSM is the camera's own space and has no weaker one.
 Warp FrustumPlanner::drawnWarp(const FrustumInput& input, const Lie& lie)
 {
     const Warp warp = warpOf(input, lie);
-    if (!warp.warped() || input.sight == nullptr) {
+    if (!warp.warped() || input.sight == nullptr || lie.space.perspective || input.recipe.fit == fitPsm) {
         return warp;
     }
     Warp none;
@@ -276,8 +277,7 @@ Warp FrustumPlanner::drawnWarp(const FrustumInput& input, const Lie& lie)
     if (lit_.size() < kFewest) {
         return warp;
     }
-    const bool whole = input.recipe.fit == fitPsm; // which is the camera's own
-    return withoutLoss(fitInputOf(input, lie), warp, whole, [&](const Warp& tried) {
+    return withoutLoss(fitInputOf(input, lie), warp, [&](const Warp& tried) {
         return coarsestTexel_px(lit_, tried, frameOfWarp(input, lie, tried), texels_px_);
     });
 }

@@ -172,8 +172,7 @@ TEST(FitNoLoss, AWarpThatGainsStaysAsItIs)
     const FitStage stage(levelGround());
     const Warp warp = fitLispsm(stage.input());
     ASSERT_TRUE(warp.warped());
-    const Warp kept =
-        withoutLoss(stage.input(), warp, false, [](const Warp& tried) { return tried.warped() ? 1.0 : 2.0; });
+    const Warp kept = withoutLoss(stage.input(), warp, [](const Warp& tried) { return tried.warped() ? 1.0 : 2.0; });
     EXPECT_EQ(kept.n, warp.n);
     EXPECT_EQ(kept.outcome.kind, OutcomeKind::ok);
 }
@@ -196,11 +195,10 @@ TEST(FitNoLoss, AWarpIsWeakenedToWhereItLosesNothing)
         return s <= 2.0 ? 1.0 - 0.25 * (s - 1.0) : 0.75 + 0.25 * (s - 2.0);
     };
     ASSERT_GT(strengthOf(warp), 4.0);
-    const Warp weaker = withoutLoss(input, warp, false, coarsest);
+    const Warp weaker = withoutLoss(input, warp, coarsest);
     EXPECT_EQ(weaker.outcome.kind, OutcomeKind::ok);
     EXPECT_NEAR(strengthOf(weaker), 3.04, 0.02) << "up to a hundredth over what none has";
-    EXPECT_FALSE(withoutLoss(input, warp, true, coarsest).warped()) << "of one strength alone";
-    const Warp none = withoutLoss(input, warp, false, [&](const Warp& tried) { return strengthOf(tried); });
+    const Warp none = withoutLoss(input, warp, [&](const Warp& tried) { return strengthOf(tried); });
     EXPECT_FALSE(none.warped());
     EXPECT_EQ(none.outcome.kind, OutcomeKind::fallback);
     EXPECT_NE(none.outcome.reason, "");

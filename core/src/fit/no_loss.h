@@ -15,21 +15,18 @@ namespace gnomon {
 /// A warp's coarsest texel may be so many times as coarse as without it: points tell it no better than that.
 inline constexpr double kLoss = 1.01;
 
-/// The same warp with greatest w `strength` > 1 in place of its own; of a light with a place stood upright anew.
-[[nodiscard]] inline Warp ofStrength(const FitInput& input, const Warp& warp, double own, double strength)
+/// The same warp with greatest w `strength` > 1 in place of its own. Of parallel light: what stands upright then does
+/// so at any strength.
+[[nodiscard]] inline Warp ofStrength(const Warp& warp, double own, double strength)
 {
     Warp other = warp;
     other.n = warp.n * (own - 1.0) / (strength - 1.0);
-    if (input.space.perspective) {
-        standUpright(other, input.outline);
-    }
     return other;
 }
 
 /// The warp, or the strongest weaker one, for which `coarsest_px(warp)` is no more than kLoss times that of none.
-/// `whole`: it is of one strength alone.
 template <class Coarsest>
-[[nodiscard]] Warp withoutLoss(const FitInput& input, const Warp& warp, bool whole, const Coarsest& coarsest_px)
+[[nodiscard]] Warp withoutLoss(const FitInput& input, const Warp& warp, const Coarsest& coarsest_px)
 {
     Warp none;
     const double most_px = kLoss * coarsest_px(none);
@@ -46,11 +43,11 @@ template <class Coarsest>
     constexpr int kHalvings = 8;
     double too_strong = std::log(own);
     const double step = (too_strong - std::log(kLeastStrength)) / kTrials;
-    if (whole || !(step > 0.0)) {
+    if (!(step > 0.0)) {
         return none;
     }
     const auto bears = [&](double log_strength) {
-        return coarsest_px(ofStrength(input, warp, own, std::exp(log_strength))) <= most_px;
+        return coarsest_px(ofStrength(warp, own, std::exp(log_strength))) <= most_px;
     };
     double borne = too_strong;
     do {
@@ -64,7 +61,7 @@ template <class Coarsest>
         const double middle = 0.5 * (borne + too_strong);
         (bears(middle) ? borne : too_strong) = middle;
     }
-    return ofStrength(input, warp, own, std::exp(borne));
+    return ofStrength(warp, own, std::exp(borne));
 }
 
 } // namespace gnomon
