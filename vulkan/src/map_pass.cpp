@@ -86,13 +86,12 @@ void DepthMaps::warmUp(const ResolvedOptions& options)
     restorer_.emplace(device_, storage_, cache_);
     using Source = MapRestorer::Source;
     restorer_->ensure(TexelPart::whole, Source::depths);
-    if (shares_texels) {
+    if (options.paired_maps()) {
         restorer_->ensure(TexelPart::first, Source::colours);
-        restorer_->ensure(TexelPart::second, Source::colours);
+        restorer_->ensure(TexelPart::first, Source::depths); // of lamps beside the sun
     }
-    if (options.paired_maps() && options.asked().keep_still == KeepStill::always) { // of lamps, too
-        restorer_->ensure(TexelPart::first, Source::colours);
-        restorer_->ensure(TexelPart::first, Source::depths);
+    if (shares_texels) {
+        restorer_->ensure(TexelPart::second, Source::colours);
     }
 }
 
