@@ -35,7 +35,6 @@ inline constexpr std::string_view kClose =
 /// What filters take of a frame.
 inline constexpr std::string_view kTimes =
     "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 5 --warmup 1 "
-    "--techniques hard,hard+caster-faces=midpoint,pcf,pcf+pcf.kernel=7x7,vsm,vsm+msaa=1+blur=none,"
-    "vsm+map-sampling=anisotropic,esm";
+    "--techniques hard,hard+caster-faces=midpoint,pcf+pcf.kernel=7x7,vsm,vsm+msaa=1+blur=none";
 
 } // namespace gnomon::app
