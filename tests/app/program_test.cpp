@@ -31,7 +31,7 @@ test::Ran inFolder(const test::Folder& folder, const std::vector<std::string>& a
 TEST(Help, FitsAScreen)
 {
     const test::Folder folder;
-    for (const char* subcommand : {"", "render", "compare", "metrics", "plan", "bench", "list"}) {
+    for (const char* subcommand : {"", "render", "compare", "metrics", "plan", "bench", "list", "claims"}) {
         std::vector<std::string> arguments{"--help"};
         if (*subcommand != '\0') {
             arguments.insert(arguments.begin(), subcommand);

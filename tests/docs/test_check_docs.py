@@ -20,6 +20,9 @@ TREE = {
                    "| `--map-size` | `2048` | side (texels; 16 to 16384) | render, plan |\n"
                    "| `--set pcf.kernel=` | `3x3` | kernel (one of 2x2 3x3; with filter pcf) | render |\n"
                    "<!-- options end -->\n",
+    "docs/claims.md": "<!-- claims begin -->\n| name | claim | our figures | verdict | why |\n|---|---|---|---|---|\n"
+                      "| `2006-duel` | all do a \\| b | rmse 1.01 | **holds** | No way is left. |\n\n```\n"
+                      "# 2006-duel\ngnomon render rts --map-size 64\n```\n<!-- claims end -->\n",
 }
 # Stands for the program: prints what `gnomon list --json` would.
 PROGRAM = """#!/bin/sh
@@ -28,7 +31,9 @@ cat <<'END'
   {"key": "map-size", "default": 2048, "doc": "side", "unit": "texels", "min": 16.0, "max": 16384.0,
    "subcommands": ["render", "plan"]},
   {"key": "pcf.kernel", "default": "3x3", "doc": "kernel", "values": ["2x2", "3x3"], "used_with": "filter pcf",
-   "option": false, "subcommands": ["render"]}]}
+   "option": false, "subcommands": ["render"]}],
+ "claims": [{"id": "2006-duel", "document": "2006", "claim": "all do a | b", "commands": ["gnomon render rts --map-size 64"],
+   "quick": true, "recorded": "holds", "why": "No way is left."}]}
 END
 """
 FAULTS = [
@@ -41,6 +46,11 @@ FAULTS = [
     ("docs/cli.md", "<!-- options begin -->\n", "", "no table"),
     ("docs/cli.md", "--map-size 512", "--map-width 512", "no option map-width"),
     ("docs/cli.md", "--map-size 512", "--set map-widht=512", "no option map-widht"),
+    ("docs/claims.md", "**holds**", "**partly**", "the row of 2006-duel is not what is recorded"),
+    ("docs/claims.md", "No way is left.", "A way is left.", "the row of 2006-duel is not what is recorded"),
+    ("docs/claims.md", "--map-size 64", "--map-size 65", "the commands of 2006-duel are others"),
+    ("docs/claims.md", "| `2006-duel` |", "| `2006-due` |", "there is no claim 2006-due"),
+    ("docs/claims.md", "<!-- claims end -->", "", "no tables"),
 ]
 
 
