@@ -100,7 +100,8 @@ void addVolumeLights(scene::Scene& scene)
     scene.lights[kSpotLight].outer_cone_rad = 1.04F; // nothing of the pictures is beside it
     scene.lights[kPointLight] = {.type = scene::LightType::point, .intensity = 200.0F, .range_m = 30.0F};
     scene.lights[kShutInLight] = {.type = scene::LightType::point, .intensity = 200.0F, .range_m = 9.0F};
-    const std::array<glm::vec3, kVolumeLights> places{{{0, 9, 0}, {1, 8, 2}, {-0.6F, 5.0F, 1.4F}, {2.5F, 0.9F, 1.5F}}};
+    const std::array<glm::vec3, kVolumeLights> places{
+        {{0, 9, 0}, {1.5F, 8.2F, 2.4F}, {-0.6F, 5.0F, 1.4F}, {2.5F, 0.9F, 1.5F}}}; // they graze no face (kGrazing)
     for (std::uint32_t i = 0; i < kVolumeLights; ++i) {
         scene::Node node;
         node.light = i;
