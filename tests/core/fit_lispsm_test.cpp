@@ -198,7 +198,7 @@ TEST(FitNoLoss, AWarpIsWeakenedToWhereItLosesNothing)
     const Warp weaker = withoutLoss(input, warp, coarsest);
     EXPECT_EQ(weaker.outcome.kind, OutcomeKind::ok);
     EXPECT_NEAR(strengthOf(weaker), 3.04, 0.02) << "up to a hundredth over what none has";
-    const Warp none = withoutLoss(input, warp, [&](const Warp& tried) { return strengthOf(tried); });
+    const Warp none = withoutLoss(input, warp, [&](const Warp& tried) { return std::pow(strengthOf(tried), 2.0); });
     EXPECT_FALSE(none.warped());
     EXPECT_EQ(none.outcome.kind, OutcomeKind::fallback);
     EXPECT_NE(none.outcome.reason, "");
