@@ -73,6 +73,9 @@ void holdStandardStreams() noexcept
 
 void writeStdout(std::string_view text)
 {
+    if (silences != 0) {
+        return;
+    }
     if (const int error = writeTo(STDOUT_FILENO, text); error != 0) {
         if (error == EINTR) {
             throw Interrupted();

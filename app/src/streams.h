@@ -21,7 +21,7 @@ void writeStderr(std::string_view text) noexcept;
 /// blanks. Otherwise as writeStderr().
 void notice(std::string_view text) noexcept;
 
-/// As long as there is one, notice() says nothing.
+/// As long as there is one, notice() and writeStdout() say nothing.
 class NoNotices {
 public:
     NoNotices() noexcept;
