@@ -203,9 +203,11 @@ TEST(Choices, AFormatIsRefusedUnlessItsFilterListsIt)
 {
     const std::map<Filter, std::set<MapFormat>> usable{
         {Filter::hard,
-         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8, MapFormat::d24}},
+         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8,
+          MapFormat::d24}},
         {Filter::pcf,
-         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8, MapFormat::d24}},
+         {MapFormat::d32f, MapFormat::r32f, MapFormat::d16, MapFormat::rg16, MapFormat::rg16f, MapFormat::rgba8,
+          MapFormat::d24}},
         {Filter::vsm, {MapFormat::rg32f, MapFormat::rg16, MapFormat::rg16f}},
         {Filter::lvsm, {MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f}},
         {Filter::esm, {MapFormat::r32f, MapFormat::r16f}},
