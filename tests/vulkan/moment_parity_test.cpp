@@ -28,12 +28,15 @@ std::ostream& operator<<(std::ostream& out, const MomentCase& c)
     return out << c.name;
 }
 
+void shaped(MomentOptions& o);
+
 ShadowOptions optionsOf(const MomentCase& c)
 {
     ShadowOptions options{.technique = kPlainTechnique};
     options.technique.filter = c.filter;
     options.format = c.format;
     c.change(options.moments);
+    options.lighten = c.change == shaped ? 0.1F : 0.0F;
     return options;
 }
 
@@ -94,7 +97,6 @@ void shaped(MomentOptions& o)
 {
     o.bleeding_linstep = 0.2F;
     o.bleeding_power = 1.3F;
-    o.lighten = 0.1F;
     o.derivative_variance = true;
     o.min_variance = 1e-5F;
 }
