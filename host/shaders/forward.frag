@@ -7,7 +7,6 @@
 #ifdef GNOMON_FILTER
 #define GNOMON_SET 2
 #define GNOMON_TINTS true
-#define GNOMON_SMOOTHIES true
 uint receiver_object;
 #define GNOMON_OBJECT receiver_object
 #include "gnomon/smooth_surface.glsl"

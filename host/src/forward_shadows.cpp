@@ -19,9 +19,8 @@ constexpr const char* kPurpose = "host shadows of blended surfaces";
 
 ForwardShadows::ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots)
     : gpu_(scene.gpu), pipelines_(scene.pipelines), memory_(scene.gpu),
-      of_surfaces_(scene.pipelines.shadowedFor(options.filter())),
-      map_sampler_(scene.textures.mipSampler(options.filterable())), texel_sampler_(scene.textures.mipSampler(false)),
-      slots_(slots)
+      of_surfaces_(scene.pipelines.shadowedFor(options)), map_sampler_(scene.textures.mipSampler(options.filterable())),
+      texel_sampler_(scene.textures.mipSampler(false)), slots_(slots)
 {
     for (Slot& slot : slots_) {
         slot.constants =

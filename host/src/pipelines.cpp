@@ -313,17 +313,18 @@ Pipelines::Wish Pipelines::blendedWish()
     return wish;
 }
 
-SurfacePipelines Pipelines::shadowedFor(Filter filter)
+SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)
 {
-    const auto found = std::ranges::find(shadowed_, filter, &std::pair<Filter, SurfacePipelines>::first);
+    const std::string fragment =
+        "forward_" + std::string(nameOf(options.filter())) + (options.hasSmoothies() ? "_smoothies.frag" : ".frag");
+    const auto found = std::ranges::find(shadowed_, fragment, &std::pair<std::string, SurfacePipelines>::first);
     if (found != shadowed_.end()) {
         return found->second;
     }
-    const std::string fragment = "forward_" + std::string(nameOf(filter)) + ".frag";
     Wish wish = blendedWish();
     wish.fragment = fragment;
     wish.layout = shadowed_layout.get();
-    return shadowed_.emplace_back(filter, makeSurface(wish, blended_is_cut_)).second;
+    return shadowed_.emplace_back(fragment, makeSurface(wish, blended_is_cut_)).second;
 }
 
 void Pipelines::makeSky()

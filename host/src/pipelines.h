@@ -76,7 +76,7 @@ public:
     /// `reflection_phong`: Shading.
     [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional, bool reflection_phong);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
-    [[nodiscard]] SurfacePipelines shadowedFor(Filter filter);
+    [[nodiscard]] SurfacePipelines shadowedFor(const ResolvedOptions& options);
     /// The same for a compact mask.
     [[nodiscard]] VkPipeline shadeCompact(bool reflection_phong);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
@@ -112,9 +112,9 @@ private:
     std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
     // By fixed number of lights (0: any), whether all are directional, and Shading.
     std::array<VkPipeline, 20> shade_{};
-    std::array<VkPipeline, 2> shade_compact_{}; // by Shading
-    std::vector<std::pair<Filter, SurfacePipelines>> shadowed_;
-    bool blended_is_cut_ = false; // somewhere
+    std::array<VkPipeline, 2> shade_compact_{};                      // by Shading
+    std::vector<std::pair<std::string, SurfacePipelines>> shadowed_; // by the fragment shader
+    bool blended_is_cut_ = false;                                    // somewhere
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;

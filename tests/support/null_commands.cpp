@@ -163,6 +163,8 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(CmdSetViewport, cmdIgnored),
     GNOMON_NULL(CmdSetScissor, cmdIgnored),
     GNOMON_NULL(CmdSetBlendConstants, cmdIgnored),
+    GNOMON_NULL(CmdSetDepthBounds, cmdIgnored),
+    GNOMON_NULL(CmdClearAttachments, cmdIgnored),
     GNOMON_NULL(CmdDispatch, cmdDispatch),
     GNOMON_NULL(CmdFillBuffer, cmdFill),
     GNOMON_NULL(CmdUpdateBuffer, cmdUpdate),

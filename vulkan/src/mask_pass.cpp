@@ -171,9 +171,9 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
     for (std::size_t i = 0; i < maps.size(); ++i) {
         tinted_[i] = maps[i] && maps[i]->tints.inUse() ? 1 : 0;
     }
-    if (!no_ids_) {
-        no_ids_ = Image(device_,
-                        {VK_FORMAT_R32_UINT, {1, 1}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
+    if (!no_numbers_) {
+        no_numbers_ = Image(
+            device_, {VK_FORMAT_R32_UINT, {1, 1}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "mask"});
     }
     const ImageInfo& have = mask_.info();
     const bool fits = mask_ && have.format == maskFormat(channelsFor(plan)) && have.layers >= layersFor(plan) &&
@@ -195,8 +195,8 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkSampler sampler = nearest_.get();
     // The shaders name the normals whether they read them or not, and lavapipe 22.3 crashes on a descriptor that was
-    // never written even if no shader names it; so what is absent is filled with the depth, and ids, which are whole
-    // numbers, with an image of their own.
+    // never written even if no shader names it; so what is absent is filled with the depth, and ids and blocks, which
+    // are whole numbers, with an image of their own.
     const auto orDepth = [&](std::uint32_t binding, VkImageView view) {
         return view != VK_NULL_HANDLE ? DescriptorSets::image(binding, sampler, view, kRead)
                                       : DescriptorSets::image(binding, sampler, inputs.depth, inputs.depth_layout);
@@ -213,10 +213,10 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         orDepth(kNormal, inputs.normal),
         DescriptorSets::image(kObjectId, sampler,
-                              inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_ids_.layer(0), kRead),
+                              inputs.object_id != VK_NULL_HANDLE ? inputs.object_id : no_numbers_.layer(0), kRead),
         DescriptorSets::buffer(kFewViews, constants, shared::kFewViews * sizeof(shared::GpuView), room_.views_at),
         blocks != nullptr ? DescriptorSets::image(kBlocks, sampler, blocks->view(), VK_IMAGE_LAYOUT_GENERAL)
-                          : DescriptorSets::image(kBlocks, sampler, maps.recorder->maps().view(), kRead),
+                          : DescriptorSets::image(kBlocks, sampler, no_numbers_.view(), kRead),
         orDepth(kSmooth, inputs.smooth),
         DescriptorSets::image(kTints, sampler,
                               maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
@@ -233,12 +233,12 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
 void MaskPassRecorder::makeStandInReadable(VkCommandBuffer commands)
 {
     ImageBarrier barrier;
-    barrier.image = no_ids_.image();
+    barrier.image = no_numbers_.image();
     barrier.new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
     barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
     recordBarrier(device_, commands, barrier);
-    no_ids_readable_ = true;
+    stand_in_readable_ = true;
 }
 
 void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs,
@@ -356,7 +356,7 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
     shape_ =
         MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
-    if (inputs.object_id == VK_NULL_HANDLE && !no_ids_readable_) {
+    if (!stand_in_readable_) {
         makeStandInReadable(commands);
     }
     Slot& slot = slots_[slot_index];

@@ -117,8 +117,8 @@ private:
     VkPipelineCache cache_;
     pack::CompactMaskRule compact_;
     Image mask_;
-    Image no_ids_; // bound where the host gives no ids of objects
-    bool no_ids_readable_ = false;
+    Image no_numbers_; // bound where there are no ids of objects, or no blocks
+    bool stand_in_readable_ = false;
     DescriptorSets sets_;
     PipelineLayout layout_;
     Sampler nearest_; // of what is read texel by texel
