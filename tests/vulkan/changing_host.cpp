@@ -150,6 +150,8 @@ vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& 
     inputs.depth = views.depth;
     inputs.normal = setup.inputs.normals ? views.normal : VK_NULL_HANDLE;
     inputs.object_id = setup.inputs.ids ? views.id : VK_NULL_HANDLE;
+    inputs.volumes = [](const vulkan::VolumePass&) {
+    };
     return inputs;
 }
 

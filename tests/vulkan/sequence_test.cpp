@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gnomon::test {
 namespace {
 
@@ -30,6 +32,10 @@ public:
     {
         Planner planner(options);
         FrameSetup setup = setupOf(steps_++, static_cast<std::uint32_t>(options.size()));
+        const auto needsIds = [](const ShadowOptions& one) {
+            return filterTraits(filterOf(one))->ids;
+        };
+        setup.inputs.ids = setup.inputs.ids || std::ranges::any_of(options, needsIds);
         frame(planner, setup, what + ", first frame");
         frame(planner, setup, what + ", second frame");
         setup.lights = (setup.lights + 4) % 10; // the same planner, more room
@@ -98,7 +104,7 @@ TEST(TechniqueSequence, leavesNothingBehind)
     const auto run = [&](const ShadowOptions& options) {
         Planner planner(options);
         for (int i = 0; i < 4; ++i) {
-            (void)host.frame(planner, {});
+            (void)host.frame(planner, {.inputs = {.ids = true}});
         }
         return host.driver.counts().bytes;
     };
