@@ -55,7 +55,10 @@ TEST(Options, WhatCannotBePlannedIsRefused)
     EXPECT_EQ(resolve({.map_size = 0}).refusal, "map-size is 0; it can be 16 to 16384 texels");
     EXPECT_EQ(resolve({.border_texels = std::numeric_limits<double>::quiet_NaN()}).refusal.substr(0, 6), "border");
     EXPECT_EQ(resolve({.max_layers = 0}).refusal, "max_layers is 0; it can be 1 to 2048");
-    EXPECT_FALSE(resolve({.technique = {.soften = Soften::smoothies}}));
+    EXPECT_FALSE(resolve({.technique = {.filter = Filter::vsm, .soften = Soften::smoothies}}));
+    EXPECT_FALSE(
+        resolve({.technique = {.filter = Filter::pcf, .soften = Soften::smoothies}, .format = MapFormat::rg16}));
+    EXPECT_TRUE(resolve({.technique = {.soften = Soften::smoothies}}));
     EXPECT_FALSE(resolve({.technique = {.filter = Filter::msm}, .format = MapFormat::d32f}));
     ShadowOptions ends{.technique = kPlainTechnique};
     ends.cascades.ends_m = {20.0, 10.0};

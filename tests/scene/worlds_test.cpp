@@ -177,17 +177,19 @@ TEST_P(Worlds, ObjectBoundsHoldTheirVertices)
     const State state = evaluate(scene_, 2.0);
     for (const Object& object : state.objects) {
         ASSERT_TRUE(state.bounds_ws.contains(object.bounds_ws));
-        const Primitive& primitive = scene_.meshes[object.mesh].primitives[object.primitive];
+        const std::vector<glm::vec3>& positions =
+            object.deformed != kNone ? state.deformed[object.deformed].positions
+                                     : scene_.meshes[object.mesh].primitives[object.primitive].positions;
         const glm::vec3 slack(1e-3F);
         const auto isCutAway = [&](const glm::vec3& p) {
             return std::ranges::any_of(
                 object.clip_planes, [&](const glm::vec4& plane) { return glm::dot(plane, glm::vec4(p, 1.0F)) < 0.0F; });
         };
-        for (std::size_t v = 0; v < primitive.positions.size(); v += 7) {
-            if (isCutAway(primitive.positions[v])) {
+        for (std::size_t v = 0; v < positions.size(); v += 7) {
+            if (isCutAway(positions[v])) {
                 continue;
             }
-            const glm::vec3 p(object.world_from_object * glm::vec4(primitive.positions[v], 1.0F));
+            const glm::vec3 p(object.world_from_object * glm::vec4(positions[v], 1.0F));
             ASSERT_TRUE((Aabb{object.bounds_ws.min - slack, object.bounds_ws.max + slack}).contains({p, p}))
                 << scene_.nodes[object.node].name;
         }
