@@ -33,13 +33,16 @@ bool isAll(const Settings& settings)
     return settings.techniques.empty() || settings.techniques.front() == "all";
 }
 
-/// Of all, those that can have the format that was asked for.
+/// Of all, those that can have the format that was asked for. Ids go with less than depths do.
 std::vector<std::string> allOf(const Settings& settings)
 {
     std::vector<std::string> texts;
     for (const std::string_view text : kAll) {
         const auto filter = static_cast<Filter>(findChoice("filter", text.substr(0, text.find('+')))->value);
-        if (!settings.shadow.format || !refusal(filter, *settings.shadow.format)) {
+        const bool stores = !settings.shadow.format || !refusal(filter, *settings.shadow.format);
+        const bool lacks_ids =
+            stores && filterTraits(filter)->ids && !resolve(parseTechnique(settings, std::string(text)).shadow);
+        if (stores && !lacks_ids) {
             texts.emplace_back(text);
         }
     }

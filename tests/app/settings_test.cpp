@@ -192,9 +192,9 @@ TEST(Settings, OfAPresetHaveNoNulAndNoEndlessKeys)
 
 TEST(Contestants, AreTheOnesNamed)
 {
-    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 14U);
-    EXPECT_EQ(app::contestants(settingsOf({"bench"})).size(), 14U);
-    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 14U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 16U);
+    EXPECT_EQ(app::contestants(settingsOf({"bench"})).size(), 16U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 16U);
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--filter", "hard"})).size(), 1U);
     EXPECT_EQ(app::contestants(settingsOf({"bench", "--techniques", "hard,pcf"})).size(), 2U);
     EXPECT_THROW((void)settingsOf({"bench", "--techniques", "pcf,pcf+pcf.kernel=3x3"}), app::UsageError);
