@@ -10,6 +10,26 @@ namespace {
 
 using Runs = ClaimRuns;
 
+constexpr std::string_view kSoftened =
+    "gnomon compare spotlit --preset plain --camera stage --light-size 0.2 --size 320x180 --samples 64 --repetitions 1 "
+    "--warmup 0 --map-size 512 --techniques hard,hard+blur,hard+blur+soften.size=half";
+constexpr std::string_view kSoftenedTimes =
+    "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 5 --warmup 1 "
+    "--techniques hard,hard+blur,hard+blur+soften.size=half";
+constexpr const char* kScreenBlur = "/memory_by_purpose_bytes/screen blur";
+
+/// Of maps and the mask with its blur, which are all that a technique adds, in milliseconds.
+double shadowTime(const Runs& runs, std::size_t run, std::string_view technique)
+{
+    return runs.of(run, technique, "/time_ms/maps") + runs.of(run, technique, "/time_ms/mask");
+}
+
+/// The number of one run by that of another.
+double byRun(const Runs& runs, std::size_t run, std::size_t other, std::string_view technique, const char* pointer)
+{
+    return runs.of(run, technique, pointer) / runs.of(other, technique, pointer);
+}
+
 const std::vector<Claim>& table2005()
 {
     static const std::vector<Claim> table{
@@ -54,6 +74,123 @@ const std::vector<Claim>& table2005()
          .quick = true,
          .why = "Seven odd places, each side weighed for another place, and the middle by another width. Shadows get "
                 "lighter, are cut off at white, and move."},
+        {.id = "2005-blur-edges",
+         .claim = "Blurring the mask in screen space removes the aliasing of edges",
+         .commands =
+             {"gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
+              "512 --size 320x180 -o hard_512.png",
+              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --map-size "
+              "4096 --size 320x180 -o hard_4096.png",
+              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
+              "blur --map-size 512 --size 320x180 -o blur_512.png",
+              "gnomon render spotlit --preset plain --camera stage --light gear --mask --filter hard --soften "
+              "blur --map-size 4096 --size 320x180 -o blur_4096.png",
+              "gnomon metrics hard_512.png hard_4096.png --json", "gnomon metrics blur_512.png blur_4096.png --json",
+              kSoftened},
+         .parts = {{"what coarse texels change, rmse,", "of what they change unblurred",
+                    [](const Runs& r) { return r.number(5, "/error/rmse") / r.number(4, "/error/rmse"); }, 0.0, 0.25},
+                   {"error at edges", "times that of hard",
+                    [](const Runs& r) { return r.of(6, "hard+blur", "/error/edge") / r.of(6, "hard", "/error/edge"); },
+                    0.0, 0.85},
+                   {"rmse", "times hard's",
+                    [](const Runs& r) { return r.of(6, "hard+blur", "/error/rmse") / r.of(6, "hard", "/error/rmse"); },
+                    0.0, 0.85}},
+         .verdict = Verdict::fails,
+         .quick = true,
+         .why = "A third of what coarse texels change is left, though no steps are seen. Against a lamp 0.2 m across "
+                "fifteen pixels are far too wide."},
+        {.id = "2005-blur-memory",
+         .claim = "Screen and blur buffers are common to all lights, so many lights take little memory",
+         .commands = {"gnomon bench ring --preset plain --camera deck --partition cube --size 160x90 --map-size 64 "
+                      "--repetitions 1 --warmup 0 --techniques hard,hard+blur",
+                      "gnomon bench spotlit --preset plain --camera stage --size 160x90 --map-size 64 --repetitions 1 "
+                      "--warmup 0 --techniques hard,hard+blur",
+                      "gnomon bench rts --preset plain --camera camp --size 160x90 --map-size 64 --repetitions 1 "
+                      "--warmup 0 --techniques hard,hard+blur"},
+         .parts = {{"the blur's image for all lamps of a deck is", "times that for three",
+                    [](const Runs& r) { return byRun(r, 0, 1, "hard+blur", kScreenBlur); }, 0.0, 1.1},
+                   {"that for three is", "times that for one",
+                    [](const Runs& r) { return byRun(r, 1, 2, "hard+blur", kScreenBlur); }, 0.0, 1.1}},
+         .verdict = Verdict::partly,
+         .quick = false,
+         .why = "It is one layer of the mask, which has a channel for one light and four for more. The mask itself, "
+                "which all lights are shaded from at once, grows by a layer for every four."},
+        {.id = "2005-blur-cost",
+         .claim = "It is a bit fill-rate intensive",
+         .commands = {kSoftenedTimes},
+         .parts = {{"a frame takes", "times that without",
+                    [](const Runs& r) { return r.ratio("hard+blur", "hard", "/time_ms/frame"); }, 1.02, 1.6}},
+         .verdict = Verdict::holds,
+         .quick = false,
+         .why = "With three lamps. Under one sun the blur is several times the work of the mask itself."},
+        {.id = "2005-blur-half",
+         .claim = "Smaller blur buffers cut that, for little quality",
+         .commands = {kSoftenedTimes, kSoftened},
+         .parts = {{"half the size takes", "of the blur's time",
+                    [](const Runs& r) {
+                        return r.ratio("hard+blur+soften.size=half", "hard+blur", "/passes_ms/soften");
+                    },
+                    0.0, 0.4},
+                   {"rmse", "times that of full size",
+                    [](const Runs& r) {
+                        return r.of(1, "hard+blur+soften.size=half", "/error/rmse") /
+                               r.of(1, "hard+blur", "/error/rmse");
+                    },
+                    0.0, 1.1}},
+         .verdict = Verdict::holds,
+         .quick = false,
+         .why = "A quarter of the pixels, and reading them back by depth and normal."},
+        {.id = "2005-blur-volumes",
+         .claim = "The blur works on shadow volumes too",
+         .commands =
+             {"gnomon compare planes --preset plain --camera side --sun-angle 10 --size 320x180 --samples 64 "
+              "--repetitions 1 --warmup 0 --techniques volumes+volumes.open=skip,volumes+volumes.open=skip+blur",
+              "gnomon compare planes --preset plain --camera side --sun-angle 2 --size 320x180 --samples 64 "
+              "--repetitions 1 --warmup 0 --techniques volumes+volumes.open=skip,volumes+volumes.open=skip+"
+              "blur"},
+         .parts = {{"under a sun of 10 degrees error at edges", "times that of volumes alone",
+                    [](const Runs& r) {
+                        return r.ratio("volumes+volumes.open=skip+blur", "volumes+volumes.open=skip", "/error/edge");
+                    },
+                    0.0, 0.85},
+                   {"under one of 2", "times it",
+                    [](const Runs& r) {
+                        return r.of(1, "volumes+volumes.open=skip+blur", "/error/edge") /
+                               r.of(1, "volumes+volumes.open=skip", "/error/edge");
+                    },
+                    0.0, 0.85}},
+         .verdict = Verdict::partly,
+         .quick = true,
+         .why = "It blurs whatever mask there is. It is as wide under every sun, so it is right by chance."},
+        {.id = "2005-volumes-accurate",
+         .claim = "Shadow volumes are pixel-accurate and have no aliasing",
+         .commands = {kBox},
+         .parts = {{"rmse", "", [](const Runs& r) { return r.of("volumes+volumes.open=skip", "/error/rmse"); }, 0.0,
+                    0.01}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "One pixel errs, at an edge, where a ray and a rasteriser round another way."},
+        {.id = "2005-volumes-cost",
+         .claim = "but depend heavily on geometry and fill rate",
+         .commands = {"gnomon bench rts --preset plain --camera camp --size 640x360 --map-size 512 --repetitions 3 "
+                      "--warmup 1 --techniques hard,volumes+volumes.open=skip",
+                      "gnomon bench planes --preset plain --camera side --size 640x360 --map-size 512 --repetitions 3 "
+                      "--warmup 1 --techniques hard,volumes+volumes.open=skip"},
+         .parts =
+             {{"at camp, fragments drawn", "times those of hard",
+               [](const Runs& r) {
+                   return r.ratio("volumes+volumes.open=skip", "hard", "/counters/fragment_invocations");
+               },
+               1.5},
+              {"maps and mask take", "times as long",
+               [](const Runs& r) { return shadowTime(r, 0, "volumes+volumes.open=skip") / shadowTime(r, 0, "hard"); },
+               1.5},
+              {"on planes, of one box,", "times as long",
+               [](const Runs& r) { return shadowTime(r, 1, "volumes+volumes.open=skip") / shadowTime(r, 1, "hard"); },
+               0.0, 0.75}},
+         .verdict = Verdict::holds,
+         .quick = false,
+         .why = "833 volumes at camp, though what is open casts nothing. Of one box they are the cheaper way."},
     };
     return table;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What T. Forsyth claims of projections and of many frustums a lamp. claims_2006_depth.cpp has the rest.
+// What T. Forsyth claims of projections and of many frustums a lamp. claims_2006_depth.cpp and claims_2006_ids.cpp
+// have the rest.
 #include "claim.h"
 #include "claim_runs.h"
 #include "claims_2006_depth.h"
+#include "claims_2006_ids.h"
 #include "shared_commands.h"
 #include "worked_out.h"
 
@@ -277,7 +279,7 @@ std::span<const Claim> claimsOf2006()
 {
     static const std::vector<Claim> table = [] {
         std::vector<Claim> all;
-        for (const std::vector<Claim>* part : {&projections2006(), &frustums2006(), &depths2006()}) {
+        for (const std::vector<Claim>* part : {&projections2006(), &frustums2006(), &depths2006(), &ids2006()}) {
             all.insert(all.end(), part->begin(), part->end());
         }
         return all;

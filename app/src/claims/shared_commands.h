@@ -32,6 +32,10 @@ inline constexpr std::string_view kClose =
     "gnomon compare spotlit --preset plain --camera close --size 320x180 --truth hard --repetitions 1 --warmup 0 "
     "--map-size 512 --techniques hard+bias=none,hard+bias=none+caster-faces=back,hard+bias=none+caster-faces=midpoint,"
     "vsm+bias=none,vsm+bias=none+caster-faces=back";
+/// One closed box, by volumes and by a map.
+inline constexpr std::string_view kBox =
+    "gnomon compare planes --preset plain --camera side --size 320x180 --truth hard --repetitions 1 --warmup 0 "
+    "--map-size 512 --techniques hard,volumes+volumes.open=skip";
 /// What filters take of a frame.
 inline constexpr std::string_view kTimes =
     "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 5 --warmup 1 "
