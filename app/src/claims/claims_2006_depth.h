@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What T. Forsyth claims of depth aliasing, ids and soft edges: a part of claimsOf2006().
+// What T. Forsyth claims of depth aliasing and soft edges: a part of claimsOf2006().
 #pragma once
 
 #include "claim.h"

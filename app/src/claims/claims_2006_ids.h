@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rest of claims_2006.cpp: ids in place of depth, smoothies, shadow volumes.
+// What T. Forsyth claims of ids, smoothies and shadow volumes: a part of claimsOf2006().
 #pragma once
 
 #include "claim.h"
