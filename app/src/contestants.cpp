@@ -40,8 +40,9 @@ std::vector<std::string> allOf(const Settings& settings)
     for (const std::string_view text : kAll) {
         const auto filter = static_cast<Filter>(findChoice("filter", text.substr(0, text.find('+')))->value);
         const bool stores = !settings.shadow.format || !refusal(filter, *settings.shadow.format);
-        const bool lacks_ids =
-            stores && filterTraits(filter)->ids && !resolve(parseTechnique(settings, std::string(text)).shadow);
+        ShadowOptions wanted = settings.shadow;
+        wanted.technique.filter = filter;
+        const bool lacks_ids = stores && filterTraits(filter)->ids && !resolve(wanted);
         if (stores && !lacks_ids) {
             texts.emplace_back(text);
         }

@@ -64,8 +64,8 @@ constexpr std::array kPresets{
   "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "trilinear"
 })"},
     // Frustums as the receivers ask for them, each with the talk's simplified warp. Its densities lie between one and
-    // four times what is needed, and 2 is the middle. Object ids are not in this version: the four nearest texels of a
-    // depth map take their place.
+    // four times what is needed, and 2 is the middle. The four nearest texels of a depth map stand for the ids that the
+    // talk turns to after that (filter depth-id).
     Preset{"startopia-2006", "T. Forsyth, Extremely Practical Shadows, 2006: many frustums a lamp, a warp in each", R"({
   "scene": "ring", "camera": "deck", "partition": "multi", "multi.texels-per-pixel": 2, "fit": "lispsm-simple",
   "filter": "pcf", "pcf.kernel": "2x2", "map-format": "d32f", "bias": "auto"
