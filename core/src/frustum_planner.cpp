@@ -266,20 +266,18 @@ Warp FrustumPlanner::drawnWarp(const FrustumInput& input, const Lie& lie)
     Warp none;
     const FitReport with = reportOf(warp, frameOfWarp(input, lie, warp), region_.outline());
     const glm::dvec2 without = frameOfWarp(input, lie, none).texel;
-    if (with.finest_texel.x * with.finest_texel.y >= without.x * without.y) {
-        none.outcome = {OutcomeKind::fallback, "with a warp texels would be larger all over, because view and light "
-                                               "leave it little to do, so the map is drawn without one"};
-        return none;
-    }
+    const double gain = without.x * without.y / (with.finest_texel.x * with.finest_texel.y);
     lit_.clear();
     lightPoints(lie.space, input.sight->points(), input.slice.depth, input.slice.sector, lit_);
     constexpr std::size_t kFewest = 24; // a tenth of the picture; fewer tell too little of where texels are coarse
-    if (lit_.size() < kFewest) {
-        return warp;
+    double loss = 1.0;
+    if (lit_.size() >= kFewest) {
+        const auto coarsest = [&](const Warp& tried) {
+            return coarsestTexel_px(lit_, tried, frameOfWarp(input, lie, tried), texels_px_);
+        };
+        loss = coarsest(warp) / coarsest(none);
     }
-    return withoutLoss(fitInputOf(input, lie), warp, [&](const Warp& tried) {
-        return coarsestTexel_px(lit_, tried, frameOfWarp(input, lie, tried), texels_px_);
-    });
+    return weakened(fitInputOf(input, lie), warp, gain, loss);
 }
 
 DepthRange FrustumPlanner::rangeOf(const FrustumInput& input, const LightSpace& space, const View& view) const

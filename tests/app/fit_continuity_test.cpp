@@ -136,8 +136,8 @@ private:
     {
         for (const auto& [fit, view] : now.views) {
             const auto& before = last.views.at(fit);
-            if (!view.first.hasMap() || view.first.kind != before.first.kind)
-                continue; // counted above
+            if (!view.first.hasMap() || !before.first.hasMap())
+                continue;
             const double ratio = densityAt(view.second, now.sun, p) / densityAt(before.second, last.sun, p);
             Change& change = changes_[fit];
             change.largest = std::max({change.largest, ratio, 1.0 / ratio});

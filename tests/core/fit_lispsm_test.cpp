@@ -172,12 +172,14 @@ TEST(FitNoLoss, AWarpThatGainsStaysAsItIs)
     const FitStage stage(levelGround());
     const Warp warp = fitLispsm(stage.input());
     ASSERT_TRUE(warp.warped());
-    const Warp kept = withoutLoss(stage.input(), warp, [](const Warp& tried) { return tried.warped() ? 1.0 : 2.0; });
-    EXPECT_EQ(kept.n, warp.n);
-    EXPECT_EQ(kept.outcome.kind, OutcomeKind::ok);
+    for (const double loss : {0.5, 1.0, kLossBegins}) {
+        const Warp kept = weakened(stage.input(), warp, kWorth, loss);
+        EXPECT_EQ(kept.n, warp.n);
+        EXPECT_EQ(kept.outcome.kind, OutcomeKind::ok);
+    }
 }
 
-TEST(FitNoLoss, AWarpIsWeakenedToWhereItLosesNothing)
+TEST(FitNoLoss, AWarpFadesByWhatItGainsAndLoses)
 {
     const FitStage stage(levelGround());
     const FitInput input = stage.input();
@@ -189,19 +191,24 @@ TEST(FitNoLoss, AWarpIsWeakenedToWhereItLosesNothing)
         }
         return most;
     };
-    // Gains up to a strength of 2, loses from 3 on.
-    const auto coarsest = [&](const Warp& tried) {
-        const double s = strengthOf(tried);
-        return s <= 2.0 ? 1.0 - 0.25 * (s - 1.0) : 0.75 + 0.25 * (s - 2.0);
-    };
-    ASSERT_GT(strengthOf(warp), 4.0);
-    const Warp weaker = withoutLoss(input, warp, coarsest);
-    EXPECT_EQ(weaker.outcome.kind, OutcomeKind::ok);
-    EXPECT_NEAR(strengthOf(weaker), 3.04, 0.02) << "up to a hundredth over what none has";
-    const Warp none = withoutLoss(input, warp, [&](const Warp& tried) { return std::pow(strengthOf(tried), 2.0); });
-    EXPECT_FALSE(none.warped());
-    EXPECT_EQ(none.outcome.kind, OutcomeKind::fallback);
-    EXPECT_NE(none.outcome.reason, "");
+    const double own = strengthOf(warp);
+    ASSERT_GT(own, 4.0);
+    const double half_way = 0.5 * (kLossBegins + kLossEnds);
+    EXPECT_NEAR(strengthOf(weakened(input, warp, kWorth, half_way)), std::sqrt(own), 1e-6 * own);
+    EXPECT_NEAR(strengthOf(weakened(input, warp, std::sqrt(kWorth), 1.0)), std::sqrt(own), 1e-6 * own);
+    // Nothing switches: a thousandth more makes little difference anywhere on the way.
+    double last = own;
+    for (double loss = 1.0; loss < 1.5; loss += 0.001) {
+        const double now = strengthOf(weakened(input, warp, kWorth, loss));
+        EXPECT_LE(now, last + 1e-9);
+        EXPECT_GT(now, 0.97 * last);
+        last = now;
+    }
+    for (const Warp& none : {weakened(input, warp, 1.0, 1.0), weakened(input, warp, kWorth, kLossEnds)}) {
+        EXPECT_FALSE(none.warped());
+        EXPECT_EQ(none.outcome.kind, OutcomeKind::fallback);
+        EXPECT_NE(none.outcome.reason, "");
+    }
 }
 
 /// The camera looks into a low sun over a meadow with trees: what is gained by a warp along the view is less than what

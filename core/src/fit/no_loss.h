@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A warp that is no stronger than what is seen bears: T. Forsyth, "Extremely Practical Shadows", GDC 2006, says that
 // where viewer and light face each other every warp equals the standard map. Published warps go by angles and by the
-// ends of what is seen, and may have coarser texels than no warp at all; they are weakened until they have not, so that
-// nothing switches, and where nothing is left of one there is none.
+// ends of what is seen, and may have coarser texels than no warp at all; they fade to none where they do.
 #pragma once
 
 #include "fit/view_slope.h"
@@ -12,8 +11,13 @@
 
 namespace gnomon {
 
-/// A warp's coarsest texel may be so many times as coarse as without it: points tell it no better than that.
-inline constexpr double kLoss = 1.01;
+/// From so many times as coarse as without a warp its coarsest texel begins to count against it, and at so many there
+/// is nothing left of it: points tell it no better than by a hundredth.
+inline constexpr double kLossBegins = 1.01;
+inline constexpr double kLossEnds = 1.4;
+/// A warp whose finest texel has so many times the texels of the map without it is drawn as it is; one that has no more
+/// than the map without it has nothing to give.
+inline constexpr double kWorth = 2.0;
 
 /// The same warp with greatest w `strength` > 1 in place of its own. Of parallel light: what stands upright then does
 /// so at any strength.
@@ -24,44 +28,34 @@ inline constexpr double kLoss = 1.01;
     return other;
 }
 
-/// The warp, or the strongest weaker one, for which `coarsest_px(warp)` is no more than kLoss times that of none.
-template <class Coarsest>
-[[nodiscard]] Warp withoutLoss(const FitInput& input, const Warp& warp, const Coarsest& coarsest_px)
+/// What is left of a warp by which the finest texels of a map have `gain` times as many texels, and the coarsest that
+/// are seen are `loss` times as wide, as a share of its strength's logarithm. It fades, so that nothing switches.
+[[nodiscard]] inline double shareOfWarp(double gain, double loss)
 {
-    Warp none;
-    const double most_px = kLoss * coarsest_px(none);
-    if (!warp.warped() || coarsest_px(warp) <= most_px) {
+    const double by_gain = std::log(std::max(gain, 1.0)) / std::log(kWorth);
+    const double by_loss = (kLossEnds - loss) / (kLossEnds - kLossBegins);
+    return std::clamp(std::min(by_gain, by_loss), 0.0, 1.0);
+}
+
+/// The warp, as strong as that leaves it.
+[[nodiscard]] inline Warp weakened(const FitInput& input, const Warp& warp, double gain, double loss)
+{
+    const double share = shareOfWarp(gain, loss);
+    if (!warp.warped() || share == 1.0) {
         return warp;
     }
-    none.outcome = {OutcomeKind::fallback,
-                    "with a warp the coarsest texels that are seen would be coarser, so the map is drawn without one"};
     double own = 1.0;
     for (const glm::dvec2& q : input.outline) {
         own = std::max(own, warp.wAt(q));
     }
-    constexpr int kTrials = 12;
-    constexpr int kHalvings = 8;
-    double too_strong = std::log(own);
-    const double step = (too_strong - std::log(kLeastStrength)) / kTrials;
-    if (!(step > 0.0)) {
+    const double strength = std::pow(own, share);
+    if (strength < kLeastStrength) {
+        Warp none;
+        none.outcome = {OutcomeKind::fallback, "with a warp the texels that are seen would be coarser, because view "
+                                               "and light leave it little to do, so the map is drawn without one"};
         return none;
     }
-    const auto bears = [&](double log_strength) {
-        return coarsest_px(ofStrength(warp, own, std::exp(log_strength))) <= most_px;
-    };
-    double borne = too_strong;
-    do {
-        too_strong = borne;
-        borne -= step;
-        if (borne < std::log(kLeastStrength) - 0.5 * step) {
-            return none;
-        }
-    } while (!bears(borne));
-    for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (borne + too_strong);
-        (bears(middle) ? borne : too_strong) = middle;
-    }
-    return ofStrength(warp, own, std::exp(borne));
+    return ofStrength(warp, own, strength);
 }
 
 } // namespace gnomon
