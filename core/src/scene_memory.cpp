@@ -48,6 +48,7 @@ std::vector<float> splitsOf(const std::vector<HeightRange>& heights, double low_
             shared::binOf(static_cast<float>((range.middle_m() - low_m) / range_m), kBins))] += 1.0F;
     }
     std::vector<float> means;
+    means.reserve(static_cast<std::size_t>(count));
     std::vector<float> begins(static_cast<std::size_t>(count) + 1, 0.0F);
     begins.back() = shared::kNoLayerBegins;
     for (int i = 0; i < count; ++i) {

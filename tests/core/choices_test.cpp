@@ -89,7 +89,6 @@ TEST(Choices, WhatIsAvailableIsNotRefusedAndTheRestSaysWhy)
 
 TEST(Choices, RefusalsAreSentences)
 {
-    Technique technique;
     EXPECT_EQ(refusal(LightType::point, Technique{.partition = Partition::multi, .motion = Motion::step_jump}),
               "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
               "not the same; it needs motion free or snap");

@@ -37,25 +37,25 @@ inline constexpr double kWorth = 2.0;
     return std::clamp(std::min(by_gain, by_loss), 0.0, 1.0);
 }
 
-/// The warp, as strong as that leaves it.
+/// The warp, as strong as that leaves it: hardly a warp any more where it loses, and none where it gains nothing.
 [[nodiscard]] inline Warp weakened(const FitInput& input, const Warp& warp, double gain, double loss)
 {
     const double share = shareOfWarp(gain, loss);
     if (!warp.warped() || share == 1.0) {
         return warp;
     }
+    if (gain <= 1.0) {
+        Warp none;
+        none.outcome = {OutcomeKind::fallback, "with a warp texels would be larger all over, because view and light "
+                                               "leave it little to do, so the map is drawn without one"};
+        return none;
+    }
     double own = 1.0;
     for (const glm::dvec2& q : input.outline) {
         own = std::max(own, warp.wAt(q));
     }
-    const double strength = std::pow(own, share);
-    if (strength < kLeastStrength) {
-        Warp none;
-        none.outcome = {OutcomeKind::fallback, "with a warp the texels that are seen would be coarser, because view "
-                                               "and light leave it little to do, so the map is drawn without one"};
-        return none;
-    }
-    return ofStrength(warp, own, strength);
+    const double strength = std::max(std::pow(own, share), kLeastStrength);
+    return strength < own ? ofStrength(warp, own, strength) : warp;
 }
 
 } // namespace gnomon
