@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon::app {
 namespace {
 
@@ -78,7 +80,16 @@ void noteScene(Shot& shot, const Settings& settings)
 std::optional<std::string_view> refusalOf(const host::ShadedLight& light, const Settings& settings)
 {
     const bool traced_alone = settings.truth && settings.subcommand != kCompare;
-    return traced_alone ? std::nullopt : refusal(light.caster.type, settings.shadow);
+    if (traced_alone) {
+        return std::nullopt;
+    }
+    const ShadowOptions& options = settings.shadow;
+    const MomentOptions& moments = options.moments;
+    if (hasWorldLayers(filterOf(options), moments) && moments.layer_axis == LayerAxis::light &&
+        std::ranges::all_of(moments.world_layers, [](const WorldLayer& one) { return one == WorldLayer{}; })) {
+        return "lvsm.axis light: layers that are found are layers of height; give those along the light by lvsm.world";
+    }
+    return refusal(light.caster.type, options);
 }
 
 void noteWhatSurprises(Shot& shot, const Settings& settings)

@@ -143,6 +143,11 @@ std::optional<std::string_view> refusal(LightType light, const ShadowOptions& op
     if (has_metric && light == LightType::directional && options.moments.metric == DepthMetricKind::z_over_w) {
         return "depth-metric z-over-w is what a lamp's perspective makes of depth; a sun has none, and needs linear";
     }
+    if (light != LightType::directional && hasWorldLayers(filter, options.moments) &&
+        options.moments.layer_axis == LayerAxis::height) {
+        return "lvsm.placement world: layers of height are layers of depth under parallel light alone; a light with a "
+               "place needs lvsm.axis=light, and lvsm.world with both ends of each layer";
+    }
     return std::nullopt;
 }
 

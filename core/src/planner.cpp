@@ -286,8 +286,8 @@ Outcome Planner::Impl::layer(const Frame& frame, Setup& setup)
         return {};
     }
     if (frame.layers.empty() && moments.layer_axis == LayerAxis::light) {
-        return {OutcomeKind::refused,
-                "layers of the world that are found are layers of height; those along the light are to be given"};
+        return {OutcomeKind::refused, "lvsm.axis light: layers that are found are layers of height; give those along "
+                                      "the light by lvsm.world or Frame::layers"};
     }
     const std::span<const WorldLayer> layers =
         frame.layers.empty() ? scene.layers(*frame.objects, moments.layers) : frame.layers;

@@ -59,10 +59,6 @@ Outcome Recipe::check(const Light& light) const
     if (!resolution) {
         return {OutcomeKind::refused, refusal_reason};
     }
-    if (light.type != LightType::directional && layersWorld() && options.moments.layer_axis == LayerAxis::height) {
-        return {OutcomeKind::refused, "layers of height are layers of depth under parallel light alone; a light with a "
-                                      "place needs lvsm.axis light"};
-    }
     return checkLight(light);
 }
 

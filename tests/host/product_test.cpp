@@ -90,7 +90,7 @@ std::vector<Technique> acceptedTechniques()
         }
         return is_new;
     };
-    std::ranges::stable_partition(mixed, bringsNew);
+    std::stable_partition(mixed.begin(), mixed.end(), bringsNew); // clang 14 has no subranges
     return mixed;
 }
 
