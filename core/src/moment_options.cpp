@@ -148,7 +148,7 @@ std::optional<std::string> refusal(std::span<const WorldLayer> layers)
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const WorldLayer& layer = layers[i];
         if (!(layer.low_m < layer.high_m) || !(layer.low_m >= -kFarthestLayer_m && layer.high_m <= kFarthestLayer_m)) {
-            return "a layer of the world reaches from its lower end to its higher one, both within 1000 km of the "
+            return "a layer of the world has two numbers: its lower end and a higher one, both within 1000 km of the "
                    "world's zero";
         }
         if (i > 0 && !(layers[i - 1].low_m < layer.low_m && layers[i - 1].high_m < layer.high_m)) {

@@ -35,11 +35,26 @@ TEST(Options, DefaultsResolve)
     EXPECT_FALSE(resolution->paired_maps());
 }
 
+TEST(Options, WhatIsCutOffAtOneIsNotAveragedAfterwards)
+{
+    for (const Soften soften : {Soften::none, Soften::smoothies, Soften::blur, Soften::converge}) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.technique.soften = soften;
+        options.lighten = 0.5F;
+        EXPECT_TRUE(resolve(options)) << nameOf(soften);
+        options.lighten_as = LightenAs::add;
+        const bool averages = soften == Soften::blur || soften == Soften::converge;
+        EXPECT_EQ(!resolve(options), averages) << nameOf(soften);
+        options.lighten = 0.0F;
+        EXPECT_TRUE(resolve(options)) << nameOf(soften);
+    }
+}
+
 /// A host that says which filter it wants need not know what that stores.
 TEST(Options, AFilterAloneIsEnough)
 {
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice != "filter" || !row.available)
+        if (row.choice != "filter")
             continue;
         ShadowOptions options{.technique = kPlainTechnique};
         options.technique.filter = static_cast<Filter>(row.value);
