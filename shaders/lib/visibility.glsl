@@ -165,7 +165,8 @@ GN_FN real viewVisibility(int filter_number, GpuView view, MapRows rows, MapPoin
         input_here.footprint_x = footprintOf(rows, point.texel, point.w, p, n, steps.right, steps.along);
         input_here.footprint_y = footprintOf(rows, point.texel, point.w, p, n, steps.below, steps.along);
     }
-    return lightenedVisibility(boundedVisibility(applyFilter(filter_number, point, input_here)), f.moments);
+    return lightenedVisibility(boundedVisibility(applyFilter(filter_number, point, input_here)), f.moments.lighten,
+                               f.moments.lighten_cut);
 }
 
 // The same without a screen: filterable maps are read at their finest level.

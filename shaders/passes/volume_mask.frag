@@ -4,6 +4,7 @@
 // them and once for what is inside of some.
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/facing.glsl"
+#include "../shared/moment_rule.h"
 
 layout(constant_id = 0) const bool kHasNormals = true;
 layout(constant_id = 1) const bool kHasSmooth = false;
@@ -43,6 +44,8 @@ void main()
     vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
     SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
     LightPoint at = lightPoint(p, n, s, towardLight(place, p));
-    vec4 v = fadedVisibility(constants.screen.fade, vec4(kIsInside ? 0.0 : 1.0), length(p));
+    vec2 lighten = constants.rule.moment_shape.zw;
+    float shaded = lightenedVisibility(kIsInside ? 0.0 : 1.0, lighten.x, lighten.y);
+    vec4 v = fadedVisibility(constants.screen.fade, vec4(shaded), length(p));
     visibility = at.faces ? v : vec4(0.0);
 }

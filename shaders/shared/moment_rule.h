@@ -36,9 +36,9 @@ struct MomentRule {
 
 // Shadows are lightened by b = `lighten`: V (1 - cut) + b. Marinescu 2011 adds b as it is, cut = 0, and what exceeds 1
 // is cut off; with cut = b full shadow is b and penumbrae keep their shape.
-GN_FN real lightenedVisibility(real v, MomentRule rule)
+GN_FN real lightenedVisibility(real v, real lighten, real cut)
 {
-    return min(v * (real(1.0) - rule.lighten_cut) + rule.lighten, real(1.0));
+    return min(v * (real(1.0) - cut) + lighten, real(1.0));
 }
 
 // What moments say of the depths before a receiver.

@@ -17,7 +17,8 @@
 #include "portability.h"
 GN_BEGIN
 
-// No triangle, no vertex: an edge of one triangle alone, where another part of the mesh goes on.
+// Stands for a triangle that an edge lacks, and for the vertex opposite to the edge in it. A primitive of a closed mesh
+// has such edges where another primitive of the mesh goes on.
 #ifdef __cplusplus
 inline constexpr unsigned kNoTriangle = 0xFFFFFFFFU;
 #else
@@ -27,9 +28,9 @@ const uint kNoTriangle = 0xFFFFFFFFu;
 // Of each element, an edge or a cap, two triangles are drawn.
 GN_CONST int kVolumeCorners = 6;
 
-// A light cap lies in the very surface that it is made of, and is to be behind it, as smooth normals may have that be
-// lit: all of a volume is pushed away from the eye by this share of its distance, sixteen times what rounding to single
-// precision moves it.
+// All of a volume is pushed away from the eye, to so many times its distance. A light cap lies in the very surface that
+// it is made of, which smooth normals may have lit, so the cap has to be behind it. Rounding to single precision moves
+// it by a sixteenth of that.
 GN_CONST real kVolumePush = real(1.0) + real(16.0) / real(8388608.0);
 
 // `place` of a light: w = 0: xyz is the unit direction to the light; w = 1: its position.

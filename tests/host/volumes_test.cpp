@@ -313,6 +313,33 @@ TEST(Volumes, SayWhyTheyCannotBeHad)
               2U);
 }
 
+/// Full shadow is b, as it is with maps.
+TEST(Volumes, AreLightened)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    const scene::Scene scene = closedScene();
+    const scene::State state = scene::evaluate(scene, 0.0);
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, sized(64, 48));
+    const auto darkestOf = [&](const ShadowOptions& shadow) {
+        renderer.setShadows(shadow);
+        renderer.draw(state, someEyes()[0], lightsOf(scene, state));
+        float darkest = 1.0F;
+        const ImageF mask = renderer.read({.colour = false, .masks = true}).masks[kSunLight];
+        for (const float v : mask.values) {
+            darkest = v > 0.0F ? std::min(darkest, v) : darkest; // 0 faces away
+        }
+        return darkest;
+    };
+    EXPECT_EQ(darkestOf(byVolumes()), 1.0F);
+    for (const LightenAs as : {LightenAs::remap, LightenAs::add}) {
+        ShadowOptions shadow = byVolumes();
+        shadow.lighten = 0.4F;
+        shadow.lighten_as = as;
+        EXPECT_NEAR(darkestOf(shadow), 0.4F, 1.0F / 255.0F);
+    }
+}
+
 /// What joins it in a picture, another size, other techniques and back; and a host that draws no volumes.
 TEST(Volumes, SurviveResizingAndOtherTechniques)
 {

@@ -190,18 +190,19 @@ TEST_F(Vsm, lighteningHasClosedForms)
 {
     MomentRule rule{};
     for (int i = 0; i <= 20; ++i) {
-        EXPECT_EQ(lightenedVisibility(i / 20.0, rule), i / 20.0) << "nothing asked, nothing done";
+        EXPECT_EQ(lightenedVisibility(i / 20.0, rule.lighten, rule.lighten_cut), i / 20.0)
+            << "nothing asked, nothing done";
     }
     rule.lighten = 0.65;
     rule.lighten_cut = 0.65; // mapped to [b, 1]
-    EXPECT_NEAR(lightenedVisibility(0.0, rule), 0.65, 1e-15);
-    EXPECT_NEAR(lightenedVisibility(0.125, rule), 0.125 * 0.35 + 0.65, 1e-15);
-    EXPECT_NEAR(lightenedVisibility(1.0, rule), 1.0, 1e-15);
+    EXPECT_NEAR(lightenedVisibility(0.0, rule.lighten, rule.lighten_cut), 0.65, 1e-15);
+    EXPECT_NEAR(lightenedVisibility(0.125, rule.lighten, rule.lighten_cut), 0.125 * 0.35 + 0.65, 1e-15);
+    EXPECT_NEAR(lightenedVisibility(1.0, rule.lighten, rule.lighten_cut), 1.0, 1e-15);
     rule.lighten_cut = 0.0; // saturate(P + b), Marinescu 2011
-    EXPECT_NEAR(lightenedVisibility(0.0, rule), 0.65, 1e-15);
-    EXPECT_NEAR(lightenedVisibility(0.125, rule), 0.775, 1e-15);
-    EXPECT_EQ(lightenedVisibility(0.35001, rule), 1.0) << "from 1 - b on all is lit";
-    EXPECT_EQ(lightenedVisibility(1.0, rule), 1.0);
+    EXPECT_NEAR(lightenedVisibility(0.0, rule.lighten, rule.lighten_cut), 0.65, 1e-15);
+    EXPECT_NEAR(lightenedVisibility(0.125, rule.lighten, rule.lighten_cut), 0.775, 1e-15);
+    EXPECT_EQ(lightenedVisibility(0.35001, rule.lighten, rule.lighten_cut), 1.0) << "from 1 - b on all is lit";
+    EXPECT_EQ(lightenedVisibility(1.0, rule.lighten, rule.lighten_cut), 1.0);
 }
 
 // Rounding to the nearest multiple, or towards zero.

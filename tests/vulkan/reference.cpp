@@ -445,9 +445,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }
-            mask.push_back(shared::lightenedVisibility(shared::boundedVisibility(shared::applyFilter(
-                                                           static_cast<int>(options.technique.filter), point, input)),
-                                                       input.moments));
+            const double filtered = shared::applyFilter(static_cast<int>(options.technique.filter), point, input);
+            mask.push_back(shared::lightenedVisibility(shared::boundedVisibility(filtered), input.moments.lighten,
+                                                       input.moments.lighten_cut));
         }
     }
     current_maps = {};
