@@ -107,6 +107,26 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
     return result;
 }
 
+/// Lights without a shadow cost nothing, and their technique looks cheap: said once for each technique and reason.
+void noteOutcomes(const BenchedTechnique& technique)
+{
+    const std::vector<LightPlan>& lights = technique.redrawn.plan.lights;
+    std::vector<std::string_view> said;
+    for (const LightPlan& light : lights) {
+        const Outcome& outcome = light.outcome;
+        const bool surprises = outcome.kind == OutcomeKind::refused || outcome.kind == OutcomeKind::degenerate ||
+                               outcome.kind == OutcomeKind::atlas_full;
+        if (!surprises || std::ranges::find(said, outcome.reason) != said.end()) {
+            continue;
+        }
+        said.push_back(outcome.reason);
+        const auto count = std::ranges::count_if(
+            lights, [&](const LightPlan& other) { return other.outcome.reason == outcome.reason; });
+        notice(fmt::format("{}: {} of {} lights without a shadow: {}: {}", describeTechnique(technique.settings), count,
+                           lights.size(), nameOf(outcome.kind), outcome.reason));
+    }
+}
+
 /// What was found, and of what.
 struct BenchRun {
     Shot shot;
@@ -122,6 +142,7 @@ BenchRun runTimes(const Settings& settings)
     run.result = measure(*gpu, run.shot, settings, techniques);
     requireSilence(*gpu);
     for (const BenchedTechnique& technique : run.result.techniques) {
+        noteOutcomes(technique);
         if (const std::optional<std::string> waits = waitNote(technique.reused.waits)) {
             notice(fmt::format("{}: {}", describeTechnique(technique.settings), *waits));
         }

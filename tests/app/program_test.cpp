@@ -75,9 +75,9 @@ TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
     bool point_is_known = false;
     for (const auto& choice : list["choices"]) {
         for (const auto& value : choice["values"]) {
-            vsm_is_there |= value["name"] == "vsm" && value["available"] == true;
-            id_is_known |= value["name"] == "id" && value["available"] == true;
-            point_is_known |= value["name"] == "point" && value["available"] == true;
+            vsm_is_there |= value["name"] == "vsm";
+            id_is_known |= value["name"] == "id";
+            point_is_known |= value["name"] == "point";
             EXPECT_FALSE(value["source"].get<std::string>().empty());
         }
     }
@@ -243,6 +243,19 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
         EXPECT_GT(result["fit_efficiency"].get<double>(), 0.0);
         EXPECT_LE(result["fit_efficiency"].get<double>(), 1.0);
     }
+}
+
+/// What throws no shadow is the cheapest of all.
+TEST(Bench, SaysWhoseLightsHaveNoShadow)
+{
+    const test::Folder folder;
+    const test::Ran ran = inFolder(folder, {"bench", "planes", "--sun", "1,-2,1", "--size", "16x16", "--map-size", "64",
+                                            "--repetitions", "1", "--warmup", "0", "--techniques", "hard,cube+pcf"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("gnomon: pcf+cube+map-size=64+pcf.kernel=3x3: 1 of 1 lights without a shadow: refused: "),
+              std::string::npos)
+        << ran.err;
+    EXPECT_EQ(ran.err.find("gnomon: hard"), std::string::npos) << ran.err;
 }
 
 TEST(Bench, TimesWhatIsAskedFor)
