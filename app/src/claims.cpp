@@ -31,15 +31,15 @@ std::vector<const Claim*> chosenClaims(const Settings& settings)
 {
     std::vector<const Claim*> chosen;
     for (const std::string& name : settings.claims) {
-        const Claim* claim = findClaim(name);
-        if (claim == nullptr) {
+        const std::vector<const Claim*> named = claimsNamed(name);
+        if (named.empty()) {
             refuseName(name);
         }
-        chosen.push_back(claim);
+        chosen.insert(chosen.end(), named.begin(), named.end());
     }
-    if (settings.claims.empty()) {
-        for (const ClaimDocument& document : claimDocuments()) {
-            for (const Claim& claim : document.claims) {
+    for (const ClaimDocument& document : claimDocuments()) {
+        for (const Claim& claim : document.claims) {
+            if (settings.claims.empty()) {
                 chosen.push_back(&claim);
             }
         }

@@ -127,7 +127,7 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
         return !word.starts_with("-") && !hasExtension(word, ".png") && !hasExtension(word, ".exr");
     }
     if (subcommand.bit == kClaims) {
-        return !word.starts_with("-") && findClaim(word) == nullptr;
+        return !word.starts_with("-") && claimsNamed(word).empty();
     }
     const auto worlds = scene::worlds();
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&

@@ -29,8 +29,8 @@ constexpr std::array kSubcommands{
     Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
                runBench},
     Subcommand{"list", kList, "[options]", "Prints every choice and setting, and what is refused and why.", runList},
-    Subcommand{"claims", kClaims, "[NAME...] [options]", "Tries what the source documents claim, and says what holds.",
-               runClaims},
+    Subcommand{"claims", kClaims, "[NAME|YEAR...] [options]",
+               "Tries what the source documents claim; list has the claims.", runClaims},
 };
 
 int complain(std::string_view line, int status)

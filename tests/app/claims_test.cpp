@@ -49,7 +49,7 @@ TEST(Claims, HaveNamesOfTheirOwnAndAllThatATableNeeds)
             EXPECT_FALSE(claim.why.empty()) << claim.id;
             EXPECT_FALSE(claim.parts.empty()) << claim.id;
             EXPECT_TRUE(claim.verdict != Verdict::partly || claim.parts.size() > 1) << claim.id;
-            EXPECT_EQ(findClaim(claim.id), &claim);
+            EXPECT_EQ(claimsNamed(claim.id), std::vector<const Claim*>{&claim});
             for (const ClaimPart& part : claim.parts) {
                 EXPECT_LE(part.least, part.most) << claim.id;
                 EXPECT_TRUE(std::isfinite(part.least) || std::isfinite(part.most)) << claim.id;
@@ -57,7 +57,8 @@ TEST(Claims, HaveNamesOfTheirOwnAndAllThatATableNeeds)
         }
     }
     EXPECT_GE(names.size(), 40U);
-    EXPECT_EQ(findClaim("2006-no-such-claim"), nullptr);
+    EXPECT_TRUE(claimsNamed("2006-no-such-claim").empty());
+    EXPECT_TRUE(claimsNamed("").empty());
 }
 
 /// Also of those that take minutes, and what a reader pastes is what was run.
@@ -204,6 +205,12 @@ TEST(ClaimsProgram, WritesTextJsonAndMarkdown)
     EXPECT_EQ(markdown.status, 0) << markdown.err;
     EXPECT_NE(markdown.out.find("| `2011-range` | "), std::string::npos) << markdown.out;
     EXPECT_NE(markdown.out.find("# 2011-octree\ngnomon plan "), std::string::npos) << markdown.out;
+    const test::Ran year = inFolder({"claims", "--quick", "--json", "2014", "2011-range"});
+    const auto of_year = nlohmann::json::parse(year.out)["claims"];
+    EXPECT_GT(of_year.size(), 2U);
+    for (const auto& claim : of_year) {
+        EXPECT_TRUE(claim["document"] == "2014" || claim["id"] == "2011-range") << claim;
+    }
     const test::Ran json = inFolder({"claims", "--json", "2011-range"});
     EXPECT_EQ(nlohmann::json::parse(json.out)["claims"][0]["recorded"], "holds");
 }

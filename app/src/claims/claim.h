@@ -47,8 +47,8 @@ struct ClaimDocument {
 };
 /// In the order of the documents.
 [[nodiscard]] std::span<const ClaimDocument> claimDocuments();
-/// Null when there is none.
-[[nodiscard]] const Claim* findClaim(std::string_view id);
+/// The claim of that id, or all of the document of that year. Empty when there is neither.
+[[nodiscard]] std::vector<const Claim*> claimsNamed(std::string_view id_or_year);
 
 // A file each.
 [[nodiscard]] std::span<const Claim> claimsOf2011(); // A. Marinescu

@@ -26,16 +26,17 @@ std::span<const ClaimDocument> claimDocuments()
     return documents;
 }
 
-const Claim* findClaim(std::string_view id)
+std::vector<const Claim*> claimsNamed(std::string_view id_or_year)
 {
+    std::vector<const Claim*> named;
     for (const ClaimDocument& document : claimDocuments()) {
         for (const Claim& claim : document.claims) {
-            if (claim.id == id) {
-                return &claim;
+            if (claim.id == id_or_year || document.year == id_or_year) {
+                named.push_back(&claim);
             }
         }
     }
-    return nullptr;
+    return named;
 }
 
 } // namespace gnomon::app
