@@ -20,13 +20,13 @@ constexpr std::string_view kTechniqueGrammar =
     "out has its "
     "default: hard, pcf+pcf.kernel=5x5+map-size=1024. Lists of techniques have commas between.";
 
-/// What cannot be had of values that are available one by one, and why.
+/// What does not go together, and why.
 struct Refused {
     std::string technique;
     std::string reason;
 };
 
-std::vector<Filter> availableFilters()
+std::vector<Filter> allFilters()
 {
     std::vector<Filter> filters;
     for (const ChoiceValue& row : choiceValues()) {
@@ -62,7 +62,7 @@ RefusedFormats formatsRefusedBy(Filter filter)
 void addRefusedFormats(std::vector<Refused>& refused)
 {
     std::vector<RefusedFormats> rows;
-    for (const Filter filter : availableFilters()) {
+    for (const Filter filter : allFilters()) {
         RefusedFormats row = formatsRefusedBy(filter);
         const auto same = std::find_if(rows.begin(), rows.end(), [&row](const RefusedFormats& other) {
             return other.formats == row.formats && other.reason == row.reason;
@@ -84,7 +84,7 @@ void addRefusedMoments(std::vector<Refused>& refused)
     constexpr std::string_view kOptions[] = {"depth-remap=1", "esm.exponent=10000", "evsm.positive=10000",
                                              "evsm.negative=10000"};
     const Settings defaults = defaultSettings();
-    for (const Filter filter : availableFilters()) {
+    for (const Filter filter : allFilters()) {
         for (const std::string_view option : kOptions) {
             for (const MapFormat format : filterTraits(filter)->formats) {
                 if (!filterTraits(filter)->has_maps) {
@@ -147,16 +147,16 @@ std::string settingLine(const Setting& setting)
 
 std::string textList()
 {
-    std::string text = "Choices (a value that is not in this version is marked -; sources are in --json):\n";
+    std::string text = "Choices (sources are in --json):\n";
     std::string_view choice;
     for (const ChoiceValue& row : choiceValues()) {
         if (row.choice != choice) {
             choice = row.choice;
             text += fmt::format("{}\n", choice);
         }
-        text += fmt::format("  {} {:<15} {}\n", row.available ? ' ' : '-', row.name, row.summary);
+        text += fmt::format("  {:<17} {}\n", row.name, row.summary);
     }
-    text += "\nWhat cannot be had of values that are in this version:\n";
+    text += "\nWhat does not go together:\n";
     for (const Refused& row : allRefused()) {
         text += fmt::format("  {}: {}\n", row.technique, row.reason);
     }
@@ -188,8 +188,7 @@ Json choiceList()
         if (choices.empty() || choices.back()["choice"] != row.choice) {
             choices.push_back({{"choice", row.choice}, {"values", Json::array()}});
         }
-        choices.back()["values"].push_back(
-            {{"name", row.name}, {"available", row.available}, {"summary", row.summary}, {"source", row.source}});
+        choices.back()["values"].push_back({{"name", row.name}, {"summary", row.summary}, {"source", row.source}});
     }
     return choices;
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of all choices and what is made from it; choice_rules.cpp has what does not go together. To add a
-// technique, turn its row to available here and give it its line in the table of its folder (fit/fits.cpp,
-// partition/partitions.cpp, motion/motions.cpp, kFilters below).
+// technique, give it a row here and a line in the table of its folder (fit/fits.cpp, partition/partitions.cpp,
+// motion/motions.cpp, kFilters below).
 #include <gnomon/choice_rules.h>
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <vector>
 
 namespace gnomon {
 namespace {
@@ -42,81 +40,77 @@ constexpr std::string_view kSoften = "soften";
 constexpr std::string_view kMotion = "motion";
 
 constexpr std::array kValues{
-    ChoiceValue{kLight, "directional", number(LightType::directional), true, "a sun: parallel rays", kMarinescu},
-    ChoiceValue{kLight, "spot", number(LightType::spot), true, "a cone of at most 120 degrees, with a cookie texture",
+    ChoiceValue{kLight, "directional", number(LightType::directional), "a sun: parallel rays", kMarinescu},
+    ChoiceValue{kLight, "spot", number(LightType::spot), "a cone of at most 120 degrees, with a cookie texture",
                 kShastry},
-    ChoiceValue{kLight, "point", number(LightType::point), true, "shines all around", kForsyth},
+    ChoiceValue{kLight, "point", number(LightType::point), "shines all around", kForsyth},
 
-    ChoiceValue{kPartition, "single", number(Partition::single), true, "one frustum for all receivers of a light",
+    ChoiceValue{kPartition, "single", number(Partition::single), "one frustum for all receivers of a light",
                 kMarinescu},
-    ChoiceValue{kPartition, "cascades", number(Partition::cascades), true,
+    ChoiceValue{kPartition, "cascades", number(Partition::cascades),
                 "slices of the camera's frustum by the practical split",
                 "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
-    ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), true, "slices fitted to the depth buffer",
+    ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
-    ChoiceValue{kPartition, "cube", number(Partition::cube), true, "six faces around a point light", kForsyth},
+    ChoiceValue{kPartition, "cube", number(Partition::cube), "six faces around a point light", kForsyth},
     ChoiceValue{
-        kPartition, "paraboloid", number(Partition::paraboloid), true, "two half spaces around a point light",
+        kPartition, "paraboloid", number(Partition::paraboloid), "two half spaces around a point light",
         "S. Brabec, T. Annen, H.-P. Seidel, Shadow Mapping for Hemispherical and Omnidirectional Light Sources, 2002"},
-    ChoiceValue{kPartition, "multi", number(Partition::multi), true,
+    ChoiceValue{kPartition, "multi", number(Partition::multi),
                 "as many frustums as what is seen asks for, each with a map of its own size", kForsyth},
-    ChoiceValue{kPartition, "auto", number(Partition::automatic), true,
+    ChoiceValue{kPartition, "auto", number(Partition::automatic),
                 "single or cascades, whichever is predicted to err less; cube of a point light", kDense},
 
-    ChoiceValue{kFit, "uniform", number(Fit::uniform), true, "the light-space box of what matters", kMarinescu},
-    ChoiceValue{kFit, "lispsm", number(Fit::lispsm), true, "perspective perpendicular to the light",
+    ChoiceValue{kFit, "uniform", number(Fit::uniform), "the light-space box of what matters", kMarinescu},
+    ChoiceValue{kFit, "lispsm", number(Fit::lispsm), "perspective perpendicular to the light",
                 "M. Wimmer, D. Scherzer, W. Purgathofer, Light Space Perspective Shadow Maps, 2004"},
-    ChoiceValue{kFit, "lispsm-simple", number(Fit::lispsm_simple), true,
+    ChoiceValue{kFit, "lispsm-simple", number(Fit::lispsm_simple),
                 "perspective along the viewer's depth over what is seen", kForsyth},
-    ChoiceValue{kFit, "tsm", number(Fit::tsm), true,
-                "a trapezoid around what is seen, 80 % of the map for the near part",
+    ChoiceValue{kFit, "tsm", number(Fit::tsm), "a trapezoid around what is seen, 80 % of the map for the near part",
                 "T. Martin, T.-S. Tan, Anti-aliasing and Continuity with Trapezoidal Shadow Maps, 2004"},
-    ChoiceValue{kFit, "psm", number(Fit::psm), true, "drawn in post-perspective space",
+    ChoiceValue{kFit, "psm", number(Fit::psm), "drawn in post-perspective space",
                 "M. Stamminger, G. Drettakis, Perspective Shadow Maps, 2002"},
-    ChoiceValue{kFit, "scene", number(Fit::scene), true,
-                "made once around all of the scene, and still under any camera", kMarinescu},
-    ChoiceValue{kFit, "auto", number(Fit::automatic), true, "lispsm-simple as strong as is predicted to err least",
-                kDense},
+    ChoiceValue{kFit, "scene", number(Fit::scene), "made once around all of the scene, and still under any camera",
+                kMarinescu},
+    ChoiceValue{kFit, "auto", number(Fit::automatic), "lispsm-simple as strong as is predicted to err least", kDense},
 
-    ChoiceValue{kFilter, "hard", number(Filter::hard), true, "one depth comparison per pixel", kWilliams},
-    ChoiceValue{kFilter, "pcf", number(Filter::pcf), true, "weighted mean of the comparisons in a kernel",
+    ChoiceValue{kFilter, "hard", number(Filter::hard), "one depth comparison per pixel", kWilliams},
+    ChoiceValue{kFilter, "pcf", number(Filter::pcf), "weighted mean of the comparisons in a kernel",
                 "W. Reeves, D. Salesin, R. Cook, Rendering Antialiased Shadows with Depth Maps, 1987"},
-    ChoiceValue{kFilter, "pcss", number(Filter::pcss), true, "penumbra as wide as the blocker's distance asks",
+    ChoiceValue{kFilter, "pcss", number(Filter::pcss), "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
-    ChoiceValue{kFilter, "raymarch", number(Filter::raymarch), true, "rays to points of the light, through the map",
-                kRays},
-    ChoiceValue{kFilter, "vsm", number(Filter::vsm), true, "two moments and Chebyshev's bound", kKiteLightning},
-    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), true, "variance maps in layers of depth", kMarinescu},
-    ChoiceValue{kFilter, "esm", number(Filter::esm), true, "an exponential of depth", kKiteLightning},
-    ChoiceValue{kFilter, "evsm", number(Filter::evsm), true, "moments of two exponential warps",
+    ChoiceValue{kFilter, "raymarch", number(Filter::raymarch), "rays to points of the light, through the map", kRays},
+    ChoiceValue{kFilter, "vsm", number(Filter::vsm), "two moments and Chebyshev's bound", kKiteLightning},
+    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), "variance maps in layers of depth", kMarinescu},
+    ChoiceValue{kFilter, "esm", number(Filter::esm), "an exponential of depth", kKiteLightning},
+    ChoiceValue{kFilter, "evsm", number(Filter::evsm), "moments of two exponential warps",
                 "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008"},
-    ChoiceValue{kFilter, "msm", number(Filter::msm), true, "four moments",
+    ChoiceValue{kFilter, "msm", number(Filter::msm), "four moments",
                 "C. Peters, R. Klein, Moment Shadow Mapping, 2015"},
-    ChoiceValue{kFilter, "id", number(Filter::id), true, "object ids instead of depth", kForsyth},
-    ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), true, "object id, then depth inside the object",
-                kForsyth},
-    ChoiceValue{kFilter, "volumes", number(Filter::volumes), true,
+    ChoiceValue{kFilter, "id", number(Filter::id), "object ids instead of depth", kForsyth},
+    ChoiceValue{kFilter, "depth-id", number(Filter::depth_id), "object id, then depth inside the object", kForsyth},
+    ChoiceValue{kFilter, "volumes", number(Filter::volumes),
                 "no texel: counts the faces of casters' shadow volumes at each pixel",
                 "M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, Fast, Practical and Robust Shadows, "
                 "2003"},
-    ChoiceValue{kFilter, "auto", number(Filter::automatic), true, "raymarch, or pcf of quality fast", kRays},
+    ChoiceValue{kFilter, "auto", number(Filter::automatic), "raymarch, or pcf of quality fast", kRays},
 
-    ChoiceValue{kSoften, "none", number(Soften::none), true, "visibility as the filter gives it", kShastry},
-    ChoiceValue{kSoften, "blur", number(Soften::blur), true, "the mask blurred on the screen, by a separable Gaussian",
+    ChoiceValue{kSoften, "none", number(Soften::none), "visibility as the filter gives it", kShastry},
+    ChoiceValue{kSoften, "blur", number(Soften::blur), "the mask blurred on the screen, by a separable Gaussian",
                 kShastry},
-    ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), true, "edges of the map widened by the light's size",
+    ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), "edges of the map widened by the light's size",
                 "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
-    ChoiceValue{kSoften, "converge", number(Soften::converge), true,
+    ChoiceValue{kSoften, "converge", number(Soften::converge),
                 "each frame another point of the light, averaged over frames",
                 "D. Scherzer et al., Real-Time Soft Shadows Using Temporal Coherence, 2009"},
 
-    ChoiceValue{kMotion, "free", number(Motion::free), true, "the map follows camera and sun exactly", kMarinescu},
-    ChoiceValue{kMotion, "snap", number(Motion::snap), true, "the map moves by whole texels", kIceFall},
-    ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), true, "the sun steps, the shadows jump", kIceFall},
-    ChoiceValue{kMotion, "step-band", number(Motion::step_band), true, "each step sweeps over the screen in a band",
+    ChoiceValue{kMotion, "free", number(Motion::free), "the map follows camera and sun exactly", kMarinescu},
+    ChoiceValue{kMotion, "snap", number(Motion::snap), "the map moves by whole texels", kIceFall},
+    ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), "the sun steps, the shadows jump", kIceFall},
+    ChoiceValue{kMotion, "step-band", number(Motion::step_band), "each step sweeps over the screen in a band",
                 kIceFall},
-    ChoiceValue{kMotion, "step-blend", number(Motion::step_blend), true, "two steps blended over time", kIceFall},
-    ChoiceValue{kMotion, "step-alternate", number(Motion::step_alternate), true, "two steps drawn in alternate frames",
+    ChoiceValue{kMotion, "step-blend", number(Motion::step_blend), "two steps blended over time", kIceFall},
+    ChoiceValue{kMotion, "step-alternate", number(Motion::step_alternate), "two steps drawn in alternate frames",
                 kIceFall},
 };
 
@@ -239,53 +233,13 @@ std::optional<Enum> findIn(const std::array<Named<Enum>, n>& table, std::string_
     return std::nullopt;
 }
 
-/// "hard and pcf"; "a, b and c".
-std::string availableNames(std::string_view choice)
-{
-    std::vector<std::string_view> names;
-    for (const ChoiceValue& row : kValues) {
-        if (row.choice == choice && row.available) {
-            names.push_back(row.name);
-        }
-    }
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i != 0) {
-            text += i + 1 == names.size() ? " and " : ", ";
-        }
-        text += names[i];
-    }
-    return text;
-}
-
-/// One sentence per row of kValues, empty for available ones; made once, so that a reason lives as long as the program.
-const std::array<std::string, kValues.size()>& unavailableSentences()
-{
-    static const auto sentences = [] {
-        std::array<std::string, kValues.size()> made;
-        for (std::size_t i = 0; i < kValues.size(); ++i) {
-            if (const ChoiceValue& row = kValues[i]; !row.available) {
-                made[i] = std::string(row.choice) + " " + std::string(row.name) + " is not in this version; it has " +
-                          availableNames(row.choice);
-            }
-        }
-        return made;
-    }();
-    return sentences;
-}
-
+/// Enumerations that a host made of a number.
 template <class Enum>
-std::optional<std::string_view> unavailable(std::string_view choice, Enum value)
+std::optional<std::string_view> notAValue(std::string_view choice, Enum value)
 {
-    for (std::size_t i = 0; i < kValues.size(); ++i) {
-        if (kValues[i].choice == choice && kValues[i].value == number(value)) {
-            if (kValues[i].available) {
-                return std::nullopt;
-            }
-            return unavailableSentences()[i];
-        }
-    }
-    return "the value is not one of its choice's";
+    const bool is_there = std::ranges::any_of(
+        kValues, [&](const ChoiceValue& row) { return row.choice == choice && row.value == number(value); });
+    return is_there ? std::nullopt : std::optional<std::string_view>("the value is not one of its choice's");
 }
 
 } // namespace
@@ -360,22 +314,22 @@ const FilterTraits* filterTraits(Filter filter)
 
 std::optional<std::string_view> refusal(LightType light, const Technique& technique)
 {
-    if (const auto reason = unavailable(kLight, light)) {
+    if (const auto reason = notAValue(kLight, light)) {
         return reason;
     }
-    if (const auto reason = unavailable(kPartition, technique.partition)) {
+    if (const auto reason = notAValue(kPartition, technique.partition)) {
         return reason;
     }
-    if (const auto reason = unavailable(kFit, technique.fit)) {
+    if (const auto reason = notAValue(kFit, technique.fit)) {
         return reason;
     }
-    if (const auto reason = unavailable(kFilter, technique.filter)) {
+    if (const auto reason = notAValue(kFilter, technique.filter)) {
         return reason;
     }
-    if (const auto reason = unavailable(kSoften, technique.soften)) {
+    if (const auto reason = notAValue(kSoften, technique.soften)) {
         return reason;
     }
-    if (const auto reason = unavailable(kMotion, technique.motion)) {
+    if (const auto reason = notAValue(kMotion, technique.motion)) {
         return reason;
     }
     for (const ChoiceRule& rule : choiceRules()) {
@@ -405,7 +359,7 @@ std::optional<std::string_view> refusal(const Technique& technique)
 
 std::optional<std::string_view> refusal(Filter filter, MapFormat format)
 {
-    if (const auto reason = unavailable(kFilter, filter)) {
+    if (const auto reason = notAValue(kFilter, filter)) {
         return reason;
     }
     const FilterTraits* traits = filterTraits(filter);

@@ -78,7 +78,7 @@ TEST(HostileOptions, EveryRowAtTheEndsOfItsRangeIsSound)
 {
     std::size_t planned = 0;
     for (const ChoiceValue& choice : choiceValues()) {
-        if (!choice.available || choice.choice == "light") {
+        if (choice.choice == "light") {
             continue;
         }
         for (const OptionRow& row : optionTable()) {

@@ -124,7 +124,6 @@ TEST(Product, EachCombinationIsRefusedWithASentenceOrResolved)
         }
     }
     EXPECT_GT(refused, 0U);
-    EXPECT_GT(allTechniques().size(), 2 * refused / 3);
 }
 
 /// GNOMON_SWEEP=all draws every one of them; else a sample that has each value.
@@ -161,7 +160,7 @@ TEST(Product, EachCombinationThatIsNotRefusedDraws)
         drawn.insert(names.begin(), names.end());
     }
     for (const ChoiceValue& row : choiceValues()) {
-        EXPECT_TRUE(row.choice == "light" || !row.available || drawn.contains(row.name)) << row.name;
+        EXPECT_TRUE(row.choice == "light" || drawn.contains(row.name)) << row.name;
     }
 }
 

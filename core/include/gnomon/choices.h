@@ -82,7 +82,6 @@ struct ChoiceValue {
     std::string_view choice;  // "light", "partition", "fit", "filter", "soften", "motion"
     std::string_view name;    // as typed on the command line, unique over all choices
     std::uint8_t value;       // of the choice's enum
-    bool available;           // false: known, but this version refuses it
     std::string_view summary; // one line
     std::string_view source;  // author, title, year
 };
@@ -102,7 +101,7 @@ struct ChoiceValue {
 [[nodiscard]] std::optional<PcfKernel> findPcfKernel(std::string_view name);
 [[nodiscard]] std::optional<MapFormat> findMapFormat(std::string_view name);
 
-/// Facts of a filter that planning and the backend need; one row per available filter.
+/// Facts of a filter that planning and the backend need; one row per filter but automatic.
 struct FilterTraits {
     Filter filter;
     std::span<const MapFormat> formats; // usable, the default first
@@ -115,7 +114,7 @@ struct FilterTraits {
                            // whose pixel it is
     bool has_maps = true;  // false: it counts faces of shadow volumes, and a light so planned has no views
 };
-/// Null for a filter that is not available, and for automatic, which stands for another (filterOf()).
+/// Null for automatic, which stands for another (filterOf()).
 [[nodiscard]] const FilterTraits* filterTraits(Filter filter);
 
 /// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.

@@ -318,8 +318,8 @@ struct Resolution {
 /// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses
 /// a format, budgets, caster faces, a kept map or colours that are asked for all the same.
 [[nodiscard]] bool hasMaps(const ShadowOptions& options);
-/// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for a filter that is
-/// not available.
+/// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for what is not a
+/// filter.
 [[nodiscard]] MapFormat formatOf(const ShadowOptions& options);
 /// Texels on a side of the largest map that a light with these options can have: map_size, or what max_texels and
 /// budget_texels have room for, in whole multiples of 8.

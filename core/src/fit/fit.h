@@ -49,7 +49,7 @@ struct Warp {
 };
 using FitFunction = Warp (*)(const FitInput& input);
 
-/// Null for a fit that is not available.
+/// Null for what is not a fit.
 [[nodiscard]] FitFunction fitFunction(Fit fit);
 
 Warp fitUniform(const FitInput& input);

@@ -35,7 +35,7 @@ struct MotionTraits {
 inline constexpr std::string_view kUnwarped =
     "a warped map has no texels of one size to move in whole steps, so it is drawn without warp";
 
-/// Null for a motion that is not available.
+/// Null for what is not a motion.
 [[nodiscard]] const MotionTraits* motionTraits(Motion motion);
 
 MapFrame moveFreely(const LightRect& wanted, const MotionInput& input);

@@ -52,7 +52,7 @@ inline constexpr std::uint32_t kHemispheres = 2;
 [[nodiscard]] Slice wholeSlice(const Light& light);
 /// Around a light's place: 0, 1: +x, -x, then y and z.
 [[nodiscard]] Slice cubeFace(const Light& light, int face);
-/// Null for a partition that is not available. That of Partition::automatic stands for all that it may choose.
+/// Null for what is not a partition. That of Partition::automatic stands for all that it may choose.
 [[nodiscard]] const PartitionTraits* partitionTraits(Partition partition);
 
 /// Plane z = depth of the view, which faces away from the eye or towards it.
