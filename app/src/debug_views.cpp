@@ -8,6 +8,7 @@
 #include "streams.h"
 
 #include <gnomon/error.h>
+#include <gnomon/object_ids.h>
 #include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan_views.h>
 
@@ -92,8 +93,9 @@ Image8 layersPicture(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
 }
 
-/// The depth that each texel of the light's first map stands for, as it is read: of lvsm its first layer, of others
-/// blurred if they blur. Of a sun between two positions, of the stronger one's first map, which is drawn for certain.
+/// The depth that each texel of the light's first map stands for, of filter id the id, as it is read: of lvsm its first
+/// layer, of others blurred if they blur. Of a sun between two positions, of the stronger one's first map, which is
+/// drawn for certain.
 Image8 mapPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
@@ -126,8 +128,10 @@ Image8 mapPicture(const Drawn& drawn)
         }
     }
     if (most >= least) {
-        notice(fmt::format("light {}: its map's depth is {:.6g} where black and {:.6g} where white",
-                           drawn.shot.lights[drawn.light].name, least, most));
+        const bool has_ids = options.filter() == Filter::id;
+        const float unit = has_ids ? static_cast<float>(idsOf(options.format())) : 1.0F;
+        notice(fmt::format("light {}: its map's {} is {:.6g} where black and {:.6g} where white",
+                           drawn.shot.lights[drawn.light].name, has_ids ? "id" : "depth", least * unit, most * unit));
     }
     return grey;
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "setting_values.h"
 
+#include <gnomon/choices.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace gnomon::app {
 namespace {
@@ -19,6 +22,17 @@ namespace {
 std::string rangeText(const Setting& setting)
 {
     return fmt::format("{} to {}{}{}", setting.min, setting.max, setting.unit.empty() ? "" : " ", setting.unit);
+}
+
+/// Of a technique's value that belongs to another choice than the one it was given to.
+std::optional<std::string> elsewhere(std::string_view text)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.name == text && findSetting(row.choice) != nullptr) {
+            return fmt::format(" (--{} has it)", row.choice);
+        }
+    }
+    return std::nullopt;
 }
 
 void requireInRange(const Setting& setting, std::string_view text, double value)
@@ -182,7 +196,7 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
         const auto allowed = setting.choices();
         if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
             throw UsageError(fmt::format("{}: there is no \"{}\"{}; it takes {}", spelled(setting), text,
-                                         suggestion(text, allowed), listed(allowed)));
+                                         elsewhere(text).value_or(suggestion(text, allowed)), listed(allowed)));
         }
         value.text = text;
         break;

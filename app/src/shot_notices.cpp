@@ -46,6 +46,22 @@ void noteLights(Shot& shot, const Settings& settings)
     }
 }
 
+/// Who asks for penumbrae as wide as the light makes them may not know that it makes none. The default takes any light.
+void noteSizes(Shot& shot, const Settings& settings)
+{
+    const bool asks = integratesLight(settings.shadow) && filterOf(settings.shadow) != Filter::raymarch;
+    const auto has_size = [](const host::ShadedLight& light) {
+        const Light& caster = light.caster;
+        return caster.type == LightType::directional ? caster.angular_diameter_rad > 0.0 : caster.radius_m > 0.0;
+    };
+    if (!asks || settings.truth || shot.lights.empty() || std::ranges::any_of(shot.lights, has_size)) {
+        return;
+    }
+    const bool is_sun = shot.lights.front().caster.type == LightType::directional;
+    shot.notices.push_back(fmt::format("no light has a size, so there are no penumbrae; {} gives it one",
+                                       is_sun ? "--sun-angle" : "--light-size"));
+}
+
 /// A picture of a light that swallows what it is to shine on is right, and not what one had in mind.
 void noteExtents(Shot& shot, const Settings& settings)
 {
@@ -96,6 +112,7 @@ void noteWhatSurprises(Shot& shot, const Settings& settings)
 {
     noteLights(shot, settings);
     noteFrames(shot, settings);
+    noteSizes(shot, settings);
     noteExtents(shot, settings);
     noteScene(shot, settings);
 }
