@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// A technique in one word, "hard+map-size=1024": how it is read and how it is written down.
+#include "app/settings.h"
+
+#include "setting_values.h"
+
+#include <gnomon/choices.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::app {
+namespace {
+
+constexpr std::string_view kAuto = "auto";
+
+const ChoiceValue* findTechniqueValue(std::string_view name)
+{
+    for (const ChoiceValue& row : choiceValues()) {
+        if (row.choice != "light" && row.name == name) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+/// What is joined by + in a technique. `auto` alone stands for that of partition and fit, and of the filter where no
+/// other one is named.
+std::vector<std::string_view> piecesOf(std::string_view text)
+{
+    const std::vector<std::string_view> written = split(text, '+');
+    const bool names_filter = std::any_of(written.begin(), written.end(), [](std::string_view piece) {
+        const ChoiceValue* const row = piece == kAuto ? nullptr : findTechniqueValue(piece);
+        return piece.starts_with("filter=") || (row != nullptr && row->choice == "filter");
+    });
+    std::vector<std::string_view> pieces;
+    for (const std::string_view piece : written) {
+        if (piece != kAuto) {
+            pieces.push_back(piece);
+            continue;
+        }
+        pieces.insert(pieces.end(), {"partition=auto", "fit=auto"});
+        if (!names_filter) {
+            pieces.push_back("filter=auto");
+        }
+    }
+    return pieces;
+}
+
+bool isChoice(std::string_view key)
+{
+    const auto values = choiceValues();
+    return std::any_of(values.begin(), values.end(), [&](const ChoiceValue& row) { return row.choice == key; });
+}
+
+/// The border that nobody asked for.
+double usualBorder(ShadowOptions options)
+{
+    options.border_texels.reset();
+    const Resolution resolution = resolve(options);
+    return resolution ? resolution->border_texels() : 0.0;
+}
+
+/// Whether a setting says what would hold without it, or what another one says already.
+bool goesWithoutSaying(const Settings& settings, const Setting& setting, const std::string& value)
+{
+    static const Settings defaults = [] {
+        Settings made = defaultSettings();
+        completeTechnique(made);
+        return made;
+    }();
+    if (setting.key == "pcf.kernel") { // "pcf" alone says too little in a table of results
+        return false;
+    }
+    if (setting.key == "map-format") {
+        return formatOf(settings.shadow) == filterTraits(filterOf(settings.shadow))->formats.front();
+    }
+    if (setting.key == "border") {
+        return !settings.shadow.border_texels || *settings.shadow.border_texels == usualBorder(settings.shadow);
+    }
+    if (setting.key == "bias" && value == "none") { // then its parts say it
+        const auto part = settings.values.lower_bound("bias.");
+        return part != settings.values.end() && part->first.starts_with("bias.");
+    }
+    if (setting.key == "lvsm.placement" &&
+        (settings.values.contains("lvsm.splits") || settings.values.contains("lvsm.world"))) {
+        return true;
+    }
+    const auto usual = defaults.values.find(setting.key);
+    return usual != defaults.values.end() && usual->second == value;
+}
+
+} // namespace
+
+Settings parseTechnique(const Settings& base, std::string_view text)
+{
+    Settings settings = base;
+    std::vector<std::string_view> seen;
+    for (const std::string_view piece : piecesOf(text)) {
+        std::string_view key;
+        std::string_view value;
+        if (const std::size_t equals = piece.find('='); equals != std::string_view::npos) {
+            key = piece.substr(0, equals);
+            value = piece.substr(equals + 1);
+            const Setting* setting = findSetting(key);
+            if (setting != nullptr && setting->group != SettingGroup::technique) {
+                throw UsageError(fmt::format("technique \"{}\": {} is no part of a technique; give it as {}", text, key,
+                                             spelled(*setting)));
+            }
+        } else {
+            const ChoiceValue* row = findTechniqueValue(piece);
+            if (row == nullptr) {
+                std::vector<std::string_view> names;
+                for (const ChoiceValue& known : choiceValues()) {
+                    if (known.choice != "light") {
+                        names.push_back(known.name);
+                    }
+                }
+                throw UsageError(
+                    fmt::format("technique \"{}\": there is no \"{}\"{}; a technique is values of the choices and "
+                                "KEY=VALUE joined by +, see `gnomon list`",
+                                text, piece, suggestion(piece, names)));
+            }
+            key = row->choice;
+            value = row->name;
+        }
+        if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
+            throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, key));
+        }
+        for (const std::string_view other : placementPartners(key)) {
+            if (std::find(seen.begin(), seen.end(), other) != seen.end()) {
+                requireOnePlacement(settings, key, value, other);
+            }
+        }
+        seen.push_back(key);
+        applySetting(settings, key, value);
+    }
+    completeTechnique(settings);
+    for (const std::string_view key : seen) {
+        const Setting* setting = findSetting(key);
+        if (!isUsed(*setting, settings)) {
+            throw UsageError(
+                fmt::format("technique \"{}\": {} has an effect only with {}", text, key, setting->used_when));
+        }
+    }
+    return settings;
+}
+
+std::string describeTechnique(const Settings& settings)
+{
+    std::string text(nameOf(filterOf(settings.shadow)));
+    for (const Setting& setting : settingTable()) {
+        const auto value = settings.values.find(setting.key);
+        if (setting.group != SettingGroup::technique || setting.key == "filter" || value == settings.values.end() ||
+            !isUsed(setting, settings) || goesWithoutSaying(settings, setting, value->second)) {
+            continue;
+        }
+        text += isChoice(setting.key) && value->second != kAuto ? fmt::format("+{}", value->second)
+                                                                : fmt::format("+{}={}", setting.key, value->second);
+    }
+    return text;
+}
+
+} // namespace gnomon::app
