@@ -1,98 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wrong calls of the backend: each is a value or an Error with a sentence, and records nothing.
-#include "null_driver.h"
-#include "scene.h"
-
-#include <gnomon/error.h>
+#include "misuser.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
 namespace gnomon::test {
 namespace {
-
-using vulkan::CasterDrawer;
-using vulkan::DrawBatcher;
-using vulkan::MapPass;
-using vulkan::Profiler;
-using vulkan::ShadowRenderer;
-
-constexpr VkExtent2D kPicture{64, 48};
-
-/// A host that does all right, of which one thing at a time goes wrong.
-class Misuser {
-public:
-    explicit Misuser(const ShadowOptions& options = {})
-        : renderer(driver.view(), {}), drawer(driver.view(), {}), profiler(driver.view(), 2, 8)
-    {
-        lights = {makeSun({0.5, -1.0, 0.2}), makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)};
-        const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {1, 0, 0, 256, 256}};
-        plan = makePlan(scene, lights, tiles, {256, 256, 2}, options);
-        frame.camera = makeCamera({9.0, 6.0, 11.0}, {0.0, 0.5, 0.0}, 4.0 / 3.0);
-        frame.lights = lights;
-        inputs.extent = kPicture;
-        inputs.depth = driver.makeView();
-        parts = {{{0, 6, 0}, 0}, {{6, 36, 4}, 1}};
-        objects.assign(1, {0, 1});
-        objects.resize(1 + scene.boxes.size(), {1, 1});
-        drawer.setScene(parts, objects, batches);
-        geometry.positions = driver.makeBuffer();
-        geometry.indices = driver.makeBuffer();
-        transforms = scene.transforms();
-    }
-    void prepare() { (void)renderer.prepare(plan, kPicture); }
-    void begin() { drawer.beginFrame(0, plan, geometry, transforms); }
-    void maps(std::uint32_t slot = 0) { renderer.recordMaps(driver.commands(), slot, frame, plan, draw); }
-    void mask(std::uint32_t slot = 0) { renderer.recordMask(driver.commands(), slot, frame, plan, inputs); }
-    /// All of it, as it should be.
-    void record()
-    {
-        driver.beginSlot(0);
-        prepare();
-        begin();
-        maps();
-        mask();
-    }
-
-    NullDriver driver;
-    Scene scene = makeScene();
-    std::vector<Light> lights;
-    Plan plan;
-    Frame frame;
-    vulkan::MaskInputs inputs;
-    std::vector<vulkan::DrawPart> parts;
-    std::vector<vulkan::DrawObject> objects;
-    std::vector<vulkan::CasterBatch> batches = std::vector<vulkan::CasterBatch>(2);
-    vulkan::CasterGeometry geometry;
-    std::vector<vulkan::Rows3x4> transforms;
-    ShadowRenderer renderer;
-    CasterDrawer drawer;
-    Profiler profiler;
-    vulkan::DrawCasters draw = [this](const MapPass& pass) {
-        drawer.draw(pass);
-    };
-};
-
-std::string sentenceOf(const std::function<void()>& call)
-{
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no Error";
-}
-
-/// The call throws with these words, records nothing, and what is right goes on.
-void expectRefused(Misuser& host, const char* words, const std::function<void()>& call)
-{
-    host.driver.clearEvents();
-    const std::string said = sentenceOf(call);
-    EXPECT_NE(said.find(words), std::string::npos) << said;
-    EXPECT_TRUE(host.driver.events().empty()) << words;
-}
 
 TEST(Misuse, OfTheDeviceViewIsAnError)
 {
@@ -363,91 +278,6 @@ TEST(Misuse, OfCascadesThatWereNotFittedIsAnError)
                   [&] { host.renderer.recordViews(host.driver.commands(), 0, host.plan, VK_NULL_HANDLE); });
     host.maps();
     host.mask();
-}
-
-TEST(Misuse, OfTheDrawersSceneIsAnError)
-{
-    Misuser host;
-    EXPECT_THROW(host.drawer.setScene(host.parts, host.objects, std::span(host.batches).first(1)), Error);
-    const std::vector<std::vector<vulkan::DrawObject>> wrong{{{0, 3}}, {{3, 0}}, {{0xFFFFFFFFU, 0xFFFFFFFFU}}};
-    for (const auto& objects : wrong) {
-        EXPECT_THROW(host.drawer.setScene(host.parts, objects, host.batches), Error);
-    }
-    expectRefused(host, "fewer transforms than objects",
-                  [&] { host.drawer.beginFrame(0, host.plan, host.geometry, std::span(host.transforms).first(1)); });
-    host.record();
-    // Objects that the scene has not draw nothing.
-    const std::uint64_t before = host.driver.counts().instances;
-    for (std::uint32_t& caster : host.plan.casters) {
-        caster += 1000;
-    }
-    host.plan.views[0].redraw = host.plan.views[1].redraw = true;
-    host.record();
-    EXPECT_EQ(host.driver.counts().instances, before);
-}
-
-TEST(Misuse, OfTheDrawersPassesIsAnError)
-{
-    Misuser host;
-    host.record();
-    host.begin();
-    std::vector<std::uint32_t> many(5000, 1);
-    MapPass pass;
-    pass.commands = host.driver.commands();
-    pass.plan = &host.plan;
-    expectRefused(host, "has no view", [&] { host.drawer.draw(pass); });
-    pass.view = &host.plan.views[0];
-    pass.formats = vulkan::mapFormats((*host.plan.options)[0], true);
-    for (const std::uint32_t count : {0U, 7U, 0xFFFFFFFFU}) {
-        pass.view_count = count;
-        expectRefused(host, "more than one pass can have", [&] { host.drawer.draw(pass); });
-    }
-    pass.view_count = 2;
-    expectRefused(host, "views that the plan of beginFrame() has not", [&] { host.drawer.draw(pass); });
-    pass.view_count = 1;
-    pass.casters = many;
-    expectRefused(host, "more casters than the plan", [&] { host.drawer.draw(pass); });
-    pass.casters = std::span(many).first(1);
-    pass.commands = VK_NULL_HANDLE;
-    expectRefused(host, "command buffer is null", [&] { host.drawer.draw(pass); });
-    host.record();
-}
-
-TEST(Misuse, OfTheBatchersRoomIsAnError)
-{
-    DrawBatcher batcher;
-    const std::vector<vulkan::DrawPart> parts{{{0, 3, 0}, 0}, {{3, 3, 0}, 1}};
-    const std::vector<vulkan::DrawObject> objects{{0, 2}, {1, 1}};
-    batcher.setScene(parts, objects);
-    const std::vector<std::uint32_t> list{0, 1, 99};
-    std::vector<VkDrawIndexedIndirectCommand> commands(2);
-    std::vector<std::uint32_t> instances(3);
-    EXPECT_EQ(batcher.build(list, 0, commands, instances).instance_count, 3U);
-    EXPECT_THROW(batcher.build(list, 0, std::span(commands).first(1), instances), Error);
-    EXPECT_THROW(batcher.build(list, 0, commands, std::span(instances).first(2)), Error);
-    EXPECT_EQ(batcher.build(list, 0, commands, instances).instance_count, 3U);
-    EXPECT_EQ(DrawBatcher().build(list, 0, {}, {}).command_count, 0U);
-}
-
-TEST(Misuse, OfTheProfilersOrderIsAnErrorOrNothing)
-{
-    Misuser host;
-    const VkCommandBuffer commands = host.driver.commands();
-    host.profiler.addDraws(3);
-    host.profiler.endPass(commands);
-    expectRefused(host, "no frame has begun", [&] { host.profiler.beginPass(commands, "early"); });
-    host.profiler.beginFrame(commands, 0);
-    expectRefused(host, "command buffer is null", [&] { host.profiler.beginPass(VK_NULL_HANDLE, "nowhere"); });
-    host.profiler.beginPass(commands, "one");
-    expectRefused(host, "they do not nest", [&] { host.profiler.beginPass(commands, "nested"); });
-    expectRefused(host, "call endPass() first", [&] { host.profiler.beginFrame(commands, 1); });
-    host.profiler.endPass(commands);
-    host.profiler.endPass(commands);
-    for (int i = 0; i < 20; ++i) { // more than it was made for
-        host.profiler.beginPass(commands, "more");
-        host.profiler.endPass(commands);
-    }
-    EXPECT_EQ(host.profiler.results(0).size(), 8U);
 }
 
 /// A callback that throws, and one that ends the profiler's pass: the next frame is drawn as ever.
