@@ -6,7 +6,7 @@
 #include "scene/clip.h"
 #include "scene/state.h"
 #include "small_scene.h"
-#include "truth/visibility.h"
+#include "traced.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -263,31 +263,6 @@ TEST_P(ClipOnGpu, IsAsIfTrianglesEndedThere)
 INSTANTIATE_TEST_SUITE_P(Shaders, ClipOnGpu, testing::ValuesIn(wishes()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// How many pixels of a mask say the opposite of the truth.
-std::size_t wrongPixels(const ImageF& mask, const ImageF& truth)
-{
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < mask.values.size(); ++i) {
-        wrong += (mask.values[i] > 0.5F) != (truth.values[i] > 0.5F) ? 1 : 0;
-    }
-    return wrong;
-}
-
-ImageF truthOf(How how, std::uint32_t light)
-{
-    const scene::Scene scene = sceneOf(how);
-    const scene::State state = scene::evaluate(scene, 0.0);
-    const Camera camera = cameraOf(eyeOf(), kWidth, kHeight, state.bounds_ws);
-    const truth::View view{
-        .eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = {kWidth, kHeight}};
-    const Light caster = lightsOf(scene, state)[light].caster;
-    const truth::Light traced{
-        .type = scene.lights[light].type, .position_ws = caster.position_ws, .direction_ws = caster.direction_ws};
-    const truth::Options options{.kind = truth::Kind::hard, .threads = 2};
-    const truth::Tracer tracer(scene, state, options);
-    return tracer.trace(*tracer.see(view, options), view, traced, options)->visibility;
-}
-
 /// Box and leaves, in the light of a sun, a spot and a lamp.
 TEST(ClipOnGpu, HasTheShadowsOfTheTruth)
 {
@@ -296,11 +271,15 @@ TEST(ClipOnGpu, HasTheShadowsOfTheTruth)
     shadow.map_size = 1024;
     shadow.translucent = Translucent::none;
     const Picture cut = drawn(gpu, How::cut, shadow).picture;
+    const auto truth_of = [](How how, std::uint32_t light) {
+        const scene::Scene scene = sceneOf(how);
+        return tracedMask(scene, scene::evaluate(scene, 0.0), eyeOf(), kWidth, kHeight, light);
+    };
     for (std::uint32_t light = 0; light < kLights; ++light) {
-        const std::size_t wrong = wrongPixels(cut.masks[light], truthOf(How::cut, light));
+        const std::size_t wrong = wrongPixels(cut.masks[light], truth_of(How::cut, light));
         EXPECT_LT(wrong, std::size_t{kWidth} * kHeight / 400) << light;
         // What is not cut is seen to differ.
-        EXPECT_GT(wrongPixels(cut.masks[light], truthOf(How::whole, light)), wrong * 8 + 100) << light;
+        EXPECT_GT(wrongPixels(cut.masks[light], truth_of(How::whole, light)), wrong * 8 + 100) << light;
     }
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }

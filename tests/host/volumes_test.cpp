@@ -3,12 +3,11 @@
 #include "host/frame_renderer.h"
 #include "scene/state.h"
 #include "small_scene.h"
-#include "truth/visibility.h"
+#include "traced.h"
 
 #include <gnomon/error.h>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -145,30 +144,6 @@ scene::Scene closedScene()
     return scene;
 }
 
-ImageF tracedMask(const scene::Scene& scene, const Eye& eye, std::uint32_t width, std::uint32_t height,
-                  std::uint32_t light)
-{
-    const scene::State state = scene::evaluate(scene, 0.0);
-    const Camera camera = cameraOf(eye, width, height, state.bounds_ws);
-    const truth::View view{
-        .eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(camera.clip_from_world), .size_px = {width, height}};
-    const Light caster = lightsOf(scene, state)[light].caster;
-    const truth::Light traced{
-        .type = scene.lights[light].type, .position_ws = caster.position_ws, .direction_ws = caster.direction_ws};
-    const truth::Options options{.kind = truth::Kind::hard, .threads = 2};
-    const truth::Tracer tracer(scene, state, options);
-    return tracer.trace(*tracer.see(view, options), view, traced, options)->visibility;
-}
-
-std::size_t wrongIn(const ImageF& mask, const ImageF& truth)
-{
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < mask.values.size(); ++i) {
-        wrong += (mask.values[i] > 0.5F) != (truth.values[i] > 0.5F) ? 1 : 0;
-    }
-    return wrong;
-}
-
 RenderOptions sized(std::uint32_t width, std::uint32_t height)
 {
     RenderOptions options;
@@ -208,8 +183,8 @@ TEST(Volumes, AreTheTruthOnClosedScenes)
             EXPECT_EQ(planned.outcome.kind, OutcomeKind::ok) << planned.outcome.reason;
             EXPECT_GT(planned.volume_count, 0U);
             EXPECT_EQ(planned.view_count, 0U);
-            const ImageF truth = tracedMask(scene, eye, kWide, kHigh, light);
-            EXPECT_LE(wrongIn(picture.masks[light], truth), std::size_t{kWide} * kHigh / 1000) << light;
+            const ImageF truth = tracedMask(scene, state, eye, kWide, kHigh, light);
+            EXPECT_LE(wrongPixels(picture.masks[light], truth), std::size_t{kWide} * kHigh / 1000) << light;
             dark += static_cast<std::size_t>(std::ranges::count_if(truth.values, [](float v) { return v < 0.5F; }));
         }
     }
@@ -247,7 +222,7 @@ TEST(Volumes, AreTheTruthOfRandomBodies)
         const Picture picture = renderer.read({.colour = false, .masks = true});
         for (const std::uint32_t light : {kSunLight, kSpotLight, kPointLight}) {
             ASSERT_EQ(renderer.plan().lights[light].outcome.kind, OutcomeKind::ok);
-            wrong += wrongIn(picture.masks[light], tracedMask(scene, eye, 64, 64, light));
+            wrong += wrongPixels(picture.masks[light], tracedMask(scene, state, eye, 64, 64, light));
             pixels += std::size_t{64} * 64;
         }
     }
