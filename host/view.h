@@ -59,5 +59,7 @@ struct VolumeFaults {
     std::vector<std::string> sentences; // different ones: "mesh M is open: 12 of its edges have one triangle"
 };
 [[nodiscard]] VolumeFaults volumeFaults(const scene::Scene& scene, const scene::State& state);
+/// What casts and has no fins (filter smoothies), because its shadow's outline is not its mesh's.
+[[nodiscard]] VolumeFaults finFaults(const scene::Scene& scene, const scene::State& state);
 
 } // namespace gnomon::host

@@ -26,14 +26,15 @@ constexpr std::string_view kAll[] = {"hard",
                                      "evsm",
                                      "msm",
                                      "id",
-                                     "depth-id"};
+                                     "depth-id",
+                                     "smoothies"};
 
 bool isAll(const Settings& settings)
 {
     return settings.techniques.empty() || settings.techniques.front() == "all";
 }
 
-/// Of all, those that can have the format that was asked for. Ids go with less than depths do.
+/// Of all, those that can have the format that was asked for. Ids and fins go with less than depths do.
 std::vector<std::string> allOf(const Settings& settings)
 {
     std::vector<std::string> texts;
@@ -42,8 +43,8 @@ std::vector<std::string> allOf(const Settings& settings)
         const bool stores = !settings.shadow.format || !refusal(filter, *settings.shadow.format);
         ShadowOptions wanted = settings.shadow;
         wanted.technique.filter = filter;
-        const bool lacks_ids = stores && filterTraits(filter)->ids && !resolve(wanted);
-        if (stores && !lacks_ids) {
+        const bool is_particular = filterTraits(filter)->ids || filter == Filter::smoothies;
+        if (stores && (!is_particular || resolve(wanted))) {
             texts.emplace_back(text);
         }
     }

@@ -310,6 +310,7 @@ Shot makeShot(const Settings& settings)
     requireSizedLights(settings, shot.lights);
     noteWhatSurprises(shot, settings);
     requireClosedCasters(shot, settings);
+    noteFinless(shot, settings);
     return shot;
 }
 

@@ -57,4 +57,21 @@ void requireClosedCasters(Shot& shot, const Settings& settings)
                                        shot.state.objects.size(), listOf(faults)));
 }
 
+void noteFinless(Shot& shot, const Settings& settings)
+{
+    if (settings.truth && settings.subcommand != kCompare) {
+        return;
+    }
+    const std::vector<Settings> techniques =
+        hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
+    const bool draws = std::ranges::any_of(
+        techniques, [](const Settings& technique) { return filterOf(technique.shadow) == Filter::smoothies; });
+    const host::VolumeFaults faults = draws ? host::finFaults(shot.scene, shot.state) : host::VolumeFaults{};
+    if (faults.objects > 0) {
+        shot.notices.push_back(fmt::format(
+            "filter smoothies has no fins for {} of {} objects, whose shadows stay as sharp as pcf has them: {}",
+            faults.objects, shot.state.objects.size(), listOf(faults)));
+    }
+}
+
 } // namespace gnomon::app

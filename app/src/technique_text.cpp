@@ -17,11 +17,12 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::string_view kAuto = "auto";
+constexpr std::string_view kSmoothies = "smoothies"; // a filter, and a way to soften others
 
 const ChoiceValue* findTechniqueValue(std::string_view name)
 {
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice != "light" && row.name == name) {
+        if (row.choice != "light" && row.name == name) { // of smoothies the filter
             return &row;
         }
     }
@@ -29,18 +30,20 @@ const ChoiceValue* findTechniqueValue(std::string_view name)
 }
 
 /// What is joined by + in a technique. `auto` alone stands for that of partition and fit, and of the filter where no
-/// other one is named.
+/// other one is named; `smoothies` for the filter where neither another one nor `auto` is named, else for soften's.
 std::vector<std::string_view> piecesOf(std::string_view text)
 {
     const std::vector<std::string_view> written = split(text, '+');
     const bool names_filter = std::any_of(written.begin(), written.end(), [](std::string_view piece) {
-        const ChoiceValue* const row = piece == kAuto ? nullptr : findTechniqueValue(piece);
+        const bool is_one_of_two = piece == kAuto || piece == kSmoothies;
+        const ChoiceValue* const row = is_one_of_two ? nullptr : findTechniqueValue(piece);
         return piece.starts_with("filter=") || (row != nullptr && row->choice == "filter");
     });
+    const bool softens = names_filter || std::ranges::find(written, kAuto) != written.end();
     std::vector<std::string_view> pieces;
     for (const std::string_view piece : written) {
         if (piece != kAuto) {
-            pieces.push_back(piece);
+            pieces.push_back(piece != kSmoothies ? piece : softens ? "soften=smoothies" : "filter=smoothies");
             continue;
         }
         pieces.insert(pieces.end(), {"partition=auto", "fit=auto"});
@@ -73,7 +76,8 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
         completeTechnique(made);
         return made;
     }();
-    if (setting.key == "pcf.kernel") { // "pcf" alone says too little in a table of results
+    // "pcf" alone says too little in a table of results.
+    if (setting.key == "pcf.kernel" && filterOf(settings.shadow) == Filter::pcf) {
         return false;
     }
     if (setting.key == "map-format") {

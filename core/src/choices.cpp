@@ -32,6 +32,10 @@ constexpr std::string_view kDense =
 constexpr std::string_view kRays =
     "S. Xie, E. Tabellion, A. Pearce, Soft shadows by ray tracing multilayer transparent shadow maps, 2007";
 
+constexpr std::string_view kChanDurand = "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003";
+
+constexpr std::string_view kChanDurand = "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003";
+
 constexpr std::string_view kLight = "light";
 constexpr std::string_view kPartition = "partition";
 constexpr std::string_view kFit = "fit";
@@ -93,13 +97,15 @@ constexpr std::array kValues{
                 "no texel: counts the faces of casters' shadow volumes at each pixel",
                 "M. McGuire, J. F. Hughes, K. T. Egan, M. J. Kilgard, C. Everitt, Fast, Practical and Robust Shadows, "
                 "2003"},
+    ChoiceValue{kFilter, "smoothies", number(Filter::smoothies),
+                "pcf, and fins along casters' silhouettes that make edges as wide as the light asks", kChanDurand},
     ChoiceValue{kFilter, "auto", number(Filter::automatic), "raymarch, or pcf of quality fast", kRays},
 
     ChoiceValue{kSoften, "none", number(Soften::none), "visibility as the filter gives it", kShastry},
     ChoiceValue{kSoften, "blur", number(Soften::blur), "the mask blurred on the screen, by a separable Gaussian",
                 kShastry},
     ChoiceValue{kSoften, "smoothies", number(Soften::smoothies), "edges of the map widened by the light's size",
-                "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003"},
+                kChanDurand},
     ChoiceValue{kSoften, "converge", number(Soften::converge),
                 "each frame another point of the light, averaged over frames",
                 "D. Scherzer et al., Real-Time Soft Shadows Using Temporal Coherence, 2009"},
@@ -165,6 +171,7 @@ constexpr std::array kFilters{
     FilterTraits{Filter::id, kIdFormats, false, true, false, false, false, true},
     FilterTraits{Filter::depth_id, kDepthIdFormats, false, true, false, false, false, true},
     FilterTraits{Filter::volumes, kNoFormats, true, true, false, false, false, false, false},
+    FilterTraits{Filter::smoothies, kRayFormats, true, false, false, false, true},
 };
 
 /// What a user reads who asks a filter for a format that it cannot use.
@@ -188,6 +195,8 @@ constexpr std::string_view formatReason(Filter filter)
     case Filter::msm:
         return "msm stores four moments in a basis made for unorm, or in full floats: rgba16 or rgba32f; half floats "
                "round them too coarsely";
+    case Filter::smoothies:
+        return "smoothies compares one depth per texel, in a map that has its texels for itself: d32f, r32f or d16";
     case Filter::id:
         return "id stores an object's id and nothing else: r16 or r8";
     case Filter::depth_id:

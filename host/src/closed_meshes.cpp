@@ -23,15 +23,21 @@ bool isOpaque(const scene::Scene& scene, const scene::Mesh& mesh)
     });
 }
 
-/// A primitive that is open alone may be closed by the mesh's others, which then have to cast as it does.
-Fault faultOf(const scene::Scene& scene, const scene::Object& object, const scene::MeshClosure& closure)
+/// What keeps an object's shadow from having its mesh's outline.
+Fault outlineFaultOf(const scene::Scene& scene, const scene::Object& object)
 {
     const scene::AlphaMode alpha = alphaOf(scene, object.material);
     if (alpha != scene::AlphaMode::opaque) {
         return alpha == scene::AlphaMode::blend ? Fault::blended : Fault::masked;
     }
-    if (object.clip_planes != scene::kNoClipPlanes) {
-        return Fault::cut;
+    return object.clip_planes != scene::kNoClipPlanes ? Fault::cut : Fault::none;
+}
+
+/// A primitive that is open alone may be closed by the mesh's others, which then have to cast as it does.
+Fault faultOf(const scene::Scene& scene, const scene::Object& object, const scene::MeshClosure& closure)
+{
+    if (const Fault fault = outlineFaultOf(scene, object); fault != Fault::none) {
+        return fault;
     }
     const bool closed = closure.open_edges_of[object.primitive] == 0 ||
                         (closure.closed() && isOpaque(scene, scene.meshes[object.mesh]));
@@ -55,6 +61,22 @@ std::string sentenceOf(Fault fault, std::uint32_t open_edges)
 std::string_view named(const std::string& name)
 {
     return name.empty() ? std::string_view("without a name") : std::string_view(name);
+}
+
+void note(const scene::Scene& scene, const scene::Object& object, Fault fault, std::uint32_t open_edges,
+          VolumeFaults& out)
+{
+    if (!object.casts || fault == Fault::none) {
+        return;
+    }
+    std::string sentence = "mesh ";
+    sentence += named(scene.meshes[object.mesh].name);
+    sentence += ' ';
+    sentence += sentenceOf(fault, open_edges);
+    ++out.objects;
+    if (std::ranges::find(out.sentences, sentence) == out.sentences.end()) {
+        out.sentences.push_back(std::move(sentence));
+    }
 }
 
 } // namespace
@@ -104,20 +126,28 @@ VolumeFaults volumeFaults(const scene::Scene& scene, const scene::State& state)
     VolumeFaults open;
     for (const scene::Object& object : state.objects) {
         const scene::MeshClosure& closure = found[object.mesh];
-        const Fault fault = faultOf(scene, object, closure);
-        if (!object.casts || fault == Fault::none) {
-            continue;
-        }
-        std::string sentence = "mesh ";
-        sentence += named(scene.meshes[object.mesh].name);
-        sentence += ' ';
-        sentence += sentenceOf(fault, closure.open_edges_of[object.primitive]);
-        ++open.objects;
-        if (std::ranges::find(open.sentences, sentence) == open.sentences.end()) {
-            open.sentences.push_back(std::move(sentence));
-        }
+        note(scene, object, faultOf(scene, object, closure), closure.open_edges_of[object.primitive], open);
     }
     return open;
+}
+
+std::vector<std::uint8_t> outlinedObjects(const scene::Scene& scene, const scene::State& state)
+{
+    std::vector<std::uint8_t> outlined;
+    outlined.reserve(state.objects.size());
+    for (const scene::Object& object : state.objects) {
+        outlined.push_back(outlineFaultOf(scene, object) == Fault::none ? 1 : 0);
+    }
+    return outlined;
+}
+
+VolumeFaults finFaults(const scene::Scene& scene, const scene::State& state)
+{
+    VolumeFaults without;
+    for (const scene::Object& object : state.objects) {
+        note(scene, object, outlineFaultOf(scene, object), 0, without);
+    }
+    return without;
 }
 
 } // namespace gnomon::host

@@ -22,5 +22,7 @@ namespace gnomon::host {
 /// As closedObjects() in host/view.h.
 [[nodiscard]] std::vector<std::uint8_t> closedObjects(const scene::Scene& scene, const scene::State& state,
                                                       const std::vector<scene::MeshClosure>& closures);
+/// By object, 1 where its shadow has its mesh's outline: it is opaque and nothing cuts it.
+[[nodiscard]] std::vector<std::uint8_t> outlinedObjects(const scene::Scene& scene, const scene::State& state);
 
 } // namespace gnomon::host

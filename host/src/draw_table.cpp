@@ -83,6 +83,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
     const std::vector<scene::MeshClosure> closed_meshes = closures(scene);
     closed = closedObjects(scene, state, closed_meshes);
+    outlined = outlinedObjects(scene, state);
     OtherBatches other_batches(caster_batches, cuts);
     std::map<Key, std::uint32_t> part_ids;
     for (std::size_t i = 0; i < keys.size(); ++i) {

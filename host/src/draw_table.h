@@ -36,8 +36,9 @@ struct DrawTable {
     std::vector<vulkan::CasterBatch> caster_batches;
     std::vector<vulkan::DrawPart> caster_parts;
     std::vector<vulkan::DrawObject> caster_objects;
-    std::vector<std::uint8_t> blended; // per object: it tints the light instead of blocking it
-    std::vector<std::uint8_t> closed;  // closedObjects()
+    std::vector<std::uint8_t> blended;  // per object: it tints the light instead of blocking it
+    std::vector<std::uint8_t> closed;   // closedObjects()
+    std::vector<std::uint8_t> outlined; // outlinedObjects()
     /// Per object, which primitive of which mesh it is.
     struct Source {
         std::uint32_t mesh = 0;

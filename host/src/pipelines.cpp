@@ -315,8 +315,9 @@ Pipelines::Wish Pipelines::blendedWish()
 
 SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)
 {
+    const Filter read_by = options.hasFins() ? Filter::pcf : options.filter(); // the map beside the fins
     const std::string fragment =
-        "forward_" + std::string(nameOf(options.filter())) + (options.hasSmoothies() ? "_smoothies.frag" : ".frag");
+        "forward_" + std::string(nameOf(read_by)) + (options.hasSmoothies() ? "_smoothies.frag" : ".frag");
     const auto found = std::ranges::find(shadowed_, fragment, &std::pair<std::string, SurfacePipelines>::first);
     if (found != shadowed_.end()) {
         return found->second;

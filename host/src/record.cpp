@@ -110,9 +110,14 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     vulkan::CasterDrawer& casters = shadows->casters;
     renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
     casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
-    renderer.recordMaps(
-        cmd, slot, frame, *plan, [&](const vulkan::MapPass& pass) { profiler.addDraws(casters.draw(pass)); },
-        &profiler);
+    std::optional<vulkan::FinDrawer>& fins = shadows->fins;
+    if (fins) {
+        fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
+    }
+    const vulkan::DrawCasters draw = [&](const vulkan::MapPass& pass) {
+        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : casters.draw(pass));
+    };
+    renderer.recordMaps(cmd, slot, frame, *plan, draw, &profiler);
     if (shadows->volumes) {
         shadows->volumes->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions),
                                      draws.transforms());

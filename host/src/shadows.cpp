@@ -19,6 +19,7 @@ vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const Rend
     wish.pipeline_cache = scene.gpu.pipelineCache();
     wish.compact = options.compact_mask;
     wish.shows_rays = options.shows_rays;
+    wish.draws_fins = true;
     return wish;
 }
 
@@ -47,11 +48,17 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
     }
     const ResolvedOptions resolved = resolvedOrThrow(options.shadow);
     if (!resolved.hasMaps()) { // nor has what is blended any to look up its shadows in
-        volume_meshes.emplace(scene);
+        volume_meshes.emplace(scene, VolumeMeshes::Use::volumes);
         volumes.emplace(scene.gpu.view(),
                         vulkan::VolumeDrawerOptions{options.frames_in_flight, scene.gpu.pipelineCache()});
         volumes->setScene(volume_meshes->objects());
-    } else if (scene.pipelines.blended.whole != VK_NULL_HANDLE) {
+    }
+    if (resolved.hasFins()) {
+        volume_meshes.emplace(scene, VolumeMeshes::Use::fins);
+        fins.emplace(scene.gpu.view(), vulkan::FinDrawerOptions{options.frames_in_flight, scene.gpu.pipelineCache()});
+        fins->setScene(volume_meshes->objects());
+    }
+    if (resolved.hasMaps() && scene.pipelines.blended.whole != VK_NULL_HANDLE) {
         forward.emplace(scene, resolved, options.frames_in_flight);
     }
 }

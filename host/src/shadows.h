@@ -9,6 +9,8 @@
 
 #include "host/frame_renderer.h"
 
+#include <gnomon/vulkan/fin_drawer.h>
+
 #include <optional>
 
 namespace gnomon::host {
@@ -28,8 +30,9 @@ struct Shadows {
     vulkan::CasterDrawer casters;
     std::optional<MaskTiles> tiles;              // of a compact mask
     std::optional<ForwardShadows> forward;       // of scenes with blended surfaces
-    std::optional<VolumeMeshes> volume_meshes;   // of filter volumes
-    std::optional<vulkan::VolumeDrawer> volumes; // likewise
+    std::optional<VolumeMeshes> volume_meshes;   // of filters volumes and smoothies
+    std::optional<vulkan::VolumeDrawer> volumes; // of filter volumes
+    std::optional<vulkan::FinDrawer> fins;       // of filter smoothies
     const Plan* plan = nullptr;                  // the last one
 
 private:

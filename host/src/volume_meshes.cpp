@@ -13,6 +13,7 @@ namespace gnomon::host {
 namespace {
 
 struct Elements {
+    bool caps = true;
     std::vector<glm::uvec4> all; // as VolumeGeometry::elements
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
@@ -27,7 +28,7 @@ struct Elements {
             all.emplace_back(edge.from, edge.to, first + edge.left,
                              edge.right == scene::kNone ? shared::kNoTriangle : first + edge.right);
         }
-        for (std::uint32_t t = 0; t < adjacency.triangles.size(); ++t) {
+        for (std::uint32_t t = 0; caps && t < adjacency.triangles.size(); ++t) {
             all.emplace_back(shared::kNoTriangle, 0U, first + t, 0U);
         }
         return {first_element, static_cast<std::uint32_t>(all.size()) - first_element, 0};
@@ -44,14 +45,16 @@ Buffer upload(Memory& memory, Uploader& uploader, const char* purpose, const voi
 
 } // namespace
 
-VolumeMeshes::VolumeMeshes(SceneData& scene) : memory_(scene.gpu)
+VolumeMeshes::VolumeMeshes(SceneData& scene, Use use) : memory_(scene.gpu)
 {
     const DrawTable& table = scene.table;
+    const std::vector<std::uint8_t>& has = use == Use::fins ? table.outlined : table.closed;
     std::map<DrawTable::Source, vulkan::VolumeMesh> known;
     Elements elements;
+    elements.caps = use == Use::volumes;
     for (std::size_t i = 0; i < table.objects.size(); ++i) {
         vulkan::VolumeMesh& mesh = objects_.emplace_back();
-        if (table.closed[i] == 0) {
+        if (has[i] == 0) {
             continue;
         }
         const DrawTable::Source source = table.sources[i];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's VolumeDrawer draws of a scene: the edges and triangles of what is closed and casts.
+// What the library's VolumeDrawer draws of a scene: the edges and triangles of what is closed; and what its FinDrawer
+// draws: the edges of whatever has the outline of its mesh.
 #pragma once
 
 #include "scene_data.h"
@@ -12,8 +13,9 @@ namespace gnomon::host {
 
 class VolumeMeshes {
 public:
+    enum class Use : std::uint8_t { volumes, fins };
     /// Uploads them, and waits for that. Throws Error.
-    explicit VolumeMeshes(SceneData& scene);
+    VolumeMeshes(SceneData& scene, Use use);
 
     /// By object.
     [[nodiscard]] std::span<const vulkan::VolumeMesh> objects() const { return objects_; }

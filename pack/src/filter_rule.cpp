@@ -98,6 +98,12 @@ float biasReachTexels(const ResolvedOptions& options)
     return std::max(of_blur + kOfBilinear, options.filter() == Filter::esm ? kOfRing : 0.0F);
 }
 
+/// Smoothies are beside a map that pcf reads.
+Filter readBy(const ResolvedOptions& options)
+{
+    return options.hasFins() ? Filter::pcf : options.filter();
+}
+
 float smoothiesReach(const ResolvedOptions& options)
 {
     return options.hasSmoothies() ? static_cast<float>(options.asked().smoothies.reach_texels) : 0.0F;
@@ -248,7 +254,7 @@ void fillRule(const ResolvedOptions& options, shared::GpuRule& out)
         (i % 2 == 0 ? two.y : two.w) = point.y;
     }
     fillMoments(options, out);
-    out.reading = {static_cast<int>(options.filter()), kernelWidth(pcf.kernel), taps, depthHolding(options)};
+    out.reading = {static_cast<int>(readBy(options)), kernelWidth(pcf.kernel), taps, depthHolding(options)};
 }
 
 float mapDepth(const ResolvedOptions& options, std::span<const float> texel, TexelPart part)

@@ -108,7 +108,7 @@ TEST(CompareTable, Fits120Columns)
              {"frame_ratio", 1.0},
              {"memory_bytes", std::uint64_t{1} << 30U}});
     }
-    ASSERT_EQ(result["results"].size(), 16U);
+    ASSERT_EQ(result["results"].size(), 17U);
     const app::TextTable table = app::compareTable(result, true);
     EXPECT_EQ(table.rows[0].back(), "1024.0");
     std::istringstream in(app::tableText(table));

@@ -177,7 +177,7 @@ TEST(Compare, TableIsBestFirst)
         }
         inside = inside || name == "technique";
     }
-    EXPECT_EQ(names.size(), 16U) << ran.out; // hard, every kernel, pcss, raymarch, every filterable map and ids
+    EXPECT_EQ(names.size(), 17U) << ran.out; // hard, every kernel, pcss, raymarch, every filterable map and ids
     EXPECT_EQ(std::count(names.begin(), names.end(), "hard"), 1);
     EXPECT_TRUE(says(ran.out, "all with map-size=256\n")) << ran.out;
     EXPECT_TRUE(says(ran.out, "area, 16 rays per pixel")) << ran.out;

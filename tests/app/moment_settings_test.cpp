@@ -241,7 +241,7 @@ TEST(Contestants, ShareTheOptionsThatAnyOfThemUses)
               (Names{"hard", "vsm+blur.sigma=2"}));
     EXPECT_EQ(namesOf(app::contestants(settingsOf({"bench", "--techniques", "vsm,evsm", "--map-format", "rg32f"}))),
               (Names{"vsm", "evsm+map-format=rg32f"}));
-    EXPECT_EQ(app::contestants(settingsOf({"compare", "--map-format", "r32f"})).size(), 10U); // all that can be that
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--map-format", "r32f"})).size(), 11U); // all that can be that
     EXPECT_EQ(namesOf(app::contestants(settingsOf({"compare", "--filter", "vsm", "--set", "msaa=1"}))),
               (Names{"vsm+msaa=1"}));
     EXPECT_THROW((void)settingsOf({"compare", "--techniques", "hard,pcf", "--set", "blur.sigma=2"}), app::UsageError);

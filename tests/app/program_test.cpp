@@ -94,7 +94,7 @@ TEST(List, JsonNamesEveryChoiceAndSettingWithItsRange)
     }
     EXPECT_TRUE(sdsm_held_still && vsm_in_depth);
     // Rules, not all that they forbid one by one.
-    EXPECT_LE(list["refused"].size(), choiceRules().size() + 21);
+    EXPECT_LE(list["refused"].size(), choiceRules().size() + 22);
     for (const auto& setting : list["settings"]) {
         EXPECT_FALSE(setting["doc"].get<std::string>().empty());
         const std::string type = setting["type"];

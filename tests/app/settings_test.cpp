@@ -192,12 +192,21 @@ TEST(Settings, OfAPresetHaveNoNulAndNoEndlessKeys)
 
 TEST(Contestants, AreTheOnesNamed)
 {
-    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 16U);
-    EXPECT_EQ(app::contestants(settingsOf({"bench"})).size(), 16U);
-    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 16U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare"})).size(), 17U);
+    EXPECT_EQ(app::contestants(settingsOf({"bench"})).size(), 17U);
+    EXPECT_EQ(app::contestants(settingsOf({"compare", "--techniques", "all"})).size(), 17U);
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--filter", "hard"})).size(), 1U);
     EXPECT_EQ(app::contestants(settingsOf({"bench", "--techniques", "hard,pcf"})).size(), 2U);
     EXPECT_THROW((void)settingsOf({"bench", "--techniques", "pcf,pcf+pcf.kernel=3x3"}), app::UsageError);
+    // A filter and a way to soften others have one name.
+    const auto smoothies =
+        app::contestants(settingsOf({"bench", "--techniques", "smoothies,hard+smoothies,auto+smoothies"}));
+    EXPECT_EQ(smoothies[0].shadow.technique.filter, Filter::smoothies);
+    EXPECT_EQ(smoothies[0].shadow.technique.soften, Soften::none);
+    EXPECT_EQ(smoothies[1].shadow.technique.filter, Filter::hard);
+    EXPECT_EQ(smoothies[1].shadow.technique.soften, Soften::smoothies);
+    EXPECT_EQ(smoothies[2].shadow.technique.filter, Filter::automatic);
+    EXPECT_EQ(smoothies[2].shadow.technique.soften, Soften::smoothies);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says of casters whose shadow volumes cannot be counted.
+// What the program says of casters whose shadow volumes cannot be counted, and of those without fins.
 #include "folder.h"
 #include "process.h"
 
@@ -40,6 +40,21 @@ TEST(VolumesProgram, LeavesThemOutAndSaysSo)
               std::string::npos)
         << planned_without.err;
     EXPECT_NE(planned_without.out.find("\"volume_count\": 1"), std::string::npos);
+}
+
+/// Fins need no closed casters, but the outline of their meshes.
+TEST(FinsProgram, SaysWhatHasNone)
+{
+    const test::Folder folder;
+    test::How how;
+    how.folder = folder.path();
+    const auto noticesOf = [&](const char* scene) {
+        const test::Ran ran = test::gnomon({"plan", scene, "--filter", "smoothies"}, how);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.err;
+    };
+    EXPECT_EQ(noticesOf("planes").find("has no fins"), std::string::npos);
+    EXPECT_NE(noticesOf("sundial").find("is masked by its texture"), std::string::npos);
 }
 
 } // namespace

@@ -85,6 +85,13 @@ const std::vector<Wrong> kWrong{
 
     {"UnknownFilter", {"render", "--filter", "pfc"}, 2, "did you mean \"pcf\""},
     {"SmoothiesOverMoments", {"render", "--filter", "vsm", "--soften", "smoothies"}, 2, "smoothies lie beside a map"},
+    {"FinsAndSmoothies", {"render", "--filter", "smoothies", "--soften", "smoothies"}, 2, "have a softness of"},
+    {"FinsInAParaboloid",
+     {"render", "--filter", "smoothies", "--partition", "paraboloid"},
+     2,
+     "paraboloid bends straight lines"},
+    {"FinsInSharedTexels", {"render", "--filter", "smoothies", "--map-format", "rg16"}, 2, "its texels for itself"},
+    {"ReachOfHard", {"render", "--filter", "hard", "--set", "smoothies.reach=8"}, 2, "filter or soften smoothies"},
     {"NoValue", {"render", "planes", "--filter"}, 2, "--filter needs a value"},
     {"SunAngleWithoutASun", {"render", "spotlit", "--sun-angle", "3"}, 2, "only on a directional light"},
     {"LightSizeWithoutALamp", {"plan", "sundial", "--light-size", "1"}, 2, "only on a spot or point light"},

@@ -81,6 +81,37 @@ TEST(Options, WhatCannotBePlannedIsRefused)
     EXPECT_THROW(static_cast<void>(resolvedOrThrow({.map_size = 0})), Error);
 }
 
+/// Edges of meshes go with less than those of maps do: no other filter, and nothing twice.
+TEST(Options, FinsAreAFilterThatReadsAsPcfDoes)
+{
+    ShadowOptions fins{.technique = kPlainTechnique};
+    fins.technique.filter = Filter::smoothies;
+    const ResolvedOptions made = resolvedOrThrow(fins);
+    EXPECT_TRUE(made.hasFins() && made.hasSmoothies() && made.integratesLight() && made.hasMaps());
+    EXPECT_FALSE(made.filterable() || made.traits().integrates_light);
+    ShadowOptions pcf{.technique = kPlainTechnique};
+    EXPECT_EQ(made.reach_texels(), resolvedOrThrow(pcf).reach_texels());
+    pcf.technique.soften = Soften::smoothies;
+    EXPECT_TRUE(resolvedOrThrow(pcf).hasSmoothies());
+    EXPECT_FALSE(resolvedOrThrow(pcf).hasFins());
+    const auto refusalWith = [&](const auto& change) {
+        ShadowOptions wrong = fins;
+        change(wrong);
+        return resolve(wrong).refusal;
+    };
+    EXPECT_NE(refusalWith([](ShadowOptions& o) { o.technique.soften = Soften::smoothies; }).find("softness of"),
+              std::string::npos);
+    EXPECT_NE(refusalWith([](ShadowOptions& o) { o.technique.partition = Partition::paraboloid; }).find("bends"),
+              std::string::npos);
+    EXPECT_NE(refusalWith([](ShadowOptions& o) { o.format = MapFormat::rg16; }).find("its texels for itself"),
+              std::string::npos);
+    EXPECT_NE(refusalWith([](ShadowOptions& o) { o.moments.metric = DepthMetricKind::z_over_w; }).find("z / w"),
+              std::string::npos);
+    for (const Soften soften : {Soften::blur, Soften::converge}) {
+        EXPECT_EQ(refusalWith([&](ShadowOptions& o) { o.technique.soften = soften; }), "");
+    }
+}
+
 TEST(Options, WhatWasPublishedOfTheBlurIsRefusedWhereItMeansNothing)
 {
     ShadowOptions blur{.technique = kPlainTechnique};

@@ -16,6 +16,12 @@ Aabb boundsOf(const Box& box)
     return {glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach};
 }
 
+vulkan::ShadowRendererOptions drawingFins(vulkan::ShadowRendererOptions options)
+{
+    options.draws_fins = true;
+    return options;
+}
+
 } // namespace
 
 std::ostream& operator<<(std::ostream& out, const Made& made)
@@ -25,13 +31,14 @@ std::ostream& operator<<(std::ostream& out, const Made& made)
 }
 
 ChangingHost::ChangingHost(const vulkan::ShadowRendererOptions& options)
-    : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), options), drawer(driver.view(), {})
+    : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), drawingFins(options)),
+      drawer(driver.view(), {}), fins(driver.view(), {})
 {
     begin();
 }
 
 ChangingHost::ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options)
-    : driver(shared), renderer(driver.view(), options), drawer(driver.view(), {})
+    : driver(shared), renderer(driver.view(), drawingFins(options)), drawer(driver.view(), {}), fins(driver.view(), {})
 {
     begin();
 }
@@ -41,7 +48,7 @@ void ChangingHost::begin()
     addObjects();
     makeScene();
     draw_ = [this](const vulkan::MapPass& pass) {
-        drawer.draw(pass);
+        (void)(pass.formats.fins ? fins.draw(pass) : drawer.draw(pass));
     };
     for (Views& views : views_) {
         views = {driver.makeView(), driver.makeView(), driver.makeView()};
@@ -72,6 +79,10 @@ void ChangingHost::makeScene()
     geometry_.uvs = driver.makeBuffer();
     geometry_.indices = driver.makeBuffer();
     transforms_ = scene_.transforms();
+    std::vector<vulkan::VolumeMesh> edges{{0, 5, 0}};
+    edges.resize(objects.size(), {5, 18, 4});
+    fins.setScene(edges);
+    fin_geometry_ = {{geometry_.positions, 64}, {driver.makeBuffer(), 64}, {driver.makeBuffer(), 64}};
 }
 
 // One of the boxes, and the suns.
@@ -130,6 +141,7 @@ Made ChangingHost::frame(Planner& planner, const FrameSetup& setup)
     driver.beginSlot(slot); // as if the host waited for its fence here, as late as it may
     at = At::drawer;
     drawer.beginFrame(slot, plan, geometry_, transforms_);
+    fins.beginFrame(slot, fin_geometry_, transforms_);
     prepared_now = driver.counts().pipelines - pipelines;
     at = At::record;
     const Made made = record(slot, frame, plan, inputsOf(slot, setup));

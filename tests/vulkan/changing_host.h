@@ -6,6 +6,7 @@
 #include "scene.h"
 
 #include <gnomon/planner.h>
+#include <gnomon/vulkan/fin_drawer.h>
 
 #include <array>
 #include <memory>
@@ -35,6 +36,7 @@ std::ostream& operator<<(std::ostream& out, const Made& made);
 /// It has two frames in flight and waits for nothing but a slot's last frame.
 class ChangingHost {
 public:
+    /// It draws fins, whatever the options say of them.
     explicit ChangingHost(const vulkan::ShadowRendererOptions& options);
     /// With a driver that outlives it.
     ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options);
@@ -60,6 +62,7 @@ public:
     NullDriver& driver;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;
+    vulkan::FinDrawer fins;
     std::size_t views_seen = 0;     // in all frames
     std::uint64_t prepared_now = 0; // pipelines that the last frame made before it was recorded
     /// Of light 0, for tests that want a spot.
@@ -87,6 +90,7 @@ private:
     Scene scene_ = test::makeScene();
     ObjectSet objects_;
     vulkan::CasterGeometry geometry_;
+    vulkan::VolumeGeometry fin_geometry_;
     std::vector<vulkan::Rows3x4> transforms_;
     std::array<Views, 2> views_; // by slot
     std::vector<Light> lights_;

@@ -219,12 +219,15 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
 
     vulkan::ShadowRendererOptions renderer_options;
     renderer_options.frames_in_flight = kFrames;
+    renderer_options.draws_fins = true;
     ShadowRenderer renderer(gpu().view(), renderer_options);
     vulkan::CasterDrawerOptions drawer_options;
     drawer_options.frames_in_flight = kFrames;
     CasterDrawer drawer(gpu().view(), drawer_options);
     const SceneMesh mesh = uploadMesh(gpu(), r.scene);
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+    vulkan::FinDrawer fins(gpu().view(), {.frames_in_flight = kFrames});
+    fins.setScene(mesh.outlines);
     const auto transforms = r.scene.transforms();
     EXPECT_TRUE(renderer.prepare(r.plan, kParityScreen));
     EXPECT_FALSE(renderer.prepare(r.plan, kParityScreen));
@@ -232,7 +235,10 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
     gpu().run([&](VkCommandBuffer commands) {
         for (std::uint32_t slot = 0; slot < kFrames; ++slot) {
             drawer.beginFrame(slot, r.plan, mesh.geometry, transforms);
-            renderer.recordMaps(commands, slot, frame, r.plan, [&](const MapPass& pass) { drawer.draw(pass); });
+            fins.beginFrame(slot, mesh.edges, transforms);
+            renderer.recordMaps(commands, slot, frame, r.plan, [&](const MapPass& pass) {
+                (void)(pass.formats.fins ? fins.draw(pass) : drawer.draw(pass));
+            });
             renderer.recordMask(commands, slot, frame, r.plan, inputs);
         }
     });
@@ -271,7 +277,7 @@ Bounds boundsOf(const Rendered& r, std::uint32_t light, const ShadowOptions& opt
         for (int c = 0; c < channels; ++c) {
             nudge[c] = (signs >> c & 1) != 0 ? kRoundings : -kRoundings;
         }
-        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, nudge};
+        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, nudge, &r.scene};
         const auto mask = referenceMask(scene, light, options, r.layers[r.plan.lights[light].first_view]);
         for (std::size_t i = 0; i < mask.size(); ++i) {
             bounds.low[i] = std::min(bounds.low[i], mask[i]);
@@ -287,7 +293,7 @@ ParityFigures expectParity(const Rendered& r, const ShadowOptions& options, cons
 {
     ParityFigures worst;
     for (std::uint32_t light = 0; light < r.lights.size(); ++light) {
-        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps};
+        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, {}, &r.scene};
         const auto reference = referenceMask(scene, light, options, r.layers[r.plan.lights[light].first_view]);
         const Bounds bounds = boundsOf(r, light, options, reference);
         ParityFigures figures;

@@ -65,6 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"hard_smoothies_d32f", Filter::hard, PcfKernel::bilinear_2x2, MapFormat::d32f,
                          Soften::smoothies},
                     Case{"pcf_smoothies_d16", Filter::pcf, PcfKernel::gaussian_3x3, MapFormat::d16, Soften::smoothies},
+                    Case{"smoothies_d32f", Filter::smoothies, PcfKernel::gaussian_3x3, MapFormat::d32f},
+                    Case{"smoothies_r32f", Filter::smoothies, PcfKernel::bilinear_2x2, MapFormat::r32f},
                     Case{"pcss_d32f", Filter::pcss, PcfKernel::vogel, MapFormat::d32f},
                     Case{"pcss_d16", Filter::pcss, PcfKernel::vogel, MapFormat::d16},
                     Case{"raymarch_d32f", Filter::raymarch, PcfKernel::vogel, MapFormat::d32f},

@@ -4,9 +4,11 @@
 namespace gnomon::test {
 
 Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in)
-    : compact(compact_in), renderer(gpu.view(), {.compact = compact_in}), drawer(gpu.view(), {})
+    : compact(compact_in), renderer(gpu.view(), {.compact = compact_in, .draws_fins = true}), drawer(gpu.view(), {}),
+      fins(gpu.view(), {})
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
+    fins.setScene(mesh.outlines);
 }
 
 std::vector<Light> sunsAndSpots(std::uint32_t count)
@@ -75,9 +77,11 @@ std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, 
     const auto transforms = scene_.transforms();
     gpu_.run([&](VkCommandBuffer commands) {
         drawing.drawer.beginFrame(slot, plan, mesh_.geometry, transforms);
+        drawing.fins.beginFrame(slot, mesh_.edges, transforms);
         drawing.renderer.recordBounds(commands, slot, frame, plan, inputs_);
-        drawing.renderer.recordMaps(commands, slot, frame, plan,
-                                    [&](const vulkan::MapPass& pass) { drawing.drawer.draw(pass); });
+        drawing.renderer.recordMaps(commands, slot, frame, plan, [&](const vulkan::MapPass& pass) {
+            (void)(pass.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
+        });
         drawing.renderer.recordMask(commands, slot, frame, plan, inputs_);
     });
     const vulkan::ImageRef mask = drawing.renderer.mask();

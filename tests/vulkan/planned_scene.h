@@ -10,13 +10,14 @@
 
 namespace gnomon::test {
 
-/// A renderer and a drawer on a device.
+/// A renderer and drawers on a device.
 struct Drawing {
     Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {});
 
     pack::CompactMaskRule compact;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer drawer;
+    vulkan::FinDrawer fins;
 };
 
 /// That many lights over the scene of boxes, suns and spots in turn; their keys are their indices.

@@ -3,6 +3,7 @@
 #define GNOMON_SMOOTHIES
 #include "reference.h"
 
+#include "cpu_fins.h"
 #include "cpu_smoothies.h"
 #include "moment_numbers.h"
 
@@ -216,11 +217,6 @@ double quantumOf(MapFormat format)
     }
 }
 
-bool hasSmoothies(const ShadowOptions& options)
-{
-    return options.technique.soften == Soften::smoothies;
-}
-
 bool comparesInCone(const ShadowOptions& options)
 {
     return options.technique.filter == Filter::pcss || options.technique.filter == Filter::raymarch;
@@ -402,8 +398,11 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     }
     if (hasSmoothies(options)) {
         smoothies_tile = view.tile;
-        current_smoothies = smoothiesOf(mapOf(view.tile.layer), view.tile, int(options.smoothies.reach_texels),
-                                        quantumOf(formatOf(options)));
+        const int reach = int(options.smoothies.reach_texels);
+        const double quantum = quantumOf(formatOf(options));
+        current_smoothies = options.technique.filter == Filter::smoothies
+                                ? finsOf(*scene.scene, view, mapOf(view.tile.layer), reach, quantum)
+                                : smoothiesOf(mapOf(view.tile.layer), view.tile, reach, quantum);
     }
     const Picture& picture = scene.picture;
     MapRows rows = rowsOf(view);
@@ -445,7 +444,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
             if (options.moments.sampling >= MapSampling::trilinear) {
                 footprint.fill(point, p, n, input);
             }
-            const double filtered = shared::applyFilter(static_cast<int>(options.technique.filter), point, input);
+            const bool has_fins = options.technique.filter == Filter::smoothies; // its map is read as pcf reads it
+            const Filter read_by = has_fins ? Filter::pcf : options.technique.filter;
+            const double filtered = shared::applyFilter(static_cast<int>(read_by), point, input);
             mask.push_back(shared::lightenedVisibility(shared::boundedVisibility(filtered), input.moments.lighten,
                                                        input.moments.lighten_cut));
         }

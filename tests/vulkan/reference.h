@@ -16,6 +16,7 @@ struct ReferenceScene {
     std::span<const CpuMap> maps; // by layer of the image
     /// By this much of itself, each channel of what is read of a filterable map is off: what rounding may amount to.
     glm::dvec4 nudge{0.0};
+    const Scene* scene = nullptr; // of filter smoothies: what has the edges
 };
 
 /// Visibility per pixel of the picture for light `index` of the plan: by its first view, or of a sun between two

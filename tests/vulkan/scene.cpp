@@ -93,16 +93,72 @@ std::vector<vulkan::Rows3x4> Scene::transforms() const
     return result;
 }
 
-SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
+namespace {
+
+constexpr std::array<std::uint32_t, 6> kQuad{0, 2, 1, 0, 3, 2};
+constexpr std::array<std::uint32_t, 36> kCube{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
+                                              1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
+
+std::vector<glm::vec3> meshPositions()
 {
     std::vector<glm::vec3> positions{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-    std::vector<std::uint32_t> indices{0, 2, 1, 0, 3, 2};
     for (int i = 0; i < 8; ++i) {
         positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
     }
-    const std::uint32_t cube[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
-                                  1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
-    indices.insert(indices.end(), std::begin(cube), std::end(cube));
+    return positions;
+}
+
+vulkan::VolumeMesh addEdges(std::span<const std::uint32_t> indices, std::uint32_t first_vertex, SceneEdges& out)
+{
+    constexpr std::uint32_t kNone = 0xFFFFFFFF;
+    const auto first = static_cast<std::uint32_t>(out.triangles.size());
+    const auto first_element = static_cast<std::uint32_t>(out.elements.size());
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        out.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    }
+    for (std::uint32_t t = first; t < out.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = out.triangles[t][k];
+            const std::uint32_t to = out.triangles[t][(k + 1) % 3];
+            std::uint32_t right = kNone;
+            for (std::uint32_t other = first; other < out.triangles.size(); ++other) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const bool meets = out.triangles[other][j] == to && out.triangles[other][(j + 1) % 3] == from;
+                    right = meets ? other : right;
+                }
+            }
+            if (right == kNone || from < to) {
+                out.elements.emplace_back(from, to, t, right);
+            }
+        }
+    }
+    return {first_element, static_cast<std::uint32_t>(out.elements.size()) - first_element, first_vertex};
+}
+
+template <class T>
+vulkan::BufferRef uploadStorage(Gpu& gpu, const std::vector<T>& data)
+{
+    const TestBuffer buffer = gpu.makeBuffer(data.size() * sizeof(T), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    std::memcpy(buffer.mapped, data.data(), data.size() * sizeof(T));
+    return {buffer.buffer, data.size() * sizeof(T)};
+}
+
+} // namespace
+
+SceneEdges sceneEdges()
+{
+    SceneEdges edges;
+    edges.positions = meshPositions();
+    edges.meshes[0] = addEdges(kQuad, 0, edges);
+    edges.meshes[1] = addEdges(kCube, 4, edges);
+    return edges;
+}
+
+SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
+{
+    const std::vector<glm::vec3> positions = meshPositions();
+    std::vector<std::uint32_t> indices(kQuad.begin(), kQuad.end());
+    indices.insert(indices.end(), kCube.begin(), kCube.end());
 
     SceneMesh mesh;
     const TestBuffer vertex_buffer =
@@ -116,6 +172,11 @@ SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
     mesh.objects.push_back({0, 1});
     mesh.objects.resize(1 + scene.boxes.size(), {1, 1});
     mesh.batches.resize(1);
+    const SceneEdges edges = sceneEdges();
+    mesh.edges = {uploadStorage(gpu, edges.positions), uploadStorage(gpu, edges.elements),
+                  uploadStorage(gpu, edges.triangles)};
+    mesh.outlines.push_back(edges.meshes[0]);
+    mesh.outlines.resize(1 + scene.boxes.size(), edges.meshes[1]);
     mesh.vertex_count = static_cast<std::uint32_t>(positions.size());
     mesh.mapped_indices = index_buffer.mapped;
     return mesh;

@@ -6,9 +6,11 @@
 #include "harness.h"
 
 #include <gnomon/vulkan/caster_drawer.h>
+#include <gnomon/vulkan/fin_drawer.h>
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -37,12 +39,23 @@ struct Scene {
 };
 [[nodiscard]] Scene makeScene();
 
+/// Edges of the scene's meshes, as FinDrawer has them: of the ground's quad, and of the cube.
+struct SceneEdges {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec4> elements;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::array<vulkan::VolumeMesh, 2> meshes;
+};
+[[nodiscard]] SceneEdges sceneEdges();
+
 /// The scene's mesh (a unit quad and a unit cube) on the GPU and what CasterDrawer needs.
 struct SceneMesh {
     vulkan::CasterGeometry geometry;
     std::vector<vulkan::DrawPart> parts;
     std::vector<vulkan::DrawObject> objects;
     std::vector<vulkan::CasterBatch> batches;
+    vulkan::VolumeGeometry edges;
+    std::vector<vulkan::VolumeMesh> outlines; // by object
     std::uint32_t vertex_count = 0;
     void* mapped_indices = nullptr;
 };

@@ -119,6 +119,9 @@ void CasterDrawer::Impl::checkPass(const MapPass& pass) const
         refuseUse(kDrawing, "no frame has begun", "call beginFrame() first");
     }
     checkCommands(kDrawing, pass.commands);
+    if (pass.formats.fins) {
+        refuseUse(kDrawing, "the pass is of fins", "hand passes with MapPassFormats::fins to a FinDrawer");
+    }
     if (pass.view == nullptr || pass.view_count == 0 || pass.view_count > kMaxCascades) {
         refuseUse(kDrawing, "the pass has no view, or more than one pass can have", kAsGiven);
     }

@@ -78,6 +78,20 @@ VkRect2D redrawnArea(const View& view, bool all)
             {dirty.width, dirty.height}};
 }
 
+VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y)
+{
+    const auto from = [](std::int32_t begin, std::int32_t by, std::uint32_t low) {
+        return std::max(begin - by, static_cast<std::int32_t>(low));
+    };
+    const auto to = [](std::int32_t begin, std::uint32_t size, std::int32_t by, std::uint32_t high) {
+        return std::min(begin + static_cast<std::int32_t>(size) + by, static_cast<std::int32_t>(high));
+    };
+    const VkOffset2D first{from(area.offset.x, x, tile.x), from(area.offset.y, y, tile.y)};
+    const VkOffset2D end{to(area.offset.x, area.extent.width, x, tile.x + tile.width),
+                         to(area.offset.y, area.extent.height, y, tile.y + tile.height)};
+    return {first, {static_cast<std::uint32_t>(end.x - first.x), static_cast<std::uint32_t>(end.y - first.y)}};
+}
+
 bool isDrawnTwice(const ResolvedOptions& options)
 {
     return options.asked().faces == CasterFaces::midpoint;

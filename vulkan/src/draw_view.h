@@ -30,6 +30,8 @@ void drawView(VkCommandBuffer commands, const Plan& plan, std::uint32_t view, Ca
               VkColorComponentFlags colour_mask, const DrawCasters& draw);
 /// What of the map's tile is drawn again: all of it, or what View::dirty says of a map that is restored.
 [[nodiscard]] VkRect2D redrawnArea(const View& view, bool all);
+/// What is at most so many texels away from `area`, in the tile.
+[[nodiscard]] VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y);
 /// Are the casters of a map drawn in two passes, one for each of their first two surfaces?
 [[nodiscard]] bool isDrawnTwice(const ResolvedOptions& options);
 /// Do the options of the view's light ask for passes of several views?

@@ -40,6 +40,8 @@ DepthMaps::DepthMaps(Device& device, const MapStorage& storage, const ResolvedOp
 {
     if (options.traits().integrates_light) {
         blocks_.emplace(device, cache);
+    } else if (options.hasFins()) {
+        fins_.emplace(device, options);
     } else if (options.hasSmoothies()) {
         smoothies_.emplace(device, options, cache);
     }
@@ -70,6 +72,9 @@ void DepthMaps::makeMaps(const MapPages& size)
     }
     if (smoothies_) {
         smoothies_->setMaps(maps_.image());
+    }
+    if (fins_) {
+        fins_->setMaps(maps_.image());
     }
 }
 
@@ -106,7 +111,7 @@ MapRecorder::Prepared DepthMaps::prepare(const Plan& plan, std::uint32_t options
     if (!maps_.covers({need.width, need.height}, need.layers)) {
         makeMaps(need);
         prepared.changed = true;
-        prepared.lost = smoothies_.has_value(); // they are not copied, and are made of maps that are drawn
+        prepared.lost = smoothies_ || fins_; // they are not copied, and are made of maps that are drawn
     }
     if (!restorer_ && (pages.kept_layers > 0 || sharesTexels(plan, options))) {
         restorer_.emplace(device_, storage_, cache_);
@@ -325,6 +330,10 @@ void DepthMaps::record(const MapJob& job)
     if (smoothies_) {
         const Timed timed(job.profiler, job.commands, "shadow filter");
         smoothies_->record(job);
+    }
+    if (fins_) {
+        const Timed timed(job.profiler, job.commands, "shadow filter");
+        fins_->record(job);
     }
 }
 

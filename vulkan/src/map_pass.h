@@ -6,6 +6,7 @@
 
 #include "barriers.h"
 #include "depth_blocks.h"
+#include "fin_maps.h"
 #include "layered_target.h"
 #include "map_recorder.h"
 #include "map_restore.h"
@@ -22,7 +23,7 @@ inline constexpr VkImageUsageFlags kCopiedUsage = VK_IMAGE_USAGE_TRANSFER_SRC_BI
 
 class DepthMaps final : public MapRecorder {
 public:
-    /// Makes DepthBlocks of what it draws, or SmoothieMaps, where the options need them.
+    /// Makes DepthBlocks of what it draws, SmoothieMaps or FinMaps, where the options need them.
     DepthMaps(Device& device, const MapStorage& storage, const ResolvedOptions& options, VkPipelineCache cache);
 
     void warmUp(const ResolvedOptions& options) override;
@@ -32,7 +33,7 @@ public:
     [[nodiscard]] const Image& maps() const override { return maps_.image(); }
     [[nodiscard]] const Image* blocks() const override
     {
-        return blocks_ ? &blocks_->image() : smoothies_ ? &smoothies_->image() : nullptr;
+        return blocks_ ? &blocks_->image() : smoothies_ ? &smoothies_->image() : fins_ ? &fins_->image() : nullptr;
     }
     [[nodiscard]] FilterCost cost(std::uint32_t) const override { return {}; }
 
@@ -86,6 +87,7 @@ private:
     std::optional<MidpointMaps> midpoints_; // likewise
     std::optional<DepthBlocks> blocks_;
     std::optional<SmoothieMaps> smoothies_;
+    std::optional<FinMaps> fins_;
 };
 
 } // namespace gnomon::vulkan

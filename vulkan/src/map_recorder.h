@@ -47,7 +47,7 @@ public:
     /// Brings layers that were never drawn into the layout that the mask pass reads them in.
     virtual void makeReadable(VkCommandBuffer commands) = 0;
     [[nodiscard]] virtual const Image& maps() const = 0;
-    /// Of the maps, in GENERAL: blocks, or smoothies; null for filters that need neither.
+    /// Of the maps, in GENERAL: blocks, smoothies or fins; null for filters that need neither.
     [[nodiscard]] virtual const Image* blocks() const { return nullptr; }
     [[nodiscard]] virtual FilterCost cost(std::uint32_t slot) const = 0;
 };

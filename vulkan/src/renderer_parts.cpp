@@ -14,6 +14,11 @@ void RendererParts::check(const ResolvedOptions& wanted) const
         throw Error("draw cascades in one pass", "the device was made without shaderOutputLayer",
                     "draw each in a pass of its own");
     }
+    if (wanted.hasFins() && !options.draws_fins) {
+        throw Error(
+            "draw fins of smoothies", "the host has nothing that draws them (ShadowRendererOptions::draws_fins)",
+            "give the edges of casters to a FinDrawer, or choose soften smoothies, which finds them in the map");
+    }
 }
 
 void RendererParts::checkUse(const char* tried, VkCommandBuffer commands, std::uint32_t slot, const Plan& plan) const

@@ -8,7 +8,6 @@
 
 #include <gnomon_spirv.h>
 
-#include <algorithm>
 #include <array>
 
 namespace gnomon::vulkan {
@@ -18,21 +17,6 @@ constexpr const char* kPurpose = "smoothies";
 constexpr std::uint32_t kGroup = 8; // local sizes of the shaders
 constexpr VkDescriptorType kRead = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
 constexpr VkDescriptorType kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-
-/// What is at most so many texels away from `area`, in the tile.
-VkRect2D widened(const VkRect2D& area, const Tile& tile, std::int32_t x, std::int32_t y)
-{
-    const auto from = [](std::int32_t begin, std::int32_t by, std::uint32_t low) {
-        return std::max(begin - by, static_cast<std::int32_t>(low));
-    };
-    const auto to = [](std::int32_t begin, std::uint32_t size, std::int32_t by, std::uint32_t high) {
-        return std::min(begin + static_cast<std::int32_t>(size) + by, static_cast<std::int32_t>(high));
-    };
-    const VkOffset2D first{from(area.offset.x, x, tile.x), from(area.offset.y, y, tile.y)};
-    const VkOffset2D end{to(area.offset.x, area.extent.width, x, tile.x + tile.width),
-                         to(area.offset.y, area.extent.height, y, tile.y + tile.height)};
-    return {first, {static_cast<std::uint32_t>(end.x - first.x), static_cast<std::uint32_t>(end.y - first.y)}};
-}
 
 /// What one pass has written others read or write next.
 MemoryBarrier betweenPasses()

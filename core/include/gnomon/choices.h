@@ -28,12 +28,13 @@ enum class Filter : std::uint8_t {
     id,
     depth_id,
     volumes,
+    smoothies,
     automatic
 };
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
-/// The kernel of Filter::pcf.
+/// The kernel of Filter::pcf, and of Filter::smoothies, whose map is tested as pcf tests it.
 enum class PcfKernel : std::uint8_t {
     bilinear_2x2,
     gaussian_3x3,
@@ -80,7 +81,7 @@ inline constexpr Technique kPlainTechnique{Partition::single, Fit::uniform, Filt
 /// One row of the table of all values: what `gnomon list` prints and every parser reads.
 struct ChoiceValue {
     std::string_view choice;  // "light", "partition", "fit", "filter", "soften", "motion"
-    std::string_view name;    // as typed on the command line, unique over all choices
+    std::string_view name;    // as typed on the command line; unique over all choices, but for auto and smoothies
     std::uint8_t value;       // of the choice's enum
     std::string_view summary; // one line
     std::string_view source;  // author, title, year

@@ -123,7 +123,7 @@ struct PcfOptions {
 /// shared::kBoxKernel or kProjectedKernel, which are below 0 (shaders/shared/pcf_weights.h).
 [[nodiscard]] int kernelWidth(PcfKernel kernel);
 
-/// Soften::smoothies.
+/// Soften::smoothies and Filter::smoothies.
 struct SmoothiesOptions {
     /// Texels that edges are widened by, 4 .. 32: no penumbra is wider than that. What they cost grows along with it.
     std::uint32_t reach_texels = 16;
@@ -220,7 +220,7 @@ struct ShadowOptions {
     /// With draw_budget_texels: frames for which a light waits at most, 1 .. 64. Then it is drawn whatever the bound
     /// is.
     std::uint32_t longest_wait = 8;
-    PcfOptions pcf; // filter pcf
+    PcfOptions pcf; // filters pcf, smoothies
     SmoothiesOptions smoothies;
     IdOptions ids; // filters id, depth-id
     BiasOptions bias;
@@ -272,7 +272,9 @@ public:
     [[nodiscard]] bool integratesLight() const;
     [[nodiscard]] bool fitsOnGpu() const;
     /// Beside its map a light has the edges of casters, made wide (docs/techniques/smoothies.md).
-    [[nodiscard]] bool hasSmoothies() const { return asked_.technique.soften == Soften::smoothies; }
+    [[nodiscard]] bool hasSmoothies() const { return hasFins() || asked_.technique.soften == Soften::smoothies; }
+    /// Filter smoothies: these edges are those of meshes, drawn as fins.
+    [[nodiscard]] bool hasFins() const { return asked_.technique.filter == Filter::smoothies; }
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
     [[nodiscard]] bool paired_maps() const { return paired_maps_; }
 
@@ -310,8 +312,10 @@ struct Resolution {
 /// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
 [[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
 /// One frame takes all of the light's size, and reads a map as far from a receiver as that leads: filter pcss or
-/// raymarch, soften smoothies, or moments whose penumbra is light.
+/// raymarch, filter or soften smoothies, or moments whose penumbra is light.
 [[nodiscard]] bool integratesLight(const ShadowOptions& options);
+/// Filter or soften smoothies.
+[[nodiscard]] bool hasSmoothies(const ShadowOptions& options);
 /// The filter that is used: the one asked for, or what automatic stands for: pcf where soften or partition cannot have
 /// raymarch.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);

@@ -174,8 +174,8 @@ std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
         (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8)) {
         return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, d24, r32f or d16";
     }
-    if (options.technique.soften == Soften::smoothies && options.moments.metric == DepthMetricKind::z_over_w) {
-        return "soften smoothies: how far a caster is from its receiver cannot be told from z / w; it needs the linear "
+    if (hasSmoothies(options) && options.moments.metric == DepthMetricKind::z_over_w) {
+        return "smoothies: how far a caster is from its receiver cannot be told from z / w; it needs the linear "
                "metric";
     }
     return std::nullopt;

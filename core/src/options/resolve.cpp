@@ -95,8 +95,8 @@ float reachTexels(const ShadowOptions& options)
     if (traits != nullptr && traits->ids) {
         return 1.0F; // the four nearest
     }
-    if (filterOf(options) != Filter::pcf) {
-        return options.technique.soften == Soften::smoothies ? 1.0F : 0.5F; // which are read as pcf 2x2 reads a map
+    if (filterOf(options) != Filter::pcf && filterOf(options) != Filter::smoothies) {
+        return hasSmoothies(options) ? 1.0F : 0.5F; // which are read as pcf 2x2 reads a map
     }
     const int width = kernelWidth(options.pcf.kernel);
     if (width < 0) {
@@ -128,8 +128,13 @@ bool ResolvedOptions::fitsOnGpu() const
 bool integratesLight(const ShadowOptions& options)
 {
     const FilterTraits* const traits = filterTraits(filterOf(options));
-    return traits != nullptr && (traits->integrates_light || options.technique.soften == Soften::smoothies ||
-                                 followsLight(traits->filter, options.moments));
+    return traits != nullptr &&
+           (traits->integrates_light || hasSmoothies(options) || followsLight(traits->filter, options.moments));
+}
+
+bool hasSmoothies(const ShadowOptions& options)
+{
+    return options.technique.soften == Soften::smoothies || filterOf(options) == Filter::smoothies;
 }
 
 bool ResolvedOptions::integratesLight() const

@@ -14,7 +14,7 @@ bool lightens(const ShadowOptions& o)
 }
 bool isPcf(const ShadowOptions& o)
 {
-    return filterOf(o) == Filter::pcf;
+    return filterOf(o) == Filter::pcf || filterOf(o) == Filter::smoothies; // whose map is tested as pcf tests it
 }
 bool choosesByQuality(const ShadowOptions& o)
 {
@@ -31,10 +31,6 @@ bool isVolumes(const ShadowOptions& o)
 bool isDisc(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) == 0;
-}
-bool hasSmoothies(const ShadowOptions& o)
-{
-    return o.technique.soften == Soften::smoothies;
 }
 bool hasIds(const ShadowOptions& o)
 {
@@ -102,10 +98,10 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(translucent)},
         {.key = "lighten", .type = real, .form = "V", .unit = "visibility", .min = 0, .max = 1, .doc = "what full shadow becomes, last of all", GNOMON_MEMBER(lighten)},
         {.key = "lighten.as", .type = choice, .form = "KIND", .choices = namesOf<LightenAs>, .doc = "remap: V (1 - b) + b; add: V + b, at most 1, which eats penumbrae", .used = lightens, .used_when = "lighten above 0", GNOMON_MEMBER(lighten_as)},
-        {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs; 3x3-box nine equal points, 3x3-projected the same as published in 2005", .used = isPcf, .used_when = "filter pcf", GNOMON_MEMBER(pcf.kernel)},
+        {.key = "pcf.kernel", .type = choice, .form = "NAME", .choices = namesOf<PcfKernel>, .doc = "2x2 is bilinear; 3x3, 5x5, 7x7 Gaussian; poisson, vogel discs; 3x3-box nine equal points, 3x3-projected the same as published in 2005", .used = isPcf, .used_when = "filter pcf or smoothies", GNOMON_MEMBER(pcf.kernel)},
         {.key = "pcf.taps", .type = integer, .form = "N", .unit = "taps", .min = 4, .max = 64, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.taps)},
         {.key = "pcf.radius", .type = real, .form = "R", .unit = "texels", .min = 0.5, .max = 16, .doc = "of a disc", .used = isDisc, .used_when = "pcf.kernel poisson or vogel", GNOMON_MEMBER(pcf.radius_texels)},
-        {.key = "smoothies.reach", .type = integer, .form = "N", .unit = "texels", .min = 4, .max = 32, .doc = "that edges are widened by: no penumbra is wider", .used = hasSmoothies, .used_when = "soften smoothies", GNOMON_MEMBER(smoothies.reach_texels)},
+        {.key = "smoothies.reach", .type = integer, .form = "N", .unit = "texels", .min = 4, .max = 32, .doc = "that edges are widened by: no penumbra is wider", .used = hasSmoothies, .used_when = "filter or soften smoothies", GNOMON_MEMBER(smoothies.reach_texels)},
         {.key = "pcf.sigma", .type = real, .form = "S", .unit = "texels", .min = 0.3, .max = 4, .doc = "of a Gaussian kernel; else its width / 4", .used = isGaussian, .used_when = "pcf.kernel 3x3, 5x5 or 7x7", GNOMON_MEMBER(pcf.sigma_texels)},
         {.key = "id.test", .type = choice, .form = "NAME", .choices = namesOf<IdTest>, .doc = "which texels count: any of the four nearest, the nearest by priority of what is in front, or the nearest alone; auto: any, of depth-id priority", .used = hasIds, .used_when = "filter id or depth-id", GNOMON_MEMBER(ids.test)},
         {.key = "id.depth", .type = choice, .form = "NAME", .choices = namesOf<IdDepth>, .doc = "what depth-id keeps beside an id: depth within the object's own range, or the map's", .used = isDepthId, .used_when = "filter depth-id", GNOMON_MEMBER(ids.depth)},

@@ -56,6 +56,9 @@ struct ShadowRendererOptions {
     /// fewer or some ended early (lib/raymarch.glsl); between them where a pixel reads two cascades. Pixels that face
     /// away from the light or are in no map have 0 and 1 as ever.
     bool shows_rays = false;
+    /// The callback that draws casters also draws fins (MapPassFormats::fins; FinDrawer is such a callback). False:
+    /// prepare() refuses lights with filter smoothies.
+    bool draws_fins = false;
 };
 
 /// One light's shadow volumes to draw (pack::VolumeDraw), given to the host's callback. Rendering has begun, and the
@@ -123,13 +126,18 @@ struct MapPassFormats {
     bool paraboloid = false;
     /// Filters id and depth-id: `colour` holds gnomonCasterIdTexel() of what pack::casterIdOf() says of the object.
     bool ids = false;
+    /// Filter smoothies, once its map is drawn: fins along the casters' silhouettes (shaders/shared/smoothie_fins.h)
+    /// into an image beside it, R32_UINT, packed as smoothies.h has them. gl_FragDepth = finOrder(); depth is tested,
+    /// LESS_OR_EQUAL, and written. Casters that have no fins keep the shadow that their map gives them.
+    bool fins = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
 
 /// One map to draw, given to the host's callback. With MapPassFormats::blended those of `casters` are to be drawn that
-/// are blended, else those that are not. Rendering has begun, viewport and scissor are set. The callback binds
-/// its pipelines (made for `formats`) and draws the casters; it must not end rendering.
+/// are blended, else those that are not; with MapPassFormats::fins their fins, and not they. Rendering has begun,
+/// viewport and scissor are set. The callback binds its pipelines (made for `formats`) and draws the casters; it must
+/// not end rendering.
 struct MapPass {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     MapPassFormats formats; // mapFormats() of the light's options and View::orthographic
@@ -154,6 +162,8 @@ struct MapPass {
     VkDeviceSize placement_offset = 0;
     /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
     /// texel at gl_FragCoord.xy is the depth of the first surface, and what that depth may be rounded by.
+    /// With MapPassFormats::fins such a set with the maps, a 2D array whose layer View::tile says, and what their
+    /// depths may be off by.
     VkDescriptorSet first_surface = VK_NULL_HANDLE;
     float first_quantum = 0.0F;
     /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
@@ -237,6 +247,7 @@ struct WarmUp {
 ///   views asked to have tints placed that are fewer than the plan's                 Error
 ///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
 ///   volumes on a device that draws to no D32_SFLOAT_S8_UINT                         Error
+///   filter smoothies without ShadowRendererOptions::draws_fins                      Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() of lights with filter id or depth-id without MaskInputs::object_id  Error
@@ -308,8 +319,9 @@ public:
     /// them. After recordMaps() its writes are
     /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
     [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
-    /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise. Of other filters than pcss and
-    /// raymarch, and where maps() is empty, an empty one.
+    /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise, or with filter or soften smoothies
+    /// what shaders/shared/smoothies.h says. Of other filters than pcss and raymarch, and where maps() is empty, an
+    /// empty one.
     [[nodiscard]] ImageRef blocks(std::uint32_t options = 0) const;
     /// The maps of tints beside those maps, for GNOMON_TINTS (shaders/include/gnomon/visibility.glsl), visible
     /// likewise. Empty where no view of the prepared plan with these options has blended casters.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws fins of smoothies for hosts with ordinary meshes, where DrawCasters is called for them (MapPassFormats::fins).
+// Silhouettes are found on the GPU, from positions where they are when they are drawn, so skinned and morphed meshes
+// need nothing more. Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
+#pragma once
+
+#include <gnomon/vulkan/volume_drawer.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace gnomon::vulkan {
+
+struct FinDrawerOptions {
+    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+};
+
+/// What becomes of a wrong call, in every build:
+///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
+///   fewer transforms than objects, null buffers, or larger than a device binds      Error
+///   draw() before beginFrame(), of a null pass, or of one without fins              Error
+///   an object of the plan that setScene() was not given                             draws nothing
+///
+/// Not thread-safe. After a call that threw, beginFrame() again.
+class FinDrawer {
+public:
+    /// Makes its pipelines. Throws Error when a function is missing or memory runs out.
+    FinDrawer(const DeviceView& device, const FinDrawerOptions& options);
+    ~FinDrawer();
+    FinDrawer(const FinDrawer&) = delete;
+    FinDrawer& operator=(const FinDrawer&) = delete;
+
+    /// By object index of the plans: the edges of each, open ones too. What is masked, blended or cut has none, because
+    /// its outline is not its mesh's. May allocate.
+    void setScene(std::span<const VolumeMesh> objects);
+    /// Before recordMaps() of a frame with filter smoothies. Of the elements edges alone have fins. `world_from_object`
+    /// is indexed by object index and read until the frame is recorded. Allocates nothing.
+    void beginFrame(std::uint32_t slot, const VolumeGeometry& geometry, std::span<const Rows3x4> world_from_object);
+    /// Draws one map's fins. Returns the number of draws, for Profiler::addDraws.
+    std::uint32_t draw(const MapPass& pass);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::vulkan
