@@ -20,10 +20,10 @@ constexpr std::string_view kIdsOnPlanes =
     "--map-size 512 --techniques hard,id+bias=none";
 constexpr std::string_view kSmoothiesAtCamp =
     "gnomon compare rts --preset plain --camera camp --sun-angle 2 --size 320x180 --samples 64 --repetitions 1 "
-    "--warmup 0 --map-size 512 --techniques hard,hard+smoothies,pcf,pcf+smoothies";
+    "--warmup 0 --map-size 512 --techniques hard,hard+smoothies,pcf,pcf+smoothies,smoothies";
 constexpr std::string_view kSmoothiesClose =
     "gnomon compare spotlit --preset plain --camera close --light-size 0.6 --size 320x180 --samples 64 --repetitions 1 "
-    "--warmup 0 --map-size 1024 --techniques hard,hard+smoothies,pcf,pcf+smoothies";
+    "--warmup 0 --map-size 1024 --techniques hard,hard+smoothies,pcf,pcf+smoothies,smoothies";
 
 constexpr std::string_view kByteIdsAtCamp =
     "gnomon plan rts --preset plain --camera camp --filter id --map-format r8 --json";
@@ -172,6 +172,20 @@ const std::vector<Claim>& ids2006()
          .quick = true,
          .why = "A smoothie lies outside of the hard shadow, and half of a true penumbra inside: all is too dark. They "
                 "look soft, and are wrong."},
+        {.id = "2006-smoothies-image",
+         .claim = "Smoothies need geometric volumes; a variant is entirely image-based",
+         .commands = {kSmoothiesAtCamp, kSmoothiesClose},
+         .parts = {{"at camp, rmse of edges found in the map", "of that of fins",
+                    [](const Runs& r) { return r.ratio("pcf+smoothies", "smoothies", "/error/rmse"); }, 0.8, 1.2},
+                   {"by wide lamps", "of it",
+                    [](const Runs& r) {
+                        return r.of(1, "pcf+smoothies", "/error/rmse") / r.of(1, "smoothies", "/error/rmse");
+                    },
+                    0.8, 1.2}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "Both are here and say the same. Edges of the map need nothing of a host, and know what a texture cuts "
+                "out."},
         {.id = "2006-volumes-watertight",
          .claim = "Shadow volumes need watertight meshes, and cannot cast what a texture cuts out",
          .commands = {"gnomon plan rts --preset plain --camera camp --filter volumes --set volumes.open=skip --json",
