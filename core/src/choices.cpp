@@ -34,8 +34,6 @@ constexpr std::string_view kRays =
 
 constexpr std::string_view kChanDurand = "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003";
 
-constexpr std::string_view kChanDurand = "E. Chan, F. Durand, Rendering Fake Soft Shadows with Smoothies, 2003";
-
 constexpr std::string_view kLight = "light";
 constexpr std::string_view kPartition = "partition";
 constexpr std::string_view kFit = "fit";
