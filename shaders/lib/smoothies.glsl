@@ -19,17 +19,18 @@ GN_FN real coneRadius(RayCone cone, real depth)
     return sqrt(max(abs(x.x * y.y - x.y * y.x), real(0.0)));
 }
 
-// Of a receiver that is lit: alpha' of the lit ones of the four texels around it. The others lie within the edge and
-// count as 0; but not where the penumbra is narrower than a texel, for then they say nothing of it.
+// Of the four texels around a receiver: alpha' of the lit ones. Those in shadow lie within the edge and count as 0. Where
+// the penumbra is narrower than a texel they say nothing of it, and the lit ones count alone. The includer takes the
+// filter's own answer where that is less, so this can only take light away.
 GN_FN real smoothieVisibility(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
     real2 shifted = point.texel - real2(real(0.5));
     real2 cell = floor(shifted);
-    real2 part = shifted - cell;
+    real2 fraction = shifted - cell;
     real sum = real(0.0);
     real of_lit = real(0.0);
-    real widths = real(0.0);
+    real widths = real(0.0); // of penumbrae, texels, each 1 at most
     for (int i = 0; i < 4; ++i) {
         real2 at = real2(real(i & 1), real(i >> 1));
         real2 texel = cell + at;
@@ -38,8 +39,8 @@ GN_FN real smoothieVisibility(MapPoint point, FilterInput f)
         real rises = length(point.depth_slope) * s.distance;
         bool before = s.distance >= real(0.0) && s.depth + rises < point.depth;
         real width = before ? coneRadius(cone, s.depth) : real(0.0);
-        real2 weights = mix(real2(real(1.0)) - part, part, at);
-        real weight = weights.x * weights.y * compareTexel(point, at - part, mapTexel(texel, f.layer, f.part));
+        real2 weights = mix(real2(real(1.0)) - fraction, fraction, at);
+        real weight = weights.x * weights.y * compareTexel(point, at - fraction, mapTexel(texel, f.layer, f.part));
         sum += weight * (before ? smoothieAlpha(s.distance, width, f.smoothies) : real(1.0));
         of_lit += weight;
         widths += weight * min(width, real(1.0));
