@@ -3,6 +3,7 @@
 #include "worlds.h"
 
 #include <gnomon/object_ids.h>
+#include <gnomon/option_table.h>
 #include <gnomon/planner.h>
 
 #include <gtest/gtest.h>
@@ -189,6 +190,21 @@ TEST(IdOptions, SayWhatTheyDoNotGoWith)
               "id.bias: filter id compares no depths, so there is nothing to move; depth-id has it");
     EXPECT_EQ(refusalOf(Filter::depth_id, [](ShadowOptions& o) { o.ids.bias = 1.5F; }),
               "id.bias is 1.5; it can be 0 to 1 of the radius");
+}
+
+// What says nothing is to be refused where it is said.
+TEST(IdOptions, LeaveTheBiasToWhoComparesDepths)
+{
+    for (const char* key : {"bias.constant", "bias.slope", "bias.normal", "bias.receiver-plane"}) {
+        ShadowOptions options = optionsOf(Filter::id);
+        EXPECT_FALSE(findOption(key)->used(options)) << key;
+        options.technique.filter = Filter::depth_id;
+        EXPECT_TRUE(findOption(key)->used(options)) << key;
+        options.ids.bias = 0.1F;
+        EXPECT_FALSE(findOption(key)->used(options)) << key;
+        options.technique.filter = Filter::hard;
+        EXPECT_TRUE(findOption(key)->used(options)) << key;
+    }
 }
 
 TEST(IdOptions, TheTestIsTheFiltersOwn)

@@ -10,14 +10,14 @@ using Runs = ClaimRuns;
 
 constexpr std::string_view kIdsAtCamp =
     "gnomon compare rts --preset plain --camera camp --size 320x180 --truth hard --repetitions 1 --warmup 0 --map-size "
-    "512 --techniques hard,hard+bias=none,id+bias=none,id+bias=none+map-format=r8,id+bias=none+id.test=nearest,"
+    "512 --techniques hard,hard+bias=none,id,id+map-format=r8,id+id.test=nearest,"
     "depth-id+map-format=rg8";
 constexpr std::string_view kIdsOnStage =
     "gnomon compare spotlit --preset plain --camera stage --size 320x180 --truth hard --repetitions 1 --warmup 0 "
-    "--map-size 512 --techniques hard,hard+bias=none,id+bias=none,depth-id+map-format=rg8";
+    "--map-size 512 --techniques hard,hard+bias=none,id,depth-id+map-format=rg8";
 constexpr std::string_view kIdsOnPlanes =
     "gnomon compare planes --preset plain --camera side --size 320x180 --truth hard --repetitions 1 --warmup 0 "
-    "--map-size 512 --techniques hard,id+bias=none";
+    "--map-size 512 --techniques hard,id";
 constexpr std::string_view kSmoothiesAtCamp =
     "gnomon compare rts --preset plain --camera camp --sun-angle 2 --size 320x180 --samples 64 --repetitions 1 "
     "--warmup 0 --map-size 512 --techniques hard,hard+smoothies,pcf,pcf+smoothies,smoothies";
@@ -56,10 +56,10 @@ const std::vector<Claim>& ids2006()
          .claim = "Ids need no bias and no epsilon",
          .commands = {kIdsAtCamp, kIdsOnStage},
          .parts = {{"at camp, acne without a bias", "of that of depths without",
-                    [](const Runs& r) { return r.ratio("id+bias=none", "hard+bias=none", "/error/acne"); }, 0.0, 0.05},
+                    [](const Runs& r) { return r.ratio("id", "hard+bias=none", "/error/acne"); }, 0.0, 0.05},
                    {"on a stage", "of it",
                     [](const Runs& r) {
-                        return r.of(1, "id+bias=none", "/error/acne") / r.of(1, "hard+bias=none", "/error/acne");
+                        return r.of(1, "id", "/error/acne") / r.of(1, "hard+bias=none", "/error/acne");
                     },
                     0.0, 0.05}},
          .verdict = Verdict::holds,
@@ -68,11 +68,11 @@ const std::vector<Claim>& ids2006()
         {.id = "2006-id-no-self",
          .claim = "Nothing shadows itself",
          .commands = {kIdsOnStage, kIdsAtCamp},
-         .parts = {{"acne on a stage", "", [](const Runs& r) { return r.of("id+bias=none", "/error/acne"); }, 0.0,
+         .parts = {{"acne on a stage", "", [](const Runs& r) { return r.of("id", "/error/acne"); }, 0.0,
                     1e-6},
                    {"at camp, light at contacts", "times that of hard",
                     [](const Runs& r) {
-                        return r.of(1, "id+bias=none", "/error/detached") / r.of(1, "hard", "/error/detached");
+                        return r.of(1, "id", "/error/detached") / r.of(1, "hard", "/error/detached");
                     },
                     5.0}},
          .verdict = Verdict::holds,
@@ -83,9 +83,9 @@ const std::vector<Claim>& ids2006()
          .claim = "Shadows shrink by a texel, which is not noticed",
          .commands = {kIdsOnPlanes},
          .parts = {{"mean error towards light", "times that of hard",
-                    [](const Runs& r) { return r.ratio("id+bias=none", "hard", "/error/bias"); }, 1.5},
+                    [](const Runs& r) { return r.ratio("id", "hard", "/error/bias"); }, 1.5},
                    {"error at edges", "times hard's",
-                    [](const Runs& r) { return r.ratio("id+bias=none", "hard", "/error/edge"); }, 0.0, 1.25}},
+                    [](const Runs& r) { return r.ratio("id", "hard", "/error/edge"); }, 0.0, 1.25}},
          .verdict = Verdict::partly,
          .quick = true,
          .why = "A box that cannot shade itself, so the edge is all that errs. They shrink, and at 512 texels one sees "
@@ -113,12 +113,12 @@ const std::vector<Claim>& ids2006()
          .commands = {kIdsAtCamp},
          .parts = {{"with 255 ids the mean error moves towards light by", "",
                     [](const Runs& r) {
-                        return r.of("id+bias=none+map-format=r8", "/error/bias") - r.of("id+bias=none", "/error/bias");
+                        return r.of("id+map-format=r8", "/error/bias") - r.of("id", "/error/bias");
                     },
                     0.0},
                    {"acne grows by", "",
                     [](const Runs& r) {
-                        return r.of("id+bias=none+map-format=r8", "/error/acne") - r.of("id+bias=none", "/error/acne");
+                        return r.of("id+map-format=r8", "/error/acne") - r.of("id", "/error/acne");
                     },
                     -1.0, 0.0}},
          .verdict = Verdict::holds,
@@ -129,13 +129,13 @@ const std::vector<Claim>& ids2006()
          .commands = {kIdsAtCamp},
          .parts = {{"false shadow of one sample", "times that of four",
                     [](const Runs& r) {
-                        return r.ratio("id+bias=none+id.test=nearest", "id+bias=none", "/error/acne");
+                        return r.ratio("id+id.test=nearest", "id", "/error/acne");
                     },
                     2.0},
                    {"mean error of one sample less that of four", "",
                     [](const Runs& r) {
-                        return r.of("id+bias=none+id.test=nearest", "/error/bias") -
-                               r.of("id+bias=none", "/error/bias");
+                        return r.of("id+id.test=nearest", "/error/bias") -
+                               r.of("id", "/error/bias");
                     },
                     -1.0, -0.01}},
          .verdict = Verdict::holds,

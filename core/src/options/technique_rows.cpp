@@ -41,6 +41,11 @@ bool isDepthId(const ShadowOptions& o)
 {
     return filterOf(o) == Filter::depth_id;
 }
+/// Ids alone compare no depths, and id.bias says it instead.
+bool hasBias(const ShadowOptions& o)
+{
+    return hasMaps(o) && filterOf(o) != Filter::id && !(isDepthId(o) && o.ids.bias);
+}
 bool isGaussian(const ShadowOptions& o)
 {
     return isPcf(o) && kernelWidth(o.pcf.kernel) > 1;
@@ -89,10 +94,10 @@ void addTechniqueRows(std::vector<OptionRow>& table)
         {.key = "map-size", .type = integer, .form = "N", .unit = "texels", .min = 16, .max = 16384, .none_text = "auto", .doc = "side of one map; auto: as large as texels lets it be, or less where no more is of use", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(map_size)},
         {.key = "texels", .type = integer, .form = "N", .unit = "texels", .min = 1024, .max = 268435456, .doc = "that a light's maps may have together", .own_option = true, .used = sizesItself, .used_when = "map-size auto, but filter volumes", GNOMON_MEMBER(max_texels)},
         {.key = "map-format", .type = choice, .form = "FORMAT", .choices = namesOf<MapFormat>, .doc = "what a texel is stored as; else the filter's own", .own_option = true, .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(format)},
-        {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(constant_m)},
-        {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(slope)},
-        {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(normal_texels)},
-        {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_BIAS(receiver_plane)},
+        {.key = "bias.constant", .type = real, .form = "M", .unit = "m", .min = -1e6, .max = 1e6, .doc = "towards the light; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes, id, and depth-id that has id.bias", GNOMON_BIAS(constant_m)},
+        {.key = "bias.slope", .type = real, .form = "S", .unit = "texel depths", .min = 0, .max = 16, .doc = "times the depth that one texel spans; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes, id, and depth-id that has id.bias", GNOMON_BIAS(slope)},
+        {.key = "bias.normal", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 16, .doc = "receiver moved along its normal; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes, id, and depth-id that has id.bias", GNOMON_BIAS(normal_texels)},
+        {.key = "bias.receiver-plane", .type = flag, .form = "0|1", .doc = "each tap against the receiver's plane there; ends bias=auto", .used = hasBias, .used_when = "every filter but volumes, id, and depth-id that has id.bias", GNOMON_BIAS(receiver_plane)},
         {.key = "caster-faces", .type = choice, .form = "NAME", .choices = namesOf<CasterFaces>, .doc = "what of casters a map holds: the nearest surface, the nearest that faces away from the light, or midway between first and second", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(faces)},
         {.key = "caster-cull", .type = choice, .form = "NAME", .choices = namesOf<CasterCull>, .doc = "triangles of all casters that are left out, seen from the light: none, back or front faces", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(cull)},
         {.key = "translucent", .type = choice, .form = "NAME", .choices = namesOf<Translucent>, .doc = "what blended casters do to light: nothing, tint it by a grey, or in colour, for which a light takes a layer of the mask", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(translucent)},
