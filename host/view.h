@@ -47,8 +47,12 @@ inline constexpr std::size_t kMaxLights = 128;
 /// The camera of a frame: reversed z, y down. Used by whoever needs the same view as the picture (plan, truth).
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
 /// Fills an ObjectSet with a state's objects (index by index) or updates it. `closed`: closedObjects(), for
-/// ObjectFlags::closed of those that it adds; empty: none is.
-void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed = {});
+/// ObjectFlags::closed of those that it adds; empty: none is. `pieces`: pieceCounts(), for ObjectFlags::pieces
+/// likewise; empty: it is not said.
+void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed = {},
+                   std::span<const std::uint16_t> pieces = {});
+/// For each object of a state, of how many pieces its primitive is (scene::piecesOf()).
+[[nodiscard]] std::vector<std::uint16_t> pieceCounts(const scene::Scene& scene, const scene::State& state);
 
 /// By object, 1 where its shadow volume can be counted: it is opaque, nothing cuts it, and its edges are shared by as
 /// many triangles one way as the other, by its own or with those of its mesh's other primitives.

@@ -75,7 +75,9 @@ public:
     {
         const bool counts = !hasMaps(settings.shadow);
         host::fillObjectSet(shot.state, objects_,
-                            counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>());
+                            counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>(),
+                            settings.shadow.ids.of == IdOf::face ? host::pieceCounts(shot.scene, shot.state)
+                                                                 : std::vector<std::uint16_t>());
     }
     void planAll(PlanLayers& layers)
     {

@@ -47,21 +47,41 @@ MapBox boxOn(const View& view, const Aabb& box_ws)
     return {glm::max(box.low, glm::dvec2(-1.0)), glm::min(box.high, glm::dvec2(1.0))};
 }
 
+/// The ids of one object: so many, from `first` on.
+struct IdRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 1;
+
+    /// Of `ids`, after the last of which the first comes again.
+    [[nodiscard]] bool meets(const IdRange& other, std::uint32_t ids) const
+    {
+        const std::uint32_t after = (other.first + ids - first) % ids;
+        return after < count || (ids - after) % ids < other.count;
+    }
+};
+
+std::uint32_t piecesOf(const Plan& plan, std::uint32_t light, std::uint32_t object)
+{
+    const ResolvedOptions& options = (*plan.options)[plan.lights[light].options];
+    return options.ids().of == IdOf::face ? std::max<std::uint32_t>(plan.object_pieces[object], 1) : 1;
+}
+
 /// What overlaps in one map.
 void countPairs(const Plan& plan, const View& view, std::span<const std::uint16_t> ids, IdCollisions& counted)
 {
-    std::vector<std::pair<MapBox, std::uint16_t>> boxes;
+    std::vector<std::pair<MapBox, IdRange>> boxes;
     for (std::uint32_t i = 0; i < view.caster_count; ++i) {
         const std::uint32_t object = plan.casters[view.first_caster + i];
         if (ids[object] != 0) {
-            boxes.emplace_back(boxOn(view, plan.object_bounds[object]), ids[object]);
+            boxes.emplace_back(boxOn(view, plan.object_bounds[object]),
+                               IdRange{ids[object], piecesOf(plan, view.light, object)});
         }
     }
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const bool touch = boxes[i].first.touches(boxes[k].first);
             counted.pairs += touch ? 1 : 0;
-            counted.collisions += touch && boxes[i].second == boxes[k].second ? 1 : 0;
+            counted.collisions += touch && boxes[i].second.meets(boxes[k].second, counted.ids) ? 1 : 0;
         }
     }
 }
@@ -80,7 +100,8 @@ std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light
                              : std::span(plan.object_ids).subspan(first, plan.object_bounds.size());
 }
 
-void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, std::vector<std::uint16_t>& out)
+void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, IdOf of,
+                std::vector<std::uint16_t>& out)
 {
     const double length = glm::length(light.direction_ws);
     const glm::dvec3 along_ws = length > 0.0 ? light.direction_ws / length : glm::dvec3(0.0, -1.0, 0.0);
@@ -94,8 +115,10 @@ void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most
     std::sort(order.begin(), order.end());
     const std::size_t first = out.size();
     out.resize(first + bounds.size(), 0);
-    for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
-        out[first + order[rank].second] = static_cast<std::uint16_t>(rank % most + 1);
+    std::uint64_t taken = 0;
+    for (const auto& placed : order) {
+        out[first + placed.second] = static_cast<std::uint16_t>(taken % most + 1);
+        taken += of == IdOf::face ? std::max<std::uint32_t>(objects.flags(placed.second).pieces, 1) : 1;
     }
 }
 
@@ -119,6 +142,9 @@ IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light)
     std::sort(drawn.begin(), drawn.end());
     drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
     counted.casters = static_cast<std::uint32_t>(drawn.size());
+    for (const std::uint32_t object : drawn) {
+        counted.taken += piecesOf(plan, light, object);
+    }
     return counted;
 }
 

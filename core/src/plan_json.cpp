@@ -136,6 +136,7 @@ void writeIds(JsonWriter& json, const Plan& plan, std::uint32_t light)
     json.openLine("ids", '{');
     json.value("casters", counted.casters);
     json.value("ids", counted.ids);
+    json.value("taken", counted.taken);
     json.value("pairs", counted.pairs);
     json.value("collisions", counted.collisions);
     json.closeLine('}');

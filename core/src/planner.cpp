@@ -212,6 +212,7 @@ void Planner::Impl::begin(const Frame& frame)
     plan.casters.clear();
     plan.object_ids.clear();
     plan.object_bounds.clear();
+    plan.object_pieces.clear();
     view_maps.clear();
     for (Setup& setup : setups) {
         setup.looked = false;

@@ -139,7 +139,7 @@ struct Planner::Impl {
     void putViewsBack(const Frame& frame);
     void noteTurns(const Frame& frame);
     void drawViews(const Frame& frame);
-    void handOut(const Frame& frame, std::uint32_t index);
+    Outcome handOut(const Frame& frame, std::uint32_t index);
     [[nodiscard]] std::uint64_t idsKey(const View& view) const;
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;

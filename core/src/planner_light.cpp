@@ -41,7 +41,7 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
         planned.outcome = prospect(index, setup);
     }
     if (planned.outcome.kind == OutcomeKind::ok && setup.recipe.filter->ids) {
-        handOut(frame, index);
+        planned.outcome = handOut(frame, index);
     }
     if (planned.outcome.kind == OutcomeKind::ok) {
         planned.outcome = planStands(frame, index, earlier_slot);
@@ -51,19 +51,37 @@ void Planner::Impl::planLight(const Frame& frame, std::uint32_t index)
 
 /// Ids for the objects of a light that tells them apart. Of a sun that moves in steps in the order from where it
 /// stands, so that they last as its maps do.
-void Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
+Outcome Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
 {
     LightPlan& planned = plan.lights[index];
+    const ResolvedOptions& options = setups[planned.options].recipe.resolved;
+    const ObjectSet& objects = *frame.objects;
+    if (objects.size() > kMostIdObjects) {
+        static_assert(kMostIdObjects == 1048575);
+        return {OutcomeKind::refused, "ids tell at most 1048575 objects apart"};
+    }
+    if (options.ids().of == IdOf::face && plan.object_pieces.empty()) {
+        plan.object_pieces.resize(objects.size(), 0);
+        for (std::uint32_t object = 0; object < objects.size(); ++object) {
+            plan.object_pieces[object] = objects.flags(object).pieces;
+            if (objects.flags(object).casts && plan.object_pieces[object] == 0) {
+                plan.object_pieces.clear();
+                return {OutcomeKind::refused,
+                        "id.of face: an object that casts does not say of how many pieces it is (ObjectFlags::pieces)"};
+            }
+        }
+    }
     Light light = frame.lights[index];
     if (planned.steps.stepping) {
         light.direction_ws = planned.steps.earlier_ws;
     }
     if (plan.object_bounds.empty()) {
-        const std::span<const Aabb> bounds = frame.objects->allBounds();
+        const std::span<const Aabb> bounds = objects.allBounds();
         plan.object_bounds.assign(bounds.begin(), bounds.end());
     }
     planned.first_object_id = static_cast<std::uint32_t>(plan.object_ids.size());
-    handOutIds(light, *frame.objects, idsOf(setups[planned.options].recipe.resolved.format()), plan.object_ids);
+    handOutIds(light, objects, idsOf(options.format()), options.ids().of, plan.object_ids);
+    return {};
 }
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991) over the ids of a view's casters: other ids, another key.

@@ -8,7 +8,9 @@
 #define GNOMON_SET 2
 #define GNOMON_TINTS true
 uint receiver_object;
+uint receiver_piece;
 #define GNOMON_OBJECT receiver_object
+#define GNOMON_PIECE receiver_piece
 #include "gnomon/smooth_surface.glsl"
 #include "gnomon/visibility.glsl"
 #endif
@@ -43,6 +45,7 @@ void main()
 {
 #ifdef GNOMON_OBJECT
     receiver_object = ids.x - 1u;
+    receiver_piece = ids.y >> 20; // scene.vert
 #endif
     vec3 emitted = material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb * frame.sky_horizon.w;
     vec4 base = baseColour(uvs, colour);

@@ -15,7 +15,7 @@ layout(location = 4) flat in uvec3 ids;
 layout(location = 0) out vec4 out_base;     // square root of the base colour; occlusion
 layout(location = 1) out vec4 out_normals;  // geometric, shading
 layout(location = 2) out vec4 out_material; // metallic, roughness, 0, model / 2
-layout(location = 3) out uvec2 out_ids;     // id where the surface receives, id
+layout(location = 3) out uvec2 out_ids;     // id and piece where the surface receives; id
 layout(location = 4) out vec4 out_smooth;   // smoothEncode()
 
 void main()

@@ -11,7 +11,7 @@ layout(constant_id = 2) const bool kAllTextures = false;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv_base; // of the base colour
-layout(location = 2) in vec4 normal;
+layout(location = 2) in vec4 normal; // w: 4096 where it is creased, and the vertex's piece, over 32767
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 colour; // square root of the linear colour
 layout(location = 5) in vec2 uv_other;
@@ -24,7 +24,7 @@ layout(location = 0) out vec4 out_normal; // w: smoothPlane()
 layout(location = 1) out vec4 out_uvs;
 layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_colour;
-layout(location = 4) flat out uvec3 out_ids;
+layout(location = 4) flat out uvec3 out_ids; // the second with the piece in its upper bits, where it is not 0
 invariant gl_Position; // drawn again with depth compared for equality
 #ifdef CLIPPED
 layout(push_constant) uniform Cut { vec4 clip_planes[2]; };
@@ -52,8 +52,12 @@ void main()
         out_tangent.xyz = vec3(dot(row_x.xyz, tangent.xyz), dot(row_y.xyz, tangent.xyz), dot(row_z.xyz, tangent.xyz));
         out_tangent.w = tangent.w * mirrored;
     }
-    out_normal.w = smoothPlane(out_normal.xyz, q.xyz, normal.w > 0.5);
+    uint more = uint(normal.w * 32767.0 + 0.5);
+    out_normal.w = smoothPlane(out_normal.xyz, q.xyz, more >= uint(kMostPieces));
     out_uvs = vec4(uv_base, uv_other);
     out_colour = colour * colour;
     out_ids = ids;
+    if (ids.y != 0u) {
+        out_ids.y |= (more % uint(kMostPieces)) << kPieceShift;
+    }
 }

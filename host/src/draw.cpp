@@ -132,7 +132,7 @@ void FrameRenderer::Impl::finish()
 void FrameRenderer::Impl::update(const scene::State& state)
 {
     if (objects.size() == 0) {
-        fillObjectSet(state, objects, scene.table.closed);
+        fillObjectSet(state, objects, scene.table.closed, scene.table.pieces);
     }
     const bool deforms = scene.geometry.deforms();
     const bool deformed = deforms && deformed_at_s != state.time_s;

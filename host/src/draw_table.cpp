@@ -98,6 +98,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
             caster_parts.push_back({range, other_batches.of(caster_batch, batch.cut, batch.mirrored)});
         }
         objects.push_back({part->second, 1U});
+        pieces.push_back(geometry.pieces(state.objects[i]));
         sources.push_back({state.objects[i].mesh, state.objects[i].primitive});
         // Maps of averages draw receivers, too, and what is blended is none.
         const bool is_blended = materials.all()[batch.material].blended;

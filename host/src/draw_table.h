@@ -39,6 +39,7 @@ struct DrawTable {
     std::vector<std::uint8_t> blended;  // per object: it tints the light instead of blocking it
     std::vector<std::uint8_t> closed;   // closedObjects()
     std::vector<std::uint8_t> outlined; // outlinedObjects()
+    std::vector<std::uint16_t> pieces;  // pieceCounts()
     /// Per object, which primitive of which mesh it is.
     struct Source {
         std::uint32_t mesh = 0;

@@ -32,15 +32,21 @@ std::uint32_t baseUvSet(const scene::Scene& scene, const scene::Primitive& primi
     return primitive.material == scene::kNone ? 0 : scene.materials[primitive.material].base_colour_texture.uv_set;
 }
 
-void packDirections(const glm::vec3& normal, bool creased, const glm::vec4* tangent, VertexAttributes& out)
+/// `more`: kCreasedVertex and the vertex's piece.
+void packDirections(const glm::vec3& normal, std::int16_t more, const glm::vec4* tangent, VertexAttributes& out)
 {
-    out.normal = {snorm<std::int16_t>(normal.x), snorm<std::int16_t>(normal.y), snorm<std::int16_t>(normal.z),
-                  snorm<std::int16_t>(creased ? 1.0F : 0.0F)};
+    out.normal = {snorm<std::int16_t>(normal.x), snorm<std::int16_t>(normal.y), snorm<std::int16_t>(normal.z), more};
     out.tangent = {};
     if (tangent != nullptr) {
         out.tangent = {snorm<std::int8_t>(tangent->x), snorm<std::int8_t>(tangent->y), snorm<std::int8_t>(tangent->z),
                        snorm<std::int8_t>(tangent->w < 0.0F ? -1.0F : 1.0F)};
     }
+}
+
+std::int16_t moreOf(const scene::Primitive& primitive, const scene::Pieces& pieces, std::size_t i)
+{
+    const int more = (primitive.creased[i] != 0 ? int{kCreasedVertex} : 0) + int{pieces.of_vertex[i]};
+    return static_cast<std::int16_t>(more);
 }
 
 void packConstant(const scene::Primitive& primitive, std::uint32_t base_set, std::size_t i, VertexAttributes& out)
@@ -110,13 +116,21 @@ void Geometry::place(const scene::Scene& scene, const scene::State& state)
         throw Error("uploading the scene", std::to_string(vertices) + " vertices are more than 31 bits can count");
     }
     index_total_ = static_cast<std::uint32_t>(index_total);
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-        index_counts_[i] = drawn[i] ? index_counts_[i] : 0;
+    std::size_t which = 0;
+    pieces_.resize(ranges_.size());
+    for (const scene::Mesh& mesh : scene.meshes) {
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            index_counts_[which] = drawn[which] ? index_counts_[which] : 0;
+            if (drawn[which]) {
+                pieces_[which] = scene::piecesOf(primitive);
+            }
+            ++which;
+        }
     }
 }
 
-void Geometry::uploadRigid(Uploader& uploader, const scene::Primitive& primitive, const scene::Scene& scene,
-                           std::uint32_t first_vertex) const
+void Geometry::uploadRigid(Uploader& uploader, const scene::Primitive& primitive, const scene::Pieces& pieces,
+                           const scene::Scene& scene, std::uint32_t first_vertex) const
 {
     const std::uint32_t base_set = baseUvSet(scene, primitive);
     std::vector<VertexAttributes> packed;
@@ -124,7 +138,7 @@ void Geometry::uploadRigid(Uploader& uploader, const scene::Primitive& primitive
         packed.resize(std::min(kChunk, primitive.positions.size() - first));
         for (std::size_t i = 0; i < packed.size(); ++i) {
             packConstant(primitive, base_set, first + i, packed[i]);
-            packDirections(primitive.normals[first + i], primitive.creased[first + i] != 0,
+            packDirections(primitive.normals[first + i], moreOf(primitive, pieces, first + i),
                            primitive.tangents.empty() ? nullptr : &primitive.tangents[first + i], packed[i]);
         }
         uploader.toBuffer(attributes, (first_vertex + first) * sizeof(VertexAttributes), packed.data(),
@@ -149,7 +163,7 @@ void Geometry::upload(Uploader& uploader, const scene::Scene& scene, const scene
             uploader.toBuffer(indices, VkDeviceSize{range.first_index} * 4, primitive.indices.data(),
                               VkDeviceSize{index_counts_[which]} * 4);
             if (range.used) {
-                uploadRigid(uploader, primitive, scene, range.first_vertex);
+                uploadRigid(uploader, primitive, pieces_[which], scene, range.first_vertex);
                 upload_uvs(primitive, range.first_vertex);
             }
             ++which;
@@ -161,6 +175,11 @@ void Geometry::upload(Uploader& uploader, const scene::Scene& scene, const scene
                        static_vertices_ + deformed_first_[object.deformed]);
         }
     }
+}
+
+std::uint16_t Geometry::pieces(const scene::Object& object) const
+{
+    return static_cast<std::uint16_t>(pieces_[first_primitive_[object.mesh] + object.primitive].count);
 }
 
 vulkan::MeshRange Geometry::range(const scene::Object& object) const
@@ -187,13 +206,14 @@ void Geometry::writeDeformed(const scene::Scene& scene, const scene::State& stat
         const scene::DeformedPrimitive& now = state.deformed[d];
         const scene::Object& object = state.objects[now.object];
         const scene::Primitive& primitive = scene.meshes[object.mesh].primitives[object.primitive];
+        const scene::Pieces& pieces = pieces_[first_primitive_[object.mesh] + object.primitive];
         const std::uint32_t base_set = baseUvSet(scene, primitive);
         std::memcpy(all_positions + deformed_first_[d], now.positions.data(), now.positions.size() * sizeof(glm::vec3));
         for (std::size_t i = 0; i < now.positions.size(); ++i) {
             VertexAttributes packed;
             packConstant(primitive, base_set, i, packed);
-            packDirections(now.normals[i], primitive.creased[i] != 0, now.tangents.empty() ? nullptr : &now.tangents[i],
-                           packed);
+            packDirections(now.normals[i], moreOf(primitive, pieces, i),
+                           now.tangents.empty() ? nullptr : &now.tangents[i], packed);
             all_attributes[deformed_first_[d] + i] = packed;
         }
     }

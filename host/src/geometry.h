@@ -4,8 +4,10 @@
 #pragma once
 
 #include "commands.h"
+#include "scene/pieces.h"
 #include "scene/state.h"
 
+#include <gnomon/object_set.h>
 #include <gnomon/vulkan/draw_batcher.h>
 
 #include <glm/vec2.hpp>
@@ -17,12 +19,16 @@ namespace gnomon::host {
 
 /// One vertex of the attribute stream.
 struct VertexAttributes {
-    std::array<std::int16_t, 4> normal{};                   // snorm; w: Primitive::creased
+    std::array<std::int16_t, 4> normal{};                   // snorm; w: kCreasedVertex and scene::Pieces, as integers
     std::array<std::int8_t, 4> tangent{};                   // snorm; w handedness, 0: no tangent
     std::array<std::uint8_t, 4> colour{255, 255, 255, 255}; // unorm, square root of linear
     glm::vec2 uv_other{0.0F};                               // the set that the base colour does not use
 };
 static_assert(sizeof(VertexAttributes) == 24);
+
+/// In the last of VertexAttributes::normal, above the vertex's piece: Primitive::creased.
+inline constexpr std::int16_t kCreasedVertex = 4096;
+static_assert(kCreasedVertex == kMostPieces && kMostPieces == scene::kMostPieces);
 
 class Geometry {
 public:
@@ -30,6 +36,8 @@ public:
 
     /// Where the triangles of an object are.
     [[nodiscard]] vulkan::MeshRange range(const scene::Object& object) const;
+    /// Of how many pieces an object is, for ObjectFlags::pieces.
+    [[nodiscard]] std::uint16_t pieces(const scene::Object& object) const;
     [[nodiscard]] bool deforms() const { return deformed_vertices_ > 0; }
     /// A buffer for one frame's deformed vertices.
     [[nodiscard]] Buffer makeStaging(Memory& memory) const;
@@ -50,11 +58,12 @@ private:
     };
     void place(const scene::Scene& scene, const scene::State& state);
     void upload(Uploader& uploader, const scene::Scene& scene, const scene::State& state);
-    void uploadRigid(Uploader& uploader, const scene::Primitive& primitive, const scene::Scene& scene,
-                     std::uint32_t first_vertex) const;
+    void uploadRigid(Uploader& uploader, const scene::Primitive& primitive, const scene::Pieces& pieces,
+                     const scene::Scene& scene, std::uint32_t first_vertex) const;
 
     std::vector<std::uint32_t> first_primitive_; // per mesh, into ranges_
     std::vector<Range> ranges_;
+    std::vector<scene::Pieces> pieces_; // as ranges_; of those that are drawn
     std::vector<std::uint32_t> index_counts_;
     std::vector<std::uint32_t> deformed_first_; // per State::deformed, counted from static_vertices_
     std::uint32_t static_vertices_ = 0;

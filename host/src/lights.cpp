@@ -2,7 +2,11 @@
 // From the scene's model to the frame's: lights and object bounds.
 #include "host/view.h"
 
+#include "scene/pieces.h"
+
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace gnomon::host {
 namespace {
@@ -57,14 +61,32 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
     return lights;
 }
 
-void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed)
+std::vector<std::uint16_t> pieceCounts(const scene::Scene& scene, const scene::State& state)
+{
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint16_t> known; // by mesh and primitive
+    std::vector<std::uint16_t> counts;
+    counts.reserve(state.objects.size());
+    for (const scene::Object& object : state.objects) {
+        const auto [found, fresh] = known.try_emplace({object.mesh, object.primitive}, std::uint16_t{0});
+        if (fresh) {
+            const scene::Primitive& primitive = scene.meshes[object.mesh].primitives[object.primitive];
+            found->second = static_cast<std::uint16_t>(scene::piecesOf(primitive).count);
+        }
+        counts.push_back(found->second);
+    }
+    return counts;
+}
+
+void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed,
+                   std::span<const std::uint16_t> pieces)
 {
     const std::uint32_t known = objects.size();
     for (std::uint32_t i = 0; i < state.objects.size(); ++i) {
         const scene::Object& object = state.objects[i];
         if (i >= known) {
             const bool is_closed = i < closed.size() && closed[i] != 0;
-            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed});
+            const std::uint16_t count = i < pieces.size() ? pieces[i] : std::uint16_t{0};
+            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed, count});
         } else if (object.dynamic) {
             (void)objects.update(objects.idAt(i), object.bounds_ws);
         }

@@ -106,6 +106,7 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     inputs.normal = targets.normals().view;
     inputs.smooth = targets.smooth().view;
     inputs.object_id = targets.ids().view;
+    inputs.object_pieces = true; // scene.vert
     vulkan::ShadowRenderer& renderer = shadows->renderer;
     vulkan::CasterDrawer& casters = shadows->casters;
     renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);

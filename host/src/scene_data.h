@@ -35,7 +35,8 @@ struct SceneData {
     }
     [[nodiscard]] vulkan::CasterGeometry casterGeometry() const
     {
-        return {geometry.positions.handle, 0, geometry.uvs.handle, 0, geometry.indices.handle, 0};
+        return {geometry.positions.handle, 0, geometry.uvs.handle,        0,
+                geometry.indices.handle,   0, geometry.attributes.handle, 0};
     }
 };
 

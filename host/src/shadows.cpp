@@ -2,6 +2,7 @@
 #include "shadows.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace gnomon::host {
 namespace {
@@ -28,6 +29,8 @@ vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const RenderOptions& o
     vulkan::CasterDrawerOptions wish;
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = gpu.pipelineCache();
+    wish.vertices.piece = {VK_FORMAT_R16_UINT, sizeof(VertexAttributes),
+                           offsetof(VertexAttributes, normal) + 3 * sizeof(std::int16_t)};
     return wish;
 }
 

@@ -53,7 +53,8 @@ CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object)
 {
     const ResolvedOptions& options = optionsOf(plan, view);
     CasterId caster;
-    caster.id = static_cast<float>(objectIdsOf(plan, view.light)[object]) / static_cast<float>(idsOf(options.format()));
+    caster.ids = static_cast<float>(idsOf(options.format()));
+    caster.id = static_cast<float>(objectIdsOf(plan, view.light)[object]) / caster.ids;
     caster.depth_ws = view.metric.metric_ws;
     if (options.ids().depth == IdDepth::object) {
         // objectDepth() of shaders/shared/object_ids.h, in double precision.

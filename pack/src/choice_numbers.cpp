@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers by which shaders tell choices apart are those of the enums.
 #include <gnomon/choices.h>
+#include <gnomon/object_ids.h>
 #include <gnomon/options.h>
 
 #include <choice_numbers.h>
@@ -23,6 +24,8 @@ static_assert(is(shared::kFilterHard, Filter::hard) && is(shared::kFilterPcf, Fi
               is(shared::kFilterDepthId, Filter::depth_id));
 static_assert(is(shared::kIdTestAny, IdTest::any) && is(shared::kIdTestPriority, IdTest::priority) &&
               is(shared::kIdTestNearest, IdTest::nearest));
+static_assert(shared::kMostPieces == int(kMostPieces) && kMostIdObjects == (1U << unsigned(shared::kPieceShift)) - 1U &&
+              pixelObject(6, 2) == (7U | (2U << unsigned(shared::kPieceShift))));
 static_assert(is(shared::kSamplingNearest, MapSampling::nearest) &&
               is(shared::kSamplingBilinear, MapSampling::bilinear) &&
               is(shared::kSamplingTrilinear, MapSampling::trilinear) &&

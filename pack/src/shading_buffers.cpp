@@ -120,6 +120,7 @@ void fillLight(const Frame& frame, const Plan& plan, std::size_t index, SunShown
     if (light.first_object_id != kNoIndex) {
         out.options.y = firstIdVector(plan, light);
         out.options.z = static_cast<std::uint32_t>(plan.object_bounds.size());
+        out.options.w = (*plan.options)[light.options].ids().of == IdOf::face ? 1 : 0;
     }
 }
 

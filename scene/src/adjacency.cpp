@@ -55,6 +55,7 @@ void addTriangles(std::span<const std::uint32_t> indices, std::span<const std::u
         const std::array<std::uint32_t, 3> corners{welded[indices[i]], welded[indices[i + 1]], welded[indices[i + 2]]};
         if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]) {
             out.triangles.push_back(corners);
+            out.first_indices.push_back(indices[i]);
         }
     }
 }

@@ -10,6 +10,7 @@
 #ifndef GNOMON_CASTER_GLSL
 #define GNOMON_CASTER_GLSL
 #include "../shared/depth_metric.h"
+#include "../shared/object_ids.h"
 #include "../shared/paired_depth.h"
 #include "../shared/paraboloid.h"
 GN_BEGIN
@@ -79,6 +80,12 @@ GN_FN real4 casterTexel(int holding, real metric)
 GN_FN real4 casterIdTexel(real id, real depth)
 {
     return real4(id, casterStored(depth), real(0.0), real(0.0));
+}
+
+// What stands for a piece of an object there. `first`: what stands for its first one; `ids`: how many there are.
+GN_FN real casterPieceId(real first, real piece, real ids)
+{
+    return idOfPiece(idOfTexel(first, ids), piece, ids) / ids;
 }
 
 // The midpoint of a caster's first two surfaces: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.

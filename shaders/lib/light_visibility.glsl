@@ -9,6 +9,7 @@
 #ifndef GNOMON_BINDING
 #define GNOMON_BINDING 0
 #endif
+#include "../shared/object_ids.h"
 #include "../shared/gpu_structs.h"
 #include "../shared/sun_steps.h"
 
@@ -29,8 +30,11 @@ layout(set = GNOMON_SET, binding = GNOMON_BINDING + 3, std430) restrict readonly
     GpuView gnomon_views[];
 };
 // A pass that knows whose surface it asks for defines GNOMON_OBJECT, the index of the object (uint), and may define
-// GNOMON_OBJECTS_BINDING: pack::fillObjects().
+// GNOMON_OBJECTS_BINDING: pack::fillObjects(). GNOMON_PIECE: which piece of it, for lights with IdOf::face.
 #ifdef GNOMON_OBJECT
+#ifndef GNOMON_PIECE
+#define GNOMON_PIECE 0u
+#endif
 #ifndef GNOMON_OBJECTS_BINDING
 #define GNOMON_OBJECTS_BINDING GNOMON_BINDING + 7
 #endif
@@ -131,6 +135,9 @@ void placeObject(inout FilterInput f, uvec4 options, vec3 p)
     f.object_centre = gnomon_objects[2u * object].xyz;
     f.object_half = gnomon_objects[2u * object + 1u].xyz;
     f.id = GNOMON_OBJECT < options.z ? gnomon_objects[options.y + (object >> 2)][object & 3u] : 0.0;
+    if (options.w != 0u) {
+        f.id = idOfPiece(f.id, float(GNOMON_PIECE), f.kernel.y);
+    }
 }
 #endif
 

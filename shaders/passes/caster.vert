@@ -36,7 +36,8 @@ layout(location = 7) in vec4 place; // the same for all
 #endif
 #ifdef IDS
 layout(location = 8) in vec4 row_own; // takes the object's own points to the depth beside its id
-layout(location = 9) in float id_in;
+layout(location = 9) in vec2 id_in; // x: as it is stored, of the object's first piece; y: how many ids there are
+layout(location = 10) in uint piece; // its lower bits count
 layout(location = 3) out float own;
 layout(location = 4) flat out float id;
 #endif
@@ -84,7 +85,7 @@ void main()
 #endif
 #ifdef IDS
     own = dot(row_own, p);
-    id = id_in;
+    id = casterPieceId(id_in.x, float(piece & uint(kMostPieces - 1)), id_in.y);
 #endif
 #ifdef CLIPPED
     gl_ClipDistance[0] = casterInside(position, clip_planes[0]);

@@ -55,7 +55,9 @@ GpuConstants numbers;
 #define GNOMON_CONFIDENCE kConfidence
 #if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
 uint receiver_object;
+uint receiver_piece;
 #define GNOMON_OBJECT receiver_object
+#define GNOMON_PIECE receiver_piece
 #define GNOMON_OBJECTS_BINDING 13
 #endif
 #include "../lib/light_visibility.glsl"
@@ -136,7 +138,9 @@ void main()
         discard;
     }
 #ifdef GNOMON_OBJECT
-    receiver_object = texelFetch(object_ids, pixel, 0).r - 1u;
+    uint number = texelFetch(object_ids, pixel, 0).r;
+    receiver_object = (number & ((1u << kPieceShift) - 1u)) - 1u;
+    receiver_piece = number >> kPieceShift;
 #endif
     Left left = lightsOf(pixel);
     if (kTileChannels > 0u && !isLeft(left)) {

@@ -68,7 +68,7 @@ struct GpuLight {
     GN_UVEC4 views;
     GN_VEC4 steps; // where it is seen from two positions: sun_steps.h
     // x: of Plan::options; its GpuConstants are those of this. Of filters id and depth-id y: of pack::fillObjects()'s
-    // vectors the first with its ids, z: how many objects there are
+    // vectors the first with its ids, z: how many objects there are, w: 1: ids are of pieces
     GN_UVEC4 options;
 };
 

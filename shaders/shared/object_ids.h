@@ -22,6 +22,10 @@ struct IdRule {
     real steps; // depth-id: of what a texel's depth is rounded to; less than 0: minus that, and the depth is the map's
 };
 
+// Of IdOf::face: pieces of an object that have numbers of their own, and where in a pixel's number its piece begins.
+GN_CONST int kMostPieces = 4096;
+GN_CONST int kPieceShift = 20;
+
 // An object's own range is its box's along the light and this share of its radius more, so that rounding leaves what is
 // at its ends inside.
 GN_CONST real kObjectPad = real(0.001);
@@ -29,6 +33,14 @@ GN_CONST real kObjectPad = real(0.001);
 GN_FN real idOfTexel(real stored, real ids)
 {
     return floor(stored * ids + real(0.5));
+}
+
+// The id of an object's piece; `first`: that of its first, after which they follow each other, from 1 again after the
+// last. An object without an id has pieces without.
+GN_FN real idOfPiece(real first, real piece, real ids)
+{
+    real before = first - real(1.0) + piece;
+    return first > real(0.0) ? before - ids * floor((before + real(0.5)) / ids) + real(1.0) : real(0.0);
 }
 
 // Does an object with this id leave the one with id `own` lit?

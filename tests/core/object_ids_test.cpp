@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -69,12 +70,12 @@ TEST(HandOutIds, GoesFromFrontToBackAndLeavesTheGround)
     set.add(cubeAt(0, 2, 0));
     set.add({});
     std::vector<std::uint16_t> ids;
-    handOutIds(sunDown(), set, 255, ids);
+    handOutIds(sunDown(), set, 255, IdOf::object, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{3, 1, 0, 2, 0}));
     Light lamp;
     lamp.type = LightType::point;
     lamp.position_ws = {0.0, 0.0, 3.0};
-    handOutIds(lamp, set, 2, ids); // appended; from 1 again
+    handOutIds(lamp, set, 2, IdOf::object, ids); // appended; from 1 again
     EXPECT_EQ(std::vector<std::uint16_t>(ids.begin() + 5, ids.end()), (std::vector<std::uint16_t>{1, 1, 0, 2, 0}));
 }
 
@@ -85,7 +86,7 @@ TEST(HandOutIds, ThoseWithOneIdAreFarApart)
         set.add(cubeAt(0.0F, float(i * 37 % 1000), 0.0F));
     }
     std::vector<std::uint16_t> ids;
-    handOutIds(sunDown(), set, 255, ids);
+    handOutIds(sunDown(), set, 255, IdOf::object, ids);
     for (std::uint32_t a = 0; a < 1000; ++a) {
         for (std::uint32_t b = 0; b < a; ++b) {
             if (ids[a] == ids[b]) {
@@ -93,6 +94,69 @@ TEST(HandOutIds, ThoseWithOneIdAreFarApart)
             }
         }
     }
+}
+
+/// A cube of six pieces.
+ObjectFlags inFaces(std::uint16_t pieces = 6)
+{
+    ObjectFlags flags;
+    flags.pieces = pieces;
+    return flags;
+}
+
+TEST(HandOutIds, GivesEachPieceOne)
+{
+    ObjectSet set;
+    set.add(cubeAt(0, 0, 0), inFaces(3));
+    set.add(cubeAt(0, 5, 0), inFaces());
+    set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
+    set.add(cubeAt(0, 2, 0), inFaces(250));
+    std::vector<std::uint16_t> ids;
+    handOutIds(sunDown(), set, 255, IdOf::face, ids);
+    EXPECT_EQ(ids, (std::vector<std::uint16_t>{2, 1, 0, 7})); // 7 to 255 and 1
+    ids.clear();
+    handOutIds(sunDown(), set, 65535, IdOf::face, ids);
+    EXPECT_EQ(ids, (std::vector<std::uint16_t>{257, 1, 0, 7}));
+}
+
+TEST(PlannedIds, OfPiecesNeedTheirNumber)
+{
+    World world(0);
+    const ObjectId cube = world.set.add(cubeAt(0.0F, 1.0F, 0.0F), inFaces());
+    ShadowOptions options = optionsOf(Filter::id);
+    options.ids.of = IdOf::face;
+    Planner planner(options);
+    const Plan& plan = world.plan(planner);
+    ASSERT_EQ(plan.lights[0].outcome.kind, OutcomeKind::ok) << plan.lights[0].outcome.reason;
+    EXPECT_EQ(plan.object_pieces, (std::vector<std::uint16_t>{0, 6})); // of the floor nobody asks
+    EXPECT_EQ(objectIdsOf(plan, 0)[cube.index], 1);
+    world.set.add(cubeAt(3.0F, 1.0F, 0.0F));
+    const Outcome& refused = world.plan(planner).lights[0].outcome;
+    EXPECT_EQ(refused.kind, OutcomeKind::refused);
+    EXPECT_EQ(refused.reason,
+              "id.of face: an object that casts does not say of how many pieces it is (ObjectFlags::pieces)");
+    EXPECT_TRUE(planner.plan(world.frame).object_ids.empty());
+    Planner whole(optionsOf(Filter::id));
+    EXPECT_EQ(world.plan(whole).lights[0].outcome.kind, OutcomeKind::ok);
+    EXPECT_TRUE(world.plan(whole).object_pieces.empty());
+}
+
+TEST(PlannedIds, AreOfNoMoreObjectsThanAPixelCanName)
+{
+    World world(3);
+    const auto add = [&](std::uint32_t count) {
+        while (world.set.size() < count) {
+            world.set.add({}); // nowhere, but it has an index
+        }
+        Planner planner(optionsOf(Filter::id));
+        return world.plan(planner).lights[0].outcome;
+    };
+    EXPECT_EQ(add(1000).kind, OutcomeKind::ok);
+    EXPECT_EQ(pixelObject(kMostIdObjects - 1, kMostPieces - 1), 0xFFFFFFFFU);
+    EXPECT_EQ(pixelObject(4), 5U);
+    const Outcome refused = add(kMostIdObjects + 1);
+    EXPECT_EQ(refused.kind, OutcomeKind::refused);
+    EXPECT_EQ(refused.reason, "ids tell at most 1048575 objects apart");
 }
 
 TEST(PlannedIds, AreThoseOfEachLightThatHasAny)
@@ -151,6 +215,7 @@ TEST(IdCollisions, AreOfThoseThatOverlapAndHaveOneId)
     const IdCollisions counted = countIdCollisions(world.plan(few), 0);
     EXPECT_EQ(counted.casters, 300U);
     EXPECT_EQ(counted.ids, 255U);
+    EXPECT_EQ(counted.taken, 300U);
     EXPECT_EQ(counted.pairs, 300U * 299U / 2U);
     EXPECT_EQ(counted.collisions, 45U);
     options.format = MapFormat::r16;
@@ -160,6 +225,28 @@ TEST(IdCollisions, AreOfThoseThatOverlapAndHaveOneId)
     EXPECT_EQ(countIdCollisions(world.plan(none), 0).ids, 0U);
     EXPECT_NE(toJson(world.plan(few)).find("\"collisions\": 45"), std::string::npos);
     EXPECT_EQ(toJson(world.plan(none)).find("\"collisions\""), std::string::npos);
+}
+
+// Two that overlap lose a shadow where any piece of one has the id of any of the other.
+TEST(IdCollisions, OfPiecesAreOfAnyThatBothHave)
+{
+    for (const auto& [between, collisions] :
+         {std::pair{240, 0U}, std::pair{243, 0U}, std::pair{244, 1U}, // 1 .. 6 again
+          std::pair{249, 1U}, std::pair{254, 1U}, std::pair{255, 0U}}) {
+        World world(0);
+        world.set.add(cubeAt(0.0F, 3.0F, 0.0F), inFaces());
+        world.set.add(cubeAt(5.0F, 2.0F, 0.0F), inFaces(static_cast<std::uint16_t>(between)));
+        world.set.add(cubeAt(0.0F, 1.0F, 0.0F), inFaces());
+        ShadowOptions options = optionsOf(Filter::id);
+        options.format = MapFormat::r8;
+        options.ids.of = IdOf::face;
+        Planner planner(options);
+        const IdCollisions counted = countIdCollisions(world.plan(planner), 0);
+        EXPECT_EQ(counted.pairs, 1U);
+        EXPECT_EQ(counted.casters, 3U);
+        EXPECT_EQ(counted.taken, 12U + static_cast<unsigned>(between));
+        EXPECT_EQ(counted.collisions, collisions) << between;
+    }
 }
 
 std::string refusalOf(Filter filter, void (*change)(ShadowOptions&))

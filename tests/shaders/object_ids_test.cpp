@@ -61,6 +61,43 @@ TEST_F(ObjectIds, oneObjectLightsItself)
     }
 }
 
+// As integers have it: they follow the first one, and after the last comes 1.
+TEST_F(ObjectIds, thoseOfPiecesFollowTheFirst)
+{
+    for (const int ids : {255, 65535}) {
+        std::mt19937 rng(2);
+        for (int i = 0; i < 200000; ++i) {
+            const int first = 1 + static_cast<int>(rng() % static_cast<unsigned>(ids));
+            const int piece = static_cast<int>(rng() % static_cast<unsigned>(kMostPieces));
+            ASSERT_EQ(idOfPiece(double(first), double(piece), double(ids)), (first - 1 + piece) % ids + 1)
+                << first << " " << piece << " of " << ids;
+        }
+        EXPECT_EQ(idOfPiece(double(ids), 1.0, double(ids)), 1.0);
+        EXPECT_EQ(idOfPiece(double(ids), 0.0, double(ids)), double(ids));
+        EXPECT_EQ(idOfPiece(0.0, 5.0, double(ids)), 0.0); // what has no id has no pieces
+    }
+}
+
+// A cube under a light from above and the left: its left side has the texels before 10, its top those behind. What lies
+// behind them, the cube's right side, is lit as long as the cube has one id, and in its shadow where each face has one.
+TEST_F(ObjectIds, aCubeIsInItsOwnShadowByItsFaces)
+{
+    constexpr double kFirst = 254.0; // so that numbers come again
+    const auto id = [](double piece) {
+        return idOfPiece(kFirst, piece, kIds);
+    };
+    draw([](int, int) { return int(kFirst); });
+    for (double x = 8.0; x < 12.0; x += 0.01) {
+        EXPECT_EQ(seen(kFirst, x), 1.0);
+    }
+    draw([&](int x, int) { return id(x < 10 ? 0.0 : 4.0); });
+    for (double x = 8.0025; x < 12.0; x += 0.01) {
+        EXPECT_EQ(seen(id(1.0), x), 0.0) << x;
+        EXPECT_EQ(seen(id(0.0), x), x < 10.5 ? 1.0 : 0.0) << x; // lit up to its edge, and no halo there
+        EXPECT_EQ(seen(id(4.0), x), x >= 9.5 ? 1.0 : 0.0) << x;
+    }
+}
+
 // An object covers the texels before 10, so its shadow on the other one ends at 10. Any of four: half a texel less.
 TEST_F(ObjectIds, betweenTwoTheShadowIsHalfATexelSmaller)
 {

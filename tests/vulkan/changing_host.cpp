@@ -22,6 +22,13 @@ vulkan::ShadowRendererOptions drawingFins(vulkan::ShadowRendererOptions options)
     return options;
 }
 
+vulkan::CasterDrawerOptions withPieces()
+{
+    vulkan::CasterDrawerOptions options;
+    options.vertices.piece = kPieceOfVertex;
+    return options;
+}
+
 } // namespace
 
 std::ostream& operator<<(std::ostream& out, const Made& made)
@@ -32,13 +39,14 @@ std::ostream& operator<<(std::ostream& out, const Made& made)
 
 ChangingHost::ChangingHost(const vulkan::ShadowRendererOptions& options)
     : own_(std::make_unique<NullDriver>()), driver(*own_), renderer(driver.view(), drawingFins(options)),
-      drawer(driver.view(), {}), fins(driver.view(), {})
+      drawer(driver.view(), withPieces()), fins(driver.view(), {})
 {
     begin();
 }
 
 ChangingHost::ChangingHost(NullDriver& shared, const vulkan::ShadowRendererOptions& options)
-    : driver(shared), renderer(driver.view(), drawingFins(options)), drawer(driver.view(), {}), fins(driver.view(), {})
+    : driver(shared), renderer(driver.view(), drawingFins(options)), drawer(driver.view(), withPieces()),
+      fins(driver.view(), {})
 {
     begin();
 }
@@ -57,9 +65,9 @@ void ChangingHost::begin()
 
 void ChangingHost::addObjects()
 {
-    (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}});
+    (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}}, {.pieces = 1});
     for (std::size_t i = 0; i < scene_.boxes.size(); ++i) {
-        (void)objects_.add(boundsOf(scene_.boxes[i]), {.dynamic = i >= 3});
+        (void)objects_.add(boundsOf(scene_.boxes[i]), {.dynamic = i >= 3, .pieces = 6});
     }
 }
 
@@ -78,6 +86,7 @@ void ChangingHost::makeScene()
     geometry_.positions = driver.makeBuffer();
     geometry_.uvs = driver.makeBuffer();
     geometry_.indices = driver.makeBuffer();
+    geometry_.pieces = driver.makeBuffer();
     transforms_ = scene_.transforms();
     std::vector<vulkan::VolumeMesh> edges{{0, 5, 0}};
     edges.resize(objects.size(), {5, 18, 4});
@@ -162,6 +171,7 @@ vulkan::MaskInputs ChangingHost::inputsOf(std::uint32_t slot, const FrameSetup& 
     inputs.depth = views.depth;
     inputs.normal = setup.inputs.normals ? views.normal : VK_NULL_HANDLE;
     inputs.object_id = setup.inputs.ids ? views.id : VK_NULL_HANDLE;
+    inputs.object_pieces = true;
     inputs.volumes = [](const vulkan::VolumePass&) {
     };
     return inputs;

@@ -255,6 +255,39 @@ TEST(Misuse, OfFinsIsAnError)
                   [&] { (void)plain.drawer.draw(pass); });
 }
 
+TEST(Misuse, OfPiecesOfObjectsIsAnError)
+{
+    ShadowOptions options{.technique = kPlainTechnique};
+    options.technique.filter = Filter::id;
+    options.ids.of = IdOf::face;
+    vulkan::CasterDrawerOptions with_pieces;
+    with_pieces.vertices.piece = kPieceOfVertex;
+    for (const bool has_pieces : {false, true}) {
+        Misuser host(options, has_pieces ? with_pieces : vulkan::CasterDrawerOptions{});
+        host.giveIds();
+        host.driver.beginSlot(0);
+        host.prepare();
+        expectRefused(host, "fill in CasterGeometry::pieces", [&] { host.begin(); });
+        host.geometry.pieces = host.driver.makeBuffer();
+        if (!has_pieces) {
+            expectRefused(host, "CasterVertices::piece", [&] { host.begin(); });
+            expectRefused(host, "CasterVertices::piece", [&] { host.drawer.warmUp(resolvedOrThrow(options), false); });
+            continue;
+        }
+        host.begin();
+        host.maps();
+        host.inputs.object_id = host.driver.makeView();
+        expectRefused(host, "MaskInputs::object_pieces is false", [&] { host.mask(); });
+        host.inputs.object_pieces = true;
+        host.record();
+    }
+    vulkan::CasterDrawerOptions odd;
+    odd.vertices.piece = {VK_FORMAT_R8_UINT, 1, 0};
+    NullDriver driver;
+    EXPECT_NE(sentenceOf([&] { CasterDrawer(driver.view(), odd); }).find("choose 16 or 32 bits of unsigned integers"),
+              std::string::npos);
+}
+
 /// A plan that nobody prepared for: other options, larger pages, more of anything.
 TEST(Misuse, OfAnotherPlanThanWasPreparedIsAnError)
 {

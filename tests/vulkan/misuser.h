@@ -26,8 +26,8 @@ inline constexpr VkExtent2D kPicture{64, 48};
 /// A host that does all right, of which one thing at a time goes wrong.
 class Misuser {
 public:
-    explicit Misuser(const ShadowOptions& options = {})
-        : renderer(driver.view(), {}), drawer(driver.view(), {}), profiler(driver.view(), 2, 8)
+    explicit Misuser(const ShadowOptions& options = {}, const vulkan::CasterDrawerOptions& casters = {})
+        : renderer(driver.view(), {}), drawer(driver.view(), casters), profiler(driver.view(), 2, 8)
     {
         lights = {makeSun({0.5, -1.0, 0.2}), makeSpot({4.0, 8.0, 2.0}, {0.0, 0.0, 0.0}, 0.5)};
         const std::vector<Tile> tiles{{0, 0, 0, 256, 256}, {1, 0, 0, 256, 256}};
@@ -43,6 +43,14 @@ public:
         geometry.positions = driver.makeBuffer();
         geometry.indices = driver.makeBuffer();
         transforms = scene.transforms();
+    }
+    void giveIds()
+    {
+        for (LightPlan& light : plan.lights) {
+            light.first_object_id = static_cast<std::uint32_t>(plan.object_ids.size());
+            plan.object_ids.resize(plan.object_ids.size() + objects.size(), 1);
+        }
+        plan.object_bounds.resize(objects.size(), {{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}});
     }
     void prepare() { (void)renderer.prepare(plan, kPicture); }
     void begin() { drawer.beginFrame(0, plan, geometry, transforms); }

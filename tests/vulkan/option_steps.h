@@ -48,6 +48,7 @@ inline constexpr std::array kBases{
     "filter=pcf soften=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies partition=sdsm cascades.pass=layered map-size=64",
+    "filter=depth-id id.of=face motion=snap keep-still=always map-size=64",
 };
 /// Of letters and digits alone.
 [[nodiscard]] std::string nameOfBase(std::string_view line);

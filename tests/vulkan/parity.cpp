@@ -176,13 +176,13 @@ void giveIds(const ShadowOptions& options, Rendered& r)
         const double c = std::abs(std::cos(box.angle));
         const double s = std::abs(std::sin(box.angle));
         const glm::dvec3 reach(c * box.half.x + s * box.half.z, box.half.y, s * box.half.x + c * box.half.z);
-        objects.add({glm::vec3(box.centre - reach), glm::vec3(box.centre + reach)});
+        objects.add({glm::vec3(box.centre - reach), glm::vec3(box.centre + reach)}, {.pieces = 6});
     }
     const std::span<const Aabb> bounds = objects.allBounds();
     r.plan.object_bounds.assign(bounds.begin(), bounds.end());
     for (std::size_t i = 0; i < r.lights.size(); ++i) {
         r.plan.lights[i].first_object_id = static_cast<std::uint32_t>(r.plan.object_ids.size());
-        handOutIds(r.lights[i], objects, idsOf(formatOf(options)), r.plan.object_ids);
+        handOutIds(r.lights[i], objects, idsOf(formatOf(options)), options.ids.of, r.plan.object_ids);
     }
 }
 
@@ -211,10 +211,12 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
     vulkan::MaskInputs inputs = uploadPicture(gpu(), r.picture);
     if (filterTraits(options.technique.filter)->ids) {
         giveIds(options, r);
-        inputs.object_id =
-            gpu()
-                .makeImage(VK_FORMAT_R32_UINT, kParityScreen, std::as_bytes(std::span(r.picture.object_plus_one)))
-                .view;
+        std::vector<std::uint32_t> numbers = r.picture.object_plus_one;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            numbers[i] = numbers[i] == 0 ? 0 : pixelObject(numbers[i] - 1, r.picture.piece[i]);
+        }
+        inputs.object_id = gpu().makeImage(VK_FORMAT_R32_UINT, kParityScreen, std::as_bytes(std::span(numbers))).view;
+        inputs.object_pieces = true;
     }
 
     vulkan::ShadowRendererOptions renderer_options;
@@ -223,8 +225,12 @@ Rendered renderParity(const ShadowOptions& options, ParityLights lights)
     ShadowRenderer renderer(gpu().view(), renderer_options);
     vulkan::CasterDrawerOptions drawer_options;
     drawer_options.frames_in_flight = kFrames;
+    drawer_options.vertices.piece = kPieceOfVertex;
     CasterDrawer drawer(gpu().view(), drawer_options);
-    const SceneMesh mesh = uploadMesh(gpu(), r.scene);
+    SceneMesh mesh = uploadMesh(gpu(), r.scene);
+    if (options.ids.of == IdOf::face) {
+        partSides(gpu(), mesh);
+    }
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
     vulkan::FinDrawer fins(gpu().view(), {.frames_in_flight = kFrames});
     fins.setScene(mesh.outlines);

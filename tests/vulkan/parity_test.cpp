@@ -87,13 +87,15 @@ TEST(ParityOfIds, everyTestAndDepthIsThatOfTheCpu)
               std::tuple{Filter::depth_id, IdDepth::object, std::optional<float>{0.05F}},
               std::tuple{Filter::depth_id, IdDepth::global, std::optional<float>{}},
               std::tuple{Filter::depth_id, IdDepth::global, std::optional<float>{0.05F}}}) {
-            ShadowOptions options{.technique = kPlainTechnique};
-            options.technique.filter = filter;
-            options.ids = {test, depth, bias};
-            const std::string name = "ids_" + std::string(nameOf(filter)) + "_" + std::string(nameOf(test)) + "_" +
-                                     std::string(nameOf(depth)) + (bias ? "_bias" : "");
-            SCOPED_TRACE(name);
-            expectParity(renderParity(options), options, name);
+            for (const IdOf of : {IdOf::object, IdOf::face}) {
+                ShadowOptions options{.technique = kPlainTechnique};
+                options.technique.filter = filter;
+                options.ids = {test, depth, bias, of};
+                const std::string name = "ids_" + std::string(nameOf(filter)) + "_" + std::string(nameOf(test)) + "_" +
+                                         std::string(nameOf(depth)) + (bias ? "_bias_" : "_") + std::string(nameOf(of));
+                SCOPED_TRACE(name);
+                expectParity(renderParity(options), options, name);
+            }
         }
     }
     expectSilence(gpu());

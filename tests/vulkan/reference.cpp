@@ -437,6 +437,9 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
                 const std::uint32_t object = picture.object_plus_one[i] - 1;
                 const Aabb& box = scene.plan.object_bounds[object];
                 input.id = objectIdsOf(scene.plan, view.light)[object];
+                if (options.ids.of == IdOf::face) {
+                    input.id = shared::idOfPiece(input.id, picture.piece[i], input.kernel.y);
+                }
                 input.place = p;
                 input.object_centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
                 input.object_half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));

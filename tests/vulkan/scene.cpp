@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -95,17 +96,41 @@ std::vector<vulkan::Rows3x4> Scene::transforms() const
 
 namespace {
 
-constexpr std::array<std::uint32_t, 6> kQuad{0, 2, 1, 0, 3, 2};
+constexpr std::array<glm::vec3, 4> kGround{glm::vec3{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+constexpr std::array<std::uint32_t, 6> kGroundIndices{0, 2, 1, 0, 3, 2};
+// Six for each side: -z, z, -x, x, -y, y.
 constexpr std::array<std::uint32_t, 36> kCube{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
                                               1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
 
+glm::vec3 cubeCorner(std::uint32_t i)
+{
+    return {(i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1};
+}
+
 std::vector<glm::vec3> meshPositions()
 {
-    std::vector<glm::vec3> positions{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-    for (int i = 0; i < 8; ++i) {
-        positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    std::vector<glm::vec3> positions(kGround.begin(), kGround.end());
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        positions.push_back(cubeCorner(i));
     }
     return positions;
+}
+
+/// Of a normal in the box's own frame.
+std::uint32_t sideOf(const glm::dvec3& n)
+{
+    const glm::dvec3 a = glm::abs(n);
+    const int axis = a.z > a.x && a.z > a.y ? 0 : a.x > a.y ? 1 : 2;
+    const double along = axis == 0 ? n.z : axis == 1 ? n.x : n.y;
+    return static_cast<std::uint32_t>(2 * axis) + (along > 0.0 ? 1 : 0);
+}
+
+template <class T>
+VkBuffer bufferOf(Gpu& gpu, const std::vector<T>& values, VkBufferUsageFlags usage)
+{
+    const TestBuffer made = gpu.makeBuffer(values.size() * sizeof(T), usage);
+    std::memcpy(made.mapped, values.data(), values.size() * sizeof(T));
+    return made.buffer;
 }
 
 vulkan::VolumeMesh addEdges(std::span<const std::uint32_t> indices, std::uint32_t first_vertex, SceneEdges& out)
@@ -149,15 +174,30 @@ SceneEdges sceneEdges()
 {
     SceneEdges edges;
     edges.positions = meshPositions();
-    edges.meshes[0] = addEdges(kQuad, 0, edges);
+    edges.meshes[0] = addEdges(kGroundIndices, 0, edges);
     edges.meshes[1] = addEdges(kCube, 4, edges);
     return edges;
+}
+
+void partSides(Gpu& gpu, SceneMesh& mesh)
+{
+    std::vector<glm::vec3> positions(kGround.begin(), kGround.end());
+    std::vector<std::uint32_t> indices(kGroundIndices.begin(), kGroundIndices.end());
+    std::vector<std::uint32_t> pieces(positions.size(), 0);
+    for (std::uint32_t i = 0; i < kCube.size(); ++i) {
+        positions.push_back(cubeCorner(kCube[i]));
+        indices.push_back(i);
+        pieces.push_back(i / 6);
+    }
+    mesh.geometry.positions = bufferOf(gpu, positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    mesh.geometry.indices = bufferOf(gpu, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    mesh.geometry.pieces = bufferOf(gpu, pieces, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
 }
 
 SceneMesh uploadMesh(Gpu& gpu, const Scene& scene)
 {
     const std::vector<glm::vec3> positions = meshPositions();
-    std::vector<std::uint32_t> indices(kQuad.begin(), kQuad.end());
+    std::vector<std::uint32_t> indices(kGroundIndices.begin(), kGroundIndices.end());
     indices.insert(indices.end(), kCube.begin(), kCube.end());
 
     SceneMesh mesh;
@@ -214,6 +254,8 @@ Picture tracePicture(const Scene& scene, const Camera& camera, VkExtent2D extent
             picture.position.push_back(p);
             picture.normal.push_back(hit ? hit->normal : glm::dvec3(0.0));
             picture.object_plus_one.push_back(hit ? hit->object + 1 : 0);
+            const bool is_box = hit && hit->object > 0;
+            picture.piece.push_back(is_box ? sideOf(turned(hit->normal, -scene.boxes[hit->object - 1].angle)) : 0);
             const glm::vec2 e = hit ? shared::octahedralEncode(glm::vec3(hit->normal)) : glm::vec2(0.0F);
             picture.octahedral.push_back(glm::i16vec2(glm::round(e * 32767.0F)));
         }

@@ -61,6 +61,11 @@ struct SceneMesh {
 };
 [[nodiscard]] SceneMesh uploadMesh(Gpu& gpu, const Scene& scene);
 
+/// The same with vertices of its own for each side of the cube, which then is of six pieces (CasterGeometry::pieces, of
+/// 32 bits). `mapped_indices` and `vertex_count` are no longer of use.
+inline constexpr vulkan::VertexAttribute kPieceOfVertex{VK_FORMAT_R32_UINT, 4, 0};
+void partSides(Gpu& gpu, SceneMesh& mesh);
+
 [[nodiscard]] Camera makeCamera(glm::dvec3 eye, glm::dvec3 target, double aspect, bool reversed_z = true);
 
 /// What the camera sees, per pixel.
@@ -70,6 +75,7 @@ struct Picture {
     std::vector<glm::dvec3> position; // on the surface; meaningless in the background
     std::vector<glm::dvec3> normal;   // 0 in the background
     std::vector<std::uint32_t> object_plus_one;
+    std::vector<std::uint32_t> piece; // of the object, as partSides() has them
     std::vector<glm::i16vec2> octahedral;
 };
 [[nodiscard]] Picture tracePicture(const Scene& scene, const Camera& camera, VkExtent2D extent);

@@ -279,6 +279,10 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     if (impl_->object_count > 0 && (geometry.positions == VK_NULL_HANDLE || geometry.indices == VK_NULL_HANDLE)) {
         refuseUse(kBeginning, "the buffer of positions or of indices is null", "fill in CasterGeometry");
     }
+    if (geometry.pieces == VK_NULL_HANDLE && hasPieces(plan)) {
+        refuseUse(kBeginning, "id.of face tells pieces of objects apart, and the buffer of pieces is null",
+                  "fill in CasterGeometry::pieces");
+    }
     impl_->slot = nullptr;                               // until all of it is there
     impl_->device.enter(slot, Retirement::Work::bounds); // a new frame each time
     Impl::Slot* const begun = &impl_->slots[slot];

@@ -55,6 +55,9 @@ void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
     }
     const VkBuffer instances = slot->instances.buffer();
     device.vk.CmdBindVertexBuffers(pass.commands, 1, 1, &instances, &instances_used);
+    if (pass.formats.pieces) {
+        device.vk.CmdBindVertexBuffers(pass.commands, kPieceBinding, 1, &geometry.pieces, &geometry.pieces_offset);
+    }
     if (pass.placement != VK_NULL_HANDLE && pass.view_count == 1) {
         device.vk.CmdBindVertexBuffers(pass.commands, kPlacementBinding, 1, &pass.placement, &pass.placement_offset);
     }

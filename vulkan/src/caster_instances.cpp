@@ -24,7 +24,7 @@ void writeIdInstances(const MapPass& pass, std::span<const std::uint32_t> list, 
         const pack::CasterId caster = pack::casterIdOf(*pass.plan, *pass.view, object);
         out = rows.write(casters.world_from_object[object], out, casters.bias_m(object));
         *out++ = pack::composedRow(caster.depth_ws, casters.world_from_object[object]);
-        *out++ = glm::vec4(caster.id, 0.0F, 0.0F, 0.0F);
+        *out++ = glm::vec4(caster.id, caster.ids, 0.0F, 0.0F); // the third: piece 0 of objects that have but one id
     }
 }
 

@@ -4,6 +4,7 @@
 #include "caster_instances.h"
 #include "map_storage.h"
 #include "pipelines.h"
+#include "usage.h"
 
 #include <gnomon/error.h>
 
@@ -149,13 +150,15 @@ void checkVertices(const CasterVertices& vertices)
             "choose three or four floats of 32 bits, or four numbers of 16 bits, float, snorm or unorm");
     require(kUvs, vertices.uv.format, "a format of texture coordinates",
             "choose two floats of 32 or 16 bits, or two unorm of 16 bits");
+    require(std::array{VK_FORMAT_UNDEFINED, VK_FORMAT_R16_UINT, VK_FORMAT_R32_UINT}, vertices.piece.format,
+            "a format of pieces", "choose 16 or 32 bits of unsigned integers");
     require(std::array{VK_INDEX_TYPE_UINT32, VK_INDEX_TYPE_UINT16}, vertices.index, "a type of indices",
             "choose 16 or 32 bits");
 }
 
 struct VertexInput {
-    std::array<VkVertexInputBindingDescription, 4> bindings{};
-    std::array<VkVertexInputAttributeDescription, 10> attributes{};
+    std::array<VkVertexInputBindingDescription, 5> bindings{};
+    std::array<VkVertexInputAttributeDescription, 11> attributes{};
     std::uint32_t binding_count = 0;
     std::uint32_t attribute_count = 0;
 };
@@ -178,7 +181,15 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
     }
     if (key.formats.ids) {
         input.attributes[input.attribute_count++] = {8, 1, VK_FORMAT_R32G32B32A32_SFLOAT, rows * kRowBytes};
-        input.attributes[input.attribute_count++] = {9, 1, VK_FORMAT_R32_SFLOAT, (rows + 1) * kRowBytes};
+        input.attributes[input.attribute_count++] = {9, 1, VK_FORMAT_R32G32_SFLOAT, (rows + 1) * kRowBytes};
+        if (key.formats.pieces) {
+            input.bindings[input.binding_count++] = {kPieceBinding, vertices.piece.stride, VK_VERTEX_INPUT_RATE_VERTEX};
+            input.attributes[input.attribute_count++] = {10, kPieceBinding, vertices.piece.format,
+                                                         vertices.piece.offset};
+        } else { // a zero of the instance's own
+            input.attributes[input.attribute_count++] = {10, 1, VK_FORMAT_R32_UINT,
+                                                         (rows + 1) * kRowBytes + kRowBytes / 2};
+        }
     }
     if (key.layered) {
         input.attributes[input.attribute_count++] = {7, 1, VK_FORMAT_R32_UINT, rows * kRowBytes};
@@ -212,6 +223,10 @@ CasterPipelines::CasterPipelines(Device& device, const CasterDrawerOptions& opti
 
 void CasterPipelines::ensure(const CasterPipelineKey& key)
 {
+    if (key.formats.pieces && options_.vertices.piece.format == VK_FORMAT_UNDEFINED) {
+        refuseUse("make the pipelines of casters", "id.of face tells pieces of objects apart, and vertices have none",
+                  "say where they have them: CasterVertices::piece");
+    }
     if (get(key) == VK_NULL_HANDLE) {
         made_.push_back({key, make(key)});
     }

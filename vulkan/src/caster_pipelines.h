@@ -41,6 +41,9 @@ inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT
 /// Vertex buffer of MapPass::placement.
 inline constexpr std::uint32_t kPlacementBinding = 3;
 
+/// Vertex buffer of CasterGeometry::pieces.
+inline constexpr std::uint32_t kPieceBinding = 4;
+
 class CasterPipelines {
 public:
     CasterPipelines(Device& device, const CasterDrawerOptions& options);

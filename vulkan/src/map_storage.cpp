@@ -53,6 +53,7 @@ MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic)
         storage.colour, storage.depth,       VK_SAMPLE_COUNT_1_BIT, storage.depthOnly() && !orthographic && !over_w,
         back_faces,     options.asked().cull};
     formats.ids = options.traits().ids;
+    formats.pieces = formats.ids && options.ids().of == IdOf::face;
     formats.paraboloid = paraboloid;
     formats.write_frag_depth = formats.write_frag_depth || paraboloid; // the rasteriser's own says nothing
     return formats;

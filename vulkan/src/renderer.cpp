@@ -166,6 +166,10 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
         refuseUse(kTried, "filters id and depth-id tell objects apart, and MaskInputs::object_id is null",
                   "hand in the image of objects' ids");
     }
+    if (!inputs.object_pieces && hasPieces(plan)) {
+        refuseUse(kTried, "id.of face tells pieces of objects apart, and MaskInputs::object_pieces is false",
+                  "have each pixel's piece in the upper bits of its object's number");
+    }
     const VkExtent2D made = impl_->parts->mask.mask().info().extent;
     if (!impl_->parts->has_mask || inputs.extent.width != made.width || inputs.extent.height != made.height) {
         refuseUse(kTried, "prepare() made no mask of this size", "call prepare() with the size of the inputs first");

@@ -122,6 +122,13 @@ void checkCommands(const char* tried, VkCommandBuffer commands)
     }
 }
 
+bool hasPieces(const Plan& plan)
+{
+    return std::ranges::any_of(plan.lights, [&](const LightPlan& light) {
+        return light.first_object_id != kNoIndex && (*plan.options)[light.options].ids().of == IdOf::face;
+    });
+}
+
 void checkPlan(const char* tried, const Plan& plan)
 {
     if (const char* const wrong = wrongOf(plan)) {

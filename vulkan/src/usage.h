@@ -19,6 +19,8 @@ void checkSlot(const char* tried, std::uint32_t slot, std::uint32_t frames_in_fl
 void checkCommands(const char* tried, VkCommandBuffer commands);
 /// Its numbers point into its own lists and pages. Linear in lights and views.
 void checkPlan(const char* tried, const Plan& plan);
+/// Are ids of pieces in a map of the plan's (IdOf::face)?
+bool hasPieces(const Plan& plan);
 
 /// How large a plan is that was prepared: what is recorded must be no larger.
 class PreparedSize {

@@ -68,12 +68,9 @@ const std::vector<Claim>& ids2006()
         {.id = "2006-id-no-self",
          .claim = "Nothing shadows itself",
          .commands = {kIdsOnStage, kIdsAtCamp},
-         .parts = {{"acne on a stage", "", [](const Runs& r) { return r.of("id", "/error/acne"); }, 0.0,
-                    1e-6},
+         .parts = {{"acne on a stage", "", [](const Runs& r) { return r.of("id", "/error/acne"); }, 0.0, 1e-6},
                    {"at camp, light at contacts", "times that of hard",
-                    [](const Runs& r) {
-                        return r.of(1, "id", "/error/detached") / r.of(1, "hard", "/error/detached");
-                    },
+                    [](const Runs& r) { return r.of(1, "id", "/error/detached") / r.of(1, "hard", "/error/detached"); },
                     5.0}},
          .verdict = Verdict::holds,
          .quick = true,
@@ -112,14 +109,10 @@ const std::vector<Claim>& ids2006()
          .claim = "A collision loses a shadow and never adds one",
          .commands = {kIdsAtCamp},
          .parts = {{"with 255 ids the mean error moves towards light by", "",
-                    [](const Runs& r) {
-                        return r.of("id+map-format=r8", "/error/bias") - r.of("id", "/error/bias");
-                    },
+                    [](const Runs& r) { return r.of("id+map-format=r8", "/error/bias") - r.of("id", "/error/bias"); },
                     0.0},
                    {"acne grows by", "",
-                    [](const Runs& r) {
-                        return r.of("id+map-format=r8", "/error/acne") - r.of("id", "/error/acne");
-                    },
+                    [](const Runs& r) { return r.of("id+map-format=r8", "/error/acne") - r.of("id", "/error/acne"); },
                     -1.0, 0.0}},
          .verdict = Verdict::holds,
          .quick = true,
@@ -128,15 +121,9 @@ const std::vector<Claim>& ids2006()
          .claim = "One sample at an object's edge finds what is behind: dark halos. The nearest four cure them",
          .commands = {kIdsAtCamp},
          .parts = {{"false shadow of one sample", "times that of four",
-                    [](const Runs& r) {
-                        return r.ratio("id+id.test=nearest", "id", "/error/acne");
-                    },
-                    2.0},
+                    [](const Runs& r) { return r.ratio("id+id.test=nearest", "id", "/error/acne"); }, 2.0},
                    {"mean error of one sample less that of four", "",
-                    [](const Runs& r) {
-                        return r.of("id+id.test=nearest", "/error/bias") -
-                               r.of("id", "/error/bias");
-                    },
+                    [](const Runs& r) { return r.of("id+id.test=nearest", "/error/bias") - r.of("id", "/error/bias"); },
                     -1.0, -0.01}},
          .verdict = Verdict::holds,
          .quick = true,

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <gnomon/frame.h>
+#include <gnomon/object_set.h>
+#include <gnomon/options.h>
 #include <gnomon/plan.h>
 
 #include <cstdint>
@@ -21,20 +23,33 @@ namespace gnomon {
 /// How many ids besides 0 a texel of this format tells apart: 255 (r8, rg8) or 65535.
 [[nodiscard]] std::uint32_t idsOf(MapFormat format);
 
-/// Those of a light of the plan, by object index; empty where it has none.
+/// Those of a light of the plan, by object index; empty where it has none. With IdOf::face it is that of an object's
+/// first piece, and those of its others follow, from 1 again after the last.
 [[nodiscard]] std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light);
 
 /// Appends one for each object of the set: 0 of what does not cast or is nowhere, then 1 .. `most` and from 1 again, in
 /// the order of the farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on
-/// the ground is before the ground. Of objects as far as each other the lower index is first.
-void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, std::vector<std::uint16_t>& out);
+/// the ground is before the ground. Of objects as far as each other the lower index is first. With IdOf::face each
+/// piece takes one, and what is appended is that of an object's first.
+void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, IdOf of,
+                std::vector<std::uint16_t>& out);
+
+/// Filters id and depth-id have the index of a pixel's object and its piece in one number (pixelObject()); so many
+/// objects can be told apart by it.
+inline constexpr std::uint32_t kMostIdObjects = (1U << 20U) - 1U;
+/// What stands for a pixel of an object and of one of its pieces in MaskInputs::object_id; 0 stands for no object.
+[[nodiscard]] constexpr std::uint32_t pixelObject(std::uint32_t object, std::uint32_t piece = 0)
+{
+    return (object + 1) | ((piece % kMostPieces) << 20U);
+}
 
 /// What objects with one id cost: a shadow where one of them would have thrown it on the other.
 struct IdCollisions {
     std::uint32_t casters = 0;    // drawn in any of the light's maps, with an id
+    std::uint64_t taken = 0;      // by them: one each, or one for each piece
     std::uint32_t ids = 0;        // how many there are to be had
     std::uint64_t pairs = 0;      // of casters that overlap in a map, by their boxes
-    std::uint64_t collisions = 0; // of these, with one id. Best: 0. Of ids drawn by lot: pairs / ids
+    std::uint64_t collisions = 0; // of these, with an id that both have. Best: 0. Of ids drawn by lot: pairs / ids
 };
 /// Of a light of the plan; zeros where it has no ids. Looks at all pairs of a map's casters.
 [[nodiscard]] IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light);

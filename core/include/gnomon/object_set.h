@@ -13,6 +13,9 @@
 
 namespace gnomon {
 
+/// Pieces of one object that ids tell apart; more share numbers.
+inline constexpr std::uint32_t kMostPieces = 4096;
+
 struct ObjectFlags {
     /// Off spares drawing what throws no shadow anyway, such as level ground. Filterable maps
     /// (FilterTraits::filterable) draw it all the same where the camera sees it, because their averages need the
@@ -24,6 +27,9 @@ struct ObjectFlags {
     /// triangles is run along as often one way as the other, by opaque triangles of this object or of others that cast
     /// too, and nothing is cut away. Others are refused or left out (VolumeOptions::open).
     bool closed = false;
+    /// IdOf::face: of how many pieces its triangles are, 1 .. kMostPieces, each of which shades the others. 0: nobody
+    /// said so, and lights that tell pieces apart are refused.
+    std::uint16_t pieces = 0;
 };
 
 /// Names an object for as long as it lives. Its index is its place in plans and in the host's own arrays; when the

@@ -147,6 +147,13 @@ enum class IdDepth : std::uint8_t {
 };
 [[nodiscard]] std::string_view nameOf(IdDepth value);
 
+/// What has an id of its own.
+enum class IdOf : std::uint8_t {
+    object, // an object does not shade itself
+    face,   // each of its pieces (ObjectFlags::pieces), which shade each other. The host says which piece is where
+};
+[[nodiscard]] std::string_view nameOf(IdOf value);
+
 /// Filters id and depth-id.
 struct IdOptions {
     IdTest test = IdTest::automatic;
@@ -154,6 +161,7 @@ struct IdOptions {
     /// depth-id: how far towards the light an object is compared with itself, in shares of its radius, which is half
     /// its box's diagonal: 0 .. 1. A step of what is stored is added. Nothing: BiasOptions say it, as of other filters.
     std::optional<float> bias;
+    IdOf of = IdOf::object;
 
     bool operator==(const IdOptions&) const = default;
 };

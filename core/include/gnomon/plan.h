@@ -384,6 +384,8 @@ struct Plan {
     std::vector<std::uint16_t> object_ids;
     /// Those of the frame's objects, by index. Empty where no light has ids.
     std::vector<Aabb> object_bounds;
+    /// ObjectFlags::pieces of them. Empty where no light has ids of pieces (IdOf::face).
+    std::vector<std::uint16_t> object_pieces;
     /// soften=converge: boxes around all objects that came, went or changed since the plan before, where they are and
     /// where they were; world space. At most kMostMoved.
     std::vector<Aabb> moved_ws;

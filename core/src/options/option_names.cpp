@@ -45,6 +45,10 @@ std::string_view nameOf(IdTest value)
 {
     return nameIn(std::array<std::string_view, 4>{"auto", "any", "priority", "nearest"}, value);
 }
+std::string_view nameOf(IdOf value)
+{
+    return nameIn(std::array<std::string_view, 2>{"object", "face"}, value);
+}
 std::string_view nameOf(IdDepth value)
 {
     return nameIn(std::array<std::string_view, 2>{"object", "global"}, value);

@@ -3,7 +3,7 @@
 // p, of a MapPass with a `placement` gnomonCasterPlaced() of that, and passes on gnomonCasterMetric(). What the fragment
 // shader writes follows from MapPass::formats:
 //   colour is not UNDEFINED   gnomonCasterTexel() to attachment 0; `holding` is 2 for R8G8B8A8_UNORM, else 0
-//   ids                       gnomonCasterIdTexel() to attachment 0 instead
+//   ids                       gnomonCasterIdTexel() to attachment 0 instead; with `pieces` of gnomonCasterPieceId()
 //   write_frag_depth          gnomonCasterDepth() to gl_FragDepth; with several samples the metric's input is `sample`
 //   else                      nothing: the rasteriser's depth is the metric
 // Of an object that clip planes cut the vertex shader writes gnomonCasterInside() to gl_ClipDistance, one for each plane;
@@ -71,6 +71,13 @@ vec4 gnomonCasterTexel(int holding, float metric)
 vec4 gnomonCasterIdTexel(float id, float depth)
 {
     return casterIdTexel(id, depth);
+}
+
+// Of a pass with MapPassFormats::pieces: what goes there as `id`. `first`: CasterId::id; `piece`: of the vertex or the
+// triangle, counted from 0 in its object, as the mask's pixels have it; `ids`: CasterId::ids.
+float gnomonCasterPieceId(float first, uint piece, float ids)
+{
+    return casterPieceId(first, float(piece & uint(kMostPieces - 1)), ids);
 }
 
 // Of a pass with MapPassFormats::behind_first: discard the fragment where this is false. `stored`: gnomonCasterDepth()

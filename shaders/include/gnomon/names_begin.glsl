@@ -52,6 +52,7 @@
 #define casterMetric gnomon_casterMetric
 #define casterMidpoint gnomon_casterMidpoint
 #define casterParaboloid gnomon_casterParaboloid
+#define casterPieceId gnomon_casterPieceId
 #define casterPlaced gnomon_casterPlaced
 #define casterRadial gnomon_casterRadial
 #define casterRim gnomon_casterRim
@@ -123,6 +124,7 @@
 #define hausdorffVisibility gnomon_hausdorffVisibility
 #define idIsBehind gnomon_idIsBehind
 #define idLights gnomon_idLights
+#define idOfPiece gnomon_idOfPiece
 #define idOfTexel gnomon_idOfTexel
 #define idRuleOf gnomon_idRuleOf
 #define idVisibility gnomon_idVisibility
@@ -206,6 +208,7 @@
 #define kMostLog gnomon_kMostLog
 #define kMostOfPoint gnomon_kMostOfPoint
 #define kMostOfWholeLight gnomon_kMostOfWholeLight
+#define kMostPieces gnomon_kMostPieces
 #define kMostRays gnomon_kMostRays
 #define kMostReads gnomon_kMostReads
 #define kMostSmoothieReach gnomon_kMostSmoothieReach
@@ -221,6 +224,7 @@
 #define kOneSurface gnomon_kOneSurface
 #define kParaboloidBehind gnomon_kParaboloidBehind
 #define kPcssTaps gnomon_kPcssTaps
+#define kPieceShift gnomon_kPieceShift
 #define kPixelSteps gnomon_kPixelSteps
 #define kPlaneAlone gnomon_kPlaneAlone
 #define kProjectedKernel gnomon_kProjectedKernel

@@ -52,6 +52,7 @@
 #undef casterMetric
 #undef casterMidpoint
 #undef casterParaboloid
+#undef casterPieceId
 #undef casterPlaced
 #undef casterRadial
 #undef casterRim
@@ -123,6 +124,7 @@
 #undef hausdorffVisibility
 #undef idIsBehind
 #undef idLights
+#undef idOfPiece
 #undef idOfTexel
 #undef idRuleOf
 #undef idVisibility
@@ -206,6 +208,7 @@
 #undef kMostLog
 #undef kMostOfPoint
 #undef kMostOfWholeLight
+#undef kMostPieces
 #undef kMostRays
 #undef kMostReads
 #undef kMostSmoothieReach
@@ -221,6 +224,7 @@
 #undef kOneSurface
 #undef kParaboloidBehind
 #undef kPcssTaps
+#undef kPieceShift
 #undef kPixelSteps
 #undef kPlaneAlone
 #undef kProjectedKernel

@@ -12,6 +12,7 @@
 //   GNOMON_SMOOTHIES  true, or a constant that says so: options may have soften smoothies (hard and pcf)
 //   GNOMON_OBJECT   filters id and depth-id, which are not there without it: the index in Frame::objects of the object
 //                   whose surface is shaded, as an expression (uint); takes an eighth binding
+//   GNOMON_PIECE    beside it, for lights with IdOf::face: the piece of that object (uint), as its casters have it; else 0
 // Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip

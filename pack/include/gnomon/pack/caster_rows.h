@@ -41,11 +41,13 @@ private:
     double per_metre_ = 0.0; // of the metric
 };
 
-/// What a caster writes to a map of filter id or depth-id, with gnomonCasterIdTexel() (caster.glsl).
+/// What a caster writes to a map of filter id or depth-id, with gnomonCasterIdTexel() (caster.glsl); with
+/// IdOf::face of gnomonCasterPieceId().
 struct CasterId {
     /// Takes a point of the world to the depth that goes beside the id, 0 .. 1: IdDepth.
     glm::dvec4 depth_ws{0.0};
-    float id = 0.0F; // as it is stored, 0 .. 1
+    float id = 0.0F;  // as it is stored, 0 .. 1; with IdOf::face that of the object's first piece
+    float ids = 1.0F; // how many there are besides 0
 };
 /// Of an object of the plan, in a view of a light that has ids (Plan::object_ids).
 [[nodiscard]] CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object);

@@ -63,6 +63,9 @@ struct CasterVertices {
     VertexAttribute position{VK_FORMAT_R32G32B32_SFLOAT, 12, 0};
     /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. Read for masked batches alone.
     VertexAttribute uv{VK_FORMAT_R32G32_SFLOAT, 8, 0};
+    /// R16_UINT or R32_UINT: which piece of its object a vertex is of, in the lower 12 bits; the three of a triangle
+    /// have one. For lights with IdOf::face alone. UNDEFINED: vertices do not say so.
+    VertexAttribute piece;
     VkIndexType index = VK_INDEX_TYPE_UINT32; // or UINT16
 };
 
@@ -75,6 +78,8 @@ struct CasterGeometry {
     VkDeviceSize uvs_offset = 0;
     VkBuffer indices = VK_NULL_HANDLE;
     VkDeviceSize indices_offset = 0;
+    VkBuffer pieces = VK_NULL_HANDLE; // of CasterVertices::piece
+    VkDeviceSize pieces_offset = 0;
 };
 
 struct CasterDrawerOptions {
@@ -94,6 +99,7 @@ struct CasterDrawerOptions {
 ///   a clip plane that is not finite                                                 Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a plan whose numbers point beyond its own lists or pages                        Error
+///   a plan with IdOf::face without CasterVertices::piece or CasterGeometry::pieces Error
 ///   fewer transforms than the scene has objects, null positions or indices          Error
 ///   draw() before beginFrame(), of a null pass, or of more than that plan's lists   Error
 ///   an object of the plan that setScene() was not given                             draws nothing

@@ -94,8 +94,12 @@ struct MaskInputs {
     /// and its terminator has no steps. VK_NULL_HANDLE: the geometric one says it.
     VkImageView smooth = VK_NULL_HANDLE;
     /// Index of the object in Frame::objects + 1, in R32_UINT, 0 where a receiver wants no shadow at all;
-    /// VK_NULL_HANDLE: everything receives. Filters id and depth-id need it.
+    /// VK_NULL_HANDLE: everything receives. Filters id and depth-id need it, and of more than kMostIdObjects objects
+    /// they read the lower 20 bits alone.
     VkImageView object_id = VK_NULL_HANDLE;
+    /// The upper 12 bits of `object_id` are the piece of the object, counted from 0 (pixelObject()), as casters have
+    /// it. Lights with IdOf::face need it.
+    bool object_pieces = false;
     /// Draws shadow volumes (VolumeDrawer is such a callback). Needed where the plan has lights with filter volumes.
     DrawVolumes volumes;
 };
@@ -130,6 +134,8 @@ struct MapPassFormats {
     /// into an image beside it, R32_UINT, packed as smoothies.h has them. gl_FragDepth = finOrder(); depth is tested,
     /// LESS_OR_EQUAL, and written. Casters that have no fins keep the shadow that their map gives them.
     bool fins = false;
+    /// IdOf::face, with `ids`: the id is gnomonCasterPieceId() of the triangle's piece.
+    bool pieces = false;
 
     bool operator==(const MapPassFormats&) const = default;
 };
@@ -251,6 +257,7 @@ struct WarmUp {
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error
 ///   recordMask() of lights with filter id or depth-id without MaskInputs::object_id  Error
+///   of such with IdOf::face without MaskInputs::object_pieces                        Error
 ///   recordMask() without a mask, of another extent, of a frame with other lights    Error
 ///   recordMaps(), recordMask() of views with gpu_cascade before recordBounds()      Error
 ///   questions with a slot, options or a view that there is not                      zeros, or empty
