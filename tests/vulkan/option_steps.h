@@ -48,6 +48,9 @@ inline constexpr std::array kBases{
     "filter=pcf soften=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies motion=snap keep-still=always map-size=64",
     "filter=smoothies partition=sdsm cascades.pass=layered map-size=64",
+};
+/// What hosts begin with that always give ids of objects.
+inline constexpr std::array kBasesOfIds{
     "filter=depth-id id.of=face motion=snap keep-still=always map-size=64",
 };
 /// Of letters and digits alone.

@@ -81,6 +81,8 @@ TEST_P(OptionSequence, ofEveryOptionMakesNothingWhileRecordingAndFreesNothingInU
 
 INSTANTIATE_TEST_SUITE_P(Bases, OptionSequence, testing::ValuesIn(kBases),
                          [](const auto& base) { return nameOfBase(base.param); });
+INSTANTIATE_TEST_SUITE_P(BasesOfIds, OptionSequence, testing::ValuesIn(kBasesOfIds),
+                         [](const auto& base) { return nameOfBase(base.param); });
 
 // From technique to technique, so that each comes after each.
 TEST(TechniqueSequence, ofAllPairsMakesNothingWhileRecordingAndFreesNothingInUse)
