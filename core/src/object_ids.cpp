@@ -100,25 +100,37 @@ std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light
                              : std::span(plan.object_ids).subspan(first, plan.object_bounds.size());
 }
 
-void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, IdOf of,
+IdSharing idSharingOf(Filter filter, IdOf of)
+{
+    return filter == Filter::depth_id && of == IdOf::object ? IdSharing::neighbours : IdSharing::far;
+}
+
+void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, std::vector<IdPlace>& scratch,
                 std::vector<std::uint16_t>& out)
 {
     const double length = glm::length(light.direction_ws);
     const glm::dvec3 along_ws = length > 0.0 ? light.direction_ws / length : glm::dvec3(0.0, -1.0, 0.0);
     const std::span<const Aabb> bounds = objects.allBounds();
-    std::vector<std::pair<double, std::uint32_t>> order;
+    scratch.clear();
+    std::uint64_t wanted = 0;
+    const auto takes = [&](std::uint32_t object) {
+        return handout.of == IdOf::face ? std::max<std::uint32_t>(objects.flags(object).pieces, 1) : 1U;
+    };
     for (std::uint32_t object = 0; object < bounds.size(); ++object) {
         if (objects.flags(object).casts && !bounds[object].empty()) {
-            order.emplace_back(farthestOf(light, along_ws, bounds[object]), object);
+            scratch.emplace_back(farthestOf(light, along_ws, bounds[object]), object);
+            wanted += takes(object);
         }
     }
-    std::sort(order.begin(), order.end());
+    std::sort(scratch.begin(), scratch.end());
     const std::size_t first = out.size();
     out.resize(first + bounds.size(), 0);
     std::uint64_t taken = 0;
-    for (const auto& placed : order) {
-        out[first + placed.second] = static_cast<std::uint16_t>(taken % most + 1);
-        taken += of == IdOf::face ? std::max<std::uint32_t>(objects.flags(placed.second).pieces, 1) : 1;
+    const bool squeezed = handout.sharing == IdSharing::neighbours && wanted > handout.most;
+    for (const auto& [reach, object] : scratch) {
+        const std::uint64_t place = squeezed ? taken * handout.most / wanted : taken % handout.most;
+        out[first + object] = static_cast<std::uint16_t>(place + 1);
+        taken += takes(object);
     }
 }
 

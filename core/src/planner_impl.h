@@ -17,6 +17,7 @@
 #include "soften/moved_boxes.h"
 #include "store/map_store.h"
 
+#include <gnomon/object_ids.h>
 #include <gnomon/planner.h>
 
 #include <optional>
@@ -140,6 +141,7 @@ struct Planner::Impl {
     void noteTurns(const Frame& frame);
     void drawViews(const Frame& frame);
     Outcome handOut(const Frame& frame, std::uint32_t index);
+    std::vector<IdPlace> id_order;
     [[nodiscard]] std::uint64_t idsKey(const View& view) const;
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;

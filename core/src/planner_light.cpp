@@ -80,7 +80,11 @@ Outcome Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
         plan.object_bounds.assign(bounds.begin(), bounds.end());
     }
     planned.first_object_id = static_cast<std::uint32_t>(plan.object_ids.size());
-    handOutIds(light, objects, idsOf(options.format()), options.ids().of, plan.object_ids);
+    handOutIds(light, objects,
+               {.most = idsOf(options.format()),
+                .of = options.ids().of,
+                .sharing = idSharingOf(options.filter(), options.ids().of)},
+               id_order, plan.object_ids);
     return {};
 }
 

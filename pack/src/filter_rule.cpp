@@ -134,6 +134,7 @@ shared::IdRule idRuleOf(const ResolvedOptions& options)
     shared::IdRule rule{};
     rule.test = static_cast<float>(options.idTest());
     rule.ids = static_cast<float>(idsOf(options.format()));
+    rule.order = idSharingOf(options.filter(), options.ids().of) == IdSharing::neighbours ? 1.0F : 0.0F;
     rule.bias = options.ids().bias.value_or(-1.0F);
     rule.steps = options.format() == MapFormat::rg32f ? kStepsOfFloats : rule.ids;
     if (options.ids().depth == IdDepth::global) {
@@ -241,7 +242,7 @@ void fillRule(const ResolvedOptions& options, shared::GpuRule& out)
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(pcf.kernel), 1), pcf.sigma_texels.value_or(0.0F));
     if (options.traits().ids) {
         const shared::IdRule ids = idRuleOf(options);
-        out.kernel = {ids.test, ids.ids, ids.bias, ids.steps};
+        out.kernel = {ids.test, ids.order > 0.0F ? -ids.ids : ids.ids, ids.bias, ids.steps};
         out.bias_more.z = ids.steps < 0.0F ? depthQuantum(options.format()) : depthQuantum(MapFormat::d32f);
     }
     out.disc = {pcf.radius_texels, 0.0F, 0.0F, 0.0F};

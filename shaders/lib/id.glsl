@@ -11,7 +11,8 @@ GN_FN IdRule idRuleOf(FilterInput f)
 {
     IdRule rule;
     rule.test = f.kernel.x;
-    rule.ids = f.kernel.y;
+    rule.ids = abs(f.kernel.y);
+    rule.order = f.kernel.y < real(0.0) ? real(1.0) : real(0.0);
     rule.bias = f.kernel.z;
     rule.steps = f.kernel.w;
     return rule;

@@ -76,7 +76,7 @@ struct GpuLight {
 struct GpuRule {
     GN_VEC4 bias;        // automatic, constant_m, slope, normal_texels
     GN_VEC4 bias_more;   // receiver_plane, reach_texels, quantum, exact_plane
-    GN_VEC4 kernel;      // gaussianWeights; of id and depth-id IdRule (object_ids.h)
+    GN_VEC4 kernel;      // gaussianWeights; of id and depth-id IdRule (object_ids.h): -ids where they have an order
     GN_VEC4 disc;        // x: radius, texels; y: frame, for noise; zw: one over the size of the maps' image in texels
     GN_VEC4 moment_warp; // exponent, negative exponent, moment bias, anisotropy
     GN_VEC4 moment_variance;              // least: absolute, in texel depths; share lost to rounding, c+, c-; of hard

@@ -18,6 +18,7 @@ GN_CONST int kIdTestNearest = 3;
 struct IdRule {
     real test;  // a kIdTest
     real ids;   // how many there are besides 0: a texel holds id / ids
+    real order; // above 0: of two ids the higher is behind; else they begin again after the last (gnomon::IdSharing)
     real bias;  // depth-id: towards the light, in shares of the object's radius; less than 0: as BiasRule has it
     real steps; // depth-id: of what a texel's depth is rounded to; less than 0: minus that, and the depth is the map's
 };
@@ -49,12 +50,13 @@ GN_FN bool idLights(real own, real id)
     return id == own || id == real(0.0);
 }
 
-// Ids were handed out front to back, and from 1 again: of two the one that comes within half of them after the other is
-// the one behind. What does not cast, 0, is behind everything.
-GN_FN bool idIsBehind(real own, real id, real ids)
+// Ids were handed out front to back. Where they begin again from 1, of two the one that comes within half of them after
+// the other is taken for the one behind.
+GN_FN bool idIsBehind(real own, real id, IdRule rule)
 {
-    real after = id > own ? id - own : id - own + ids;
-    return own > real(0.0) && id != own && real(2.0) * after <= ids;
+    real after = id > own ? id - own : id - own + rule.ids;
+    bool comes_after = rule.order > real(0.0) ? id > own : real(2.0) * after <= rule.ids;
+    return own > real(0.0) && id != own && comes_after;
 }
 
 // Of the four texels of a gather (filter_types.glsl) the one that is nearest; `part`: where the receiver is between
@@ -73,7 +75,7 @@ GN_FN real idVisibility(IdRule rule, real own, real lifted, real4 ids, real4 lit
     real any = max(max(lit.x, lit.y), max(lit.z, lit.w));
     real nearest = nearestOfFour(lit, part);
     int test = int(rule.test);
-    bool is_behind = test != kIdTestNearest && idIsBehind(own, nearestOfFour(ids, part), rule.ids);
+    bool is_behind = test != kIdTestNearest && idIsBehind(own, nearestOfFour(ids, part), rule);
     if (is_behind && lifted > real(0.5))
         any = real(1.0);
     return test == kIdTestAny || is_behind ? any : nearest;

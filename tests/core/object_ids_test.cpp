@@ -69,13 +69,14 @@ TEST(HandOutIds, GoesFromFrontToBackAndLeavesTheGround)
     set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
     set.add(cubeAt(0, 2, 0));
     set.add({});
+    std::vector<IdPlace> scratch;
     std::vector<std::uint16_t> ids;
-    handOutIds(sunDown(), set, 255, IdOf::object, ids);
+    handOutIds(sunDown(), set, {.most = 255}, scratch, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{3, 1, 0, 2, 0}));
     Light lamp;
     lamp.type = LightType::point;
     lamp.position_ws = {0.0, 0.0, 3.0};
-    handOutIds(lamp, set, 2, IdOf::object, ids); // appended; from 1 again
+    handOutIds(lamp, set, {.most = 2}, scratch, ids); // appended; from 1 again
     EXPECT_EQ(std::vector<std::uint16_t>(ids.begin() + 5, ids.end()), (std::vector<std::uint16_t>{1, 1, 0, 2, 0}));
 }
 
@@ -85,8 +86,9 @@ TEST(HandOutIds, ThoseWithOneIdAreFarApart)
     for (int i = 0; i < 1000; ++i) {
         set.add(cubeAt(0.0F, float(i * 37 % 1000), 0.0F));
     }
+    std::vector<IdPlace> scratch;
     std::vector<std::uint16_t> ids;
-    handOutIds(sunDown(), set, 255, IdOf::object, ids);
+    handOutIds(sunDown(), set, {.most = 255}, scratch, ids);
     for (std::uint32_t a = 0; a < 1000; ++a) {
         for (std::uint32_t b = 0; b < a; ++b) {
             if (ids[a] == ids[b]) {
@@ -94,6 +96,39 @@ TEST(HandOutIds, ThoseWithOneIdAreFarApart)
             }
         }
     }
+}
+
+/// Of more objects than ids a higher id is always behind, and as few share one as can be.
+TEST(HandOutIds, NeighboursShareOneInOrder)
+{
+    ObjectSet set;
+    for (int i = 0; i < 1000; ++i) {
+        set.add(cubeAt(0.0F, float(i * 37 % 1000), 0.0F));
+    }
+    const IdHandout shared{255, IdOf::object, idSharingOf(Filter::depth_id, IdOf::object)};
+    ASSERT_EQ(shared.sharing, IdSharing::neighbours);
+    EXPECT_EQ(idSharingOf(Filter::depth_id, IdOf::face), IdSharing::far);
+    EXPECT_EQ(idSharingOf(Filter::id, IdOf::object), IdSharing::far);
+    std::vector<IdPlace> scratch;
+    std::vector<std::uint16_t> ids;
+    handOutIds(sunDown(), set, shared, scratch, ids);
+    std::vector<int> sharing(256, 0);
+    for (std::uint32_t a = 0; a < 1000; ++a) {
+        ++sharing.at(ids[a]);
+        for (std::uint32_t b = 0; b < a; ++b) {
+            if (set.bounds(a).min.y > set.bounds(b).min.y) {
+                EXPECT_LE(ids[a], ids[b]) << "the sun is above";
+            }
+        }
+    }
+    EXPECT_EQ(sharing[0], 0);
+    EXPECT_EQ(*std::ranges::max_element(sharing), 4);
+    EXPECT_EQ(*std::min_element(sharing.begin() + 1, sharing.end()), 3);
+    std::vector<std::uint16_t> many;
+    handOutIds(sunDown(), set, {65535, IdOf::object, IdSharing::neighbours}, scratch, many);
+    std::vector<std::uint16_t> far;
+    handOutIds(sunDown(), set, {65535, IdOf::object, IdSharing::far}, scratch, far);
+    EXPECT_EQ(many, far) << "where there are enough, both are one for each";
 }
 
 /// A cube of six pieces.
@@ -111,11 +146,12 @@ TEST(HandOutIds, GivesEachPieceOne)
     set.add(cubeAt(0, 5, 0), inFaces());
     set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
     set.add(cubeAt(0, 2, 0), inFaces(250));
+    std::vector<IdPlace> scratch;
     std::vector<std::uint16_t> ids;
-    handOutIds(sunDown(), set, 255, IdOf::face, ids);
+    handOutIds(sunDown(), set, {.most = 255, .of = IdOf::face}, scratch, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{2, 1, 0, 7})); // 7 to 255 and 1
     ids.clear();
-    handOutIds(sunDown(), set, 65535, IdOf::face, ids);
+    handOutIds(sunDown(), set, {.most = 65535, .of = IdOf::face}, scratch, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{257, 1, 0, 7}));
 }
 

@@ -192,16 +192,27 @@ TEST(Renderer, AllocatesNothingInASteadyFrame)
     const std::uint64_t none = gnomon::test::heapAllocations();
     ::operator delete(::operator new(64)); // called by name, it cannot be optimised away
     ASSERT_EQ(gnomon::test::heapAllocations(), none + 1) << "the counter does not count";
-    Stage stage(smallScene(), smallOptions(), false);
-    for (int i = 0; i < 4; ++i) {
-        scene::advance(stage.scene, 0.1 * i, stage.state);
-        stage.renderer->draw(stage.state, stage.eye, stage.lights);
-    }
-    for (int i = 0; i < 3; ++i) {
-        scene::advance(stage.scene, 0.05 + 0.1 * i, stage.state);
-        const std::uint64_t before = gnomon::test::heapAllocations();
-        stage.renderer->draw(stage.state, stage.eye, stage.lights);
-        EXPECT_EQ(gnomon::test::heapAllocations(), before);
+    using enum Filter;
+    for (const auto& [filter, soften] :
+         {std::pair{pcf, Soften::none}, std::pair{pcf, Soften::blur}, std::pair{pcf, Soften::smoothies},
+          std::pair{smoothies, Soften::none}, std::pair{id, Soften::none}, std::pair{depth_id, Soften::none},
+          std::pair{volumes, Soften::blur}}) {
+        RenderOptions options = smallOptions();
+        options.shadow.technique.filter = filter;
+        options.shadow.technique.soften = soften;
+        options.shadow.volumes.open = OpenCasters::skip;
+        Stage stage(smallScene(), options, false);
+        for (int i = 0; i < 4; ++i) {
+            scene::advance(stage.scene, 0.1 * i, stage.state);
+            stage.renderer->draw(stage.state, stage.eye, stage.lights);
+        }
+        for (int i = 0; i < 3; ++i) {
+            scene::advance(stage.scene, 0.05 + 0.1 * i, stage.state);
+            const std::uint64_t before = gnomon::test::heapAllocations();
+            stage.renderer->draw(stage.state, stage.eye, stage.lights);
+            EXPECT_EQ(gnomon::test::heapAllocations(), before) << nameOf(filter) << "+" << nameOf(soften);
+        }
+        EXPECT_GT(stage.renderer->plan().casters.size(), 0U) << nameOf(filter);
     }
 }
 

@@ -190,17 +190,24 @@ TEST_F(ObjectIds, whereNothingCastsEverythingIsLit)
 
 TEST_F(ObjectIds, ofTwoIdsTheOneHandedOutLaterIsBehind)
 {
-    EXPECT_TRUE(idIsBehind(3.0, 4.0, kIds));
-    EXPECT_FALSE(idIsBehind(4.0, 3.0, kIds));
-    EXPECT_FALSE(idIsBehind(4.0, 4.0, kIds));
-    EXPECT_TRUE(idIsBehind(254.0, 2.0, kIds)); // from 1 again
-    EXPECT_FALSE(idIsBehind(2.0, 254.0, kIds));
-    EXPECT_FALSE(idIsBehind(0.0, 4.0, kIds)); // the ground has nothing behind it
-    for (double a = 1.0; a <= kIds; ++a) {
-        for (double b = 1.0; b <= kIds; ++b) {
-            EXPECT_EQ(idIsBehind(a, b, kIds) || idIsBehind(b, a, kIds), a != b);
+    IdRule rule{};
+    rule.ids = kIds;
+    EXPECT_TRUE(idIsBehind(254.0, 2.0, rule)); // from 1 again
+    EXPECT_FALSE(idIsBehind(2.0, 254.0, rule));
+    for (const double order : {0.0, 1.0}) {
+        rule.order = order;
+        EXPECT_TRUE(idIsBehind(3.0, 4.0, rule));
+        EXPECT_FALSE(idIsBehind(4.0, 3.0, rule));
+        EXPECT_FALSE(idIsBehind(4.0, 4.0, rule));
+        EXPECT_FALSE(idIsBehind(0.0, 4.0, rule)); // the ground has nothing behind it
+        for (double a = 1.0; a <= kIds; ++a) {
+            for (double b = 1.0; b <= kIds; ++b) {
+                EXPECT_EQ(idIsBehind(a, b, rule) || idIsBehind(b, a, rule), a != b);
+            }
         }
     }
+    EXPECT_FALSE(idIsBehind(254.0, 2.0, rule)) << "they do not begin again";
+    EXPECT_TRUE(idIsBehind(2.0, 254.0, rule));
 }
 
 // Beside an edge of the receiver the nearest texel has what is behind: a dark halo, unless order says so.

@@ -182,7 +182,10 @@ void giveIds(const ShadowOptions& options, Rendered& r)
     r.plan.object_bounds.assign(bounds.begin(), bounds.end());
     for (std::size_t i = 0; i < r.lights.size(); ++i) {
         r.plan.lights[i].first_object_id = static_cast<std::uint32_t>(r.plan.object_ids.size());
-        handOutIds(r.lights[i], objects, idsOf(formatOf(options)), options.ids.of, r.plan.object_ids);
+        const IdHandout handout{idsOf(formatOf(options)), options.ids.of,
+                                idSharingOf(options.technique.filter, options.ids.of)};
+        std::vector<IdPlace> scratch;
+        handOutIds(r.lights[i], objects, handout, scratch, r.plan.object_ids);
     }
 }
 

@@ -326,7 +326,8 @@ FilterInput inputOf(const ReferenceScene& scene, const View& view, const ShadowO
         const double ids = format == MapFormat::r8 || format == MapFormat::rg8 ? 255.0 : 65535.0;
         const double steps = format == MapFormat::rg32f ? 8388608.0 : ids;
         const bool any = options.technique.filter == Filter::id;
-        input.kernel = {options.ids.test == IdTest::automatic ? (any ? 1.0 : 2.0) : double(options.ids.test), ids,
+        input.kernel = {options.ids.test == IdTest::automatic ? (any ? 1.0 : 2.0) : double(options.ids.test),
+                        any || options.ids.of == IdOf::face ? ids : -ids,
                         options.ids.bias ? double(*options.ids.bias) : -1.0,
                         options.ids.depth == IdDepth::global ? -steps : steps};
     }

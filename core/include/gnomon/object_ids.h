@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -27,11 +28,29 @@ namespace gnomon {
 /// first piece, and those of its others follow, from 1 again after the last.
 [[nodiscard]] std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light);
 
-/// Appends one for each object of the set: 0 of what does not cast or is nowhere, then 1 .. `most` and from 1 again, in
-/// the order of the farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on
-/// the ground is before the ground. Of objects as far as each other the lower index is first. With IdOf::face each
-/// piece takes one, and what is appended is that of an object's first.
-void handOutIds(const Light& light, const ObjectSet& objects, std::uint32_t most, IdOf of,
+/// Where there are more objects than ids.
+enum class IdSharing : std::uint8_t {
+    far,        // they begin again from 1, so that objects with one id are far apart (Forsyth 2006)
+    neighbours, // objects that follow each other in the order share one, so that a higher id is always behind
+};
+/// far, but of depth-id with an id for each object neighbours: it compares depths where ids are the same, and asks
+/// which of two objects is in front where they are not.
+[[nodiscard]] IdSharing idSharingOf(Filter filter, IdOf of);
+
+struct IdHandout {
+    std::uint32_t most = 65535; // ids besides 0
+    IdOf of = IdOf::object;
+    IdSharing sharing = IdSharing::far;
+};
+/// Where an object is in the order of ids: how far its box reaches, and its index.
+using IdPlace = std::pair<double, std::uint32_t>;
+
+/// Appends one for each object of the set: 0 of what does not cast or is nowhere, then 1 .. `most` in the order of the
+/// farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on the ground is
+/// before the ground. Of objects as far as each other the lower index is first. With IdOf::face each piece takes one,
+/// and what is appended is that of an object's first. `scratch`: whatever was in it, kept so that nothing is allocated
+/// once it and `out` are large enough.
+void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, std::vector<IdPlace>& scratch,
                 std::vector<std::uint16_t>& out);
 
 /// Filters id and depth-id have the index of a pixel's object and its piece in one number (pixelObject()); so many
