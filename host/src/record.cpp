@@ -111,12 +111,13 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     vulkan::CasterDrawer& casters = shadows->casters;
     renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
     casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
-    std::optional<vulkan::FinDrawer>& fins = shadows->fins;
-    if (fins) {
-        fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
+    if (shadows->fins) {
+        shadows->fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
     }
-    const vulkan::DrawCasters draw = [&](const vulkan::MapPass& pass) {
-        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : casters.draw(pass));
+    // It holds one pointer, for which nothing is allocated.
+    const vulkan::DrawCasters draw = [this](const vulkan::MapPass& pass) {
+        std::optional<vulkan::FinDrawer>& fins = shadows->fins;
+        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
     };
     renderer.recordMaps(cmd, slot, frame, *plan, draw, &profiler);
     if (shadows->volumes) {
