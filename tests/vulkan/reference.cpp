@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
 #define GNOMON_SMOOTHIES
+#include "reference_maps.h"
+
 #include "reference.h"
 
 #include "cpu_fins.h"
@@ -10,114 +12,12 @@
 #include <gnomon/object_ids.h>
 #include <gnomon/plan_views.h>
 
-#include <shared/discs.h>
-#include <shared/map_blocks.h>
-#include <shared/paired_depth.h>
 #include <shared/sun_steps.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <iterator>
-
-namespace gnomon::test {
-namespace {
-std::span<const CpuMap> current_maps;
-std::span<const pack::DepthLayer> current_layers;
-glm::dvec4 current_nudge(0.0);
-bool current_poisson = false;
-int current_taps = 0;
-
-const CpuMap& mapOf(double layer)
-{
-    return current_maps[static_cast<std::size_t>(layer)];
-}
-std::vector<int> current_smoothies;
-Tile smoothies_tile;
-int current_holding = 0;
-double texel(double layer, double x, double y, double part)
-{
-    return shared::pairedDepth(current_holding, texelAt(mapOf(layer), 0, x, y), part);
-}
-
-/// All levels of one layer's blocks, made here texel by texel: level L at L - 1.
-struct Blocks {
-    std::vector<std::vector<int>> levels;
-
-    static std::size_t sideOf(std::size_t map_side, std::size_t level)
-    {
-        return std::size_t{1} << (std::bit_width(map_side - 1) - level);
-    }
-};
-std::vector<Blocks> current_blocks;
-
-Blocks blocksOf(const CpuMap& map)
-{
-    Blocks blocks;
-    const std::size_t map_side = std::max(map.width, map.height);
-    for (std::size_t level = 1; level <= std::size_t(std::bit_width(map_side - 1)); ++level) {
-        const std::size_t side = Blocks::sideOf(map_side, level);
-        const std::size_t texels = std::size_t{1} << level;
-        std::vector<int>& made = blocks.levels.emplace_back(side * side);
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            glm::dvec2 range(1.0, 0.0);
-            for (std::size_t t = 0; t < texels * texels; ++t) {
-                const double depth =
-                    texelAt(map, 0, double(i % side * texels + t % texels), double(i / side * texels + t / texels)).x;
-                range = glm::dvec2(std::min(range.x, depth), std::max(range.y, depth));
-            }
-            made[i] = shared::blockOf(range.x, range.y);
-        }
-    }
-    return blocks;
-}
-} // namespace
-} // namespace gnomon::test
-
-GN_BEGIN
-inline real mapTexel(real2 at, real layer, real part)
-{
-    return test::texel(layer, at.x, at.y, part);
-}
-inline real4 mapGather(real2 corner, real layer, real part)
-{
-    const real x = corner.x;
-    const real y = corner.y;
-    return {test::texel(layer, x - 1, y, part), test::texel(layer, x, y, part), test::texel(layer, x, y - 1, part),
-            test::texel(layer, x - 1, y - 1, part)};
-}
-inline real2 mapBlock(real2 block, int level, real layer)
-{
-    const test::Blocks& blocks = test::current_blocks.at(std::size_t(layer));
-    const std::size_t side =
-        test::Blocks::sideOf(std::max(test::mapOf(layer).width, test::mapOf(layer).height), std::size_t(level));
-    return blockDepths(blocks.levels.at(std::size_t(level) - 1).at(std::size_t(block.y) * side + std::size_t(block.x)));
-}
-inline int mapSmoothie(real2 texel, real)
-{
-    const Tile& tile = test::smoothies_tile;
-    const double x = std::clamp(texel.x - tile.x, 0.0, tile.width - 1.0);
-    const double y = std::clamp(texel.y - tile.y, 0.0, tile.height - 1.0);
-    return test::current_smoothies[std::size_t(y) * tile.width + std::size_t(x)];
-}
-inline real4 mapMoments(real2 texel, real level, real layer)
-{
-    return test::sampleAt(test::mapOf(layer), texel, level) * (1.0 + test::current_nudge);
-}
-inline real4 mapDepthLayer(int, int i)
-{
-    const auto index = static_cast<std::size_t>(i);
-    if (index >= test::current_layers.size()) {
-        return {0.0, 1.0, 2.0, 0.0};
-    }
-    const pack::DepthLayer& layer = test::current_layers[index];
-    return {layer.near, layer.far, layer.begins, 0.0};
-}
-inline real2 discPoint(int i)
-{
-    return test::current_poisson ? kPoissonPoints[i] : vogelPoint(i, test::current_taps);
-}
-GN_END
 
 #include <lib/visibility.glsl>
 

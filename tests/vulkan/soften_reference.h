@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// soften=blur on the CPU, in double precision, by the arithmetic that the GPU runs.
+// soften=blur on the CPU, by the arithmetic that the GPU runs; in double precision, by GNOMON_REAL of who
+// includes it.
 #pragma once
 
-#define GNOMON_REAL double
 #include "scene.h"
 
 #include <gnomon/options.h>

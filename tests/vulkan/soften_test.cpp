@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // soften=blur on a device under the validation layer: against the same blur of the same mask on the CPU, over
 // silhouettes, and with lights of other options beside.
+#define GNOMON_REAL double
 #include "soften_reference.h"
 
 #include "fixture.h"
