@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon::app {
 namespace {
 
@@ -18,6 +20,7 @@ namespace {
 {
     std::vector<std::string_view> names;
     for (const ClaimDocument& document : claimDocuments()) {
+        names.push_back(document.year);
         for (const Claim& claim : document.claims) {
             names.push_back(claim.id);
         }
@@ -35,11 +38,15 @@ std::vector<const Claim*> chosenClaims(const Settings& settings)
         if (named.empty()) {
             refuseName(name);
         }
-        chosen.insert(chosen.end(), named.begin(), named.end());
+        for (const Claim* claim : named) {
+            if (std::ranges::find(chosen, claim) == chosen.end()) { // a year and one of its claims
+                chosen.push_back(claim);
+            }
+        }
     }
-    for (const ClaimDocument& document : claimDocuments()) {
-        for (const Claim& claim : document.claims) {
-            if (settings.claims.empty()) {
+    if (settings.claims.empty()) {
+        for (const ClaimDocument& document : claimDocuments()) {
+            for (const Claim& claim : document.claims) {
                 chosen.push_back(&claim);
             }
         }

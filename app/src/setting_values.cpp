@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace gnomon::app {
 namespace {
@@ -25,14 +26,21 @@ std::string rangeText(const Setting& setting)
 }
 
 /// Of a technique's value that belongs to another choice than the one it was given to.
-std::optional<std::string> elsewhere(std::string_view text)
+std::optional<std::string> elsewhere(const Setting& setting, std::string_view text)
 {
+    const auto isChoice = [](std::string_view key) {
+        return std::ranges::any_of(choiceValues(), [&](const ChoiceValue& row) { return row.choice == key; });
+    };
+    std::set<std::string_view> names;
     for (const ChoiceValue& row : choiceValues()) {
-        if (row.name == text && findSetting(row.choice) != nullptr) {
-            return fmt::format(" (--{} has it)", row.choice);
+        if (row.name == text && row.choice != "light") {
+            names.insert(row.choice);
         }
     }
-    return std::nullopt;
+    if (names.size() != 1 || !isChoice(setting.key)) {
+        return std::nullopt; // what several have says nothing
+    }
+    return fmt::format(" (--{} has it)", *names.begin());
 }
 
 void requireInRange(const Setting& setting, std::string_view text, double value)
@@ -196,7 +204,8 @@ SettingValue parseValue(const Setting& setting, std::string_view text)
         const auto allowed = setting.choices();
         if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
             throw UsageError(fmt::format("{}: there is no \"{}\"{}; it takes {}", spelled(setting), text,
-                                         elsewhere(text).value_or(suggestion(text, allowed)), listed(allowed)));
+                                         elsewhere(setting, text).value_or(suggestion(text, allowed)),
+                                         listed(allowed)));
         }
         value.text = text;
         break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shot_notices.h"
 
+#include "contestants.h"
 #include "light_extent.h"
 
 #include "scene/hash.h"
@@ -49,7 +50,11 @@ void noteLights(Shot& shot, const Settings& settings)
 /// Who asks for penumbrae as wide as the light makes them may not know that it makes none. The default takes any light.
 void noteSizes(Shot& shot, const Settings& settings)
 {
-    const bool asks = integratesLight(settings.shadow) && filterOf(settings.shadow) != Filter::raymarch;
+    const std::vector<Settings> techniques =
+        hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
+    const bool asks = std::ranges::any_of(techniques, [](const Settings& technique) {
+        return integratesLight(technique.shadow) && filterOf(technique.shadow) != Filter::raymarch;
+    });
     const auto has_size = [](const host::ShadedLight& light) {
         const Light& caster = light.caster;
         return caster.type == LightType::directional ? caster.angular_diameter_rad > 0.0 : caster.radius_m > 0.0;

@@ -49,14 +49,14 @@ constexpr std::array kRules{
                "multi gives each frame the frustums that its picture asks for, and those of two positions of a sun are "
                "not the "
                "same; it needs motion free or snap"},
-    ChoiceRule{
-        [](LightType, const Technique& t) {
-            return isParaboloid(t) && t.filter != Filter::hard && t.filter != Filter::pcf &&
-                   t.filter != Filter::automatic;
-        },
-        "partition paraboloid with every filter but hard, pcf and auto",
-        "paraboloid bends straight lines, and other filters follow rays or averages along straight ones; it needs "
-        "filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return isParaboloid(t) && t.filter != Filter::hard && t.filter != Filter::pcf &&
+                          t.filter != Filter::automatic;
+               },
+               "partition paraboloid with every filter but hard, pcf and auto",
+               "paraboloid bends straight lines, and is no more than a baseline: its maps hold depths that are "
+               "compared one by "
+               "one; it needs filter hard, pcf or auto, which is pcf then"},
     ChoiceRule{[](LightType, const Technique& t) {
                    return isParaboloid(t) && t.fit != Fit::uniform && t.fit != Fit::automatic;
                },
@@ -79,14 +79,14 @@ constexpr std::array kRules{
         "partition paraboloid with soften smoothies",
         "paraboloid bends straight lines, and smoothies measure along straight ones how far an edge is; it needs "
         "soften none"},
-    ChoiceRule{
-        [](LightType, const Technique& t) {
-            return t.soften == Soften::smoothies && t.filter != Filter::hard && t.filter != Filter::pcf &&
-                   t.filter != Filter::automatic;
-        },
-        "soften smoothies with every filter but hard, pcf and auto",
-        "smoothies lie beside a map of depths that are compared one by one, and other filters have a softness of "
-        "their own; they need filter hard, pcf or auto, which is pcf then"},
+    ChoiceRule{[](LightType, const Technique& t) {
+                   return t.soften == Soften::smoothies && t.filter != Filter::hard && t.filter != Filter::pcf &&
+                          t.filter != Filter::automatic;
+               },
+               "soften smoothies with every filter but hard, pcf and auto",
+               "smoothies lie beside a map of depths that are compared one by one; other filters have a softness of "
+               "their own, "
+               "and filter smoothies has them already. They need filter hard, pcf or auto, which is pcf then"},
     ChoiceRule{[](LightType, const Technique& t) {
                    return isOfScene(t) && t.partition != Partition::single && t.partition != Partition::automatic;
                },

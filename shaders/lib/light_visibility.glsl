@@ -136,7 +136,7 @@ void placeObject(inout FilterInput f, uvec4 options, vec3 p)
     f.object_half = gnomon_objects[2u * object + 1u].xyz;
     f.id = GNOMON_OBJECT < options.z ? gnomon_objects[options.y + (object >> 2)][object & 3u] : 0.0;
     if (options.w != 0u) {
-        f.id = idOfPiece(f.id, float(GNOMON_PIECE), abs(f.kernel.y));
+        f.id = idOfPiece(f.id, float(GNOMON_PIECE % uint(kMostPieces)), abs(f.kernel.y));
     }
 }
 #endif

@@ -80,13 +80,17 @@ void main()
     if (!isSilhouette(left, right) || max(a.z, b.z) <= 0.0) {
         return;
     }
-    float begin = finCut(a.z, b.z);
-    float end = 1.0 - finCut(b.z, a.z);
+    vec2 depth = vec2(dot(row_depth, vec4(from, 1.0)), dot(row_depth, vec4(to, 1.0)));
+    vec2 near = depth * rule.w;
+    float begin = max(finCut(a.z, b.z), finBeforeNear(near.x, near.y));
+    float end = 1.0 - max(finCut(b.z, a.z), finBeforeNear(near.y, near.x));
+    if (begin >= end) {
+        return;
+    }
     vec3 first = a + along * begin;
     vec3 last = a + along * end;
-    vec2 depth_at = vec2(dot(row_depth, vec4(mix(from, to, begin), 1.0)), dot(row_depth, vec4(mix(from, to, end), 1.0)));
     ends = vec4(texelOf(first), texelOf(last));
-    depths = vec4(depth_at, first.z, last.z);
+    depths = vec4(mix(depth.x, depth.y, begin), mix(depth.x, depth.y, end), first.z, last.z);
     outward = finOutward(ends.xy, ends.zw, left + right);
     vec2 corner = finCorner(int(uint(gl_VertexIndex) % 6u), ends.xy, ends.zw, outward, rule.x);
     gl_Position = vec4((corner - tile.xy) / tile.zw - 1.0, 0.0, 1.0);

@@ -10,7 +10,7 @@
 #include "smoothies.h"
 GN_BEGIN
 
-// An edge on the map. What lies before an end of it is not of the map and has been cut off.
+// A silhouette edge on the map, or the part of it that the map can show (finCut(), finBeforeNear()).
 struct Fin {
     real2 from; // texels
     real2 to;
@@ -43,6 +43,13 @@ GN_FN real finCut(real w_a, real w_b)
 {
     real least = real(0.01) * max(w_a, w_b);
     return w_a >= least ? real(0.0) : min((least - w_a) / (w_b - w_a), real(1.0));
+}
+
+// How much is to be cut off at a because it lies before the map's near plane, where depth is below 0: what is there
+// throws no shadow. Where the map clamps it instead, depths are handed in as 0.
+GN_FN real finBeforeNear(real depth_a, real depth_b)
+{
+    return depth_a >= real(0.0) ? real(0.0) : (depth_b <= real(0.0) ? real(1.0) : depth_a / (depth_a - depth_b));
 }
 
 // Unit normal of the edge on the side away from the caster; `side` as finSide() has it, of the caster's triangles.

@@ -258,7 +258,7 @@ const std::vector<Wrong> kWrong{
     {"BiasOfIdsInATechnique",
      {"bench", "--techniques", "id+bias.slope=1"},
      2,
-     "bias.slope has an effect only with every filter but volumes, id, and depth-id that has id.bias"},
+     "bias.slope has an effect only with every filter but volumes and id, and no id.bias"},
     {"BiasBesideTheObjectsOwn",
      {"bench", "--techniques", "depth-id+id.bias=0.1+bias.constant=0.1"},
      2,

@@ -98,6 +98,7 @@ Penumbra penumbraAt(const ImageF& mask, double z_m)
                 return (x - 0.5 + (value - before) / (here - before) - 0.5 * kSide) * kPixel_m;
             }
         }
+        ADD_FAILURE() << "visibility does not pass " << value << " at " << z_m << " m";
         return 99.0;
     };
     return {std::abs(crossing(0.9F) - crossing(0.1F)), crossing(0.5F)};
@@ -149,6 +150,8 @@ TEST(SmoothieFins, EndAtTheirReach)
     shadow.smoothies.reach_texels = 4;
     const double narrow_m = penumbraAt(wallMask(gpu, shadow), 6.0).width_m;
     EXPECT_LT(narrow_m, 0.5 * wide_m);
+    EXPECT_GT(narrow_m, 0.05 * wide_m);
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
 struct Moment {
@@ -157,7 +160,7 @@ struct Moment {
 };
 
 /// Frames of the small scene, whose box moves and whose flag is skinned.
-std::vector<Moment> smallMasks(Gpu& gpu, const ShadowOptions& shadow, std::uint32_t light)
+std::vector<Moment> smallMasks(Gpu& gpu, const ShadowOptions& shadow, std::uint32_t light, double near_m = 0.0)
 {
     scene::Scene scene = smallScene();
     scene.nodes[kMaskedNode].casts = false; // what is masked has no fins
@@ -174,6 +177,7 @@ std::vector<Moment> smallMasks(Gpu& gpu, const ShadowOptions& shadow, std::uint3
         for (ShadedLight& one : lights) {
             one.caster.angular_diameter_rad = 0.2;
             one.caster.radius_m = 0.4;
+            one.caster.near_m = near_m > 0.0 ? near_m : one.caster.near_m;
         }
         renderer.draw(state, smallEye(), lights);
         moments.push_back(
@@ -198,6 +202,65 @@ TEST(SmoothieFins, OfMapsThatAreKeptAreThoseOfMapsDrawnAnew)
         }
         EXPECT_GT(differing(anew.front().mask, anew.back().mask, 0.1F), 20U) << "nothing moved";
     }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
+/// Of a card under a spot light that rises to the right, from 7.5 m below the light to 4 m: pixels of the right part of
+/// the picture that are in its shadow or penumbra.
+std::size_t darkUnderCard(Gpu& gpu, Filter filter, double near_m)
+{
+    scene::Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].double_sided = true;
+    for (const bool is_ground : {true, false}) {
+        scene::Primitive card;
+        card.positions = {{-1.0F, 0.5F, -0.7F}, {-1.0F, 0.5F, 0.7F}, {1.0F, 4.0F, 0.7F}, {1.0F, 4.0F, -0.7F}};
+        if (is_ground) {
+            card.positions = {{-9, 0, -9}, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}};
+        }
+        card.indices = {0, 1, 2, 0, 2, 3};
+        addMesh(scene, card);
+    }
+    scene.nodes[1].receives = false;
+    scene.lights.push_back({.type = scene::LightType::spot, .intensity = 60.0F, .range_m = 20.0F});
+    scene.lights.back().outer_cone_rad = 0.5F;
+    scene::Node node;
+    node.light = 0;
+    node.transform.translation = {0.0F, 8.0F, 0.0F};
+    node.transform.rotation = glm::angleAxis(-1.5707963F, glm::vec3(1, 0, 0)); // down
+    scene.nodes.push_back(node);
+    scene::finishScene(scene);
+    const scene::State state = scene::evaluate(scene, 0.0);
+    RenderOptions options;
+    options.width = 128;
+    options.height = 128;
+    options.shadow = smooth(filter);
+    std::vector<ShadedLight> lights = lightsOf(scene, state);
+    lights[0].caster.radius_m = 0.4;
+    lights[0].caster.near_m = near_m;
+    const SceneOnGpu uploaded(gpu, scene, state);
+    FrameRenderer renderer(uploaded, options);
+    renderer.draw(state, {.position_ws = {0.0, 6.0, 4.0}, .target_ws = {0.0, 0.0, 0.0}}, lights);
+    const ImageF mask = renderer.read({.colour = false, .linear = false, .masks = true, .geometry = false}).masks[0];
+    std::size_t dark = 0;
+    for (std::uint32_t y = 0; y < options.height; ++y) {
+        for (std::uint32_t x = options.width * 5 / 8; x < options.width; ++x) {
+            dark += *mask.pixel(x, y) < 0.995F ? 1 : 0;
+        }
+    }
+    return dark;
+}
+
+/// What is before a spot light's near plane throws no shadow, and has no fins.
+TEST(SmoothieFins, EndAtTheNearPlane)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    constexpr double kThroughTheCard = 6.0;
+    const std::size_t beside = darkUnderCard(gpu, Filter::pcf, kThroughTheCard);
+    EXPECT_EQ(darkUnderCard(gpu, Filter::smoothies, kThroughTheCard), beside);
+    const std::size_t whole = darkUnderCard(gpu, Filter::pcf, 1.0);
+    EXPECT_GT(whole, beside + 100);
+    EXPECT_GT(darkUnderCard(gpu, Filter::smoothies, 1.0), whole + 50);
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 

@@ -219,5 +219,16 @@ TEST(SmoothieFins, WinByWhatTheyTakeOfTheLight)
     }
 }
 
+/// Depth is affine along an edge, so half of one from -1 to 1 lies before the near plane.
+TEST(SmoothieFins, endAtTheNearPlaneOfMapsThatCut)
+{
+    EXPECT_EQ(finBeforeNear(-1.0, 1.0), 0.5);
+    EXPECT_EQ(finBeforeNear(1.0, -1.0), 0.0) << "the other end is cut";
+    EXPECT_EQ(finBeforeNear(-0.25, 0.75), 0.25);
+    EXPECT_EQ(finBeforeNear(0.0, 0.0), 0.0) << "clamped";
+    EXPECT_EQ(finBeforeNear(-1.0, -2.0), 1.0) << "nothing is left";
+    EXPECT_EQ(finBeforeNear(-1.0, 0.0), 1.0);
+}
+
 } // namespace
 } // namespace gnomon::shared

@@ -73,15 +73,20 @@ private:
         if (!shared::isSilhouette(sides[0], sides[1]) || std::max(a.z, b.z) <= 0.0) {
             return std::nullopt;
         }
-        const double begin = shared::finCut(a.z, b.z);
-        const double end = 1.0 - shared::finCut(b.z, a.z);
+        const auto depth = [&](double t) {
+            return glm::dot(view_.metric.metric_ws, glm::mix(from, to, t));
+        };
+        const double near_a = view_.clamp_near ? 0.0 : depth(0.0);
+        const double near_b = view_.clamp_near ? 0.0 : depth(1.0);
+        const double begin = std::max(shared::finCut(a.z, b.z), shared::finBeforeNear(near_a, near_b));
+        const double end = 1.0 - std::max(shared::finCut(b.z, a.z), shared::finBeforeNear(near_b, near_a));
+        if (begin >= end) {
+            return std::nullopt;
+        }
         const glm::dvec3 first = a + along * begin;
         const glm::dvec3 last = a + along * end;
         const glm::dvec2 p = texelOf(first);
         const glm::dvec2 q = texelOf(last);
-        const auto depth = [&](double t) {
-            return glm::dot(view_.metric.metric_ws, glm::mix(from, to, t));
-        };
         return Fin{p, q, shared::finOutward(p, q, sides[0] + sides[1]), depth(begin), depth(end), first.z, last.z};
     }
 

@@ -248,6 +248,8 @@ TEST(Misuse, OfFinsIsAnError)
     fins.setScene({});
     fins.beginFrame(0, geometry, host.transforms);
     expectRefused(host, "hand in passes with MapPassFormats::fins", [&] { (void)fins.draw(pass); }); // of no plan
+    fins.setScene({}); // for whose objects there may be too few transforms
+    expectRefused(host, "call beginFrame() first", [&] { (void)fins.draw(pass); });
     Misuser plain;
     plain.prepare();
     plain.begin();

@@ -48,7 +48,8 @@ FinPush pushOf(const MapPass& pass)
     push.tile = {static_cast<float>(tile.x), static_cast<float>(tile.y), 0.5F * static_cast<float>(tile.width),
                  0.5F * static_cast<float>(tile.height)};
     const std::uint32_t reach = optionsOf(*pass.plan, *pass.view).asked().smoothies.reach_texels;
-    push.rule = {static_cast<float>(reach), pass.first_quantum, static_cast<float>(tile.layer), 0.0F};
+    push.rule = {static_cast<float>(reach), pass.first_quantum, static_cast<float>(tile.layer),
+                 pass.view->clamp_near ? 0.0F : 1.0F};
     return push;
 }
 
@@ -160,12 +161,14 @@ FinDrawer::~FinDrawer() = default;
 
 void FinDrawer::setScene(std::span<const VolumeMesh> objects)
 {
+    impl_->set = VK_NULL_HANDLE; // whose transforms may be too few now
     impl_->meshes.assign(objects.begin(), objects.end());
 }
 
 void FinDrawer::beginFrame(std::uint32_t slot, const VolumeGeometry& geometry,
                            std::span<const Rows3x4> world_from_object)
 {
+    impl_->set = VK_NULL_HANDLE; // until all of it is there
     checkSlot(kBeginningFins, slot, static_cast<std::uint32_t>(impl_->slot_sets.size()));
     if (world_from_object.size() < impl_->meshes.size()) {
         refuseUse(kBeginningFins, "there are fewer transforms than objects", "give one for each object of setScene()");

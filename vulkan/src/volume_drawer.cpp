@@ -161,12 +161,14 @@ VolumeDrawer::~VolumeDrawer() = default;
 
 void VolumeDrawer::setScene(std::span<const VolumeMesh> objects)
 {
+    impl_->set = VK_NULL_HANDLE; // whose transforms may be too few now
     impl_->meshes.assign(objects.begin(), objects.end());
 }
 
 void VolumeDrawer::beginFrame(std::uint32_t slot, const VolumeGeometry& geometry,
                               std::span<const Rows3x4> world_from_object)
 {
+    impl_->set = VK_NULL_HANDLE; // until all of it is there
     checkSlot(kBeginningVolumes, slot, static_cast<std::uint32_t>(impl_->slot_sets.size()));
     if (world_from_object.size() < impl_->meshes.size()) {
         refuseUse(kBeginningVolumes, "there are fewer transforms than objects",

@@ -174,6 +174,11 @@ std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
         (format == MapFormat::rg16 || format == MapFormat::rg16f || format == MapFormat::rgba8)) {
         return "soften smoothies: edges are looked for in a map that has its texels for itself: d32f, d24, r32f or d16";
     }
+    if (filterOf(options) == Filter::smoothies && options.cull != CasterCull::none) {
+        return "caster-cull " + std::string(nameOf(options.cull)) +
+               ": filter smoothies draws fins of all silhouettes, "
+               "those of triangles that are left out too; leave it out, or choose soften smoothies";
+    }
     if (hasSmoothies(options) && options.moments.metric == DepthMetricKind::z_over_w) {
         return "smoothies: how far a caster is from its receiver cannot be told from z / w; it needs the linear "
                "metric";

@@ -21,6 +21,7 @@ struct FinDrawerOptions {
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   fewer transforms than objects, null buffers, or larger than a device binds      Error
 ///   draw() before beginFrame(), of a null pass, or of one without fins              Error
+///   draw() after setScene(), or after a beginFrame() that threw                     Error, until beginFrame()
 ///   an object of the plan that setScene() was not given                             draws nothing
 ///
 /// Not thread-safe. After a call that threw, beginFrame() again.
