@@ -2,6 +2,8 @@
 // Wrong calls of the parts that a host draws its casters by: each is a value or an Error with a sentence.
 #include "misuser.h"
 
+#include <gnomon/vulkan/volume_drawer.h>
+
 #include <gtest/gtest.h>
 
 namespace gnomon::test {
@@ -53,6 +55,31 @@ TEST(Misuse, OfTheDrawersPassesIsAnError)
     pass.commands = VK_NULL_HANDLE;
     expectRefused(host, "command buffer is null", [&] { host.drawer.draw(pass); });
     host.record();
+}
+
+TEST(Misuse, OfTheDrawerOfVolumesIsAnError)
+{
+    Misuser host;
+    vulkan::VolumeDrawer volumes(host.driver.view(), {});
+    vulkan::VolumePass pass;
+    pass.commands = host.driver.commands();
+    const VkBuffer buffer = host.driver.makeBuffer();
+    const vulkan::VolumeGeometry geometry{{buffer, 64}, {buffer, 64}, {buffer, 64}};
+    const auto draws = [&] {
+        (void)volumes.draw(pass);
+    };
+    expectRefused(host, "call beginFrame() first", draws);
+    volumes.beginFrame(0, geometry, host.transforms);
+    expectRefused(host, "slot", [&] { volumes.beginFrame(2, geometry, host.transforms); });
+    expectRefused(host, "call beginFrame() first", draws); // of what a frame that did not begin has left
+    expectRefused(host, "fill in all three", [&] { volumes.beginFrame(0, {}, host.transforms); });
+    volumes.beginFrame(0, geometry, host.transforms);
+    volumes.setScene(std::vector<vulkan::VolumeMesh>(host.transforms.size() + 1));
+    expectRefused(host, "call beginFrame() first", draws); // its transforms are too few now
+    expectRefused(host, "give one for each object", [&] { volumes.beginFrame(0, geometry, host.transforms); });
+    volumes.setScene({});
+    volumes.beginFrame(0, geometry, host.transforms);
+    draws();
 }
 
 TEST(Misuse, OfTheBatchersRoomIsAnError)

@@ -43,6 +43,7 @@ struct VolumeDrawerOptions {
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   fewer transforms than objects, null buffers, or larger than a device binds      Error
 ///   draw() before beginFrame(), or of a null pass                                   Error
+///   draw() after setScene(), or after a beginFrame() that threw                     Error, until beginFrame()
 ///   an object of the plan that setScene() was not given                             draws nothing
 ///
 /// Not thread-safe. Needs the feature depthClamp. After a call that threw, beginFrame() again.
