@@ -6,6 +6,7 @@
 
 #include <gnomon/error.h>
 #include <gnomon/pack/shading_buffers.h>
+#include <gnomon/pack/technique_constants.h>
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
@@ -109,21 +110,6 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
                            [](const View& view) { return view.orthographic; });
     };
     return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
-}
-
-// Which view it is is known beforehand only where the light has all of the plan's.
-std::uint32_t fewViewsOf(const Plan& plan)
-{
-    if (plan.lights.size() != 1) {
-        return 0;
-    }
-    const LightPlan& light = plan.lights.front();
-    const std::size_t count = plan.views.size();
-    if (light.steps.paired || light.view_count != count || count > shared::kFewViews) {
-        return 0;
-    }
-    const std::uint32_t few = fewViews((*plan.options)[light.options]);
-    return few == 0 ? 0 : count == 1 ? 1 : shared::kFewViews;
 }
 
 // The lights of one strip of a layer that have these options.
@@ -247,16 +233,6 @@ ShownViews shownViews(const Plan& plan, const LightPlan& light, SunShown shown)
         return {later_first, later, 0, 0};
     }
     return {light.first_view, earlier, later_first, later};
-}
-
-std::uint32_t fewViews(const ResolvedOptions& options)
-{
-    const Technique& technique = options.technique();
-    const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
-    const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
-                        technique.partition == Partition::multi || technique.partition == Partition::automatic;
-    const bool divided = technique.partition != Partition::single && options.cascades().count > 1;
-    return steps ? 0 : around || divided ? shared::kFewViews : 1;
 }
 
 void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out)

@@ -43,7 +43,14 @@ layout(set = GNOMON_SET, binding = GNOMON_OBJECTS_BINDING, std430) restrict read
     vec4 gnomon_objects[];
 };
 #endif
+// See below.
 #ifdef GNOMON_FEW_VIEWS
+#ifndef GNOMON_FEW_BINDING
+#define GNOMON_FEW_BINDING GNOMON_BINDING + 8
+#endif
+#ifndef GNOMON_FEW_PLACE
+#define GNOMON_FEW_PLACE gnomon_lights[0].place
+#endif
 layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFewViews
 {
     GpuView gnomon_few_views[kFewViews];
@@ -214,7 +221,10 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
     uint view = first;
     Search s = Search(first, end, slicesAt(r.p));
     float share = nextShare(s, true, r, view);
-    if (share > 0.0) {
+    // Of one view alone nearly every pixel is in it: none branches, and what lies outside throws away what it found.
+    // lavapipe 22.3 crashes on the branch, where all that it depends on is at fixed places of uniforms.
+    const bool is_alone = GNOMON_FEW_VIEWS == 1;
+    if (is_alone || share > 0.0) {
         do {
             GpuView read = viewAt(view);
             MapRows rows = rowsAt(read, r.p);
@@ -225,7 +235,8 @@ vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receive
                 here *= viewTint(read, point, r.own_tint);
             }
 #endif
-            v = v * (1.0 - share) + here * share; // of the first one just what is there, which mix() does not promise
+            // Of the first one just what is there, which mix() does not promise.
+            v = is_alone ? (share > 0.0 ? here : v) : v * (1.0 - share) + here * share;
 #ifdef GNOMON_CONFIDENCE
             if (GNOMON_CONFIDENCE) {
                 float confidence = texelConfidence(point.texel);

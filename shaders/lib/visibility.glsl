@@ -113,11 +113,11 @@ GN_FN bool inSector(GpuView view, real3 p)
 // Does this view serve a point, and is the point in the map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p)
 {
-    if (!inSlice(view, p) || !inSector(view, p)) {
-        return false;
-    }
+    bool is_served = inSlice(view, p);
+    bool is_own = inSector(view, p);
+    is_served = is_served && is_own;
     if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
-        return true; // its half space is the disc, around which there is room for taps
+        return is_served; // its half space is the disc, around which there is room for taps
     }
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
     real w = real(1.0);
@@ -127,7 +127,18 @@ GN_FN bool viewContains(GpuView view, real3 p)
     real x = dotRow(real4(view.x), p);
     real y = dotRow(real4(view.y), p);
     real4 tile = real4(view.tile) * w;
-    return w > real(0.0) && x >= tile.x && y >= tile.y && x <= tile.z && y <= tile.w;
+    // One after the other, so that no branch is made of it.
+    bool is_within = w > real(0.0);
+    bool is_right = x >= tile.x;
+    bool is_below = y >= tile.y;
+    bool is_left = x <= tile.z;
+    bool is_above = y <= tile.w;
+    is_within = is_within && is_right;
+    is_within = is_within && is_below;
+    is_within = is_within && is_left;
+    is_within = is_within && is_above;
+    is_within = is_within && is_served;
+    return is_within;
 }
 
 // What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.

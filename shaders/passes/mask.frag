@@ -10,15 +10,8 @@
 #include "../shared/smooth_surface.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
-layout(constant_id = 0) const int kKernelWidth = 3; // see FilterInput
-layout(constant_id = 1) const int kDiscTaps = 16;
-layout(constant_id = 2) const bool kHasNormals = true;
-layout(constant_id = 3) const bool kAutomaticBias = true;
-layout(constant_id = 4) const int kMomentFlags = 0;    // see MomentRule
-layout(constant_id = 5) const int kMomentSampling = 0; // gnomon::MapSampling
-layout(constant_id = 6) const int kMomentLayers = 2;   // of lvsm
-layout(constant_id = 7) const int kDepthHolding = 0;   // see shared/paired_depth.h
-layout(constant_id = 8) const uint kViewCount = 0;     // see GNOMON_FEW_VIEWS
+#include "../include/gnomon/technique_constants.glsl" // 0 to 7
+layout(constant_id = 8) const bool kHasNormals = true;
 layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
 layout(constant_id = 10) const bool kHasSmooth = false;
 layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
@@ -38,19 +31,11 @@ layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
 #define GNOMON_FEW_PLACE (kByVertex ? numbers_in[kLightPlace] : gnomon_lights[0].place)
-#define GNOMON_FEW_VIEWS kViewCount
 #define GNOMON_FEW_BINDING 8
 #define GNOMON_BLOCKS_BINDING 9
 #define GNOMON_TINTS kTints
 #define GNOMON_TINTS_BINDING 11
-#define GNOMON_KERNEL_WIDTH kKernelWidth
-#define GNOMON_DISC_TAPS kDiscTaps
-#define GNOMON_AUTOMATIC_BIAS kAutomaticBias
-#define GNOMON_MOMENT_FLAGS kMomentFlags
-#define GNOMON_MOMENT_SAMPLING kMomentSampling
-#define GNOMON_MOMENT_LAYERS kMomentLayers
-#define GNOMON_DEPTH_HOLDING kDepthHolding
-#define GNOMON_SMOOTHIES (kDepthHolding == kDepthSmoothies)
+#define GNOMON_SMOOTHIES (GNOMON_DEPTH_HOLDING == kDepthSmoothies)
 #define GNOMON_SHOWS_RAYS kRaysAsMask
 #define GNOMON_CONFIDENCE kConfidence
 #if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
@@ -86,7 +71,7 @@ struct Left {
 // Of a compact mask, those of the pixel's tile that have channels in this layer.
 Left lightsOf(ivec2 pixel)
 {
-    Left left = Left(kViewCount > 0 ? 1u : channels, 0u, 0u);
+    Left left = Left(GNOMON_FEW_VIEWS > 0 ? 1u : channels, 0u, 0u);
     if (kTileChannels > 0u) {
         GnomonTileLights tile = gnomonTileLights(pixel);
         left.next = tile.first + min(4u * first_light, tile.masked);
@@ -114,7 +99,7 @@ GnomonTileLight nextLight(inout Left left)
         one.weight = is_own ? one.weight : 0.0;
     } else {
         one.channel = uint(findLSB(left.channels));
-        one.light = (kViewCount > 0 ? 0u : first_light) + one.channel;
+        one.light = (GNOMON_FEW_VIEWS > 0 ? 0u : first_light) + one.channel;
         left.channels &= kColoured ? 0u : left.channels - 1u;
     }
     return one;

@@ -4,8 +4,6 @@
 #include "pipelines.h"
 #include "specialisation.h"
 
-#include <gnomon/pack/filter_rule.h>
-
 #include <gnomon_spirv.h>
 
 #include <algorithm>
@@ -56,20 +54,11 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic)
 
 MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
 {
-    const shared::MomentRule moments = pack::readingRuleOf(options);
     MaskPipelineKey key;
     key.filter = options.filter();
-    key.constants = {kernelWidth(options.pcf().kernel),
-                     static_cast<std::int32_t>(options.pcf().taps),
-                     shape.normals ? VK_TRUE : VK_FALSE,
-                     options.bias().automatic ? VK_TRUE : VK_FALSE,
-                     moments.flags,
-                     moments.sampling,
-                     moments.layers,
-                     pack::depthHolding(options),
-                     0,
-                     VK_FALSE,
-                     shape.smooth ? VK_TRUE : VK_FALSE};
+    key.constants.technique = pack::techniqueConstants(options);
+    key.constants.has_normals = shape.normals ? VK_TRUE : VK_FALSE;
+    key.constants.has_smooth = shape.smooth ? VK_TRUE : VK_FALSE;
     key.constants.paraboloid = options.technique().partition == Partition::paraboloid ? VK_TRUE : VK_FALSE;
     key.constants.has_ids = shape.ids ? VK_TRUE : VK_FALSE;
     return key;

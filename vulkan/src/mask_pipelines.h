@@ -4,21 +4,16 @@
 
 #include "device.h"
 
+#include <gnomon/pack/technique_constants.h>
+
 #include <vector>
 
 namespace gnomon::vulkan {
 
 /// The constant_ids of mask.frag, four bytes each, in their order.
 struct MaskConstants {
-    std::int32_t kernel_width = 0;
-    std::int32_t disc_taps = 0;
+    pack::TechniqueConstants technique; // few_views: pack::MaskDraw::few_views
     VkBool32 has_normals = VK_FALSE;
-    VkBool32 automatic_bias = VK_FALSE;
-    std::int32_t moment_flags = 0;
-    std::int32_t moment_sampling = 0;
-    std::int32_t moment_layers = 0;
-    std::int32_t depth_holding = 0;
-    std::uint32_t few_views = 0;   // pack::MaskDraw::few_views
     VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
     VkBool32 has_smooth = VK_FALSE;
     VkBool32 tints = VK_FALSE;       // views of the draw's options have maps of tints

@@ -48,7 +48,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     }
     key.orthographic = draw.orthographic;
     key.shares = draw.shares;
-    key.constants.few_views = draw.few_views;
+    key.constants.technique.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
     key.constants.coloured = draw.coloured ? VK_TRUE : VK_FALSE;
     key.constants.tile_channels = compact_.channels;
@@ -139,13 +139,13 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     }
     key.constants.coloured = isColoured(options) ? VK_TRUE : VK_FALSE;
     key.format = formatOf(channelsAlone(options));
-    key.constants.few_views = pack::fewViews(options);
+    key.constants.technique.few_views = pack::fewViews(options);
     make();
-    if (key.constants.few_views > 1) { // a spot has one map
-        key.constants.few_views = 1;
+    if (key.constants.technique.few_views > 1) { // a spot has one map
+        key.constants.technique.few_views = 1;
         make();
     }
-    key.constants.few_views = 0;
+    key.constants.technique.few_views = 0;
     key.format = formatOf(4);
     if (what.several_lights) {
         make();

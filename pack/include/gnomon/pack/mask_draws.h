@@ -33,12 +33,9 @@ struct MaskDraw {
     std::array<SunShown, shared::kLightsPerLayer> shown{}; // by channel
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // other draws may have further channels of these pixels
-    std::uint32_t few_views = 0;                           // fewViews(), where the plan has one light
+    std::uint32_t few_views = 0;                           // fewViewsOf() the plan
 };
 
-/// A light that is never seen from two positions, alone in a plan, may have few views: then the mask's shader is one
-/// that looks among so many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
-[[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
 /// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.
 void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
 /// The same of this frame: each light's within its screenBounds(). A light without a range reaches as far as the

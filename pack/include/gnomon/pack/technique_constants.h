@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// For passes that are made for one technique: what its options decide, as specialization constants.
+#pragma once
+
+#include <gnomon/options.h>
+#include <gnomon/plan.h>
+
+#include <cstdint>
+
+namespace gnomon::pack {
+
+/// The constants of gnomon/technique_constants.glsl: four bytes each, in their order.
+struct TechniqueConstants {
+    std::int32_t kernel_width = 0;
+    std::int32_t disc_taps = 0;
+    std::uint32_t automatic_bias = 0; // 0 or 1, as a VkBool32
+    std::int32_t moment_flags = 0;
+    std::int32_t moment_sampling = 0;
+    std::int32_t moment_layers = 0;
+    std::int32_t depth_holding = 0;
+    std::uint32_t few_views = 0; // fewViewsOf() of the frame's plan
+
+    bool operator==(const TechniqueConstants&) const = default;
+};
+
+/// Of lights with these options. `few_views` is left 0, which serves every plan.
+[[nodiscard]] TechniqueConstants techniqueConstants(const ResolvedOptions& options);
+
+/// A light that is never seen from two positions, alone in a plan, may have few views: then a pass may look among so
+/// many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
+[[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
+/// The same of a plan as it is: 0 where it has several lights, or other views than its options let expect.
+[[nodiscard]] std::uint32_t fewViewsOf(const Plan& plan);
+
+} // namespace gnomon::pack

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gnomon/pack/technique_constants.h>
+
+#include <gnomon/pack/filter_rule.h>
+
+#include <gpu_structs.h>
+
+namespace gnomon::pack {
+
+TechniqueConstants techniqueConstants(const ResolvedOptions& options)
+{
+    const shared::MomentRule moments = readingRuleOf(options);
+    TechniqueConstants constants;
+    constants.kernel_width = kernelWidth(options.pcf().kernel);
+    constants.disc_taps = static_cast<std::int32_t>(options.pcf().taps);
+    constants.automatic_bias = options.bias().automatic ? 1 : 0;
+    constants.moment_flags = moments.flags;
+    constants.moment_sampling = moments.sampling;
+    constants.moment_layers = moments.layers;
+    constants.depth_holding = depthHolding(options);
+    return constants;
+}
+
+std::uint32_t fewViews(const ResolvedOptions& options)
+{
+    const Technique& technique = options.technique();
+    const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
+    const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
+                        technique.partition == Partition::multi || technique.partition == Partition::automatic;
+    const bool divided = technique.partition != Partition::single && options.cascades().count > 1;
+    return steps ? 0 : around || divided ? shared::kFewViews : 1;
+}
+
+// Which view it is is known beforehand only where the light has all of the plan's.
+std::uint32_t fewViewsOf(const Plan& plan)
+{
+    if (plan.lights.size() != 1) {
+        return 0;
+    }
+    const LightPlan& light = plan.lights.front();
+    const std::size_t count = plan.views.size();
+    if (light.steps.paired || light.view_count != count || count > shared::kFewViews) {
+        return 0;
+    }
+    const std::uint32_t few = fewViews((*plan.options)[light.options]);
+    return few == 0 ? 0 : count == 1 ? 1 : shared::kFewViews;
+}
+
+} // namespace gnomon::pack

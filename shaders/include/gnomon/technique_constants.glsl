@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL only: for a pass that is made for one technique. What its options decide comes as specialization constants, whose
+// values pack::techniqueConstants() gives, so that a driver compiles what the technique needs and nothing else.
+// Include it before visibility.glsl, and define GNOMON_FILTER as well.
+//
+// Define beforehand, if the default does not suit:
+//   GNOMON_CONSTANT_ID  the first of eight constant_ids (0)
+// It adds a binding to those of visibility.glsl: GNOMON_BINDING + 8, a uniform buffer with the first kFewViews of the
+// GpuViews. Where a frame has one light and few views, the pass reads them from there: pack::fewViewsOf().
+#ifndef GNOMON_TECHNIQUE_CONSTANTS_GLSL
+#define GNOMON_TECHNIQUE_CONSTANTS_GLSL
+#ifndef GNOMON_CONSTANT_ID
+#define GNOMON_CONSTANT_ID 0
+#endif
+
+// In the order of pack::TechniqueConstants.
+layout(constant_id = GNOMON_CONSTANT_ID) const int gnomon_kernel_width = 3; // see FilterInput
+layout(constant_id = GNOMON_CONSTANT_ID + 1) const int gnomon_disc_taps = 16;
+layout(constant_id = GNOMON_CONSTANT_ID + 2) const bool gnomon_automatic_bias = true;
+layout(constant_id = GNOMON_CONSTANT_ID + 3) const int gnomon_moment_flags = 0;    // see MomentRule
+layout(constant_id = GNOMON_CONSTANT_ID + 4) const int gnomon_moment_sampling = 0; // gnomon::MapSampling
+layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;   // of lvsm
+layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see shared/paired_depth.h
+layout(constant_id = GNOMON_CONSTANT_ID + 7) const uint gnomon_few_view_count = 0;      // see GNOMON_FEW_VIEWS
+
+#define GNOMON_KERNEL_WIDTH gnomon_kernel_width
+#define GNOMON_DISC_TAPS gnomon_disc_taps
+#define GNOMON_AUTOMATIC_BIAS gnomon_automatic_bias
+#define GNOMON_MOMENT_FLAGS gnomon_moment_flags
+#define GNOMON_MOMENT_SAMPLING gnomon_moment_sampling
+#define GNOMON_MOMENT_LAYERS gnomon_moment_layers
+#define GNOMON_DEPTH_HOLDING gnomon_depth_holding
+#define GNOMON_FEW_VIEWS gnomon_few_view_count
+
+#endif
