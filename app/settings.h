@@ -64,7 +64,8 @@ struct Settings {
     glm::uvec2 size_px{0};
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
     host::BloomOptions bloom;
-    host::Shading shading = host::Shading::materials;
+    host::Reflection reflection = host::Reflection::materials;
+    host::Shading shading = host::Shading::deferred;
     pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"
     bool ground = false;

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::host {
@@ -23,10 +24,15 @@ namespace gnomon::host {
 /// side) and averages them.
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
-/// How surfaces reflect. `reflection_phong`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
+/// How surfaces reflect. `phong_2005`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
 /// ambient light, a diffuse and a specular term of the base colour, the latter by the angle between eye and reflected
 /// ray to the power of 8. Blended surfaces stay as they are.
-enum class Shading : std::uint8_t { materials, reflection_phong };
+enum class Reflection : std::uint8_t { materials, phong_2005 };
+
+/// How a picture is shaded, once depths are drawn. `deferred`: surfaces go to a G-buffer, the library makes a mask of
+/// it, and a pass over the screen shades. `forward`: each surface is shaded as it is drawn and asks the maps itself
+/// (door 2 of docs/integrating.md), so that there is neither G-buffer nor mask.
+enum class Shading : std::uint8_t { deferred, forward };
 
 /// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
 /// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
@@ -44,7 +50,13 @@ struct RenderOptions {
     std::uint32_t height = 720;
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
-    Shading shading = Shading::materials;
+    Reflection reflection = Reflection::materials;
+    /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
+    /// same.
+    Shading shading = Shading::deferred;
+    /// Picture::linear may be asked for. False: what shades may write the finished picture at once, where nothing is
+    /// blended over it or glows.
+    bool keeps_light = true;
     std::uint32_t frames_in_flight = 2; // how many frames the GPU may be behind; 1 to 4
     /// Changed by FrameRenderer::setShadows(). cascades.pass = layered is refused (Error) where ShadowRenderer refuses
     /// it.
@@ -59,6 +71,9 @@ struct RenderOptions {
     pack::CompactMaskRule compact_mask;
     bool shows_rays = false; // vulkan::ShadowRendererOptions::shows_rays
 };
+
+/// Why a renderer of these options cannot shade forward, as a sentence's part; empty: it can.
+[[nodiscard]] std::string_view refusalOfForward(const RenderOptions& options);
 
 /// The passes of a frame, in order; a value that needs no heap. What does not fit is left out.
 class PassRecords {

@@ -21,11 +21,11 @@ struct FinishedFrame {
     VkExtent2D drawn{};         // of all images but picture and glow: twice `shown` on each side with supersampling
     VkExtent2D shown{};         // of the picture
     vulkan::ImageRef picture;   // sRGB-encoded, RGBA8
-    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F
+    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where RenderOptions::keeps_light is not
     vulkan::ImageRef glow;      // sum of the levels of bloom; null without it
     vulkan::ImageRef depth;     // reversed z
-    vulkan::ImageRef normals;   // geometric and shading normal, octahedral
-    vulkan::ImageRef ids;       // object + 1 in the second channel; 0 background
+    vulkan::ImageRef normals;   // geometric and shading normal, octahedral; null of a frame shaded forward
+    vulkan::ImageRef ids;       // object + 1 in the second channel; 0 background; likewise
     vulkan::ImageRef masks;     // null where everything is lit
     bool compact_masks = false; // `masks` has RenderOptions::compact_mask
     std::size_t light_count = 0;

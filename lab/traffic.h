@@ -9,9 +9,12 @@
 
 namespace gnomon::lab {
 
-/// leastBytes() of the last frame that `renderer`, made with `options`, has drawn of the subject; 0 without shadows.
-/// Reads the geometry back, so the renderer's memory grows by the buffer for that.
-[[nodiscard]] std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject,
-                                       const host::RenderOptions& options);
+/// What the last frame that `renderer`, made with `options`, has drawn of the subject shows: depths and normals.
+/// Reading them back makes the renderer's memory grow. Where it keeps none, a frame without shadows is drawn for them.
+[[nodiscard]] host::Picture geometryOf(const host::SceneOnGpu& scene, host::FrameRenderer& renderer,
+                                       const Subject& subject, host::RenderOptions options);
+/// leastBytes() of that frame, which shows `geometry`; 0 without shadows.
+[[nodiscard]] std::uint64_t leastBytes(const host::Picture& geometry, const host::FrameRenderer& renderer,
+                                       const Subject& subject, const host::RenderOptions& options);
 
 } // namespace gnomon::lab

@@ -36,6 +36,7 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
         for (const bool reuse_maps : {false, true}) {
             lab::Contestant contestant{describeTechnique(technique), renderOptions(technique)};
             contestant.options.reuse_maps = reuse_maps;
+            contestant.options.keeps_light = false; // as of a frame that is shown
             contestants.push_back(std::move(contestant));
         }
     }

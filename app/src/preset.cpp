@@ -33,7 +33,7 @@ constexpr std::array kPresets{
     // division, z (f / (f - n)) - n f / (f - n), is metres along the axis but for a factor of 1.001.
     Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF, then a blur on the screen", R"({
   "scene": "spotlit", "camera": "stage", "spot.cone": 30, "spot.near": 1, "spot.range": 1024,
-  "shading": "reflection-phong", "partition": "single", "fit": "uniform", "filter": "pcf",
+  "reflection": "phong-2005", "partition": "single", "fit": "uniform", "filter": "pcf",
   "pcf.kernel": "3x3-projected", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1",
   "soften": "blur", "soften.kernel": "gaussian", "soften.edges": "plain", "soften.taps": "published"
 })"},

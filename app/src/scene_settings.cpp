@@ -107,16 +107,31 @@ bool isPicture(const Settings& s)
 {
     return !s.mask;
 }
-constexpr std::array<std::string_view, 2> kShadings{"materials", "reflection-phong"};
+constexpr std::array<std::string_view, 2> kReflections{"materials", "phong-2005"};
+
+constexpr std::array<std::string_view, 2> kShadings{"deferred", "forward"};
 
 std::vector<std::string_view> shadingNames()
 {
     return {kShadings.begin(), kShadings.end()};
 }
-
 void applyShading(Settings& s, const Value& v)
 {
-    s.shading = v.text == kShadings[1] ? host::Shading::reflection_phong : host::Shading::materials;
+    s.shading = v.text == kShadings[1] ? host::Shading::forward : host::Shading::deferred;
+}
+bool isShadedPicture(const Settings& s)
+{
+    return !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
+}
+
+std::vector<std::string_view> reflectionNames()
+{
+    return {kReflections.begin(), kReflections.end()};
+}
+
+void applyReflection(Settings& s, const Value& v)
+{
+    s.reflection = v.text == kReflections[1] ? host::Reflection::phong_2005 : host::Reflection::materials;
 }
 
 bool glows(const Settings& s)
@@ -174,8 +189,10 @@ const std::vector<Setting>& rows()
         {.key = "bloom.levels", .group = Group::picture, .type = integer, .form = "N", .default_text = "6", .min = 1, .max = 8,
          .doc = "halvings; each doubles the glow's reach", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
-        {.key = "shading", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = shadingNames,
-         .doc = "by the scene's materials, or reflection-phong: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyShading},
+        {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = shadingNames,
+         .doc = "deferred: a G-buffer, a mask of shadows, and a pass that shades; forward: surfaces are shaded as they are drawn and ask the maps themselves", .subcommands = kRender | kBench, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
+        {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,
+         .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyReflection},
         {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
          .apply = [](Settings& s, const Value& v) { s.ground = v.flag; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",

@@ -342,6 +342,7 @@ host::RenderOptions renderOptions(const Settings& settings)
         settings.shadow.technique.soften == Soften::converge && settings.truth_pixels == truth::PixelTruth::area;
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;
+    options.reflection = settings.reflection;
     options.shading = settings.shading;
     options.compact_mask = settings.compact_mask;
     options.shows_rays = settings.debug == "rays";

@@ -1,24 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces that are not in the G-buffer: blended ones, lit here; and what emits, added to what is shaded already.
-// The mask knows nothing of blended surfaces. With GNOMON_FILTER they ask the maps themselves, as the mask did. A light
-// has colours for them where the mask has its colours.
+// Surfaces that are shaded where they are drawn: all opaque ones with Shading::forward, blended ones always; and what
+// emits, added to what a G-buffer was shaded to. With GNOMON_FILTER they ask the maps themselves, as the mask does:
+// door 2 of docs/integrating.md. A light has colours for them where the mask has its colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+layout(constant_id = 3) const bool kEmissiveOnly = false;
+layout(constant_id = 8) const bool kOpaque = false; // else blended
+layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
 #ifdef GNOMON_FILTER
 #define GNOMON_SET 2
-#define GNOMON_TINTS true
+#define GNOMON_TINTS kTints
+#define GNOMON_CONSTANT_ID 11
+#include "gnomon/technique_constants.glsl"
+#if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
 uint receiver_object;
 uint receiver_piece;
 #define GNOMON_OBJECT receiver_object
 #define GNOMON_PIECE receiver_piece
+#endif
 #include "gnomon/smooth_surface.glsl"
 #include "gnomon/visibility.glsl"
 #endif
 #include "frame.glsl"
-#include "lighting.glsl"
+#include "scene_numbers.glsl"
+#include "ray.glsl"
+#define FRAME_ZENITH frame.sky_zenith
+#define FRAME_HORIZON frame.sky_horizon
+#define FRAME_GROUND frame.ground
 #include "material.glsl"
+#include "shaded_lights.glsl"
+#include "shown.glsl"
 
-layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(set = 0, binding = 7) uniform sampler2DArray cookies;
 
 layout(location = 0) in vec4 normal;
@@ -35,10 +47,20 @@ vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
     if (ids.y != 0u) {
         vec4 smooth_surface = gnomonSmoothSurface(p, surface.geometric_normal, normal);
         vec4 seen = gnomonLightColour(light, p, surface.geometric_normal, smooth_surface, own_tint, gl_FragCoord.xy);
-        return (int(frame.lights[light].right.w) & 4) != 0 ? seen.rgb : vec3(seen.a);
+        return kTints && (int(frame.lights[light].right.w) & 4) != 0 ? seen.rgb : vec3(seen.a);
     }
 #endif
     return vec3(1.0);
+}
+
+// Of a blended surface that casts, which must not tint itself. Casters are drawn without colours of vertices.
+vec3 ownTint()
+{
+    if (kOpaque || ids.z == 0u) {
+        return vec3(1.0);
+    }
+    vec4 own = clamp(baseColour(uvs, vec4(1.0)), 0.0, 1.0);
+    return 1.0 - own.a * (1.0 - own.rgb);
 }
 
 void main()
@@ -47,29 +69,40 @@ void main()
     receiver_object = ids.x - 1u;
     receiver_piece = ids.y >> 20; // scene.vert
 #endif
-    vec3 emitted = material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb * frame.sky_horizon.w;
-    vec4 base = baseColour(uvs, colour);
+    vec3 emitted = emission(uvs) * FRAME_HORIZON.w;
     if (kEmissiveOnly) {
         out_light = vec4(emitted, 0.0);
         return;
     }
+    vec4 base = baseColour(uvs, colour);
+    if (kMasked && base.a < MATERIAL_NUMBERS.w) {
+        discard;
+    }
+    float alpha = kOpaque ? 1.0 : base.a;
     vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
     Surface surface = surfaceAt(p, normal.xyz, tangent, uvs, base);
-    if (surface.model == 2.0) {
-        out_light = vec4(base.rgb * frame.sky_horizon.w * base.a, base.a);
+    float model = kPhysicalOnly ? 0.0 : surface.model;
+    if (model == 2.0) {
+        out_light = shown(base.rgb * FRAME_HORIZON.w, alpha);
         return;
     }
-    float second = surface.model == 1.0 ? material.model.y : surface.roughness;
-    Lit s = litSurface(p, surface.shading_normal, base.rgb, surface.metallic, second, surface.model);
-    // Casters are drawn without colours of vertices.
-    vec4 own = clamp(baseColour(uvs, vec4(1.0)), 0.0, 1.0);
-    vec3 own_tint = ids.z != 0u ? 1.0 - own.a * (1.0 - own.rgb) : vec3(1.0);
-    vec3 sum = ambient(s, surface.model == 1.0 ? 1.0 : second, surface.occlusion) + emitted;
-    for (uint i = 0; i < frame.counts.x; ++i) {
-        vec3 l;
-        vec3 e = arriving(frame.lights[i], p, cookies, l);
-        float n_l = max(dot(s.n, l), 0.0);
-        sum += reflectance(s, l, n_l) * e * (n_l * seenBy(i, p, surface, own_tint));
+    bool phong_2005 = kOpaque && kPhong2005;
+    float second = model == 1.0 ? MATERIAL_MODEL.y : surface.roughness;
+    Lit s = litSurface(p, surface.shading_normal, base.rgb, phong_2005 ? 0.0 : surface.metallic, second,
+                       phong_2005 ? 1.0 : model);
+    vec3 own_tint = ownTint();
+    vec3 sum = emitted;
+    if (!phong_2005) {
+        sum += ambient(s, model == 1.0 ? 1.0 : second, surface.occlusion);
     }
-    out_light = vec4(sum * base.a, base.a); // premultiplied
+    if (kFixedLights > 0) {
+        for (uint i = 0; i < kFixedLights; ++i) {
+            sum += lightFrom(frame.lights[i], s, cookies, seenBy(i, p, surface, own_tint));
+        }
+    } else {
+        for (uint i = 0; i < frame.counts.x; ++i) {
+            sum += lightFrom(frame.lights[i], s, cookies, seenBy(i, p, surface, own_tint));
+        }
+    }
+    out_light = shown(sum, alpha);
 }

@@ -19,15 +19,14 @@ layout(set = 0, binding = 0, std140) uniform FrameData
     vec4 ray_x; // eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d
     vec4 ray_y;
     vec4 ray_0;
-    vec4 depth;       // 1 / view depth = x * stored depth + y
+    vec4 depth;       // 1 / view depth = x * stored depth + y; z: 1 when there is a mask
     vec4 sky_zenith;  // w: strength of the hemisphere light
     vec4 sky_horizon; // w: exposure of what is emitted
     vec4 ground;
-    uvec4 counts; // x: lights; y: 1 when there is a mask
+    uvec4 counts; // x: lights
     LightData lights[kMaxLights];
 }
 frame;
 
-vec3 rayOf(vec2 pixel) { return frame.ray_x.xyz * pixel.x + frame.ray_y.xyz * pixel.y + frame.ray_0.xyz; }
 
 #endif

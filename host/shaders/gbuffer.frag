@@ -2,6 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
+#include "scene_numbers.glsl"
+#include "ray.glsl"
 #include "material.glsl"
 #include "octahedral_pair.glsl"
 #include "shared/smooth_surface.h"
@@ -21,14 +23,14 @@ layout(location = 4) out vec4 out_smooth;   // smoothEncode()
 void main()
 {
     vec4 base = baseColour(uvs, colour);
-    if (kMasked && base.a < material.numbers.w) {
+    if (kMasked && base.a < MATERIAL_NUMBERS.w) {
         discard;
     }
     vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
     Surface s = surfaceAt(p, normal.xyz, tangent, uvs, base);
     out_base = vec4(sqrt(s.base.rgb), s.occlusion);
     out_normals = encodeNormals(s.geometric_normal, s.shading_normal);
-    float second = s.model == 1.0 ? log2(material.model.y + 1.0) / 16.0 : s.roughness;
+    float second = s.model == 1.0 ? log2(MATERIAL_MODEL.y + 1.0) / 16.0 : s.roughness;
     out_material = vec4(s.metallic, second, 0.0, s.model * 0.5);
     out_ids = uvec2(ids.y, ids.x);
     out_smooth = vec4(smoothEncode(smoothSurface(p, s.geometric_normal, normal.xyz, normal.w), p), 0.0);

@@ -6,6 +6,7 @@
 // Mobile", 2014 (the hemisphere's specular share); KHR_lights_punctual, 2018 (cone and range).
 #ifndef HOST_LIGHTING_GLSL
 #define HOST_LIGHTING_GLSL
+// The includer defines FRAME_ZENITH, FRAME_HORIZON and FRAME_GROUND: screen_numbers.glsl.
 
 const float kPi = 3.14159265358979;
 
@@ -98,8 +99,8 @@ vec3 arriving(LightData light, vec3 p, sampler2DArray cookies, out vec3 l)
 
 vec3 hemisphere(vec3 direction)
 {
-    vec3 sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 0.5);
-    return mix(frame.ground.rgb, sky, 0.5 + 0.5 * direction.y) * frame.sky_zenith.w;
+    vec3 sky = mix(FRAME_HORIZON.rgb, FRAME_ZENITH.rgb, 0.5);
+    return mix(FRAME_GROUND.rgb, sky, 0.5 + 0.5 * direction.y) * FRAME_ZENITH.w;
 }
 
 vec3 ambient(Lit s, float roughness, float occlusion)

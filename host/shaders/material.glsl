@@ -2,26 +2,13 @@
 // A material's numbers and textures, and the surface they describe at a fragment.
 #ifndef HOST_MATERIAL_GLSL
 #define HOST_MATERIAL_GLSL
+#include "material_data.glsl"
 
 // What the pipeline's materials need, so that plain ones pay for nothing.
 layout(constant_id = 0) const bool kBaseTexture = false;
 layout(constant_id = 1) const bool kMasked = false;
 layout(constant_id = 2) const bool kAllTextures = false;
 
-struct TexturePlace {
-    vec4 u; // u' = dot(u.xy, uv) + u.z; w: 1 takes the second set of coordinates
-    vec4 v;
-};
-// Laid out as host/src/materials.h has it.
-layout(set = 1, binding = 0, std140) uniform MaterialData
-{
-    vec4 base_colour;
-    vec4 emissive; // w: normal scale
-    vec4 numbers;  // metallic, roughness, occlusion strength, alpha cutoff
-    vec4 model;    // x: 0 metallic-roughness, 1 phong, 2 unlit; y: phong exponent
-    TexturePlace places[5];
-}
-material;
 layout(set = 1, binding = 1) uniform sampler2D base_colour_texture;
 layout(set = 1, binding = 2) uniform sampler2D metallic_roughness_texture;
 layout(set = 1, binding = 3) uniform sampler2D normal_texture;
@@ -31,6 +18,9 @@ layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
 vec2 place(int i, vec4 uvs)
 {
     TexturePlace at = material.places[i];
+    if (i == 0) { // of the base colour, which most materials have alone
+        at = TexturePlace(MATERIAL_PLACE_U, MATERIAL_PLACE_V);
+    }
     vec2 uv = at.u.w > 0.5 ? uvs.zw : uvs.xy;
     return vec2(dot(at.u.xy, uv) + at.u.z, dot(at.v.xy, uv) + at.v.z);
 }
@@ -47,11 +37,16 @@ struct Surface {
 
 vec4 baseColour(vec4 uvs, vec4 colour)
 {
-    vec4 base = material.base_colour * colour;
+    vec4 base = MATERIAL_BASE * colour;
     if (kBaseTexture) {
         base *= texture(base_colour_texture, place(0, uvs));
     }
     return base;
+}
+
+vec3 emission(vec4 uvs)
+{
+    return kAllTextures ? material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb : material.emissive.rgb;
 }
 
 // `p`: eye-relative position. The tangent's w is the handedness, 0 where there is no tangent.
@@ -67,10 +62,10 @@ Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
     vec3 geometric = l > 1e-30 ? n * inversesqrt(l) : normalize(normal);
     s.geometric_normal = dot(geometric, p) > 0.0 ? -geometric : geometric;
     n = normalize(normal);
-    s.metallic = material.numbers.x;
-    s.roughness = material.numbers.y;
+    s.metallic = MATERIAL_NUMBERS.x;
+    s.roughness = MATERIAL_NUMBERS.y;
     s.occlusion = 1.0;
-    s.model = material.model.x;
+    s.model = MATERIAL_MODEL.x;
     if (kAllTextures) {
         if (tangent.w != 0.0) {
             vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
@@ -82,7 +77,7 @@ Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
         vec4 mr = texture(metallic_roughness_texture, place(1, uvs));
         s.metallic *= mr.b;
         s.roughness *= mr.g;
-        s.occlusion = 1.0 + material.numbers.z * (texture(occlusion_texture, place(3, uvs)).r - 1.0);
+        s.occlusion = 1.0 + MATERIAL_NUMBERS.z * (texture(occlusion_texture, place(3, uvs)).r - 1.0);
     }
     // One rule for back faces of two-sided surfaces and for mirrored objects.
     s.shading_normal = dot(n, s.geometric_normal) < 0.0 ? -n : n;

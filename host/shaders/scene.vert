@@ -3,21 +3,20 @@
 // less than a gather per vertex. CLIPPED: with two planes in the objects' own space, beyond which nothing is drawn.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "by_vertex.glsl"
 #include "frame.glsl"
-#include "lib/caster.glsl"
+#include "material_data.glsl"
+#include "scene_position.glsl"
 #include "shared/smooth_surface.h"
+#include "shared/object_ids.h"
 
 layout(constant_id = 2) const bool kAllTextures = false;
 
-layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv_base; // of the base colour
 layout(location = 2) in vec4 normal; // w: 4096 where it is creased, and the vertex's piece, over 32767
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 colour; // square root of the linear colour
 layout(location = 5) in vec2 uv_other;
-layout(location = 6) in vec4 row_x; // eye-relative from object
-layout(location = 7) in vec4 row_y;
-layout(location = 8) in vec4 row_z;
 layout(location = 9) in uvec3 ids; // object id + 1; the same where it receives, else 0; 1 where it tints the light
 
 layout(location = 0) out vec4 out_normal; // w: smoothPlane()
@@ -25,21 +24,11 @@ layout(location = 1) out vec4 out_uvs;
 layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec4 out_colour;
 layout(location = 4) flat out uvec3 out_ids; // the second with the piece in its upper bits, where it is not 0
-invariant gl_Position; // drawn again with depth compared for equality
-#ifdef CLIPPED
-layout(push_constant) uniform Cut { vec4 clip_planes[2]; };
-out float gl_ClipDistance[2];
-#endif
+layout(location = 5) flat out vec4 numbers[kSceneNumberCount];
 
 void main()
 {
-    vec4 p = vec4(position, 1.0);
-    vec4 q = vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
-    gl_Position = frame.clip_from_eye * q;
-#ifdef CLIPPED
-    gl_ClipDistance[0] = casterInside(position, clip_planes[0]);
-    gl_ClipDistance[1] = casterInside(position, clip_planes[1]);
-#endif
+    vec3 q = placeVertex();
     // The cofactors take normals along whatever the transform is.
     vec3 c_x = cross(row_y.xyz, row_z.xyz);
     vec3 c_y = cross(row_z.xyz, row_x.xyz);
@@ -53,10 +42,20 @@ void main()
         out_tangent.w = tangent.w * mirrored;
     }
     uint more = uint(normal.w * 32767.0 + 0.5);
-    out_normal.w = smoothPlane(out_normal.xyz, q.xyz, more >= uint(kMostPieces));
+    out_normal.w = smoothPlane(out_normal.xyz, q, more >= uint(kMostPieces));
     out_uvs = vec4(uv_base, uv_other);
     out_colour = colour * colour;
     out_ids = ids;
+    if (kByVertex) {
+        numbers[kSceneRayX] = frame.ray_x;
+        numbers[kSceneRayY] = frame.ray_y;
+        numbers[kSceneRay0] = frame.ray_0;
+        numbers[kSceneBase] = material.base_colour;
+        numbers[kSceneNumbers] = material.numbers;
+        numbers[kSceneModel] = material.model;
+        numbers[kScenePlaceU] = material.places[0].u;
+        numbers[kScenePlaceV] = material.places[0].v;
+    }
     if (ids.y != 0u) {
         out_ids.y |= (more % uint(kMostPieces)) << kPieceShift;
     }

@@ -3,15 +3,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
+#include "screen_numbers.glsl"
+#include "ray.glsl"
+#include "shown.glsl"
 
 layout(location = 0) out vec4 out_light;
 
 void main()
 {
     vec3 d = normalize(rayOf(gl_FragCoord.xy));
-    vec3 sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, pow(clamp(d.y, 0.0, 1.0), 0.4));
+    vec3 sky = mix(FRAME_HORIZON.rgb, FRAME_ZENITH.rgb, pow(clamp(d.y, 0.0, 1.0), 0.4));
     // Haze: what is below the horizon takes on the ground's colour slowly and never wholly.
-    sky = mix(sky, frame.ground.rgb, 0.65 * smoothstep(0.0, 0.8, -d.y));
+    sky = mix(sky, FRAME_GROUND.rgb, 0.65 * smoothstep(0.0, 0.8, -d.y));
     sky *= 0.75; // as a backdrop it would outshine what it lights, whose colours are mostly dark
     for (uint i = 0; i < min(frame.counts.x, 2u); ++i) {
         if (frame.lights[i].place.w > 0.5) {
@@ -23,5 +26,5 @@ void main()
         float halo = 0.25 * pow(max(c, 0.0), 400.0) + 0.12 * pow(max(c, 0.0), 24.0);
         sky += frame.lights[i].colour.rgb * (disc * 4.0 + halo);
     }
-    out_light = vec4(sky, 1.0);
+    out_light = shown(sky, 1.0);
 }

@@ -76,8 +76,8 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     }
     describeFrame();
     writeFrameData(state, lights);
-    if (ForwardShadows* const forward = forwardShadows()) {
-        forward->describe(slot, frame, *plan, shadows->renderer);
+    if (ForwardShadows* const lookup = forwardShadows()) {
+        lookup->describe(slot, frame, *plan, shadows->renderer);
     }
     record(present);
     now().commands->submit();
@@ -107,7 +107,9 @@ void FrameRenderer::Impl::prepareFrame(const scene::State& state, const Eye& eye
     look(state, eye, lights, maps);
     times.advance_ms = millisecondsSince(start);
     const Clock::time_point plan_start = Clock::now();
+    forward.on = options.shading == Shading::forward && masks_instead == nullptr;
     makePlan(maps, masks_instead != nullptr);
+    choosePipelines();
     times.plan_ms = millisecondsSince(plan_start);
 }
 
@@ -169,11 +171,30 @@ void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const 
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
     objects.query(frustum.planes, ObjectSet::Want::all, visible);
     sortNearestFirst();
-    const bool all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
-                                             [](const Light& l) { return l.type == LightType::directional; });
-    const bool reflection_phong = options.shading == Shading::reflection_phong;
-    shade = scene.pipelines.shadeFor(lights.size(), all_directional, reflection_phong);
-    shade_compact = options.compact_mask.channels > 0 ? scene.pipelines.shadeCompact(reflection_phong) : VK_NULL_HANDLE;
+}
+
+void FrameRenderer::Impl::choosePipelines()
+{
+    Pipelines& pipelines = scene.pipelines;
+    // What blends, emits or glows is added to light, and supersampling averages it.
+    toned = !options.keeps_light && pipelines.blended.whole == VK_NULL_HANDLE &&
+            pipelines.emissive.whole == VK_NULL_HANDLE && !screen->bloom &&
+            options.anti_aliasing != AntiAliasing::ssaa4;
+    ShadedBy by;
+    by.fixed_lights = frame_lights.size() <= kMostFixedLights ? static_cast<std::uint32_t>(frame_lights.size()) : 0;
+    by.all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
+                                     [](const Light& l) { return l.type == LightType::directional; });
+    by.phong_2005 = options.reflection == Reflection::phong_2005;
+    by.toned = toned;
+    sky = pipelines.skyFor(toned);
+    if (forward.on) {
+        chooseForward(by);
+        return;
+    }
+    shade = pipelines.shadeFor(by);
+    by.fixed_lights = 0; // tiles have any number
+    by.all_directional = false;
+    shade_compact = options.compact_mask.channels > 0 ? pipelines.shadeCompact(by) : VK_NULL_HANDLE;
 }
 
 // Instances of a part are drawn in this order, so that near ones hide far ones before those are shaded.
@@ -204,7 +225,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
         }
         plan = shadows->plan = &shadows->planner.plan(frame);
     }
-    (void)shadows->renderer.prepare(*plan, screen->targets.drawn);
+    (void)shadows->renderer.prepare(*plan, forward.on ? VkExtent2D{} : screen->targets.drawn);
 }
 
 void FrameRenderer::Impl::writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights)
@@ -264,7 +285,7 @@ bool FrameRenderer::Impl::hasTiles() const
 
 ForwardShadows* FrameRenderer::Impl::forwardShadows()
 {
-    const bool wanted = plan != nullptr && !plan->views.empty() && draws.anyBlended();
+    const bool wanted = plan != nullptr && !plan->views.empty() && (forward.on || draws.anyBlended());
     return wanted ? &*shadows->forward : nullptr;
 }
 
@@ -275,13 +296,16 @@ void FrameRenderer::Impl::describeFrame()
     finished.drawn = targets.drawn;
     finished.shown = targets.shown;
     finished.picture = refOf(targets.picture, kCopySource);
-    finished.light = refOf(targets.light, kSampled);
+    finished.light = toned ? vulkan::ImageRef{} : refOf(targets.light, kSampled);
     finished.glow = screen->bloom ? refOf(screen->bloom->result(), kSampled) : vulkan::ImageRef{};
     finished.depth = refOf(targets.depth, kDepthRead);
-    finished.normals = refOf(targets.normals(), kSampled);
-    finished.ids = refOf(targets.ids(), kSampled);
     finished.light_count = frame_lights.size();
     finished.plan = plan;
+    if (forward.on) {
+        return;
+    }
+    finished.normals = refOf(targets.normals(), kSampled);
+    finished.ids = refOf(targets.ids(), kSampled);
     finished.compact_masks = hasTiles();
     if (!frame_lights.empty() && (plan != nullptr || instead != nullptr)) {
         finished.masks = instead != nullptr ? refOf(*instead, kSampled) : shadows->renderer.mask();

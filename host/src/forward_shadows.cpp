@@ -13,14 +13,18 @@
 namespace gnomon::host {
 namespace {
 
-constexpr const char* kPurpose = "host shadows of blended surfaces";
+constexpr const char* kPurpose = "host forward shadows";
+
+constexpr VkDeviceSize kFewBytes = shared::kFewViews * sizeof(shared::GpuView);
 
 } // namespace
 
 ForwardShadows::ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots)
     : gpu_(scene.gpu), pipelines_(scene.pipelines), memory_(scene.gpu),
-      of_surfaces_(scene.pipelines.shadowedFor(options)), map_sampler_(scene.textures.mipSampler(options.filterable())),
-      texel_sampler_(scene.textures.mipSampler(false)), slots_(slots)
+      of_blended_(scene.pipelines.blended.whole != VK_NULL_HANDLE ? scene.pipelines.shadowedFor(options)
+                                                                  : SurfacePipelines{}),
+      map_sampler_(scene.textures.mipSampler(options.filterable())), texel_sampler_(scene.textures.mipSampler(false)),
+      slots_(slots)
 {
     for (Slot& slot : slots_) {
         slot.constants =
@@ -66,7 +70,9 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
     assert(plan.options->size() == 1);
     Slot& now = slots_[slot];
     const std::size_t views = plan.views.size();
-    memory_.grow(now.views, views * sizeof(shared::GpuView), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kPurpose);
+    const std::size_t room = std::max<std::size_t>(views, shared::kFewViews);
+    memory_.grow(now.views, room * sizeof(shared::GpuView),
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, kPurpose);
     const vulkan::ImageRef maps = renderer.maps();
     const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
     pack::fillConstants(frame, plan, 0, frame.size_px, image,
@@ -75,7 +81,7 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
     const std::size_t objects = std::max<std::size_t>(pack::objectVectorCount(plan), 1);
     memory_.grow(now.objects, objects * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, kPurpose);
     pack::fillObjects(frame, plan, {static_cast<glm::vec4*>(now.objects.mapped), objects});
-    const std::span into(static_cast<shared::GpuView*>(now.views.mapped), views);
+    const std::span into(static_cast<shared::GpuView*>(now.views.mapped), room);
     pack::fillViews(frame, plan, {&image, 1}, into);
     renderer.placeTints(plan, into);
     writeSet(now, renderer);
@@ -95,11 +101,12 @@ void ForwardShadows::writeSet(const Slot& slot, const vulkan::ShadowRenderer& re
     const std::array<VkDescriptorImageInfo, 3> images{{{map_sampler_, maps.view, maps.layout},
                                                        {texel_sampler_, blocks.view, blocks.layout},
                                                        {texel_sampler_, tints.view, tints.layout}}};
-    const std::array<VkDescriptorBufferInfo, 5> buffers{{{slot.constants.handle, 0, VK_WHOLE_SIZE},
+    const std::array<VkDescriptorBufferInfo, 6> buffers{{{slot.constants.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.lights.handle, 0, VK_WHOLE_SIZE},
                                                          {slot.views.handle, 0, VK_WHOLE_SIZE},
                                                          {renderer.depthLayersBuffer().buffer, 0, VK_WHOLE_SIZE},
-                                                         {slot.objects.handle, 0, VK_WHOLE_SIZE}}};
+                                                         {slot.objects.handle, 0, VK_WHOLE_SIZE},
+                                                         {slot.views.handle, 0, kFewBytes}}};
     std::array<VkWriteDescriptorSet, kMapsBindings.size()> writes{};
     std::size_t image = 0;
     std::size_t buffer = 0;

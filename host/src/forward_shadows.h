@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows on blended surfaces, by door 2 of docs/integrating.md. The mask has one surface a pixel, so it cannot know
-// what is blended over that. These surfaces read the frame's maps in the pass that lights them.
+// Shadows on surfaces that are shaded as they are drawn, by door 2 of docs/integrating.md. With Shading::forward these
+// are all surfaces. Else they are the blended ones: the mask has one surface a pixel, so it cannot know what is blended
+// over that. They read the frame's maps in the pass that lights them.
 #pragma once
 
 #include "scene_data.h"
@@ -12,7 +13,7 @@ namespace gnomon::host {
 /// What that pass binds: for each slot a set, and the buffers in it.
 class ForwardShadows {
 public:
-    /// For lights of these options. Makes the pipeline. Precondition: the scene has blended surfaces. Throws Error.
+    /// For lights of these options. Makes the pipeline of blended surfaces where the scene has some. Throws Error.
     ForwardShadows(SceneData& scene, const ResolvedOptions& options, std::uint32_t slots);
     ~ForwardShadows() = default;
     ForwardShadows(const ForwardShadows&) = delete;
@@ -26,7 +27,8 @@ public:
                      vulkan::ShadowRenderer& renderer) const;
     /// Inside rendering: set 2. Sets 0 and 1 are the scene's.
     void bind(VkCommandBuffer commands, std::uint32_t slot) const;
-    [[nodiscard]] const SurfacePipelines& pipelines() const { return of_surfaces_; }
+    [[nodiscard]] VkDescriptorSet set(std::uint32_t slot) const { return slots_[slot].set; }
+    [[nodiscard]] const SurfacePipelines& blended() const { return of_blended_; }
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
 
 private:
@@ -43,7 +45,7 @@ private:
     const Gpu& gpu_;
     const Pipelines& pipelines_;
     Memory memory_;
-    SurfacePipelines of_surfaces_;
+    SurfacePipelines of_blended_;
     VkSampler map_sampler_;
     VkSampler texel_sampler_; // nearest, of blocks and tints
     OwnedDescriptorPool pool_;

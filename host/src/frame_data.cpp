@@ -150,13 +150,13 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
     data.ray_y = glm::vec4(glm::vec3(step_y), 0.0F);
     data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);
     const double span = (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
-    data.depth = {span, 1.0 / sight.far_m, 0.0, 0.0};
+    data.depth = {span, 1.0 / sight.far_m, has_mask ? 1.0 : 0.0, 0.0};
     // Light that has bounced off the surroundings is nowhere else accounted for.
     constexpr float kBounced = 1.5F;
     data.sky_zenith = glm::vec4(environment.sky_zenith * environment.exposure, environment.ambient * kBounced);
     data.sky_horizon = glm::vec4(environment.sky_horizon * environment.exposure, environment.exposure);
     data.ground = glm::vec4(environment.ground * environment.exposure, 0.0F);
-    data.counts = {lights.size(), has_mask ? 1 : 0, 0, 0};
+    data.counts = {lights.size(), 0, 0, 0};
     for (std::size_t i = 0; i < lights.size(); ++i) {
         fillLight(data.lights[i], lights[i], sight, exposure, cookie_layers[i]);
         const auto index = static_cast<std::uint32_t>(i);

@@ -15,6 +15,16 @@ namespace {
 constexpr std::uint32_t kMaxPasses = 256;
 constexpr std::uint32_t kMaxFramesInFlight = 4;
 
+const RenderOptions& checkedShading(const RenderOptions& options)
+{
+    const std::string_view refusal =
+        options.shading == Shading::forward ? refusalOfForward(options) : std::string_view();
+    if (!refusal.empty()) {
+        throw Error("shading forward", std::string(refusal), "shade deferred");
+    }
+    return options;
+}
+
 std::uint32_t slotsOf(const RenderOptions& options)
 {
     assert(options.frames_in_flight >= 1 && options.frames_in_flight <= kMaxFramesInFlight);
@@ -29,7 +39,7 @@ std::shared_ptr<Shadows> makeShadows(SceneData& scene, const RenderOptions& opti
 } // namespace
 
 FrameRenderer::Impl::Impl(SceneData& the_scene, const RenderOptions& the_options)
-    : scene(the_scene), gpu(the_scene.gpu), options(the_options), memory(the_scene.gpu),
+    : scene(the_scene), gpu(the_scene.gpu), options(checkedShading(the_options)), memory(the_scene.gpu),
       draws(memory, the_scene.table, the_scene.geometry, the_scene.materials, slotsOf(the_options)),
       profiler(the_scene.gpu.view(), slotsOf(the_options), kMaxPasses), slots(slotsOf(the_options)),
       read_commands(the_scene.gpu, memory.names(), "read-back")
@@ -92,6 +102,7 @@ void FrameRenderer::setShadows(const std::optional<ShadowOptions>& wanted)
     RenderOptions next = impl_->options;
     next.shadows = wanted.has_value();
     next.shadow = wanted.value_or(next.shadow);
+    (void)checkedShading(next);
     impl_->shadows = makeShadows(impl_->scene, next);
     impl_->options = next;
 }

@@ -51,6 +51,14 @@ struct FrameRenderer::Impl {
     const Image* instead = nullptr; // masks of someone else's
     FinishedFrame finished;
     VkDescriptorSet frame_set = VK_NULL_HANDLE;
+    /// Of a frame that is shaded as it is drawn.
+    struct Forward {
+        bool on = false;
+        ForwardFacts facts;
+        const KindPipelines* pipelines = nullptr;
+    } forward;
+    bool toned = false; // what shades goes through the tone curve at once
+    VkPipeline sky = VK_NULL_HANDLE;
     VkPipeline shade = VK_NULL_HANDLE;
     VkPipeline shade_compact = VK_NULL_HANDLE; // in its place where the mask is compact
     Sight sight;
@@ -88,10 +96,20 @@ struct FrameRenderer::Impl {
     void describeFrame();
     /// Is this frame's mask compact?
     [[nodiscard]] bool hasTiles() const;
-    /// Where this frame's blended surfaces have their shadows from; null: it draws none, or there are no maps.
+    /// Where surfaces that are shaded as they are drawn have their shadows from; null: there are none, or no maps.
     [[nodiscard]] ForwardShadows* forwardShadows();
+    void choosePipelines();
+    void chooseForward(const ShadedBy& by);
+    [[nodiscard]] const Image& shadedTo() const;
+    void endShading(VkCommandBuffer cmd);
     void record(Present* present);
+    void recordDeferred(VkCommandBuffer cmd);
+    void recordForward(VkCommandBuffer cmd);
+    void recordDepth(VkCommandBuffer cmd);
+    void recordSurfaces(VkCommandBuffer cmd);
     void recordGBuffer(VkCommandBuffer cmd);
+    [[nodiscard]] vulkan::MaskInputs depthInputs() const;
+    void recordMaps(VkCommandBuffer cmd, const vulkan::MaskInputs& inputs);
     void recordShadows(VkCommandBuffer cmd);
     void recordInstead(VkCommandBuffer cmd);
     void recordLight(VkCommandBuffer cmd);

@@ -105,7 +105,8 @@ OwnedSetLayout Materials::makeLayout(std::span<const VkDescriptorSetLayoutBindin
 void Materials::makeLayouts(const DebugNames& names)
 {
     std::array<VkDescriptorSetLayoutBinding, 6> bindings{};
-    bindings[0] = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+    bindings[0] = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+                   nullptr};
     for (std::uint32_t i = 1; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }

@@ -2,6 +2,7 @@
 #include "pipelines.h"
 
 #include "geometry.h"
+#include "pipeline_wish.h"
 #include "shaders.h"
 
 #include <algorithm>
@@ -85,28 +86,16 @@ struct FixedState {
 
 } // namespace
 
-struct Pipelines::Wish {
-    const char* name = "";
-    std::string_view vertex; // shaders
-    std::string_view fragment;
-    std::array<VkBool32, 4> constants{}; // specialization constants 0 to 3; floats by their bits
-    std::span<const VkFormat> colours;
-    bool scene = false; // vertex streams, dynamic culling; else one full-screen triangle
-    bool blend = false;
-    bool depth = false;
-    bool depth_write = false;
-    VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
-    VkPipelineLayout layout = VK_NULL_HANDLE; // null: that of the scene or of the screen
-};
-
 Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table)
     : gpu_(gpu), names_(names), table_(table)
 {
     makeLayouts(materials.layout());
     physical_only_ =
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
+    makeShadowedLayout(materials.layout());
     makeScene(materials);
-    makeSky();
+    makeDepthAlone();
+    sky = makeSky(false);
 }
 
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
@@ -193,14 +182,20 @@ OwnedShader Pipelines::module(std::string_view name) const
 
 VkPipeline Pipelines::make(const Wish& wish)
 {
-    std::array<VkSpecializationMapEntry, 4> entries{};
+    std::array<VkSpecializationMapEntry, kMostConstants> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i) {
         entries[i] = {i, i * 4, 4};
     }
-    const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof wish.constants, wish.constants.data()};
+    std::array<VkBool32, kMostConstants> values = wish.constants;
+    values[kByVertex] = gpu_.software() ? VK_TRUE : VK_FALSE;
+    const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof values, values.data()};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    const std::array<OwnedShader, 2> modules{module(wish.vertex), module(wish.fragment)};
-    for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t stage_count = wish.fragment.empty() ? 1 : 2;
+    std::array<OwnedShader, 2> modules{module(wish.vertex), {}};
+    if (stage_count == 2) {
+        modules[1] = module(wish.fragment);
+    }
+    for (std::size_t i = 0; i < stage_count; ++i) {
         stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[i].module = modules[i].get();
@@ -219,7 +214,7 @@ VkPipeline Pipelines::make(const Wish& wish)
 
     VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;
-    info.stageCount = stages.size();
+    info.stageCount = static_cast<std::uint32_t>(stage_count);
     info.pStages = stages.data();
     info.pVertexInputState = &fixed.input;
     info.pInputAssemblyState = &fixed.assembly;
@@ -240,11 +235,12 @@ VkPipeline Pipelines::make(const Wish& wish)
 
 SurfacePipelines Pipelines::makeSurface(Wish wish, bool cut)
 {
+    const bool without_colour = wish.vertex == "depth.vert";
     SurfacePipelines pipelines;
-    wish.vertex = "scene.vert";
+    wish.vertex = without_colour ? "depth.vert" : "scene.vert";
     pipelines.whole = make(wish);
     if (cut) {
-        wish.vertex = "scene_clipped.vert";
+        wish.vertex = without_colour ? "depth_clipped.vert" : "scene_clipped.vert";
         pipelines.cut = make(wish);
     }
     return pipelines;
@@ -263,21 +259,20 @@ void Pipelines::makeScene(const Materials& materials)
     Wish wish;
     wish.scene = true;
     wish.depth = true;
-    wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew
     wish.fragment = "gbuffer.frag";
     wish.colours = kGBufferFormats;
-    wish.depth_write = true;
     wish.name = "g-buffer";
-    for (std::size_t i = 0; i < gbuffer_.size(); ++i) {
+    for (std::size_t i = 0; i < gbuffer.size(); ++i) {
         const auto kind = static_cast<SurfaceKind>(i);
         const auto isOpaque = [kind](const MaterialFacts& m) {
             return m.kind == kind && !m.blended;
         };
         if (any(isOpaque)) {
-            const bool full = kind == SurfaceKind::full || kind == SurfaceKind::full_masked;
-            const bool masked = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
-            wish.constants = {kind != SurfaceKind::plain, masked, full, VK_FALSE};
-            gbuffer_[i] = makeSurface(wish, anyCut(isOpaque));
+            setKind(wish, kind);
+            wish.constants[kMasked] = VK_FALSE; // depth_alone has seen to that
+            opaque_kinds_[i] = anyCut(isOpaque) ? Kind::cut : Kind::whole;
+            gbuffer[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
         }
     }
     wish = blendedWish();
@@ -287,14 +282,15 @@ void Pipelines::makeScene(const Materials& materials)
     if (any(isBlended)) {
         blended_is_cut_ = anyCut(isBlended);
         blended = makeSurface(wish, blended_is_cut_);
-        makeShadowedLayout(materials.layout());
     }
     const auto emitsOnly = [](const MaterialFacts& m) {
         return m.emits && !m.blended;
     };
     if (any(emitsOnly)) {
         wish.name = "emissive";
-        wish.constants = {VK_FALSE, VK_FALSE, VK_FALSE, VK_TRUE};
+        wish.constants = {};
+        wish.constants[kAllTextures] = VK_TRUE;
+        wish.constants[kEmissiveOnly] = VK_TRUE;
         emissive = makeSurface(wish, anyCut(emitsOnly));
     }
 }
@@ -304,7 +300,9 @@ Pipelines::Wish Pipelines::blendedWish()
     Wish wish;
     wish.name = "blended";
     wish.fragment = "forward.frag";
-    wish.constants = {VK_TRUE, VK_FALSE, VK_TRUE, VK_FALSE};
+    wish.constants[kBaseTexture] = VK_TRUE;
+    wish.constants[kAllTextures] = VK_TRUE;
+    wish.constants[kTints] = VK_TRUE;
     wish.colours = {&kLightFormat, 1};
     wish.scene = true;
     wish.blend = true;
@@ -313,31 +311,17 @@ Pipelines::Wish Pipelines::blendedWish()
     return wish;
 }
 
-SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)
-{
-    const Filter read_by = options.hasFins() ? Filter::pcf : options.filter(); // the map beside the fins
-    const std::string fragment =
-        "forward_" + std::string(nameOf(read_by)) + (options.hasSmoothies() ? "_smoothies.frag" : ".frag");
-    const auto found = std::ranges::find(shadowed_, fragment, &std::pair<std::string, SurfacePipelines>::first);
-    if (found != shadowed_.end()) {
-        return found->second;
-    }
-    Wish wish = blendedWish();
-    wish.fragment = fragment;
-    wish.layout = shadowed_layout.get();
-    return shadowed_.emplace_back(fragment, makeSurface(wish, blended_is_cut_)).second;
-}
-
-void Pipelines::makeSky()
+VkPipeline Pipelines::makeSky(bool toned)
 {
     Wish wish;
-    wish.vertex = "fullscreen.vert";
-    wish.colours = {&kLightFormat, 1};
+    wish.vertex = "screen.vert";
+    wish.colours = {toned ? &kPictureFormat : &kLightFormat, 1};
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_EQUAL;
     wish.name = "sky";
     wish.fragment = "sky.frag";
-    sky = make(wish);
+    wish.constants[kToned] = toned ? VK_TRUE : VK_FALSE;
+    return make(wish);
 }
 
 VkPipeline Pipelines::toneFor(const ToneFacts& facts)
@@ -369,40 +353,46 @@ VkPipeline Pipelines::fxaa()
     return fxaa_;
 }
 
-VkPipeline Pipelines::shadeCompact(bool reflection_phong)
+void Pipelines::setKind(Wish& wish, SurfaceKind kind)
 {
-    VkPipeline& pipeline = shade_compact_[reflection_phong ? 1 : 0];
-    if (pipeline == VK_NULL_HANDLE) {
-        Wish wish;
-        wish.name = "shade compact";
-        wish.vertex = "fullscreen.vert";
-        wish.fragment = "shade_compact.frag";
-        wish.constants = {VK_FALSE, VK_FALSE, physical_only_, reflection_phong};
-        wish.colours = {&kLightFormat, 1};
-        wish.depth = true;
-        wish.compare = VK_COMPARE_OP_LESS;
-        wish.layout = compact_layout.get();
-        pipeline = make(wish);
-    }
-    return pipeline;
+    wish.constants[kBaseTexture] = kind != SurfaceKind::plain;
+    wish.constants[kMasked] = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
+    wish.constants[kAllTextures] = kind == SurfaceKind::full || kind == SurfaceKind::full_masked;
 }
 
-VkPipeline Pipelines::shadeFor(std::size_t lights, bool all_directional, bool reflection_phong)
+void Pipelines::setLights(Wish& wish, const ShadedBy& by) const
 {
-    const std::size_t fixed = lights <= 4 ? lights : 0;
-    VkPipeline& pipeline = shade_[fixed * 4 + (all_directional ? 2 : 0) + (reflection_phong ? 1 : 0)];
-    if (pipeline == VK_NULL_HANDLE) {
-        Wish wish;
-        wish.name = "shade";
-        wish.vertex = "fullscreen.vert";
-        wish.fragment = "shade.frag";
-        wish.constants = {static_cast<VkBool32>(fixed), all_directional, physical_only_, reflection_phong};
-        wish.colours = {&kLightFormat, 1};
-        wish.depth = true;
-        wish.compare = VK_COMPARE_OP_LESS;
-        pipeline = make(wish);
-    }
-    return pipeline;
+    wish.constants[kFixedLights] = by.fixed_lights;
+    wish.constants[kDirectionalOnly] = by.all_directional ? VK_TRUE : VK_FALSE;
+    wish.constants[kPhysicalOnly] = physical_only_ ? VK_TRUE : VK_FALSE;
+    wish.constants[kPhong2005] = by.phong_2005 ? VK_TRUE : VK_FALSE;
+    wish.constants[kToned] = by.toned ? VK_TRUE : VK_FALSE;
+    wish.colours = {by.toned ? &kPictureFormat : &kLightFormat, 1};
+}
+
+VkPipeline Pipelines::makeShade(const ShadedBy& by, bool compact)
+{
+    Wish wish;
+    wish.name = compact ? "shade compact" : "shade";
+    wish.vertex = "screen.vert";
+    wish.fragment = compact ? "shade_compact.frag" : "shade.frag";
+    setLights(wish, by);
+    wish.depth = true;
+    wish.compare = VK_COMPARE_OP_LESS;
+    wish.layout = compact ? compact_layout.get() : VK_NULL_HANDLE;
+    return make(wish);
+}
+
+VkPipeline Pipelines::shadeCompact(const ShadedBy& by)
+{
+    const auto found = std::ranges::find(shade_compact_, by, &std::pair<ShadedBy, VkPipeline>::first);
+    return found != shade_compact_.end() ? found->second : shade_compact_.emplace_back(by, makeShade(by, true)).second;
+}
+
+VkPipeline Pipelines::shadeFor(const ShadedBy& by)
+{
+    const auto found = std::ranges::find(shade_, by, &std::pair<ShadedBy, VkPipeline>::first);
+    return found != shade_.end() ? found->second : shade_.emplace_back(by, makeShade(by, false)).second;
 }
 
 } // namespace gnomon::host

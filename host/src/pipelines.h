@@ -4,8 +4,12 @@
 
 #include "draw_table.h"
 
+#include <gnomon/pack/technique_constants.h>
+
 #include <array>
+#include <deque>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,12 +24,14 @@ inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNOR
                                                          VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
                                                          VK_FORMAT_R16G16B16A16_SNORM};
 
-/// What gnomon/visibility.glsl wants bound: constants, maps, lights, views, layers of depth, blocks, tints, objects.
-inline constexpr std::array<VkDescriptorType, 8> kMapsBindings{
+/// What gnomon/visibility.glsl and technique_constants.glsl want bound: constants, maps, lights, views, layers of
+/// depth, blocks, tints, objects, few views.
+inline constexpr std::array<VkDescriptorType, 9> kMapsBindings{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 
 /// Instance-rate vertex data of host/shaders/scene.vert.
 struct InstanceData {
@@ -56,6 +62,32 @@ struct SurfacePipelines {
     [[nodiscard]] VkPipeline of(const Batch& batch) const { return batch.cut != 0 ? cut : whole; }
 };
 
+/// By SurfaceKind; null where the scene has none of the kind.
+using KindPipelines = std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)>;
+
+/// What pipelines that shade are made for.
+struct ShadedBy {
+    std::uint32_t fixed_lights = 0; // how many lights the frame has, at most kMostFixedLights; 0: any number
+    bool all_directional = false;
+    bool phong_2005 = false; // Reflection
+    bool toned = false;      // to the finished picture, by the tone curve
+
+    bool operator==(const ShadedBy&) const = default;
+};
+inline constexpr std::size_t kMostFixedLights = 4;
+
+/// The same of surfaces that are shaded as they are drawn.
+struct ForwardFacts {
+    ShadedBy by;
+    std::string fragment = "forward.frag"; // with a filter's name: in the shadow of its maps
+    pack::TechniqueConstants technique;
+    bool tints = false; // blended casters may tint the light
+
+    bool operator==(const ForwardFacts&) const = default;
+};
+/// The shader for maps of these options.
+[[nodiscard]] std::string forwardFragment(const ResolvedOptions& options, bool orthographic);
+
 class Pipelines {
 public:
     Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table);
@@ -63,31 +95,30 @@ public:
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
-    [[nodiscard]] VkPipeline gbuffer(const Batch& batch) const
-    {
-        return gbuffer_[static_cast<std::size_t>(batch.kind)].of(batch);
-    }
+    KindPipelines gbuffer;    // of opaque surfaces
     SurfacePipelines blended; // lit without shadow
     SurfacePipelines emissive;
+    KindPipelines depth_alone; // the same
     VkPipeline sky = VK_NULL_HANDLE;
 
     // Compiled when first asked for, which is not to be while a frame is recorded.
-    /// The shading pass made for this many lights. Phong and unlit surfaces are left out where the scene has none.
-    /// `reflection_phong`: Shading.
-    [[nodiscard]] VkPipeline shadeFor(std::size_t lights, bool all_directional, bool reflection_phong);
+    /// The shading pass. Phong and unlit surfaces are left out where the scene has none.
+    [[nodiscard]] VkPipeline shadeFor(const ShadedBy& by);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
     [[nodiscard]] SurfacePipelines shadowedFor(const ResolvedOptions& options);
-    /// The same for a compact mask.
-    [[nodiscard]] VkPipeline shadeCompact(bool reflection_phong);
+    /// The shading pass of a compact mask.
+    [[nodiscard]] VkPipeline shadeCompact(const ShadedBy& by);
+    /// Opaque surfaces, and the sky beside them.
+    [[nodiscard]] const KindPipelines& forwardFor(const ForwardFacts& facts);
+    [[nodiscard]] VkPipeline skyFor(bool toned);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
     OwnedSetLayout frame_layout;
-    OwnedPipelineLayout scene_layout;   // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
-    OwnedPipelineLayout screen_layout;  // set 0 frame
-    OwnedSetLayout tiles_layout;        // of a compact mask: ShadowRenderer::maskTiles()
-    OwnedPipelineLayout compact_layout; // as screen_layout, and set 1 tiles
-    // Null when the scene has no blended surface.
+    OwnedPipelineLayout scene_layout;    // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
+    OwnedPipelineLayout screen_layout;   // set 0 frame
+    OwnedSetLayout tiles_layout;         // of a compact mask: ShadowRenderer::maskTiles()
+    OwnedPipelineLayout compact_layout;  // as screen_layout, and set 1 tiles
     OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
     OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps; pushed as there
 
@@ -99,22 +130,33 @@ private:
                                                  bool of_scene = false) const;
     [[nodiscard]] OwnedShader module(std::string_view name) const;
     struct Wish;
+    enum class Kind : std::uint8_t { none, whole, cut };
+    static void setKind(Wish& wish, SurfaceKind kind);
+    void setLights(Wish& wish, const ShadedBy& by) const;
+    VkPipeline makeShade(const ShadedBy& by, bool compact);
+    void makeDepthAlone();
     [[nodiscard]] static Wish blendedWish();
     VkPipeline make(const Wish& wish);
     /// `cut`: some are.
     SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
-    void makeSky();
+    [[nodiscard]] VkPipeline makeSky(bool toned);
 
     const Gpu& gpu_;
     const DebugNames& names_;
     const DrawTable& table_;
-    std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)> gbuffer_{};
-    // By fixed number of lights (0: any), whether all are directional, and Shading.
-    std::array<VkPipeline, 20> shade_{};
-    std::array<VkPipeline, 2> shade_compact_{};                      // by Shading
-    std::vector<std::pair<std::string, SurfacePipelines>> shadowed_; // by the fragment shader
-    bool blended_is_cut_ = false;                                    // somewhere
+    std::array<Kind, static_cast<std::size_t>(SurfaceKind::count)> opaque_kinds_{}; // that the scene has
+    std::deque<std::pair<ForwardFacts, KindPipelines>> forward_;                    // references to them stay
+    VkPipeline toned_sky_ = VK_NULL_HANDLE;
+    std::vector<std::pair<ShadedBy, VkPipeline>> shade_;
+    std::vector<std::pair<ShadedBy, VkPipeline>> shade_compact_;
+    struct Shadowed {
+        std::string fragment;
+        pack::TechniqueConstants technique;
+        SurfacePipelines pipelines;
+    };
+    std::vector<Shadowed> shadowed_;
+    bool blended_is_cut_ = false; // somewhere
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
     bool physical_only_ = false;

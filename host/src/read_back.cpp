@@ -182,6 +182,23 @@ void ReadBack::Impl::readGeometry(Picture& picture) const
     });
 }
 
+namespace {
+
+/// What a frame does not have because of how it was shaded.
+void checkWanted(const WantedImages& wanted, const FinishedFrame& frame)
+{
+    if ((wanted.masks || wanted.geometry) && frame.normals.image == VK_NULL_HANDLE) {
+        throw Error("reading a frame back", "it was shaded forward, which makes no masks and keeps no geometry",
+                    "shade it deferred");
+    }
+    if (wanted.linear && frame.light.image == VK_NULL_HANDLE) {
+        throw Error("reading a frame back", "its light went through the tone curve at once",
+                    "say beforehand that the renderer keeps light");
+    }
+}
+
+} // namespace
+
 ReadBack::ReadBack(const Gpu& gpu, const WantedImages& wanted) : impl_(std::make_unique<Impl>(gpu, wanted)) {}
 
 ReadBack::~ReadBack() = default;
@@ -192,6 +209,7 @@ void ReadBack::record(VkCommandBuffer commands, const FinishedFrame& frame)
     const auto copy = [&](bool is_wanted, const vulkan::ImageRef& image) -> const void* {
         return is_wanted && image.image != VK_NULL_HANDLE ? self.copies.add(commands, image, 0) : nullptr;
     };
+    checkWanted(self.wanted, frame);
     self.masks.clear();
     self.copies.begin(self.bytesFor(frame));
     self.at.drawn = frame.drawn;

@@ -1,45 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of one frame.
 #include "frame_renderer_impl.h"
+#include "rendering.h"
 
 #include <array>
 #include <span>
 
 namespace gnomon::host {
-namespace {
-
-VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load)
-{
-    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = image.view;
-    info.imageLayout = layout;
-    info.loadOp = load;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info;
-}
-
-void beginRendering(VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colours,
-                    const VkRenderingAttachmentInfo* depth)
-{
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, extent};
-    info.layerCount = 1;
-    info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
-    info.pColorAttachments = colours.data();
-    info.pDepthAttachment = depth;
-    vkCmdBeginRendering(cmd, &info);
-}
-
-void setViewport(VkCommandBuffer cmd, VkExtent2D extent)
-{
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0F, 1.0F};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(cmd, 0, 1, &viewport);
-    vkCmdSetScissor(cmd, 0, 1, &scissor);
-}
-
-} // namespace
 
 void FrameRenderer::Impl::record(Present* present)
 {
@@ -51,13 +18,11 @@ void FrameRenderer::Impl::record(Present* present)
         scene.geometry.recordDeformed(cmd, now().deformed);
         profiler.endPass(cmd);
     }
-    recordGBuffer(cmd);
-    if (instead != nullptr) {
-        recordInstead(cmd);
-    } else if (plan != nullptr) {
-        recordShadows(cmd);
+    if (forward.on) {
+        recordForward(cmd);
+    } else {
+        recordDeferred(cmd);
     }
-    recordLight(cmd);
     if (screen->bloom) {
         recordBloom(cmd);
     }
@@ -65,6 +30,37 @@ void FrameRenderer::Impl::record(Present* present)
     if (present != nullptr) {
         present->record(cmd, finished);
     }
+}
+
+void FrameRenderer::Impl::recordDeferred(VkCommandBuffer cmd)
+{
+    recordDepth(cmd);
+    recordGBuffer(cmd);
+    if (instead != nullptr) {
+        recordInstead(cmd);
+    } else if (plan != nullptr) {
+        recordShadows(cmd);
+    }
+    recordLight(cmd);
+}
+
+void FrameRenderer::Impl::recordDepth(VkCommandBuffer cmd)
+{
+    const Targets& targets = screen->targets;
+    memory.names().begin(cmd, "depth");
+    profiler.beginPass(cmd, "depth");
+    barrier(cmd, targets.depth, discardAfter(kDepthRead), kDepthWrite);
+    VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthWrite.layout, VK_ATTACHMENT_LOAD_OP_CLEAR);
+    depth.clearValue.depthStencil.depth = 0.0F;
+    beginRendering(cmd, targets.drawn, {}, &depth);
+    setViewport(cmd, targets.drawn);
+    // As for the G-buffer: nothing opaque may be in sight.
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
+    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, scene.pipelines.depth_alone, frame_set));
+    vkCmdEndRendering(cmd);
+    barrier(cmd, targets.depth, kDepthWrite, kDepthRead);
+    profiler.endPass(cmd);
+    memory.names().end(cmd);
 }
 
 void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
@@ -79,19 +75,16 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
         const VkAttachmentLoadOp load = i == 3 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         colours[i] = attachment(targets.gbuffer[i], kColourWrite.layout, load);
     }
-    barrier(cmd, targets.depth, discardAfter(kDepthRead), kDepthWrite);
-    VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthWrite.layout, VK_ATTACHMENT_LOAD_OP_CLEAR);
-    depth.clearValue.depthStencil.depth = 0.0F;
+    const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
     beginRendering(cmd, targets.drawn, colours, &depth);
     setViewport(cmd, targets.drawn);
     // llvmpipe 22.3 crashes on a descriptor set before the first graphics pipeline, and nothing opaque may be in sight.
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
-    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, frame_set));
+    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, scene.pipelines.gbuffer, frame_set));
     vkCmdEndRendering(cmd);
     for (const Image& image : targets.gbuffer) {
         barrier(cmd, image, kColourWrite, kSampledByAll);
     }
-    barrier(cmd, targets.depth, kDepthWrite, kDepthRead);
     profiler.endPass(cmd);
     memory.names().end(cmd);
 }
@@ -99,27 +92,13 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
 void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
 {
     const Targets& targets = screen->targets;
-    vulkan::MaskInputs inputs;
-    inputs.extent = targets.drawn;
-    inputs.depth = targets.depth.view;
-    inputs.depth_layout = kDepthRead.layout;
+    vulkan::MaskInputs inputs = depthInputs();
     inputs.normal = targets.normals().view;
     inputs.smooth = targets.smooth().view;
     inputs.object_id = targets.ids().view;
     inputs.object_pieces = true; // scene.vert
+    recordMaps(cmd, inputs);
     vulkan::ShadowRenderer& renderer = shadows->renderer;
-    vulkan::CasterDrawer& casters = shadows->casters;
-    renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
-    casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
-    if (shadows->fins) {
-        shadows->fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
-    }
-    // It holds one pointer, for which nothing is allocated.
-    const vulkan::DrawCasters draw = [this](const vulkan::MapPass& pass) {
-        std::optional<vulkan::FinDrawer>& fins = shadows->fins;
-        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
-    };
-    renderer.recordMaps(cmd, slot, frame, *plan, draw, &profiler);
     if (shadows->volumes) {
         shadows->volumes->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions),
                                      draws.transforms());
@@ -133,8 +112,35 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     if (hasTiles()) {
         shadows->tiles->describe(slot, renderer.maskTiles(slot));
     }
-    if (ForwardShadows* const forward = forwardShadows()) {
-        forward->recordViews(cmd, slot, *plan, renderer);
+}
+
+vulkan::MaskInputs FrameRenderer::Impl::depthInputs() const
+{
+    const Targets& targets = screen->targets;
+    vulkan::MaskInputs inputs;
+    inputs.extent = targets.drawn;
+    inputs.depth = targets.depth.view;
+    inputs.depth_layout = kDepthRead.layout;
+    return inputs;
+}
+
+void FrameRenderer::Impl::recordMaps(VkCommandBuffer cmd, const vulkan::MaskInputs& inputs)
+{
+    vulkan::ShadowRenderer& renderer = shadows->renderer;
+    vulkan::CasterDrawer& casters = shadows->casters;
+    renderer.recordBounds(cmd, slot, frame, *plan, inputs, &profiler);
+    casters.beginFrame(slot, *plan, scene.casterGeometry(), draws.transforms());
+    if (shadows->fins) {
+        shadows->fins->beginFrame(slot, shadows->volume_meshes->geometry(scene.geometry.positions), draws.transforms());
+    }
+    // It holds one pointer, for which nothing is allocated.
+    const vulkan::DrawCasters draw = [this](const vulkan::MapPass& pass) {
+        std::optional<vulkan::FinDrawer>& fins = shadows->fins;
+        profiler.addDraws(fins && pass.formats.fins ? fins->draw(pass) : shadows->casters.draw(pass));
+    };
+    renderer.recordMaps(cmd, slot, frame, *plan, draw, &profiler);
+    if (const ForwardShadows* const lookup = forwardShadows()) {
+        lookup->recordViews(cmd, slot, *plan, renderer);
     }
 }
 
@@ -154,13 +160,13 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     const Pipelines& pipelines = scene.pipelines;
     memory.names().begin(cmd, "light");
     profiler.beginPass(cmd, "light");
-    barrier(cmd, targets.light, discardAfter(kSampledByAll), kColourWrite);
-    const VkRenderingAttachmentInfo colour =
-        attachment(targets.light, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    const Image& target = shadedTo();
+    barrier(cmd, target, discardAfter(kSampledByAll), kColourWrite);
+    const VkRenderingAttachmentInfo colour = attachment(target, kColourWrite.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
     const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
     beginRendering(cmd, targets.drawn, {&colour, 1}, &depth);
     setViewport(cmd, targets.drawn);
-    for (VkPipeline pipeline : {hasTiles() ? shade_compact : shade, pipelines.sky}) {
+    for (VkPipeline pipeline : {hasTiles() ? shade_compact : shade, sky}) {
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         // After the pipeline: it may be the frame's first, see SceneDraws::recordOpaque.
         if (pipeline == shade_compact) {
@@ -176,9 +182,26 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     draws.bindStreams(cmd);
     profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + recordBlended(cmd));
     vkCmdEndRendering(cmd);
-    barrier(cmd, targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
+    endShading(cmd);
     profiler.endPass(cmd);
     memory.names().end(cmd);
+}
+
+/// What surfaces are shaded to: the light, or with the tone curve what comes after it.
+const Image& FrameRenderer::Impl::shadedTo() const
+{
+    const Targets& targets = screen->targets;
+    if (!toned) {
+        return targets.light;
+    }
+    return screen->fxaa != VK_NULL_HANDLE ? targets.toned : targets.picture;
+}
+
+void FrameRenderer::Impl::endShading(VkCommandBuffer cmd)
+{
+    if (!toned) {
+        barrier(cmd, screen->targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
+    }
 }
 
 std::uint32_t FrameRenderer::Impl::recordBlended(VkCommandBuffer cmd)
@@ -186,12 +209,11 @@ std::uint32_t FrameRenderer::Impl::recordBlended(VkCommandBuffer cmd)
     if (!draws.anyBlended()) {
         return 0;
     }
-    const ForwardShadows* const forward = forwardShadows();
-    if (forward != nullptr) {
-        forward->bind(cmd, slot);
+    const ForwardShadows* const lookup = forwardShadows();
+    if (lookup != nullptr) {
+        lookup->bind(cmd, slot);
     }
-    return draws.recordBlended(cmd, scene.pipelines,
-                               forward != nullptr ? forward->pipelines() : scene.pipelines.blended);
+    return draws.recordBlended(cmd, scene.pipelines, lookup != nullptr ? lookup->blended() : scene.pipelines.blended);
 }
 
 void FrameRenderer::Impl::recordBloom(VkCommandBuffer cmd)
@@ -225,7 +247,9 @@ void FrameRenderer::Impl::recordPicture(VkCommandBuffer cmd)
 {
     const Targets& targets = screen->targets;
     const bool smooth = screen->fxaa != VK_NULL_HANDLE;
-    screenPass(cmd, "tone", screen->tone, smooth ? targets.toned : targets.picture);
+    if (!toned) {
+        screenPass(cmd, "tone", screen->tone, smooth ? targets.toned : targets.picture);
+    }
     if (smooth) {
         barrier(cmd, targets.toned, kColourWrite, kSampled);
         screenPass(cmd, "fxaa", screen->fxaa, targets.picture);

@@ -141,7 +141,8 @@ std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines&
 }
 
 std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines,
-                                       VkDescriptorSet frame_set) const
+                                       const KindPipelines& of_kinds, VkDescriptorSet frame_set,
+                                       VkDescriptorSet maps_set) const
 {
     std::uint32_t draws = 0;
     VkPipeline bound = VK_NULL_HANDLE;
@@ -152,10 +153,14 @@ std::uint32_t SceneDraws::recordOpaque(VkCommandBuffer commands, const Pipelines
             continue;
         }
         const bool first = bound == VK_NULL_HANDLE;
-        bind(commands, pipelines.gbuffer(batch), bound);
+        bind(commands, of_kinds[static_cast<std::size_t>(batch.kind)].of(batch), bound);
         if (first) { // not before the pipeline: llvmpipe 22.3 crashes on a set that no pipeline was ever bound for
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1,
                                     &frame_set, 0, nullptr);
+            if (maps_set != VK_NULL_HANDLE) {
+                vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.shadowed_layout.get(), 2,
+                                        1, &maps_set, 0, nullptr);
+            }
             bindStreams(commands);
         }
         draws += recordBatch(commands, pipelines, some);

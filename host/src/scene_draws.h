@@ -25,9 +25,10 @@ public:
     void build(std::uint32_t slot, const scene::State& state, const glm::dvec3& eye_ws,
                std::span<const std::uint32_t> visible);
 
-    /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set and the vertex streams
-    /// itself; before the others they are bound. recordBlended draws with `blended`.
-    std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, VkDescriptorSet frame_set) const;
+    /// Inside rendering. Return the number of draw calls. recordOpaque binds the frame's set, that of the maps, if any,
+    /// and the vertex streams itself; before the others they are bound. recordBlended draws with `blended`.
+    std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, const KindPipelines& of_kinds,
+                               VkDescriptorSet frame_set, VkDescriptorSet maps_set = VK_NULL_HANDLE) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
     std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
                                 const SurfacePipelines& blended) const;

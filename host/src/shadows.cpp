@@ -61,7 +61,7 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
         fins.emplace(scene.gpu.view(), vulkan::FinDrawerOptions{options.frames_in_flight, scene.gpu.pipelineCache()});
         fins->setScene(volume_meshes->objects());
     }
-    if (resolved.hasMaps() && scene.pipelines.blended.whole != VK_NULL_HANDLE) {
+    if (resolved.hasMaps()) {
         forward.emplace(scene, resolved, options.frames_in_flight);
     }
 }

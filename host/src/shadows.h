@@ -29,7 +29,7 @@ struct Shadows {
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;
     std::optional<MaskTiles> tiles;              // of a compact mask
-    std::optional<ForwardShadows> forward;       // of scenes with blended surfaces
+    std::optional<ForwardShadows> forward;       // of filters with maps
     std::optional<VolumeMeshes> volume_meshes;   // of filters volumes and smoothies
     std::optional<vulkan::VolumeDrawer> volumes; // of filter volumes
     std::optional<vulkan::FinDrawer> fins;       // of filter smoothies

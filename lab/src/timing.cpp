@@ -92,7 +92,8 @@ void timeGroup(const host::SceneOnGpu& scene, const SubjectAt& subject_at, std::
     }
     result.baseline_bytes = totalBytes(*turns.front().renderer);
     for (Turn& turn : turns) { // after all memory was counted, because reading back takes some
-        turn.timed.counters.bytes_minimum = leastBytes(*turn.renderer, *subject, turn.options);
+        turn.timed.counters.bytes_minimum = leastBytes(geometryOf(scene, *turn.renderer, *subject, turn.options),
+                                                       *turn.renderer, *subject, turn.options);
     }
     Timed& baseline = turns.front().timed;
     baseline.samples.insert(baseline.samples.begin(), std::make_move_iterator(result.baseline.samples.begin()),

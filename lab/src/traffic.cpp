@@ -21,12 +21,26 @@ double leastReach(const ShadowOptions& options)
 
 } // namespace
 
-std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject, const host::RenderOptions& options)
+host::Picture geometryOf(const host::SceneOnGpu& scene, host::FrameRenderer& renderer, const Subject& subject,
+                         host::RenderOptions options)
+{
+    constexpr host::WantedImages kGeometry{.colour = false, .geometry = true};
+    if (options.shading == host::Shading::deferred) {
+        return renderer.read(kGeometry);
+    }
+    options.shadows = false;
+    options.shading = host::Shading::deferred;
+    host::FrameRenderer another(scene, options);
+    another.draw(*subject.state, subject.eye, subject.lights);
+    return another.read(kGeometry);
+}
+
+std::uint64_t leastBytes(const host::Picture& geometry, const host::FrameRenderer& renderer, const Subject& subject,
+                         const host::RenderOptions& options)
 {
     if (!options.shadows) {
         return 0;
     }
-    const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});
     const Camera camera = host::cameraOf(subject.eye, options.width, options.height, subject.state->bounds_ws);
     std::vector<Light> lights;
     for (const host::ShadedLight& light : subject.lights) {
@@ -41,7 +55,7 @@ std::uint64_t leastBytes(host::FrameRenderer& renderer, const Subject& subject, 
     traffic.redraws_all = !options.reuse_maps;
     traffic.reads_object_ids = true;
     traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;
-    return leastBytes({camera, picture.depth, picture.normals}, lights, renderer.plan(), traffic);
+    return leastBytes({camera, geometry.depth, geometry.normals}, lights, renderer.plan(), traffic);
 }
 
 } // namespace gnomon::lab

@@ -364,7 +364,7 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     EXPECT_EQ(settings.shadow.technique.soften, Soften::blur);
     EXPECT_EQ(settings.shadow.screen_blur.taps, ScreenTaps::published);
     EXPECT_EQ(settings.shadow.screen_blur.edges, ScreenEdges::plain);
-    EXPECT_EQ(settings.shading, host::Shading::reflection_phong);
+    EXPECT_EQ(settings.reflection, host::Reflection::phong_2005);
     const app::Shot shot = app::makeShot(settings);
     ASSERT_EQ(shot.lights.size(), 3U);
     for (const host::ShadedLight& light : shot.lights) {

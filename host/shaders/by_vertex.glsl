@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers that are the same for all fragments of a draw, from the vertex shader. lavapipe 22.3 loads a uniform in a
+// fragment shader with a branch for each of its numbers, for every few pixels: half of the time of such a shader. Of an
+// attribute that is flat it loads them once for a triangle. Other devices read uniforms.
+#ifndef HOST_BY_VERTEX_GLSL
+#define HOST_BY_VERTEX_GLSL
+
+layout(constant_id = 19) const bool kByVertex = false;
+
+// Of scene.vert, from location 5 on.
+const int kSceneRayX = 0;
+const int kSceneRayY = 1;
+const int kSceneRay0 = 2;
+const int kSceneBase = 3;    // MaterialData::base_colour
+const int kSceneNumbers = 4; // ::numbers
+const int kSceneModel = 5;   // ::model
+const int kScenePlaceU = 6;  // ::places[0]
+const int kScenePlaceV = 7;
+const int kSceneNumberCount = 8;
+
+// Of screen.vert, from location 0 on.
+const int kScreenRayX = 0;
+const int kScreenRayY = 1;
+const int kScreenRay0 = 2;
+const int kScreenDepth = 3;
+const int kScreenZenith = 4;
+const int kScreenHorizon = 5;
+const int kScreenGround = 6;
+const int kScreenPlace = 7; // of the first light
+const int kScreenColour = 8;
+const int kScreenRight = 9;
+const int kScreenNumberCount = 10;
+
+#endif

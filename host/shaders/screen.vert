@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// fullscreen.vert, with numbers of the frame for fragment shaders.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "by_vertex.glsl"
+#include "frame.glsl"
+
+layout(location = 0) flat out vec4 numbers[kScreenNumberCount];
+
+void main()
+{
+    vec2 p = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
+    gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+    if (kByVertex) {
+        numbers[kScreenRayX] = frame.ray_x;
+        numbers[kScreenRayY] = frame.ray_y;
+        numbers[kScreenRay0] = frame.ray_0;
+        numbers[kScreenDepth] = frame.depth;
+        numbers[kScreenZenith] = frame.sky_zenith;
+        numbers[kScreenHorizon] = frame.sky_horizon;
+        numbers[kScreenGround] = frame.ground;
+        numbers[kScreenPlace] = frame.lights[0].place;
+        numbers[kScreenColour] = frame.lights[0].colour;
+        numbers[kScreenRight] = frame.lights[0].right;
+    }
+}

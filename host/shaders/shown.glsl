@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pass that shades writes.
+#ifndef HOST_SHOWN_GLSL
+#define HOST_SHOWN_GLSL
+#include "tone.glsl"
+
+layout(constant_id = 9) const bool kToned = false; // the light goes through the tone curve at once
+
+vec4 shown(vec3 light, float alpha)
+{
+    if (kToned) {
+        vec3 c = encodeSrgb(filmic(light));
+        return vec4(c, luma(c)); // as tone.frag
+    }
+    return vec4(light * alpha, alpha); // premultiplied
+}
+
+#endif

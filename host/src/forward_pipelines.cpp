@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pipelines of surfaces that are shaded as they are drawn.
+#include "pipeline_wish.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+
+namespace gnomon::host {
+
+std::string forwardFragment(const ResolvedOptions& options, bool orthographic)
+{
+    const Filter read_by = options.hasFins() ? Filter::pcf : options.filter(); // the map beside the fins
+    return "forward_" + std::string(nameOf(read_by)) + (options.hasSmoothies() ? "_smoothies" : "") +
+           (orthographic ? "_orthographic" : "") + ".frag";
+}
+
+SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)
+{
+    const std::string fragment = forwardFragment(options, false);
+    const pack::TechniqueConstants technique = pack::techniqueConstants(options);
+    const auto found = std::ranges::find_if(
+        shadowed_, [&](const Shadowed& one) { return one.fragment == fragment && one.technique == technique; });
+    if (found != shadowed_.end()) {
+        return found->pipelines;
+    }
+    Wish wish = blendedWish();
+    wish.fragment = fragment;
+    wish.layout = shadowed_layout.get();
+    std::memcpy(&wish.constants[kTechnique], &technique, sizeof technique);
+    return shadowed_.emplace_back(Shadowed{fragment, technique, makeSurface(wish, blended_is_cut_)}).pipelines;
+}
+
+void Pipelines::makeDepthAlone()
+{
+    for (std::size_t i = 0; i < opaque_kinds_.size(); ++i) {
+        if (opaque_kinds_[i] == Kind::none) {
+            continue;
+        }
+        Wish wish;
+        wish.name = "depth";
+        wish.scene = true;
+        wish.depth = true;
+        wish.depth_write = true;
+        wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        setKind(wish, static_cast<SurfaceKind>(i));
+        const bool masked = wish.constants[kMasked] != VK_FALSE;
+        wish.vertex = masked ? "scene.vert" : "depth.vert";
+        wish.fragment = masked ? "depth_masked.frag" : "";
+        depth_alone[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
+    }
+}
+
+const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
+{
+    const auto found = std::ranges::find(forward_, facts, &std::pair<ForwardFacts, KindPipelines>::first);
+    if (found != forward_.end()) {
+        return found->second;
+    }
+    KindPipelines made{};
+    for (std::size_t i = 0; i < opaque_kinds_.size(); ++i) {
+        if (opaque_kinds_[i] == Kind::none) {
+            continue;
+        }
+        Wish wish;
+        wish.name = "forward";
+        wish.vertex = "scene.vert";
+        wish.fragment = facts.fragment;
+        setKind(wish, static_cast<SurfaceKind>(i));
+        setLights(wish, facts.by);
+        wish.constants[kOpaque] = VK_TRUE;
+        wish.constants[kTints] = facts.tints ? VK_TRUE : VK_FALSE;
+        std::memcpy(&wish.constants[kTechnique], &facts.technique, sizeof facts.technique);
+        wish.scene = true;
+        wish.depth = true;
+        wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew
+        wish.constants[kMasked] = VK_FALSE; // which has seen to that
+        wish.layout = shadowed_layout.get();
+        made[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
+    }
+    return forward_.emplace_back(facts, made).second;
+}
+
+VkPipeline Pipelines::skyFor(bool toned)
+{
+    if (toned && toned_sky_ == VK_NULL_HANDLE) {
+        toned_sky_ = makeSky(true);
+    }
+    return toned ? toned_sky_ : sky;
+}
+
+} // namespace gnomon::host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pipelines.h"
+
+namespace gnomon::host {
+
+/// The constant_ids of the host's shaders. tone.frag has its own meaning for the first four.
+enum Constant : std::uint32_t {
+    kBaseTexture,
+    kMasked,
+    kAllTextures,
+    kEmissiveOnly,
+    kFixedLights,
+    kDirectionalOnly,
+    kPhysicalOnly,
+    kPhong2005,
+    kOpaque,
+    kToned,
+    kTints,
+    kTechnique,                                                    // pack::TechniqueConstants
+    kByVertex = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
+    kMostConstants
+};
+
+struct Pipelines::Wish {
+    const char* name = "";
+    std::string_view vertex;                          // shaders
+    std::string_view fragment;                        // empty: none
+    std::array<VkBool32, kMostConstants> constants{}; // by Constant; floats by their bits
+    std::span<const VkFormat> colours;
+    bool scene = false; // vertex streams, dynamic culling; else one full-screen triangle
+    bool blend = false;
+    bool depth = false;
+    bool depth_write = false;
+    VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
+    VkPipelineLayout layout = VK_NULL_HANDLE; // null: that of the scene or of the screen
+};
+
+} // namespace gnomon::host

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a pass over images begins.
+#pragma once
+
+#include "commands.h"
+
+#include <span>
+
+namespace gnomon::host {
+
+[[nodiscard]] VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load);
+/// `depth` may be null.
+void beginRendering(VkCommandBuffer cmd, VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colours,
+                    const VkRenderingAttachmentInfo* depth);
+/// Viewport and scissor: all of it.
+void setViewport(VkCommandBuffer cmd, VkExtent2D extent);
+
+} // namespace gnomon::host
