@@ -114,8 +114,9 @@ struct Settings {
     std::vector<std::string> techniques;
     std::uint32_t repetitions = 0;
     std::uint32_t warmup = 0;
-    std::string draw;   // plan: the SVG file that shows a light's maps; empty: none
-    std::string report; // compare: folder for pictures and a page; empty: none
+    std::string draw;    // plan: the SVG file that shows a light's maps; empty: none
+    std::string report;  // compare: folder for pictures and a page; empty: none
+    std::string against; // bench: the earlier result that this one is held against; empty: none
     bool equal_error = false;
     std::optional<Sweep> sweep;
     std::string test_image; // metrics: the two files
@@ -170,7 +171,7 @@ struct Setting {
     std::string_view doc;                                 // one line
     std::uint32_t subcommands = kFrames;                  // which have it
     bool own_option = true;                               // false: only --set, presets and techniques
-    bool names_output = false;                            // a file or folder that is written: for command lines alone
+    bool command_line_only = false;                       // no part of what is done: what is written, or only read
     bool repeatable = false;                              // each use adds to the ones before
     std::string_view separator = " ";                     // between the uses of a repeatable one in `values`
     bool (*used)(const Settings&) = nullptr;              // null: always has an effect

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "host/frame_renderer.h"
+#include "lab/score/traffic.h"
+#include "lab/spread.h"
 #include "lab/waits.h"
 #include "scene/model.h"
 #include "scene/state.h"
@@ -58,13 +60,6 @@ struct Counters {
 };
 [[nodiscard]] Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraws_all);
 
-struct Spread {
-    double median = 0.0;
-    double iqr = 0.0; // third quartile less the first
-};
-/// Quartiles by linear interpolation between order statistics (Hyndman & Fan 1996, type 7). Empty: zeros.
-[[nodiscard]] Spread spreadOf(std::vector<double> values);
-
 struct TimingOptions {
     std::uint32_t repetitions = 11; // timed frames of each; >= 1
     std::uint32_t warmup = 2;       // frames of each before them
@@ -75,6 +70,7 @@ struct TimingOptions {
 struct Timed {
     std::vector<host::FrameTimes> samples;
     Counters counters; // of the last frame
+    LeastByPass least; // likewise
     Plan plan;         // of the last frame; without shadows: empty
     MapPages atlas;
     std::vector<std::pair<std::string, std::uint64_t>> added_memory; // beyond the frame without shadows, by purpose

@@ -16,5 +16,7 @@ namespace gnomon::lab {
 /// leastBytes() of that frame, which shows `geometry`; 0 without shadows.
 [[nodiscard]] std::uint64_t leastBytes(const host::Picture& geometry, const host::FrameRenderer& renderer,
                                        const Subject& subject, const host::RenderOptions& options);
+/// leastByPass() of that frame; nothing without shadows.
+[[nodiscard]] LeastByPass leastByPass(const host::FrameRenderer& renderer, const host::RenderOptions& options);
 
 } // namespace gnomon::lab

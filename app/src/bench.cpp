@@ -2,6 +2,7 @@
 // `gnomon bench`: times of techniques on one frame, interleaved in one process, against the frame without shadows.
 #include "app/shot.h"
 #include "app/visual.h"
+#include "bench_against.h"
 #include "bench_report.h"
 #include "contestants.h"
 #include "findings.h"
@@ -73,7 +74,8 @@ lab::TimingOptions timingOptions(const Settings& settings)
     return options;
 }
 
-BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques)
+void measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::vector<Settings>& techniques,
+             BenchResult& result)
 {
     const lab::TimingOptions options = timingOptions(settings);
     const host::SceneOnGpu scene(gpu, shot.scene, shot.state);
@@ -91,7 +93,6 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
         requireSilence(gpu);
         progress.step();
     });
-    BenchResult result;
     result.baseline = std::move(timing.baseline);
     result.baseline_bytes = timing.baseline_bytes;
     for (std::size_t i = 0; i < techniques.size(); ++i) {
@@ -105,7 +106,6 @@ BenchResult measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const 
     if (!settings.path.empty()) {
         moveShot(shot, settings, settings.frames->first); // whose camera and lights the result tells
     }
-    return result;
 }
 
 /// Lights without a shadow cost nothing, and their technique looks cheap: said once for each technique and reason.
@@ -132,15 +132,40 @@ void noteOutcomes(const BenchedTechnique& technique)
 struct BenchRun {
     Shot shot;
     BenchResult result;
+    std::optional<BenchFigures> earlier;
 };
+
+/// What the run is held against is read, and found to be of the same picture, before minutes are spent on it.
+std::optional<BenchFigures> earlierRun(const Settings& settings, const BenchRun& run,
+                                       const std::vector<Settings>& techniques)
+{
+    if (settings.against.empty()) {
+        return std::nullopt;
+    }
+    BenchFigures earlier = readBenchFigures(settings.against);
+    std::vector<std::string> names;
+    for (const Settings& technique : techniques) {
+        names.push_back(describeTechnique(technique));
+    }
+    requireComparable(earlier, benchHead(run.result, run.shot, settings), names);
+    const std::string device = run.result.device + ", " + run.result.driver;
+    if (earlier.device != device) {
+        notice(fmt::format("{} was measured on {}; this is {}, which may count otherwise", settings.against,
+                           earlier.device, device));
+    }
+    return earlier;
+}
 
 BenchRun runTimes(const Settings& settings)
 {
     const std::vector<Settings> techniques = contestants(settings);
-    BenchRun run{makeShot(settings), {}};
+    BenchRun run{makeShot(settings), {}, {}};
     const auto gpu = openGpu(settings);
     std::for_each(run.shot.notices.begin(), run.shot.notices.end(), notice);
-    run.result = measure(*gpu, run.shot, settings, techniques);
+    run.result.device = gpu->properties().deviceName;
+    run.result.driver = gpu->driver();
+    run.earlier = earlierRun(settings, run, techniques);
+    measure(*gpu, run.shot, settings, techniques, run.result);
     requireSilence(*gpu);
     for (const BenchedTechnique& technique : run.result.techniques) {
         noteOutcomes(technique);
@@ -148,8 +173,6 @@ BenchRun runTimes(const Settings& settings)
             notice(fmt::format("{}: {}", describeTechnique(technique.settings), *waits));
         }
     }
-    run.result.device = gpu->properties().deviceName;
-    run.result.driver = gpu->driver();
     return run;
 }
 
@@ -167,10 +190,18 @@ int runBench(const Settings& settings)
         requireWritable(settings.json);
     }
     const BenchRun run = runTimes(settings);
+    Json json = benchJson(run.result, run.shot, settings);
+    if (run.earlier) {
+        json["against"] = againstJson(*run.earlier, parseBenchFigures(jsonText(json), "this run"));
+    }
     if (settings.json.empty()) {
-        writeStdout(benchTable(run.result, run.shot, settings));
+        writeStdout(benchTable(run.result, run.shot, settings) +
+                    (run.earlier ? againstText(json.at("against")) : std::string()));
     } else {
-        writeResult(settings.json, jsonText(benchJson(run.result, run.shot, settings)));
+        writeResult(settings.json, jsonText(json));
+    }
+    if (run.earlier) {
+        requireNoGrowth(json.at("against"));
     }
     return 0;
 }

@@ -4,6 +4,7 @@
 #include "compare_table.h"
 #include "technique_json.h"
 
+#include "lab/passes.h"
 #include "scene/hash.h"
 
 #include <fmt/format.h>
@@ -55,6 +56,42 @@ std::string cascadeTable(const BenchResult& result)
     return table.rows.empty() ? std::string() : "\n" + fittedTableText(table);
 }
 
+/// Where a frame of the one technique goes, pass by pass, beside the frame without shadows. Of several techniques it
+/// would be long, and results have it.
+std::string passTable(const BenchResult& result)
+{
+    if (result.techniques.size() != 1) {
+        return {};
+    }
+    const lab::Timed& timed = result.techniques.front().redrawn;
+    const std::vector<lab::PassWork> without = lab::passesOf(result.baseline.samples, {});
+    const double frame_ms = frameMedian(timed.samples);
+    double outside_ms = frame_ms;
+    TextTable table{{"pass", "ms", "iqr", "share", "without", "vertices", "fragments", "compute", "draws", "least MiB"},
+                    {}};
+    const auto count = [](const lab::PassWork& pass, std::uint64_t vulkan::PassRecord::*member) {
+        return pass.sum.has_statistics ? fmt::format("{}", pass.sum.*member) : std::string(kNoNumber);
+    };
+    for (const lab::PassWork& pass : lab::passesOf(timed.samples, timed.least)) {
+        const auto same = std::ranges::find(without, pass.name, &lab::PassWork::name);
+        constexpr double kMiB = 1024.0 * 1024.0;
+        outside_ms -= pass.ms.median;
+        table.rows.push_back(
+            {pass.name, cell(pass.ms.median, 3),
+             cell(timed.samples.size() > 1 ? std::optional(pass.ms.iqr) : std::nullopt, 3),
+             cell(pass.ms.median / frame_ms, 3),
+             cell(same != without.end() ? std::optional(same->ms.median) : std::nullopt, 3),
+             count(pass, &vulkan::PassRecord::vertex_invocations),
+             count(pass, &vulkan::PassRecord::fragment_invocations),
+             count(pass, &vulkan::PassRecord::compute_invocations), fmt::format("{}", pass.sum.draws),
+             cell(pass.least ? std::optional(static_cast<double>(pass.least->bytes) / kMiB) : std::nullopt, 2)});
+    }
+    table.rows.push_back({"outside", cell(outside_ms, 3), std::string(kNoNumber),
+                          cell(frame_ms > 0.0 ? outside_ms / frame_ms : 0.0, 3)});
+    table.rows.back().resize(table.columns.size(), std::string(kNoNumber));
+    return "\n" + fittedTableText(table);
+}
+
 /// What frames along a path drew of their maps, and what they did not have to.
 std::string reuseTable(const BenchResult& result)
 {
@@ -87,7 +124,7 @@ Json techniqueJson(const BenchedTechnique& technique)
     json["texel_density"] = densityJson(technique.density);
     json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
     json["counters"] = countersJson(technique.redrawn.counters);
-    json["passes_ms"] = passesJson(technique.redrawn.samples);
+    json["passes"] = passesJson(technique.redrawn);
     json["cascade_pass"] = cascadePassJson(technique.redrawn);
     json["settings"] = settingsJson(technique.settings, kBench);
     json["settings"].erase("techniques"); // it is one of them
@@ -96,7 +133,7 @@ Json techniqueJson(const BenchedTechnique& technique)
 
 } // namespace
 
-Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings)
+Json benchHead(const BenchResult& result, const Shot& shot, const Settings& settings)
 {
     const std::string scene_hash = scene::toString(scene::sceneHash(shot.scene));
     Json json{{"version", GNOMON_VERSION}, {"scene", settings.scene}, {"scene_hash", scene_hash},
@@ -111,10 +148,16 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
         json["path"] = pathJson(settings);
     }
     json["settings"] = runJson(settings, scene_hash, kBench);
+    return json;
+}
+
+Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings)
+{
+    Json json = benchHead(result, shot, settings);
     Json baseline;
     addTimes(baseline, "", result.baseline.samples);
     baseline["memory_bytes"] = result.baseline_bytes;
-    baseline["passes_ms"] = passesJson(result.baseline.samples);
+    baseline["passes"] = passesJson(result.baseline);
     json["baseline"] = baseline;
     json["results"] = Json::array();
     for (const BenchedTechnique& technique : result.techniques) {
@@ -156,7 +199,8 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
                             ratioCell(technique.reused),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
-    return text + blurTable(result) + cascadeTable(result) + (settings.path.empty() ? "" : reuseTable(result));
+    return text + passTable(result) + blurTable(result) + cascadeTable(result) +
+           (settings.path.empty() ? "" : reuseTable(result));
 }
 
 } // namespace gnomon::app

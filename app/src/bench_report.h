@@ -29,6 +29,8 @@ struct BenchResult {
     std::vector<BenchedTechnique> techniques;
 };
 
+/// What is known before anything is timed: of the result only `device` and `driver`.
+[[nodiscard]] Json benchHead(const BenchResult& result, const Shot& shot, const Settings& settings);
 [[nodiscard]] Json benchJson(const BenchResult& result, const Shot& shot, const Settings& settings);
 [[nodiscard]] std::string benchTable(const BenchResult& result, const Shot& shot, const Settings& settings);
 

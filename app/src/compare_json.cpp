@@ -98,7 +98,7 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
     json["pixels"] = pixelsJson(score.pixels.counts);
     json["counters"] = countersJson(technique.timed.counters);
     json["reuse"] = reuseJson(technique.timed.samples);
-    json["passes_ms"] = passesJson(technique.timed.samples);
+    json["passes"] = passesJson(technique.timed);
     json["cascade_pass"] = cascadePassJson(technique.timed);
     json["settings"] = settingsJson(technique.settings, kCompare);
     json["settings"].erase("techniques"); // it is one of them
@@ -195,7 +195,7 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
         Json baseline;
         addTimes(baseline, "", result.baseline.samples);
         baseline["memory_bytes"] = result.baseline_bytes;
-        baseline["passes_ms"] = passesJson(result.baseline.samples);
+        baseline["passes"] = passesJson(result.baseline);
         json["baseline"] = baseline;
     }
     json["notes"] = compareNotes(result, json);

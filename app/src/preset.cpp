@@ -155,8 +155,9 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
     if (setting != nullptr) {
         requireType(*setting, value);
     }
-    if (setting != nullptr && setting->names_output) { // who runs a preset would not see what it overwrites
-        throw UsageError(fmt::format("{} names what is written; give it on the command line", key));
+    if (setting != nullptr &&
+        setting->command_line_only) { // who runs a preset would not see what it overwrites or reads
+        throw UsageError(fmt::format("{} names a file of this run alone; give it on the command line", key));
     }
     if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
         return;

@@ -51,7 +51,7 @@ Json settingsJson(const Settings& settings, std::uint32_t subcommand)
     Json json;
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
-        if (value != settings.values.end() && (setting.subcommands & subcommand) != 0 && !setting.names_output) {
+        if (value != settings.values.end() && (setting.subcommands & subcommand) != 0 && !setting.command_line_only) {
             json[std::string(setting.key)] = typed(setting, value->second);
         }
     }

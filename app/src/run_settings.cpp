@@ -262,7 +262,7 @@ const std::vector<Setting>& rows()
          .apply = applyLimit},
 
         {.key = "out", .group = Group::result, .type = text, .form = "FILE", .doc = "picture (.png, .exr; gnomon.png), last of --frames; folder for all",
-         .subcommands = kRender, .names_output = true, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
+         .subcommands = kRender, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.output = v.text; }},
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
@@ -270,7 +270,7 @@ const std::vector<Setting>& rows()
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kPlan | kCompare,
          .used = judgesALight, .used_when = "--mask, a --debug of one light or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
-         .subcommands = kPlan, .names_output = true, .apply = applyDraw},
+         .subcommands = kPlan, .command_line_only = true, .apply = applyDraw},
         {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
@@ -280,7 +280,9 @@ const std::vector<Setting>& rows()
          .doc = "frames of each technique before them", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.warmup = static_cast<std::uint32_t>(v.integer); }},
         {.key = "report", .group = Group::result, .type = text, .form = "DIR", .doc = "folder for a page with pictures and the table",
-         .subcommands = kCompare, .names_output = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+         .subcommands = kCompare, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+        {.key = "against", .group = Group::result, .type = text, .form = "FILE", .doc = "what has grown since an earlier --json; status 1 if counters have",
+         .subcommands = kBench, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.against = v.text; }},
         {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",
          .subcommands = kCompare, .apply = [](Settings& s, const Value& v) { s.equal_error = v.flag; }},
         {.key = "sweep", .group = Group::result, .type = text, .form = "KEY=FROM:TO:STEPS[:log]", .doc = "the error of each technique over values of any number",
@@ -290,7 +292,7 @@ const std::vector<Setting>& rows()
         {.key = "markdown", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the tables of docs/claims.md",
          .subcommands = kClaims, .apply = [](Settings& s, const Value& v) { s.markdown = v.flag; }},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kClaims, .names_output = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kClaims, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;

@@ -2,6 +2,7 @@
 #include "technique_json.h"
 
 #include "contestants.h"
+#include "lab/passes.h"
 #include "lab/score/traffic.h"
 
 #include <gnomon/pack/filter_rule.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace gnomon::app {
 namespace {
@@ -18,6 +18,14 @@ namespace {
 constexpr std::array kStages{Stage{"plan", &lab::StageTimes::plan}, Stage{"maps", &lab::StageTimes::maps},
                              Stage{"filter", &lab::StageTimes::filter}, Stage{"mask", &lab::StageTimes::mask},
                              Stage{"frame", &lab::StageTimes::frame}};
+
+using Record = vulkan::PassRecord;
+constexpr std::array kPassCounts{
+    PassCount{"vertex_invocations", [](const Record& r) { return r.vertex_invocations; }, true},
+    PassCount{"primitives", [](const Record& r) { return r.primitives; }, true},
+    PassCount{"fragment_invocations", [](const Record& r) { return r.fragment_invocations; }, true},
+    PassCount{"compute_invocations", [](const Record& r) { return r.compute_invocations; }, true},
+    PassCount{"draws", [](const Record& r) { return std::uint64_t{r.draws}; }, false}};
 
 /// Milliseconds, and their ratios: a tenth of a microsecond is all that a clock gives; more digits would only look
 /// exact.
@@ -133,22 +141,26 @@ Json cascadePassJson(const lab::Timed& timed)
     return pass ? Json(nameOf(*pass)) : Json(nullptr);
 }
 
-Json passesJson(const std::vector<host::FrameTimes>& samples)
+std::span<const PassCount> passCounts()
 {
-    std::vector<std::string> names; // in the order of their first turn
-    std::map<std::string, std::vector<double>, std::less<>> sums;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        for (const vulkan::PassRecord& pass : samples[i].passes) {
-            const auto [sum, is_new] = sums.try_emplace(pass.name, samples.size(), 0.0);
-            if (is_new) {
-                names.emplace_back(pass.name);
-            }
-            sum->second[i] += pass.milliseconds;
+    return kPassCounts;
+}
+
+Json passesJson(const lab::Timed& timed)
+{
+    const double frame_ms = frameMedian(timed.samples);
+    Json passes = Json::array();
+    for (const lab::PassWork& pass : lab::passesOf(timed.samples, timed.least)) {
+        Json json{{"name", pass.name}, {"ms", rounded(pass.ms.median)}};
+        json["iqr_ms"] = timed.samples.size() > 1 ? Json(rounded(pass.ms.iqr)) : Json(nullptr);
+        json["share"] = frame_ms > 0.0 ? Json(rounded(pass.ms.median / frame_ms)) : Json(nullptr);
+        for (const PassCount& count : kPassCounts) {
+            json[std::string(count.name)] =
+                count.by_device && !pass.sum.has_statistics ? Json(nullptr) : Json(count.of(pass.sum));
         }
-    }
-    Json passes = Json::object();
-    for (const std::string& name : names) {
-        passes[name] = rounded(lab::spreadOf(std::move(sums[name])).median);
+        json["texels"] = pass.least ? Json(pass.least->texels) : Json(nullptr);
+        json["bytes_minimum"] = pass.least ? Json(pass.least->bytes) : Json(nullptr);
+        passes.push_back(std::move(json));
     }
     return passes;
 }

@@ -46,9 +46,17 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 /// {"texels", "bytes", "format", "image_layers", "mip_levels"}: texels of all maps, bytes of their image with all that
 /// it has for each texel: image layers (lvsm) and mip levels.
 [[nodiscard]] Json mapJson(const MapPages& atlas, const ShadowOptions& options);
-/// Medians of every pass of the host and the library, ms, for whoever wants to know where the rest went. Passes of one
-/// name are added up within each frame, as the stages are.
-[[nodiscard]] Json passesJson(const std::vector<host::FrameTimes>& samples);
+/// Every pass of the host and the library in order: [{"name", "ms", "iqr_ms", "share", counts, "texels",
+/// "bytes_minimum"}]. Passes of one name are one, as the stages are. Null: iqr_ms of one sample, share where the clock
+/// measured no frame, counts that the device did not give, and what is not defined for the pass.
+[[nodiscard]] Json passesJson(const lab::Timed& timed);
+/// A count of each pass by its name in results.
+struct PassCount {
+    std::string_view name;
+    std::uint64_t (*of)(const vulkan::PassRecord&);
+    bool by_device; // nothing where PassRecord::has_statistics is false
+};
+[[nodiscard]] std::span<const PassCount> passCounts();
 /// How the maps of cascades were drawn when these times were taken; nothing where there are none, or never two at once.
 [[nodiscard]] std::optional<CascadePass> cascadePassOf(const lab::Timed& timed);
 /// That, by its name, or null.

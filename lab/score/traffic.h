@@ -9,6 +9,7 @@
 #include <gnomon/plan.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace gnomon::lab {
@@ -29,6 +30,10 @@ struct TrafficOptions {
     bool redraws_all = true;      // false: of the views only those that say `redraw` are drawn
     bool reads_object_ids = true; // the mask pass is given object ids
     std::uint32_t samples = 1;    // pixels of the mask for each pixel of the picture
+    // Of leastByPass() alone:
+    bool filterable = false;         // the map is made of depths by a pass of its own
+    std::uint32_t depth_samples = 1; // depths to each of its texels
+    bool blurred = false;            // along rows and columns, a pass each
 };
 
 inline constexpr std::uint64_t kDepthBytes = 4;    // D32F
@@ -46,5 +51,36 @@ inline constexpr std::uint64_t kObjectIdBytes = 4; // R32_UINT
 /// those of the plan's frame.
 [[nodiscard]] std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const Plan& plan,
                                        const TrafficOptions& options);
+
+/// What one pass of a frame works on, and what it cannot do without.
+struct PassLeast {
+    std::uint64_t texels = 0; // of maps that it makes, or pixels of the mask
+    std::uint64_t bytes = 0;
+};
+/// By pass. Nothing where the plan has none of the kind, and where no least is known: the filter's of maps of depths.
+struct LeastByPass {
+    std::optional<PassLeast> maps;
+    std::optional<PassLeast> filter;
+    std::optional<PassLeast> mask;
+};
+
+/// The least that a filtered map moves between drawing and reading: each texel is of b bytes in each of L image layers,
+/// made of s depths of kDepthBytes.
+///
+///     depths written by the map pass, read by the filter   2 * 4 s
+///     the map written                                      b L
+///     blurred along rows, then along columns               2 (b L read + b L written)
+///     levels 1, 2, ...: 1/4 + 1/16 + ... = 1/3             b L / 3 written, 4 b L / 3 read: each level but the last
+///
+/// Together 8 s + (1 + 4 + 5/3) b L, which is 8 + 6.67 b of one layer and one sample. The depths' half that is written
+/// is the map pass's, the rest the filter's. Levels end where a tile's texels are whole no more, so the sum is a little
+/// less than 1/3. Unlike leastBytes(), which counts what any way must move, this counts a map that goes through memory
+/// between its passes; one pass that does the work of two may stay below it.
+///
+/// A map of depths is written once, b bytes a texel. The mask needs the camera's depth (kDepthBytes) once for each of
+/// its pixels, and writes a byte for each of their channels.
+///
+/// `pixels`: of the picture. Views whose maps are not drawn (TrafficOptions::redraws_all) do not count.
+[[nodiscard]] LeastByPass leastByPass(const Plan& plan, std::uint64_t pixels, const TrafficOptions& options);
 
 } // namespace gnomon::lab

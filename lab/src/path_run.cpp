@@ -195,6 +195,7 @@ PathRun::Result PathRun::finish(const Subject& last)
         timed.atlas = timed.plan.pages[0];
         timed.counters = countersOf(timed.samples.back(), timed.plan, !walker.options.reuse_maps);
         timed.counters.filter = walker.renderer->filterCost();
+        timed.least = leastByPass(*walker.renderer, walker.options);
         timed.counters.bytes_minimum = leastBytes(walker.renderer->read({.colour = false, .geometry = true}),
                                                   *walker.renderer, last, walker.options);
         timed.baseline_ms = baseline_ms;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/timing.h"
 
-#include "lab/metrics/quantile.h"
+#include "lab/passes.h"
 #include "lab/score/traffic.h"
 #include "lab/traffic.h"
 
@@ -87,6 +87,7 @@ void timeGroup(const host::SceneOnGpu& scene, const SubjectAt& subject_at, std::
         timed.atlas = timed.plan.pages[0];
         timed.counters = countersOf(timed.samples.back(), timed.plan, !turn.options.reuse_maps);
         timed.counters.filter = turn.renderer->filterCost();
+        timed.least = leastByPass(*turn.renderer, turn.options);
         timed.added_memory = addedMemory(*turn.renderer, *turns.front().renderer);
         timed.baseline_ms = baseline_ms;
     }
@@ -153,11 +154,11 @@ StageTimes stagesOf(const host::FrameTimes& times)
     stages.frame = times.frame_ms;
     for (const vulkan::PassRecord& pass : times.passes) {
         const std::string_view name = pass.name;
-        if (name == "shadow maps") {
+        if (name == kMapsPass) {
             stages.maps += pass.milliseconds;
-        } else if (name == "shadow filter") {
+        } else if (name == kFilterPass) {
             stages.filter += pass.milliseconds;
-        } else if (name == "mask" || name == "soften") {
+        } else if (name == kMaskPass || name == kSoftenPass) {
             stages.mask += pass.milliseconds;
         }
     }
@@ -179,15 +180,6 @@ Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraw
         ++counters.passes;
     }
     return counters;
-}
-
-Spread spreadOf(std::vector<double> values)
-{
-    if (values.empty()) {
-        return {};
-    }
-    std::sort(values.begin(), values.end());
-    return {quantile(values, 0.5), quantile(values, 0.75) - quantile(values, 0.25)};
 }
 
 std::vector<std::size_t> turnsOf(std::uint32_t round, std::size_t count)

@@ -19,6 +19,24 @@ double leastReach(const ShadowOptions& options)
     return options.moments.sampling == MapSampling::bilinear ? 1.0 : 0.5;
 }
 
+TrafficOptions trafficOf(const host::FrameRenderer& renderer, const host::RenderOptions& options)
+{
+    const FilterTraits* traits = filterTraits(filterOf(options.shadow));
+    const MapPages& atlas = renderer.plan().pages[0];
+    TrafficOptions traffic;
+    traffic.format = formatOf(options.shadow);
+    traffic.reach_texels = leastReach(options.shadow);
+    traffic.image_layers = imageLayersPerMap(filterOf(options.shadow), options.shadow.moments);
+    traffic.mip_levels = pack::mipLevels(resolvedOrThrow(options.shadow), atlas.width, atlas.height);
+    traffic.redraws_all = !options.reuse_maps;
+    traffic.reads_object_ids = true;
+    traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;
+    traffic.filterable = traits != nullptr && traits->filterable;
+    traffic.depth_samples = options.shadow.moments.samples;
+    traffic.blurred = blurRadius(options.shadow.moments) > 0;
+    return traffic;
+}
+
 } // namespace
 
 host::Picture geometryOf(const host::SceneOnGpu& scene, host::FrameRenderer& renderer, const Subject& subject,
@@ -46,16 +64,16 @@ std::uint64_t leastBytes(const host::Picture& geometry, const host::FrameRendere
     for (const host::ShadedLight& light : subject.lights) {
         lights.push_back(light.caster);
     }
-    TrafficOptions traffic;
-    traffic.format = formatOf(options.shadow);
-    traffic.reach_texels = leastReach(options.shadow);
-    traffic.image_layers = imageLayersPerMap(filterOf(options.shadow), options.shadow.moments);
-    const MapPages& atlas = renderer.plan().pages[0];
-    traffic.mip_levels = pack::mipLevels(resolvedOrThrow(options.shadow), atlas.width, atlas.height);
-    traffic.redraws_all = !options.reuse_maps;
-    traffic.reads_object_ids = true;
-    traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;
-    return leastBytes({camera, geometry.depth, geometry.normals}, lights, renderer.plan(), traffic);
+    return leastBytes({camera, geometry.depth, geometry.normals}, lights, renderer.plan(),
+                      trafficOf(renderer, options));
+}
+
+LeastByPass leastByPass(const host::FrameRenderer& renderer, const host::RenderOptions& options)
+{
+    if (!options.shadows) {
+        return {};
+    }
+    return leastByPass(renderer.plan(), std::uint64_t{options.width} * options.height, trafficOf(renderer, options));
 }
 
 } // namespace gnomon::lab

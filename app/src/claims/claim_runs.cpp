@@ -78,17 +78,32 @@ const ClaimRun& ClaimRuns::at(std::size_t run) const
     return *runs_.at(run).run;
 }
 
-double ClaimRuns::of(std::size_t run, std::string_view technique, const char* pointer) const
+const Json& ClaimRuns::resultOf(std::size_t run, std::string_view technique) const
 {
     const Settings& settings = at(run).settings;
     const std::string name = describeTechnique(parseTechnique(settings, technique));
     for (const Json& result : json(run).at("results")) {
         if (result.at("technique") == name) {
-            return numberAt(result, pointer).value_or(kNothing);
+            return result;
         }
     }
     throw Error(fmt::format("reading the result of `{}`", runs_[run].command),
                 fmt::format("it has no technique \"{}\"", technique), "the table of claims is wrong");
+}
+
+double ClaimRuns::of(std::size_t run, std::string_view technique, const char* pointer) const
+{
+    return numberAt(resultOf(run, technique), pointer).value_or(kNothing);
+}
+
+double ClaimRuns::passMs(std::size_t run, std::string_view technique, std::string_view pass) const
+{
+    for (const Json& one : resultOf(run, technique).at("passes")) {
+        if (one.at("name") == pass) {
+            return numberAt(one, "/ms").value_or(kNothing);
+        }
+    }
+    return kNothing;
 }
 
 double ClaimRuns::ratio(std::string_view technique, std::string_view other, const char* pointer) const

@@ -33,7 +33,9 @@ public:
     [[nodiscard]] double of(std::string_view technique, const char* pointer) const { return of(0, technique, pointer); }
     /// The number of one technique by that of another one, of the first run.
     [[nodiscard]] double ratio(std::string_view technique, std::string_view other, const char* pointer) const;
-    /// The same of a run's JSON as a whole.
+    /// Milliseconds of a technique's pass by its name; NaN where there is none.
+    [[nodiscard]] double passMs(std::size_t run, std::string_view technique, std::string_view pass) const;
+    /// The number that `pointer` leads to in a run's JSON as a whole.
     [[nodiscard]] double number(std::size_t run, const char* pointer) const;
 
 private:
@@ -42,6 +44,7 @@ private:
         const ClaimRun* run;
     };
     [[nodiscard]] const ClaimRun& at(std::size_t run) const;
+    [[nodiscard]] const Json& resultOf(std::size_t run, std::string_view technique) const;
 
     std::vector<Named> runs_;
 };

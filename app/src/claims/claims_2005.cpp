@@ -128,7 +128,7 @@ const std::vector<Claim>& table2005()
          .commands = {kSoftenedTimes, kSoftened},
          .parts = {{"half the size takes", "of the blur's time",
                     [](const Runs& r) {
-                        return r.ratio("hard+blur+soften.size=half", "hard+blur", "/passes_ms/soften");
+                        return r.passMs(0, "hard+blur+soften.size=half", "soften") / r.passMs(0, "hard+blur", "soften");
                     },
                     0.0, 0.4},
                    {"rmse", "times that of full size",

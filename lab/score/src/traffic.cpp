@@ -7,12 +7,19 @@ namespace gnomon::lab {
 namespace {
 
 /// Of a tile with its mip levels, of which there are those whose texels lie in it wholly.
-std::uint64_t texelsOf(const Tile& tile, std::uint32_t levels)
+struct LevelTexels {
+    std::uint64_t finest = 0;
+    std::uint64_t coarsest = 0; // the finest where it is the only one
+    std::uint64_t all = 0;
+};
+LevelTexels texelsOf(const Tile& tile, std::uint32_t levels)
 {
     const std::uint32_t edges = tile.x | tile.y | tile.width | tile.height;
-    std::uint64_t texels = 0;
+    LevelTexels texels;
+    texels.finest = std::uint64_t{tile.width} * tile.height;
     for (std::uint32_t level = 0; level < levels && edges % (1U << level) == 0; ++level) {
-        texels += std::uint64_t{tile.width >> level} * (tile.height >> level);
+        texels.coarsest = std::uint64_t{tile.width >> level} * (tile.height >> level);
+        texels.all += texels.coarsest;
     }
     return texels;
 }
@@ -22,7 +29,7 @@ std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
     std::uint64_t texels = 0;
     for (const View& view : plan.views) {
         const bool whole = options.redraws_all || (view.redraw && view.kept_layer == kNoIndex);
-        texels += whole ? texelsOf(view.tile, options.mip_levels) : texelsRendered(view, false);
+        texels += whole ? texelsOf(view.tile, options.mip_levels).all : texelsRendered(view, false);
     }
     return texels * options.image_layers;
 }
@@ -31,6 +38,34 @@ std::uint64_t texelsDrawn(const Plan& plan, const TrafficOptions& options)
 std::uint64_t maskBytes(const Plan& plan)
 {
     return std::uint64_t{maskChannelCount(plan)} * plan.mask_layers;
+}
+
+PassLeast leastOfMaps(const Plan& plan, const TrafficOptions& options)
+{
+    PassLeast least;
+    for (const View& view : plan.views) {
+        least.texels += texelsRendered(view, options.redraws_all);
+    }
+    least.bytes = least.texels * (options.filterable ? kDepthBytes * options.depth_samples
+                                                     : std::uint64_t{texelBytes(options.format)});
+    return least;
+}
+
+PassLeast leastOfFilter(const Plan& plan, const TrafficOptions& options)
+{
+    PassLeast least;
+    const std::uint64_t texel_bytes = std::uint64_t{texelBytes(options.format)} * options.image_layers;
+    for (const View& view : plan.views) {
+        if (!options.redraws_all && !view.redraw) {
+            continue;
+        }
+        const LevelTexels texels = texelsOf(view.tile, options.mip_levels);
+        const std::uint64_t made = texels.finest * (options.blurred ? 5 : 1); // and twice read and written again
+        const std::uint64_t averaged = (texels.all - texels.finest) + (texels.all - texels.coarsest);
+        least.texels += texels.finest;
+        least.bytes += texels.finest * kDepthBytes * options.depth_samples + (made + averaged) * texel_bytes;
+    }
+    return least;
 }
 
 } // namespace
@@ -89,6 +124,22 @@ std::uint64_t leastBytes(const Sight& seen, std::span<const Light> lights, const
     const std::uint64_t pixel_bytes =
         kDepthBytes + kNormalBytes + (options.reads_object_ids ? kObjectIdBytes : 0) + maskBytes(plan);
     return texels * texelBytes(options.format) + pixels * pixel_bytes;
+}
+
+LeastByPass leastByPass(const Plan& plan, std::uint64_t pixels, const TrafficOptions& options)
+{
+    LeastByPass least;
+    if (!plan.views.empty()) {
+        least.maps = leastOfMaps(plan, options);
+        if (options.filterable) {
+            least.filter = leastOfFilter(plan, options);
+        }
+    }
+    if (!plan.lights.empty()) {
+        const std::uint64_t mask_pixels = pixels * options.samples;
+        least.mask = PassLeast{mask_pixels, mask_pixels * (kDepthBytes + maskBytes(plan))};
+    }
+    return least;
 }
 
 } // namespace gnomon::lab
