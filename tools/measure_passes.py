@@ -46,7 +46,8 @@ def measured(options, view):
 
 
 def short(result):
-    return "`" + "+".join(part for part in result["technique"].split("+") if "=" not in part) + "`"
+    plain = {"single", "uniform"}
+    return "`" + "+".join(part for part in result["technique"].split("+") if "=" not in part and part not in plain) + "`"
 
 
 def times(options, view):

@@ -190,13 +190,16 @@ int runBench(const Settings& settings)
         requireWritable(settings.json);
     }
     const BenchRun run = runTimes(settings);
+    if (settings.json.empty() && !run.earlier) {
+        writeStdout(benchTable(run.result, run.shot, settings));
+        return 0;
+    }
     Json json = benchJson(run.result, run.shot, settings);
     if (run.earlier) {
         json["against"] = againstJson(*run.earlier, parseBenchFigures(jsonText(json), "this run"));
     }
     if (settings.json.empty()) {
-        writeStdout(benchTable(run.result, run.shot, settings) +
-                    (run.earlier ? againstText(json.at("against")) : std::string()));
+        writeStdout(benchTable(run.result, run.shot, settings) + againstText(json.at("against")));
     } else {
         writeResult(settings.json, jsonText(json));
     }

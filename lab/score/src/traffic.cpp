@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/score/traffic.h"
 
+#include <gnomon/plan_views.h>
+
 #include <cassert>
 
 namespace gnomon::lab {
