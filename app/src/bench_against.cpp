@@ -109,18 +109,23 @@ std::string factorCell(const Json& line)
     return cell(numberAt(line, "/factor"), 3);
 }
 
+std::string shrunkLine(const Json& lists, std::string_view what)
+{
+    return fmt::format("{} that have shrunk: {}\n", what, lists.at("shrank").size());
+}
+
 std::string countersTable(const Json& counters)
 {
     const Json& grew = counters.at("grew");
     if (grew.empty()) {
-        return fmt::format("no counter has grown; {} have shrunk\n", counters.at("shrank").size());
+        return "no counter has grown; " + shrunkLine(counters, "counters");
     }
     TextTable table{{"counters that have grown", "pass", "counter", "before", "now", "factor"}, {}};
     for (const Json& line : grew) {
         table.rows.push_back({textAt(line, "/technique"), textAt(line, "/pass"), textAt(line, "/counter"),
                               line.at("before").dump(), line.at("now").dump(), factorCell(line)});
     }
-    return fittedTableText(table) + fmt::format("{} counters have shrunk\n", counters.at("shrank").size());
+    return fittedTableText(table) + shrunkLine(counters, "counters");
 }
 
 std::string timesTable(const Json& times)
@@ -128,7 +133,7 @@ std::string timesTable(const Json& times)
     if (!times.at("judged").get<bool>()) {
         return "times are not compared: one frame of each technique has no spread (--repetitions)\n";
     }
-    const std::string shrank = fmt::format("{} times have shrunk\n", times.at("shrank").size());
+    const std::string shrank = shrunkLine(times, "times");
     if (times.at("grew").empty()) {
         return "no time has grown by more than it spreads; " + shrank;
     }
@@ -208,9 +213,9 @@ void requireNoGrowth(const Json& against)
     if (!grew.empty()) {
         const Json& first = grew.front();
         throw Error(fmt::format("comparing with {}", textAt(against, "/file")),
-                    fmt::format("{} counters have grown, the first {} of {} in {}: {} before, {} now", grew.size(),
-                                textAt(first, "/counter"), textAt(first, "/pass"), textAt(first, "/technique"),
-                                first.at("before").dump(), first.at("now").dump()));
+                    fmt::format("counters that have grown: {}, the first is {} of {} in {}: {} before, {} now",
+                                grew.size(), textAt(first, "/counter"), textAt(first, "/pass"),
+                                textAt(first, "/technique"), first.at("before").dump(), first.at("now").dump()));
     }
 }
 
