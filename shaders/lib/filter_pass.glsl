@@ -14,16 +14,19 @@ layout(constant_id = 3) const float kExponent = 1.0;
 layout(constant_id = 4) const float kExponentNegative = 1.0;
 layout(constant_id = 5) const float kMomentBias = 0.0;
 layout(constant_id = 6) const int kRadius = 1;
-layout(constant_id = 7) const int kAxis = 0;
+layout(constant_id = 7) const int kChannels = 4;
 
 layout(push_constant) uniform Place
 {
     FilterPassPlace place;
 };
-#ifndef GN_SOURCE
-#define GN_SOURCE sampler2DArray
+#if defined(GN_FROM_DEPTHS) && defined(SAMPLES)
+layout(set = 0, binding = 0) uniform sampler2DMS source_image;
+#elif defined(GN_FROM_DEPTHS)
+layout(set = 0, binding = 0) uniform sampler2D source_image;
+#else
+layout(set = 0, binding = 0) uniform sampler2DArray source_image;
 #endif
-layout(set = 0, binding = 0) uniform GN_SOURCE source_image;
 #ifndef GN_FRAGMENT
 layout(set = 0, binding = 1) uniform writeonly image2DArray target_image;
 layout(set = 0, binding = 2, std430) buffer Blocks
@@ -50,10 +53,8 @@ layout(set = 0, binding = 4) uniform Kernel
 };
 
 // Of a block.
-const uint kHasCaster = 1u; // something was drawn in it
-const uint kBlurX = 2u;     // a blur along x reaches a caster
-const uint kFillX = 4u;     // it does not, but a blur along y reads what would be there
-const uint kBlurY = 8u;
+const uint kReachedAlongX = 1u; // a blur along x reads a caster for it
+const uint kReached = 2u;       // a blur along x and y does
 
 MomentRule momentRule()
 {
@@ -78,6 +79,12 @@ MomentRule momentRule()
 bool averagesLogs()
 {
     return averagesLogarithms(kFilter, kFlags);
+}
+
+// Of what was read from an image: channels that it does not have need no arithmetic.
+vec4 storedPart(vec4 v)
+{
+    return vec4(v.x, kChannels > 1 ? v.y : 0.0, kChannels > 2 ? v.zw : vec2(0.0));
 }
 
 // What a texel without a caster holds: the far plane.

@@ -20,7 +20,6 @@ namespace gnomon::shared {
 GN_FILTER_CONST int kBlockTexels = 32;     // side of the squares that are blurred or left out as one
 GN_FILTER_CONST int kMostImageLayers = 4;  // of one map: lvsm with eight layers
 GN_FILTER_CONST int kMostBlurRadius = 31;  // less than a block: what reaches into a block is in a neighbour of it
-GN_FILTER_CONST int kBlurOutputs = 8;      // texels in a row that a thread of blur.comp makes
 GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from the radius on, as far as shaders look
 
 // Push constants of every pass.
@@ -28,6 +27,7 @@ struct FilterPassPlace {
     GN_IVEC4 source;      // x, y: the tile's first texel; z: its first image layer; w: slot of its depth layers (lvsm)
     GN_IVEC4 target;      // likewise, where the pass writes to; w: image layers of the map
     GN_IVEC4 size;        // x, y: of the tile in texels, at the level that is written; z, w: in blocks
+    GN_IVEC4 strips;      // of the scratch image, x: width in texels; y: how many for an image layer of the map
     GN_PLACE_VEC4 metric; // x: near / far of the view, 1 under a parallel light
 };
 
@@ -39,14 +39,13 @@ struct BlurKernel {
 
 // Written by the GPU: texels of all image layers.
 struct BlurCounts {
-    GN_UINT blurred_x;
-    GN_UINT blurred_y;
-    GN_UINT filled; // copied for the second pass to read
-    GN_UINT unused;
+    GN_UINT blurred; // in both directions
+    GN_UINT filled;  // with what is lit, instead of the second
+    GN_UINT unused[2];
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FilterPassPlace) == 64 && sizeof(BlurKernel) == 16 * kBlurTableLength && sizeof(BlurCounts) == 16);
+static_assert(sizeof(FilterPassPlace) == 80 && sizeof(BlurKernel) == 16 * kBlurTableLength && sizeof(BlurCounts) == 16);
 } // namespace gnomon::shared
 #endif
 #endif

@@ -33,35 +33,40 @@ constexpr VkAccessFlags2 kAttachmentAccess =
 
 } // namespace
 
-BlurPass::BlurPass(FilterLayout& layout, const FilterConstants& constants, VkFormat format, BlurPath path)
-    : layout_(layout), path_(path), radius_(static_cast<std::uint32_t>(constants.radius)),
-      texel_bytes_(texelBytes(format)), logarithms_((constants.flags & shared::kMomentLogSpace) != 0),
-      blocks_(layout.makeCompute(spirv::blur_blocks_comp, constants, "blocks to blur")),
-      along_x_(makeDirection(constants, 0, format)), along_y_(makeDirection(constants, 1, format))
+BlurPass::BlurPass(FilterLayout& layout, const ResolvedOptions& options, VkFormat format)
+    : layout_(layout), moments_(options.moments()),
+      path_(moments_.blur_path == BlurPath::automatic ? BlurPath::compute : moments_.blur_path),
+      radius_(blurRadius(moments_)), texel_bytes_(texelBytes(format)),
+      image_layers_(imageLayersPerMap(options.filter(), moments_))
 {
-    assert(path != BlurPath::automatic && radius_ > 0 && constants.radius <= shared::kMostBlurRadius);
-}
-
-BlurPass::Direction BlurPass::makeDirection(FilterConstants constants, int axis, VkFormat format)
-{
-    constants.axis = axis;
-    const char* name = axis == 0 ? "blur along x" : "blur along y";
-    Direction direction;
-    direction.pipeline = path_ == BlurPath::compute ? layout_.makeCompute(spirv::blur_comp, constants, name)
-                                                    : layout_.makeFragment(spirv::blur_frag, constants, format, name);
-    return direction;
+    assert(radius_ > 0 && radius_ <= shared::kMostBlurRadius);
+    const FilterConstants constants = filterConstants(options);
+    logarithms_ = (constants.flags & shared::kMomentLogSpace) != 0;
+    along_x_ = layout.makeCompute(moments_.samples == 1 ? spirv::blur_moments_comp : spirv::blur_moments_samples_comp,
+                                  constants, "moments blurred along x");
+    blocks_ = layout.makeCompute(spirv::blur_blocks_comp, constants, "blocks to blur");
+    along_y_ = path_ == BlurPath::compute ? layout.makeCompute(spirv::blur_comp, constants, "blur along y")
+                                          : layout.makeFragment(spirv::blur_frag, constants, format, "blur along y");
 }
 
 void BlurPass::makeSets(const MomentImages& images)
 {
-    const Image& maps = images.maps;
-    const Image& scratch = images.scratch;
-    along_x_.set = layout_.makeSet(images.between(maps.level(0), scratch.level(0)));
-    along_y_.set = layout_.makeSet(images.between(scratch.level(0), maps.level(0)));
+    FilterBindings along_x = images.between(images.depth.layer(0), images.scratch.level(0));
+    along_x.source_is_depth = true;
+    set_x_ = layout_.makeSet(along_x);
+    set_y_ = layout_.makeSet(images.between(images.scratch.level(0), images.maps.level(0)));
 }
 
 void BlurPass::record(const FilterStep& step, const MomentImages& images) const
 {
+    const Device& device = layout_.device();
+    shared::FilterPassPlace place = placeOf(step);
+    place.source.x = 0;
+    place.source.y = 0;
+    layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, along_x_.get(), set_x_, step.counts_offset, place);
+    device.vk.CmdDispatch(step.commands, static_cast<std::uint32_t>(place.size.z),
+                          static_cast<std::uint32_t>(place.size.w), step.image_layers);
+    waitForShaders(device, step.commands);
     recordBlocks(step);
     if (path_ == BlurPath::compute) {
         recordCompute(step);
@@ -73,42 +78,19 @@ void BlurPass::record(const FilterStep& step, const MomentImages& images) const
 void BlurPass::recordBlocks(const FilterStep& step) const
 {
     const shared::FilterPassPlace place = placeOf(step);
-    layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, blocks_.get(), along_x_.set, step.counts_offset, place);
+    layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, blocks_.get(), set_y_, step.counts_offset, place);
     layout_.device().vk.CmdDispatch(step.commands, groupsOf(static_cast<std::uint32_t>(place.size.z), 8),
                                     groupsOf(static_cast<std::uint32_t>(place.size.w), 8), 1);
 }
 
-namespace {
-
-/// From the maps to the scratch image, whose tile is at its corner.
-shared::FilterPassPlace alongX(const FilterStep& step)
-{
-    shared::FilterPassPlace place = placeOf(step);
-    place.target = {0, 0, 0, place.target.w};
-    return place;
-}
-/// And back.
-shared::FilterPassPlace alongY(const FilterStep& step)
-{
-    shared::FilterPassPlace place = placeOf(step);
-    place.source = {0, 0, 0, place.source.w};
-    return place;
-}
-
-} // namespace
-
 void BlurPass::recordCompute(const FilterStep& step) const
 {
     const Device& device = layout_.device();
-    const auto dispatch = [&](const Direction& direction, const shared::FilterPassPlace& place) {
-        waitForShaders(device, step.commands);
-        layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, direction.pipeline.get(), direction.set,
-                     step.counts_offset, place);
-        device.vk.CmdDispatch(step.commands, static_cast<std::uint32_t>(place.size.z),
-                              static_cast<std::uint32_t>(place.size.w), step.image_layers);
-    };
-    dispatch(along_x_, alongX(step));
-    dispatch(along_y_, alongY(step));
+    const shared::FilterPassPlace place = placeOf(step);
+    waitForShaders(device, step.commands);
+    layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, along_y_.get(), set_y_, step.counts_offset, place);
+    device.vk.CmdDispatch(step.commands, static_cast<std::uint32_t>(place.size.z),
+                          static_cast<std::uint32_t>(place.size.w), step.image_layers);
     waitForShaders(device, step.commands);
 }
 
@@ -116,77 +98,62 @@ void BlurPass::recordFragment(const FilterStep& step, const MomentImages& images
 {
     const Device& device = layout_.device();
     MemoryBarrier barrier;
-    // The map and the flags were written; and the scratch image was read for the view before.
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    // The scratch image and the flags were written.
+    barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.source_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
     barrier.target_access =
         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | kAttachmentAccess;
     recordBarrier(device, step.commands, barrier);
     for (std::uint32_t i = 0; i < step.image_layers; ++i) {
-        shared::FilterPassPlace place = alongX(step);
-        place.source.z += static_cast<int>(i);
-        draw(step, along_x_, place, images.scratch, i);
+        const Tile area{step.first_layer + i, step.tile.x, step.tile.y, step.tile.width, step.tile.height};
+        VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        colour.imageView = images.maps.layer(area.layer);
+        colour.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+        colour.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+        info.renderArea = areaOf(area);
+        info.layerCount = 1;
+        info.colorAttachmentCount = 1;
+        info.pColorAttachments = &colour;
+        shared::FilterPassPlace place = placeOf(step);
+        place.source.z = static_cast<int>(i);
+        device.vk.CmdBeginRendering(step.commands, &info);
+        setViewport(device, step.commands, area);
+        layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, along_y_.get(), set_y_, step.counts_offset, place);
+        device.vk.CmdDraw(step.commands, 3, 1, 0, 0);
+        device.vk.CmdEndRendering(step.commands);
     }
-    // The map was read, the scratch image written.
+    // The map was written, the scratch image read.
     barrier.source_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
     barrier.source_access = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-    recordBarrier(device, step.commands, barrier);
-    for (std::uint32_t i = 0; i < step.image_layers; ++i) {
-        shared::FilterPassPlace place = alongY(step);
-        place.source.z = static_cast<int>(i);
-        draw(step, along_y_, place, images.maps, step.first_layer + i);
-    }
-    barrier.source_stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
     barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     recordBarrier(device, step.commands, barrier);
 }
 
-void BlurPass::draw(const FilterStep& step, const Direction& direction, const shared::FilterPassPlace& place,
-                    const Image& target, std::uint32_t layer) const
-{
-    const Device& device = layout_.device();
-    const Tile area{layer, static_cast<std::uint32_t>(place.target.x), static_cast<std::uint32_t>(place.target.y),
-                    step.tile.width, step.tile.height};
-    VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    colour.imageView = target.layer(layer);
-    colour.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // blocks without casters stay as they are
-    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = areaOf(area);
-    info.layerCount = 1;
-    info.colorAttachmentCount = 1;
-    info.pColorAttachments = &colour;
-    device.vk.CmdBeginRendering(step.commands, &info);
-    setViewport(device, step.commands, area);
-    layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, direction.pipeline.get(), direction.set,
-                 step.counts_offset, place);
-    device.vk.CmdDraw(step.commands, 3, 1, 0, 0);
-    device.vk.CmdEndRendering(step.commands);
-}
-
 FilterCost BlurPass::cost(const shared::BlurCounts& counts) const
 {
-    const std::uint64_t kernel = 2 * radius_ + 1;
+    constexpr std::uint64_t kDepthBytes = 4;
+    constexpr std::uint64_t kBlock = shared::kBlockTexels;
+    const std::uint64_t blurred = counts.blurred;
+    const std::uint64_t all = blurred + counts.filled;
+    const std::uint64_t of_slope = moments_.derivative_variance ? 4 : 0;
+    // A thread's walk through a block begins and ends a radius beyond it.
+    const std::uint64_t depths_read = all * (kBlock + 2 * radius_) / kBlock * (moments_.samples + of_slope);
+    std::uint64_t texels_read = blurred * (kBlock + 2 * radius_) / kBlock;
     FilterCost cost;
     cost.path = path_;
-    cost.texels = std::uint64_t{counts.blurred_x} + counts.blurred_y;
-    std::uint64_t texels_read = cost.texels * kernel; // with a merged read for the two that it reads
-    if (path_ == BlurPath::compute && !logarithms_) {
-        // A thread's run of outputs shares its reads.
-        cost.taps = texels_read = cost.texels * (shared::kBlurOutputs + 2 * radius_) / shared::kBlurOutputs;
-    } else if (logarithms_) {
-        cost.taps = texels_read;
-    } else {
-        // Of a block's 32 rows across the direction, the first and the last read texels one by one (blur.frag).
-        const std::uint64_t merged = 1 + 2 * ((radius_ + 1) / 2);
-        cost.taps = cost.texels * (15 * merged + kernel) / 16;
+    cost.texels = all + blurred;
+    cost.taps = depths_read + texels_read;
+    if (path_ == BlurPath::fragment) {
+        texels_read = blurred * (2 * radius_ + 1);
+        const std::uint64_t filtered = 1 + 2 * ((radius_ + 1) / 2); // of two texels each
+        cost.taps = depths_read + (logarithms_ ? texels_read : blurred * filtered);
     }
-    cost.taps += counts.filled;
-    cost.bytes_moved = (texels_read + cost.texels + 2 * std::uint64_t{counts.filled}) * texel_bytes_;
-    cost.bytes_minimum = 2 * cost.texels * texel_bytes_;
+    cost.bytes_moved = depths_read * kDepthBytes + (texels_read + 2 * all) * texel_bytes_;
+    cost.bytes_minimum = all / image_layers_ * moments_.samples * kDepthBytes + (2 * blurred + all) * texel_bytes_;
     return cost;
 }
 

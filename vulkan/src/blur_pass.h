@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The separable blur of a tile: along x into the scratch image, along y back. By compute or by fragment shaders.
+// A tile of drawn depths becomes a filterable map and is blurred in two passes: along x from the depths into the
+// scratch image, along y from there into the map. The first is a compute shader's, the second a compute or fragment
+// shader's.
 #pragma once
 
 #include "moment_images.h"
@@ -8,37 +10,32 @@ namespace gnomon::vulkan {
 
 class BlurPass {
 public:
-    /// `path` is not automatic.
-    BlurPass(FilterLayout& layout, const FilterConstants& constants, VkFormat format, BlurPath path);
+    BlurPass(FilterLayout& layout, const ResolvedOptions& options, VkFormat format);
 
     static constexpr std::uint32_t kSets = 2;
     void makeSets(const MomentImages& images);
-    /// Level 0 of the tile and the blocks' flags are visible to COMPUTE_SHADER, before and after.
+    /// The depths are visible to COMPUTE_SHADER, the blocks' flags zero and likewise; so is level 0 of the tile then.
     void record(const FilterStep& step, const MomentImages& images) const;
     /// From what the GPU counted.
     [[nodiscard]] FilterCost cost(const shared::BlurCounts& counts) const;
 
 private:
-    struct Direction {
-        Pipeline pipeline;
-        VkDescriptorSet set = VK_NULL_HANDLE;
-    };
-
-    [[nodiscard]] Direction makeDirection(FilterConstants constants, int axis, VkFormat format);
     void recordBlocks(const FilterStep& step) const;
     void recordCompute(const FilterStep& step) const;
     void recordFragment(const FilterStep& step, const MomentImages& images) const;
-    void draw(const FilterStep& step, const Direction& direction, const shared::FilterPassPlace& place,
-              const Image& target, std::uint32_t layer) const;
 
     FilterLayout& layout_;
+    const MomentOptions moments_;
     BlurPath path_;
-    std::uint32_t radius_;
-    std::uint32_t texel_bytes_;
+    std::uint64_t radius_;
+    std::uint64_t texel_bytes_;
+    std::uint64_t image_layers_;
     bool logarithms_;
+    Pipeline along_x_;
     Pipeline blocks_;
-    Direction along_x_;
-    Direction along_y_;
+    Pipeline along_y_;
+    VkDescriptorSet set_x_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_y_ = VK_NULL_HANDLE;
 };
 
 } // namespace gnomon::vulkan

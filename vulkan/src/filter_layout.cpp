@@ -27,6 +27,21 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
+std::int32_t channelsOf(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::r16f:
+    case MapFormat::r32f:
+        return 1;
+    case MapFormat::rg16:
+    case MapFormat::rg16f:
+    case MapFormat::rg32f:
+        return 2;
+    default:
+        return 4;
+    }
+}
+
 } // namespace
 
 FilterConstants filterConstants(const ResolvedOptions& options)
@@ -40,6 +55,7 @@ FilterConstants filterConstants(const ResolvedOptions& options)
     constants.exponent_negative = rule.exponent_negative;
     constants.moment_bias = rule.moment_bias;
     constants.radius = static_cast<std::int32_t>(blurRadius(options.moments()));
+    constants.channels = channelsOf(options.format());
     return constants;
 }
 

@@ -18,7 +18,7 @@ struct FilterConstants {
     float exponent_negative = 0.0F;
     float moment_bias = 0.0F;
     std::int32_t radius = 0;
-    std::int32_t axis = 0; // of the blur: 0 along x, 1 along y
+    std::int32_t channels = 4; // of the format
 };
 [[nodiscard]] FilterConstants filterConstants(const ResolvedOptions& options);
 

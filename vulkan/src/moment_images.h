@@ -6,10 +6,19 @@
 
 namespace gnomon::vulkan {
 
+/// How a tile lies in the scratch image: cut into strips of this width, each in a layer (shaders/lib/scratch.glsl).
+struct ScratchStrips {
+    std::uint32_t width = shared::kBlockTexels;
+    std::uint32_t count = 1; // for each image layer of the map
+};
+/// As narrow as blocks, or as wide as it takes for all strips to have a layer.
+[[nodiscard]] ScratchStrips stripsOf(std::uint32_t tile_width, std::uint32_t image_layers, std::uint32_t most_layers);
+
 struct MomentImages {
     Image maps;
     Image depth;                            // one layer, drawn and read view by view, each from the first texel on
-    Image scratch;                          // a tile blurred along x, likewise; empty without blur
+    Image scratch;                          // a tile blurred along x, in strips; empty without blur
+    ScratchStrips strips;                   // of it
     DeviceBuffer blocks;                    // flags of the tile's blocks, see filter_pass.glsl
     HostBuffer kernel;                      // BlurKernel
     HostBuffer counts;                      // BlurCounts, one a slot
@@ -28,6 +37,7 @@ struct FilterStep {
     Tile tile;
     std::uint32_t first_layer = 0; // of the maps' image
     std::uint32_t image_layers = 1;
+    ScratchStrips strips;
     std::uint32_t depth_slot = 0; // of its layers of depth
     float near_over_far = 1.0F;
     std::uint32_t counts_offset = 0; // of its BlurCounts

@@ -36,16 +36,16 @@ MomentMaps::MomentMaps(Device& device, const ResolvedOptions& options, const Map
     : device_(checkedDevice(device, options, storage)), options_(options), storage_(storage), placer_(placer),
       slots_(slots), counts_stride_(alignedCounts(device)),
       layers_per_map_(imageLayersPerMap(options.filter(), options.moments())), layout_(device, cache),
-      moments_(layout_, options), mips_(layout_, filterConstants(options)), kept_(device)
+      mips_(layout_, filterConstants(options)), kept_(device)
 {
     const MomentOptions& o = options.moments();
     images_.kernel =
         HostBuffer(device, sizeof(shared::BlurKernel), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "shadow filter buffers");
     if (blurRadius(o) > 0) {
-        const BlurPath path = o.blur_path;
-        blur_.emplace(layout_, filterConstants(options), storage.colour,
-                      path == BlurPath::automatic ? BlurPath::compute : path);
+        blur_.emplace(layout_, options, storage.colour);
         *static_cast<shared::BlurKernel*>(images_.kernel.data()) = pack::blurKernel(o);
+    } else {
+        moments_.emplace(layout_, options);
     }
     images_.counts = HostBuffer(device, VkDeviceSize{counts_stride_} * slots_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                 "shadow filter buffers");
@@ -133,8 +133,9 @@ void MomentMaps::growWorking(VkExtent2D tile)
     if (blur_) {
         ImageInfo scratch;
         scratch.format = storage_.colour;
-        scratch.extent = tile;
-        scratch.layers = layers_per_map_;
+        images_.strips = stripsOf(tile.width, layers_per_map_, device_.limits().maxImageArrayLayers);
+        scratch.extent = {images_.strips.width, tile.height};
+        scratch.layers = images_.strips.count * layers_per_map_;
         scratch.usage = kColour | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         scratch.purpose = "shadow blur";
         images_.scratch = Image(device_, scratch);
@@ -151,10 +152,11 @@ void MomentMaps::makeSets()
 {
     images_.depth_layers = placer_.buffer();
     placer_.setDepth(images_.depth.layer(0));
-    layout_.reset(MomentPass::kSets + (blur_ ? BlurPass::kSets : 0) + MipPass::sets(images_.maps.info().levels));
-    moments_.makeSets(images_);
+    layout_.reset((blur_ ? BlurPass::kSets : MomentPass::kSets) + MipPass::sets(images_.maps.info().levels));
     if (blur_) {
         blur_->makeSets(images_);
+    } else {
+        moments_->makeSets(images_);
     }
     mips_.makeSets(images_);
 }
@@ -198,7 +200,7 @@ void MomentMaps::toLayout(VkCommandBuffer commands, VkImageLayout layout)
     barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     if (layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
-        // The last writer: the pass of the mip levels or of the moments, or a blur, which waited for itself already.
+        // The last writer: the pass of the mip levels, or one that waited for itself already.
         barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.source_access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
         barrier.target_stages = kMapReaders;
@@ -359,6 +361,7 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     step.tile = view.tile;
     step.first_layer = view.tile.layer * layers_per_map_;
     step.image_layers = layers_per_map_;
+    step.strips = images_.strips;
     step.depth_slot = placer_.slotOf(plan, index);
     step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
     step.counts_offset = job.slot * counts_stride_;
@@ -377,10 +380,11 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     recordBarrier(device_, commands, barrier);
 
-    moments_.record(step);
-    waitForShaders(device_, commands);
     if (blur_) {
         blur_->record(step, images_);
+    } else {
+        moments_->record(step);
+        waitForShaders(device_, commands);
     }
     mips_.record(step);
 }

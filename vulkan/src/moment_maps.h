@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Filterable maps: casters are drawn as depths, which become what a filter's texels store (moment_pass.h), are blurred
-// (blur_pass.h) and averaged into mip levels (mip_pass.h). Of a view with a kept layer the depths of what stands still
-// are drawn into that layer and copied from there; then what moves is drawn over them. All of the tile is copied and
-// filtered, however little of it has changed.
+// Filterable maps: casters are drawn as depths, which become what a filter's texels store, as it is (moment_pass.h) or
+// blurred (blur_pass.h), and are averaged into mip levels (mip_pass.h). Of a view with a kept layer the depths of what
+// stands still are drawn into that layer and copied from there; then what moves is drawn over them. All of the tile is
+// copied and filtered, however little of it has changed.
 #pragma once
 
 #include "blur_pass.h"
@@ -60,7 +60,7 @@ private:
     std::uint32_t counts_stride_;
     std::uint32_t layers_per_map_;
     FilterLayout layout_;
-    MomentPass moments_;
+    std::optional<MomentPass> moments_; // or else
     std::optional<BlurPass> blur_;
     MipPass mips_;
     MomentImages images_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a tile of drawn depths to level 0 of a filterable map, and to the flags of the blocks that have casters.
+// From a tile of drawn depths to level 0 of a filterable map that is not blurred (else: blur_pass.h).
 #pragma once
 
 #include "moment_images.h"
@@ -12,7 +12,7 @@ public:
 
     static constexpr std::uint32_t kSets = 1;
     void makeSets(const MomentImages& images);
-    /// The depths are visible to COMPUTE_SHADER, the blocks' flags zero and likewise.
+    /// The depths are visible to COMPUTE_SHADER.
     void record(const FilterStep& step) const;
 
 private:

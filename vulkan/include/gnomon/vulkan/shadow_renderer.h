@@ -213,16 +213,17 @@ struct MemoryUse {
     VkDeviceSize bytes = 0;
 };
 
-/// What making maps filterable took: counted by the GPU while it worked. Zeros for filters that have no such passes.
+/// What making maps filterable took: counted by the GPU while it worked. Zeros for filters whose maps are not blurred.
 struct FilterCost {
-    std::uint64_t texels = 0; // blurred, over both passes
-    /// Reads of images for that, radius r. By compute, a run of eight texels shares them: texels (8 + 2 r) / 8. By
-    /// fragment shaders, the middle, and two texels at a time: texels (1 + 2 ceil(r / 2)), but for one texel of 16,
-    /// which lie at blocks' edges and read 2 r + 1 texels one by one. In log space by either: texels (2 r + 1). And one
-    /// for each texel that is copied for the second pass to read.
+    /// Made by both passes: along x each texel of the maps, along y those within reach of a caster.
+    std::uint64_t texels = 0;
+    /// Reads of images for that, radius r. A block of 32 texels in a row shares them: along x (32 + 2 r) / 32 depths of
+    /// each sample for a texel, along y by compute as many texels; by fragment shaders 1 + 2 ceil(r / 2), two texels at
+    /// a time, in log space 2 r + 1.
     std::uint64_t taps = 0;
-    std::uint64_t bytes_moved = 0;   // read from and written to images by the blur; a filtered read is of its texels
-    std::uint64_t bytes_minimum = 0; // each texel that needs it read once and written once in each pass
+    std::uint64_t bytes_moved = 0; // read from and written to images; a filtered read is of its texels
+    /// Depths read once and the map written once, and what the pass along y needs written once and read once between.
+    std::uint64_t bytes_minimum = 0;
     BlurPath path = BlurPath::compute;
 };
 
