@@ -29,12 +29,13 @@ void main()
     ivec3 column = inScratch(ivec2(first.x, 0), layer);
     int last = place.size.y - 1;
     startWindow();
-    for (int i = -kRadius; i < rows + kRadius; ++i) {
+    for (int i = -kRadius; i < kRadius; ++i) {
         int y = clamp(first.y + i, 0, last);
+        slideWindow(storedPart(texelFetch(source_image, column + ivec3(0, y, 0), 0)));
+    }
+    for (int i = 0; i < rows; ++i) {
+        int y = min(first.y + i + kRadius, last);
         vec4 value = storedPart(texelFetch(source_image, column + ivec3(0, y, 0), 0));
-        vec4 blurred = slideWindow(value);
-        if (i >= kRadius) {
-            imageStore(target_image, target + ivec3(0, i - kRadius, 0), blurred);
-        }
+        imageStore(target_image, target + ivec3(0, i, 0), slideWindow(value));
     }
 }

@@ -24,13 +24,15 @@ void main()
     ivec3 target = inScratch(first, layer);
     bool any_caster = false;
     startWindow();
-    for (int i = -kRadius; i < columns + kRadius; ++i) {
+    for (int i = -kRadius; i < kRadius; ++i) {
         TexelMoments moments = momentsOf(first + ivec2(i, 0), far_plane, lit);
         any_caster = any_caster || moments.has_caster;
-        vec4 blurred = slideWindow(moments.value);
-        if (i >= kRadius) {
-            imageStore(target_image, target + ivec3(i - kRadius, 0, 0), blurred);
-        }
+        slideWindow(moments.value);
+    }
+    for (int i = 0; i < columns; ++i) {
+        TexelMoments moments = momentsOf(first + ivec2(i + kRadius, 0), far_plane, lit);
+        any_caster = any_caster || moments.has_caster;
+        imageStore(target_image, target + ivec3(i, 0, 0), slideWindow(moments.value));
     }
     if (any_caster && layer == 0) {
         atomicOr(blocks[block.y * place.size.z + block.x], kReachedAlongX);
