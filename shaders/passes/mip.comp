@@ -4,22 +4,25 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/filter_pass.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
-
-vec4 sourceAt(ivec2 texel)
-{
-    return texelFetch(source_image, ivec3(place.source.xy + texel, place.source.z + int(gl_WorkGroupID.z)), 0);
-}
+layout(local_size_x = 32) in; // a thread walks down a column
 
 void main()
 {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= place.size.x || texel.y >= place.size.y) {
+    int layer = int(gl_WorkGroupID.z);
+    ivec2 first = ivec2(int(gl_GlobalInvocationID.x), int(gl_WorkGroupID.y) * kWalkTexels);
+    if (first.x >= place.size.x) {
         return;
     }
-    ivec2 fine = 2 * texel;
+    int rows = min(kWalkTexels, place.size.y - first.y);
+    ivec3 source = ivec3(place.source.xy + 2 * first, place.source.z + layer);
+    ivec3 target = ivec3(place.target.xy + first, place.target.z + layer);
     vec4 k = averageExponents(kFilter, momentRule());
-    vec4 average = averageOfFour(sourceAt(fine), sourceAt(fine + ivec2(1, 0)), sourceAt(fine + ivec2(0, 1)),
-                                 sourceAt(fine + ivec2(1, 1)), k, averagesLogs());
-    imageStore(target_image, ivec3(place.target.xy + texel, place.target.z + int(gl_WorkGroupID.z)), average);
+    for (int i = 0; i < rows; ++i) {
+        ivec3 fine = source + ivec3(0, 2 * i, 0);
+        vec4 a = storedPart(texelFetch(source_image, fine, 0));
+        vec4 b = storedPart(texelFetch(source_image, fine + ivec3(1, 0, 0), 0));
+        vec4 c = storedPart(texelFetch(source_image, fine + ivec3(0, 1, 0), 0));
+        vec4 d = storedPart(texelFetch(source_image, fine + ivec3(1, 1, 0), 0));
+        imageStore(target_image, target + ivec3(0, i, 0), averageOfFour(a, b, c, d, k, averagesLogs()));
+    }
 }

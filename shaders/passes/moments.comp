@@ -5,17 +5,21 @@
 #define GN_FROM_DEPTHS
 #include "../lib/texel_moments.glsl"
 
-layout(local_size_x = 32, local_size_y = 4) in;
+layout(local_size_x = 32) in; // a thread walks down a column
 
 void main()
 {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     int layer = int(gl_WorkGroupID.z);
-    if (texel.x >= place.size.x || texel.y >= place.size.y) {
+    ivec2 first = ivec2(int(gl_GlobalInvocationID.x), int(gl_WorkGroupID.y) * kWalkTexels);
+    if (first.x >= place.size.x) {
         return;
     }
+    int rows = min(kWalkTexels, place.size.y - first.y);
+    ivec3 target = ivec3(place.target.xy + first, place.target.z + layer);
     EncodeInput far_plane = litInput(layer);
     vec4 lit = encodeDepth(kFilter, far_plane, momentRule());
-    TexelMoments moments = momentsOf(texel, far_plane, lit);
-    imageStore(target_image, ivec3(place.target.xy + texel, place.target.z + layer), moments.value);
+    for (int i = 0; i < rows; ++i) {
+        TexelMoments moments = momentsOf(first + ivec2(0, i), far_plane, lit);
+        imageStore(target_image, target + ivec3(0, i, 0), moments.value);
+    }
 }

@@ -20,6 +20,7 @@ namespace gnomon::shared {
 GN_FILTER_CONST int kBlockTexels = 32;     // side of the squares that are blurred or left out as one
 GN_FILTER_CONST int kMostImageLayers = 4;  // of one map: lvsm with eight layers
 GN_FILTER_CONST int kMostBlurRadius = 31;  // less than a block: what reaches into a block is in a neighbour of it
+GN_FILTER_CONST int kWalkTexels = 8;       // that a thread makes where nothing is blurred
 GN_FILTER_CONST int kBlurTableLength = 48; // weights by distance; zeros from the radius on, as far as shaders look
 
 // Push constants of every pass.

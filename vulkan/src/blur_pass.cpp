@@ -57,9 +57,30 @@ void BlurPass::makeSets(const MomentImages& images)
     set_y_ = layout_.makeSet(images.between(images.scratch.level(0), images.maps.level(0)));
 }
 
+namespace {
+
+/// Of blocks. What of the view before was read, flags and the scratch image, was read by both kinds of shaders.
+void clearFlags(const Device& device, VkCommandBuffer commands, VkBuffer blocks)
+{
+    MemoryBarrier barrier;
+    barrier.source_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    recordBarrier(device, commands, barrier);
+    device.vk.CmdFillBuffer(commands, blocks, 0, VK_WHOLE_SIZE, 0);
+    barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    recordBarrier(device, commands, barrier);
+}
+
+} // namespace
+
 void BlurPass::record(const FilterStep& step, const MomentImages& images) const
 {
     const Device& device = layout_.device();
+    clearFlags(device, step.commands, images.blocks.buffer());
     shared::FilterPassPlace place = placeOf(step);
     place.source.x = 0;
     place.source.y = 0;

@@ -14,7 +14,7 @@ public:
 
     static constexpr std::uint32_t kSets = 2;
     void makeSets(const MomentImages& images);
-    /// The depths are visible to COMPUTE_SHADER, the blocks' flags zero and likewise; so is level 0 of the tile then.
+    /// The depths are visible to COMPUTE_SHADER, and level 0 of the tile is then.
     void record(const FilterStep& step, const MomentImages& images) const;
     /// From what the GPU counted.
     [[nodiscard]] FilterCost cost(const shared::BlurCounts& counts) const;
@@ -25,7 +25,7 @@ private:
     void recordFragment(const FilterStep& step, const MomentImages& images) const;
 
     FilterLayout& layout_;
-    const MomentOptions moments_;
+    MomentOptions moments_;
     BlurPath path_;
     std::uint64_t radius_;
     std::uint64_t texel_bytes_;

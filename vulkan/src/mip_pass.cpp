@@ -39,7 +39,7 @@ void MipPass::record(const FilterStep& step) const
         layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get(), sets_[fine], step.counts_offset,
                      place);
         layout_.device().vk.CmdDispatch(step.commands, groupsOf(tile.width >> level, 32),
-                                        groupsOf(tile.height >> level, 4), step.image_layers);
+                                        groupsOf(tile.height >> level, shared::kWalkTexels), step.image_layers);
     }
 }
 

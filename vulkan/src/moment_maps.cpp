@@ -13,9 +13,6 @@
 namespace gnomon::vulkan {
 namespace {
 
-constexpr VkPipelineStageFlags2 kShaders =
-    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-
 /// Checks before anything is made.
 Device& checkedDevice(Device& device, const ResolvedOptions& options, const MapStorage& storage)
 {
@@ -245,8 +242,8 @@ void waitForTransfer(const Device& device, VkCommandBuffer commands, const Image
     barrier.new_layout = to;
     barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.target_stages =
-        kShaders | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                            VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.target_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                             VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
                             VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -366,20 +363,7 @@ void MomentMaps::recordFilter(const MapJob& job, std::uint32_t index)
     step.near_over_far = view.parallel ? 1.0F : static_cast<float>(view.metric.near_m / view.metric.far_m);
     step.counts_offset = job.slot * counts_stride_;
 
-    // The flags of the view before were read by both kinds of shaders.
-    MemoryBarrier barrier;
-    barrier.source_stages = kShaders;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    barrier.target_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
-    device_.vk.CmdFillBuffer(commands, images_.blocks.buffer(), 0, VK_WHOLE_SIZE, 0);
     placer_.record(commands, plan, index);
-    barrier.source_stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    barrier.source_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.target_stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.target_access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    recordBarrier(device_, commands, barrier);
-
     if (blur_) {
         blur_->record(step, images_);
     } else {

@@ -24,8 +24,8 @@ void MomentPass::record(const FilterStep& step) const
     place.source.x = 0;
     place.source.y = 0;
     layout_.bind(step.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get(), set_, step.counts_offset, place);
-    layout_.device().vk.CmdDispatch(step.commands, groupsOf(step.tile.width, 32), groupsOf(step.tile.height, 4),
-                                    step.image_layers);
+    layout_.device().vk.CmdDispatch(step.commands, groupsOf(step.tile.width, 32),
+                                    groupsOf(step.tile.height, shared::kWalkTexels), step.image_layers);
 }
 
 } // namespace gnomon::vulkan
