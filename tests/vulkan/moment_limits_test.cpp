@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where filterable maps end: the largest exponents that a format holds, and maps that hold, which cost nothing.
 #include "moment_bench.h"
+#include "moment_images.h"
 #include "moment_numbers.h"
 #include "null_driver.h"
 
@@ -68,6 +69,18 @@ TEST(MipLevels, areThoseThatATileCanHave)
     EXPECT_EQ(levelsOf(filter, {1024, 514, 1}), 2U) << "the side with fewer decides";
     filter.moments.sampling = MapSampling::bilinear;
     EXPECT_EQ(levelsOf(filter, {1024, 1024, 1}), 1U);
+}
+
+TEST(ScratchStrips, areAsNarrowAsBlocksOrHaveALayerEach)
+{
+    using vulkan::stripsOf;
+    EXPECT_EQ(stripsOf(2048, 1, 2048).width, 32U);
+    EXPECT_EQ(stripsOf(2048, 1, 2048).count, 64U);
+    EXPECT_EQ(stripsOf(17, 4, 2048).count, 1U);
+    EXPECT_EQ(stripsOf(33, 1, 2048).count, 2U);
+    EXPECT_EQ(stripsOf(16384, 4, 256).width, 256U);
+    EXPECT_EQ(stripsOf(16384, 4, 256).count, 64U);
+    EXPECT_EQ(stripsOf(16384, 4, 255).width, 512U) << "256 layers would be one too many";
 }
 
 ShadowOptions blurred(BlurPath path)
