@@ -14,11 +14,11 @@ GN_BEGIN
 // unorm, 2^-11 at half and 2^-24 at single precision. Errors e1 and e2 of the moments, |M1| <= 1, change the variance
 // by (e2 - 2 M1 e1 - e1^2). To the nearest number, |e| <= step / 2: at most 3/2 steps are lost. Towards zero, which
 // Vulkan allows for floats, -step < e <= 0: e2 loses one step and e1 loses nothing. So one rounding loses at most 3/2
-// steps. An average is off by no more than what is averaged, so errors add up over the passes: the first write and the
-// two of the blur. (Mip levels round again, but average away what was rounded before.) An interpolated pair has the
-// same weights for both moments, so whatever their precision, it stays a pair of moments. A least variance as large as
-// all that can be lost, E, never leaves less than half of the true variance v, because max(v - E, E) >= v / 2; and what
-// rounding may add is at most 4/3 E.
+// steps. An average is off by no more than what is averaged, so errors add up over the passes: two that write a
+// blurred map, and one that is allowed for. (Mip levels round again, but average away what was rounded before.) An
+// interpolated pair has the same weights for both moments, so whatever their precision, it stays a pair of moments. A
+// least variance as large as all that can be lost, E, never leaves less than half of the true variance v, because max(v
+// - E, E) >= v / 2; and what rounding may add is at most 4/3 E.
 GN_CONST int kMomentRoundings = 3;
 // Single precision arithmetic of blur and interpolation on top: sums of 9 to 63 products err by some 2^-24 each, and so
 // do weights that should sum to 1.
