@@ -10,14 +10,27 @@ layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 shared uint found[kBoundKeys * kMostCascades];
 shared vec2 slices[kMostCascades]; // begin, end
 
-// Lets a cascade's bounds from `first` on hold a place, without and with its room.
-void note(int first, Seen seen)
+// Lets cascade c's bounds hold what this thread sees of it. Atomics are done once for all of its pixels: software does
+// them one by one.
+void note(int c, Seen seen[4])
 {
-    vec4 ends = vec4(-seen.place, seen.place);
-    for (int i = 0; i < kBoundKeys; ++i) {
-        int end = i & 3;
-        float room = i < 4 ? 0.0 : seen.room[end & 1];
-        atomicMax(found[first + i], greatestKey(ends[end] + room));
+    const float nothing = -3.4e38;
+    vec4 ends = vec4(nothing);
+    vec4 roomy = vec4(nothing);
+    bool any_counts = false;
+    for (int i = 0; i < 4; ++i) {
+        if (seen[i].counts && sliceCounts(seen[i].depth_m, slices[c].x, slices[c].y)) {
+            vec4 place = vec4(-seen[i].place, seen[i].place);
+            ends = max(ends, place);
+            roomy = max(roomy, place + seen[i].room.xyxy);
+            any_counts = true;
+        }
+    }
+    if (any_counts) {
+        for (int i = 0; i < 4; ++i) {
+            atomicMax(found[kBoundKeys * c + i], greatestKey(ends[i]));
+            atomicMax(found[kBoundKeys * c + 4 + i], greatestKey(roomy[i]));
+        }
     }
 }
 
@@ -33,15 +46,12 @@ void main()
         slices[thread] = cascadeSlice(light, thread).xy;
     }
     barrier();
+    Seen seen[4];
     for (int i = 0; i < 4; ++i) {
-        Seen seen = seenAt(light, pixelOf(i));
-        if (seen.counts) {
-            for (int c = 0; c < count; ++c) {
-                if (sliceCounts(seen.depth_m, slices[c].x, slices[c].y)) {
-                    note(kBoundKeys * c, seen);
-                }
-            }
-        }
+        seen[i] = seenAt(light, pixelOf(i));
+    }
+    for (int c = 0; c < count; ++c) {
+        note(c, seen);
     }
     barrier();
     if (thread < kBoundKeys * count && found[thread] != 0u) {
