@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our own small renderer: draws a G-buffer, asks the library for the mask, shades. A host like any other: it knows the
-// library by its public headers alone.
+// Our own small renderer: draws depth and a G-buffer, asks the library for the mask, and shades; or shades surfaces as
+// they are drawn. A host like any other: it knows the library by its public headers alone.
 #pragma once
 
 #include "host/present.h"
@@ -54,8 +54,9 @@ struct RenderOptions {
     /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
     /// same.
     Shading shading = Shading::deferred;
-    /// Picture::linear may be asked for. False: what shades may write the finished picture at once, where nothing is
-    /// blended over it or glows.
+    /// Picture::linear may be asked for. False: what shades may write the finished picture at once. It does where the
+    /// scene has nothing that blends or emits, and there is neither bloom nor supersampling; to ask for it is an Error
+    /// then.
     bool keeps_light = true;
     std::uint32_t frames_in_flight = 2; // how many frames the GPU may be behind; 1 to 4
     /// Changed by FrameRenderer::setShadows(). cascades.pass = layered is refused (Error) where ShadowRenderer refuses

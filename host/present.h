@@ -21,7 +21,8 @@ struct FinishedFrame {
     VkExtent2D drawn{};         // of all images but picture and glow: twice `shown` on each side with supersampling
     VkExtent2D shown{};         // of the picture
     vulkan::ImageRef picture;   // sRGB-encoded, RGBA8
-    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where RenderOptions::keeps_light is not
+    vulkan::ImageRef light;     // radiance before the tone curve, RGBA16F; null where it went through the tone curve at
+                                // once (RenderOptions::keeps_light)
     vulkan::ImageRef glow;      // sum of the levels of bloom; null without it
     vulkan::ImageRef depth;     // reversed z
     vulkan::ImageRef normals;   // geometric and shading normal, octahedral; null of a frame shaded forward

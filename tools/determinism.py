@@ -38,7 +38,7 @@ COMMANDS = {
     "list": ["list", "--json", "-"],
     "metrics": ["metrics", "{given}.png", "{given2}.png", "--json", "-"],
 }
-TIMES = re.compile(r"(^|_)(ms|seconds|per_second)$|^frame_ratio$")
+TIMES = re.compile(r"(^|_)(ms|seconds|per_second)$|^(frame_ratio|share)$")
 
 
 def without_times(value):

@@ -29,6 +29,18 @@ lab::Subject subjectOf(const Shot& shot)
     return {.scene = &shot.scene, .state = &shot.state, .eye = shot.eye, .lights = shot.lights, .light = 0};
 }
 
+/// Before anything is drawn, and by the technique's name.
+void requireForward(const lab::Contestant& contestant)
+{
+    const std::string_view refusal = contestant.options.shading == host::Shading::forward
+                                         ? host::refusalOfForward(contestant.options)
+                                         : std::string_view();
+    if (!refusal.empty()) {
+        throw Error(fmt::format("shading {} forward", contestant.name), std::string(refusal),
+                    "leave it out, or leave --shading out");
+    }
+}
+
 /// Every technique twice: maps drawn anew, and kept while they hold.
 std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques)
 {
@@ -36,6 +48,7 @@ std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniqu
     for (const Settings& technique : techniques) {
         for (const bool reuse_maps : {false, true}) {
             lab::Contestant contestant{describeTechnique(technique), renderOptions(technique)};
+            requireForward(contestant);
             contestant.options.reuse_maps = reuse_maps;
             contestant.options.keeps_light = false; // as of a frame that is shown
             contestants.push_back(std::move(contestant));
@@ -49,6 +62,7 @@ void measureFit(const host::SceneOnGpu& scene, const Shot& shot, const Settings&
 {
     host::RenderOptions options = renderOptions(settings);
     options.shadows = false;
+    options.shading = host::Shading::deferred; // for its geometry
     host::FrameRenderer renderer(scene, options);
     renderer.draw(shot.state, shot.eye, shot.lights);
     const host::Picture picture = renderer.read({.colour = false, .linear = false, .masks = false, .geometry = true});

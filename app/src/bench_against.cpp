@@ -164,7 +164,10 @@ void requireComparable(const BenchFigures& earlier, const Json& head, const std:
         for (const auto& [key, value] : *one) {
             const auto mine = sight.find(key);
             const auto theirs = earlier.sight.find(key);
-            if (mine == sight.end() || theirs == earlier.sight.end() || mine->second != theirs->second) {
+            if (theirs == earlier.sight.end()) {
+                continue; // it was not to be chosen then
+            }
+            if (mine == sight.end() || mine->second != theirs->second) {
                 throw Error(tried, fmt::format("it was measured with another \"{}\"", key),
                             "counts and times of another picture say nothing; run both with the same options");
             }
@@ -176,7 +179,7 @@ void requireComparable(const BenchFigures& earlier, const Json& head, const std:
     if (!any) {
         throw Error(tried,
                     fmt::format("it has none of these techniques; its first is {}", earlier.techniques.front().name),
-                    "name one that it has with --techniques");
+                    "name one that it has with --techniques, and give the same settings: they are part of the name");
     }
 }
 

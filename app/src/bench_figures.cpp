@@ -204,7 +204,9 @@ Sight sightOf(const Json& bench)
     for (const Setting& setting : settingTable()) {
         using Group = SettingGroup;
         const bool decides = setting.group == Group::picture || setting.group == Group::time;
-        if (const auto value = settings.find(setting.key); decides && value != settings.end()) {
+        // Ways of shading are there to be compared.
+        if (const auto value = settings.find(setting.key);
+            decides && setting.key != "shading" && value != settings.end()) {
             sight[std::string(setting.key)] = value->dump();
         }
     }

@@ -75,9 +75,6 @@ void main()
         return;
     }
     vec4 base = baseColour(uvs, colour);
-    if (kMasked && base.a < MATERIAL_NUMBERS.w) {
-        discard;
-    }
     float alpha = kOpaque ? 1.0 : base.a;
     vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
     Surface surface = surfaceAt(p, normal.xyz, tangent, uvs, base);

@@ -23,9 +23,6 @@ layout(location = 4) out vec4 out_smooth;   // smoothEncode()
 void main()
 {
     vec4 base = baseColour(uvs, colour);
-    if (kMasked && base.a < MATERIAL_NUMBERS.w) {
-        discard;
-    }
     vec3 p = rayOf(gl_FragCoord.xy) / gl_FragCoord.w;
     Surface s = surfaceAt(p, normal.xyz, tangent, uvs, base);
     out_base = vec4(sqrt(s.base.rgb), s.occlusion);

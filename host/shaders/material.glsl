@@ -6,7 +6,6 @@
 
 // What the pipeline's materials need, so that plain ones pay for nothing.
 layout(constant_id = 0) const bool kBaseTexture = false;
-layout(constant_id = 1) const bool kMasked = false;
 layout(constant_id = 2) const bool kAllTextures = false;
 
 layout(set = 1, binding = 1) uniform sampler2D base_colour_texture;

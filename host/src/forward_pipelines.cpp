@@ -44,8 +44,9 @@ void Pipelines::makeDepthAlone()
         wish.depth = true;
         wish.depth_write = true;
         wish.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        setKind(wish, static_cast<SurfaceKind>(i));
-        const bool masked = wish.constants[kMasked] != VK_FALSE;
+        const auto kind = static_cast<SurfaceKind>(i);
+        setKind(wish, kind);
+        const bool masked = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
         wish.vertex = masked ? "scene.vert" : "depth.vert";
         wish.fragment = masked ? "depth_masked.frag" : "";
         depth_alone[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
@@ -74,8 +75,7 @@ const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
         std::memcpy(&wish.constants[kTechnique], &facts.technique, sizeof facts.technique);
         wish.scene = true;
         wish.depth = true;
-        wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew
-        wish.constants[kMasked] = VK_FALSE; // which has seen to that
+        wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew, without what masks cut away
         wish.layout = shadowed_layout.get();
         made[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
     }

@@ -8,7 +8,7 @@ namespace gnomon::host {
 /// The constant_ids of the host's shaders. tone.frag has its own meaning for the first four.
 enum Constant : std::uint32_t {
     kBaseTexture,
-    kMasked,
+    kFree,
     kAllTextures,
     kEmissiveOnly,
     kFixedLights,
@@ -22,6 +22,8 @@ enum Constant : std::uint32_t {
     kByVertex = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
     kMostConstants
 };
+
+static_assert(kTechnique == 11 && kByVertex == 19); // forward.frag, by_vertex.glsl
 
 struct Pipelines::Wish {
     const char* name = "";

@@ -270,7 +270,6 @@ void Pipelines::makeScene(const Materials& materials)
         };
         if (any(isOpaque)) {
             setKind(wish, kind);
-            wish.constants[kMasked] = VK_FALSE; // depth_alone has seen to that
             opaque_kinds_[i] = anyCut(isOpaque) ? Kind::cut : Kind::whole;
             gbuffer[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
         }
@@ -356,7 +355,6 @@ VkPipeline Pipelines::fxaa()
 void Pipelines::setKind(Wish& wish, SurfaceKind kind)
 {
     wish.constants[kBaseTexture] = kind != SurfaceKind::plain;
-    wish.constants[kMasked] = kind == SurfaceKind::masked || kind == SurfaceKind::full_masked;
     wish.constants[kAllTextures] = kind == SurfaceKind::full || kind == SurfaceKind::full_masked;
 }
 

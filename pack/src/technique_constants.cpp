@@ -39,7 +39,7 @@ std::uint32_t fewViewsOf(const Plan& plan)
     }
     const LightPlan& light = plan.lights.front();
     const std::size_t count = plan.views.size();
-    if (light.steps.paired || light.view_count != count || count > shared::kFewViews) {
+    if (count == 0 || light.steps.paired || light.view_count != count || count > shared::kFewViews) {
         return 0;
     }
     const std::uint32_t few = fewViews((*plan.options)[light.options]);

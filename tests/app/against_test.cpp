@@ -257,7 +257,7 @@ TEST(Against, OfTheProgram)
     const test::Ran grown = run({"--against", "b.json", "--json=c.json"});
     EXPECT_EQ(grown.status, 1);
     ASSERT_EQ(grown.errorLines().size(), 1U) << grown.err;
-    EXPECT_NE(grown.err.find("counters that have grown: 1, the first is draws of g-buffer in hard"), std::string::npos)
+    EXPECT_NE(grown.err.find("counters that have grown: 1, the first is draws of depth in hard"), std::string::npos)
         << grown.err;
     const Json written = Json::parse(test::slurp(folder / "c.json"));
     EXPECT_EQ(written["against"]["counters"]["grew"].size(), 1U);

@@ -34,7 +34,7 @@ TEST(BenchPasses, AreInJson)
         EXPECT_GE(pass["ms"].get<double>(), 0.0);
         EXPECT_TRUE(pass["iqr_ms"].is_number());
     }
-    const std::vector<std::string> order{"g-buffer", "shadow maps", "shadow filter", "mask", "light", "tone"};
+    const std::vector<std::string> order{"depth", "g-buffer", "shadow maps", "shadow filter", "mask", "light"};
     EXPECT_EQ(names, order);
     EXPECT_GT(share, 0.0);
     EXPECT_LT(share, 1.5); // medians of passes are not of one frame
@@ -46,8 +46,31 @@ TEST(BenchPasses, AreInJson)
     EXPECT_EQ(passes["shadow filter"]["bytes_minimum"], (4 + 5 * 8) * kTexels); // blurred, read without mip levels
     EXPECT_EQ(passes["mask"]["bytes_minimum"], 5 * kPixels);
     EXPECT_TRUE(passes["g-buffer"]["bytes_minimum"].is_null());
-    EXPECT_EQ(bench["baseline"]["passes"][0]["name"], "g-buffer");
+    EXPECT_EQ(bench["baseline"]["passes"][0]["name"], "depth");
     EXPECT_TRUE(bench["baseline"]["passes"][0]["texels"].is_null());
+}
+
+/// Surfaces ask the maps themselves, so there is neither G-buffer nor mask.
+TEST(BenchPasses, AreThoseOfForwardShading)
+{
+    const test::Folder folder;
+    const auto run = [&](const char* technique) {
+        return test::gnomon({"bench", "planes", "--sun", "1,-2,1", "--size", "64x32", "--map-size", "128", "--shading",
+                             "forward", "--repetitions", "1", "--warmup", "0", "--techniques", technique, "--json"},
+                            {.folder = folder.path()});
+    };
+    const test::Ran ran = run("pcf");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json bench = json::parse(ran.out);
+    std::vector<std::string> names;
+    for (const json& pass : bench["results"][0]["passes"]) {
+        names.push_back(pass["name"]);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"depth", "shadow maps", "forward"}));
+    EXPECT_GT(bench["results"][0]["counters"]["bytes_minimum"].get<std::uint64_t>(), 0U);
+    const test::Ran refused = run("pcf+blur");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("shading pcf+blur"), std::string::npos) << refused.err;
 }
 
 /// Of several techniques it would be long.

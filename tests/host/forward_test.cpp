@@ -28,7 +28,13 @@ struct Case {
     Fit fit = Fit::uniform;
     Translucent translucent = Translucent::grey;
     Soften soften = Soften::none;
+    bool sun_alone = false; // few views, which shaders look for otherwise
 };
+
+Case ofSun(const char* name, Filter filter, Partition partition = Partition::single, Fit fit = Fit::uniform)
+{
+    return {name, filter, partition, fit, Translucent::grey, Soften::none, true};
+}
 
 void PrintTo(const Case& one, std::ostream* out)
 {
@@ -72,6 +78,10 @@ TEST_P(ForwardOf, IsAsShadedFromAGBuffer)
     options_.shadow.technique.fit = GetParam().fit;
     options_.shadow.technique.soften = GetParam().soften;
     options_.shadow.translucent = GetParam().translucent;
+    if (GetParam().sun_alone) {
+        lights_.resize(1);
+        ASSERT_EQ(lights_[0].caster.type, LightType::directional);
+    }
     const Picture deferred = pictureOf(Shading::deferred);
     const Picture forward = pictureOf(Shading::forward);
     options_.shadows = false;
@@ -82,17 +92,22 @@ TEST_P(ForwardOf, IsAsShadedFromAGBuffer)
         << "no shadow to be seen";
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, ForwardOf,
-                         testing::Values(Case{"hard", Filter::hard}, Case{"pcf"},
-                                         Case{"pcf_lispsm", Filter::pcf, Partition::single, Fit::lispsm},
-                                         Case{"pcf_cascades", Filter::pcf, Partition::cascades},
-                                         Case{"pcf_sdsm", Filter::pcf, Partition::sdsm}, Case{"vsm", Filter::vsm},
-                                         Case{"id", Filter::id}, Case{"raymarch", Filter::raymarch},
-                                         Case{"colour", Filter::pcf, Partition::single, Fit::uniform,
-                                              Translucent::colour},
-                                         Case{"smoothies", Filter::pcf, Partition::single, Fit::uniform,
-                                              Translucent::grey, Soften::smoothies}),
-                         [](const auto& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Techniques, ForwardOf,
+    testing::Values(
+        Case{"hard", Filter::hard}, Case{"pcf"}, Case{"pcf_lispsm", Filter::pcf, Partition::single, Fit::lispsm},
+        Case{"pcf_cascades", Filter::pcf, Partition::cascades}, Case{"pcf_sdsm", Filter::pcf, Partition::sdsm},
+        Case{"vsm", Filter::vsm}, Case{"id", Filter::id}, Case{"raymarch", Filter::raymarch},
+        Case{"colour", Filter::pcf, Partition::single, Fit::uniform, Translucent::colour},
+        Case{"smoothies", Filter::pcf, Partition::single, Fit::uniform, Translucent::grey, Soften::smoothies},
+        ofSun("sun_hard", Filter::hard), ofSun("sun_pcf", Filter::pcf),
+        ofSun("sun_pcf_lispsm", Filter::pcf, Partition::single, Fit::lispsm),
+        ofSun("sun_pcf_cascades", Filter::pcf, Partition::cascades), ofSun("sun_pcss", Filter::pcss),
+        ofSun("sun_raymarch", Filter::raymarch),
+        ofSun("sun_raymarch_lispsm", Filter::raymarch, Partition::single, Fit::lispsm), ofSun("sun_vsm", Filter::vsm),
+        ofSun("sun_lvsm", Filter::lvsm), ofSun("sun_esm", Filter::esm), ofSun("sun_evsm", Filter::evsm),
+        ofSun("sun_msm", Filter::msm), ofSun("sun_id", Filter::id), ofSun("sun_depth_id", Filter::depth_id)),
+    [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(Forward, HasNoMasksAndNoGeometry)
 {

@@ -26,6 +26,7 @@
 //      with GNOMON_SMOOTHIES it is their smoothies (shared/smoothies.h)
 //   6  combined image sampler, 2D array: the maps of tints, sampler nearest. With GNOMON_TINTS alone
 //   7  storage buffer: what pack::fillObjects() writes. With GNOMON_OBJECT alone
+//   8  uniform buffer: the first kFewViews of the GpuViews. With technique_constants.glsl alone
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"
