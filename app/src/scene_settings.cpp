@@ -190,7 +190,7 @@ const std::vector<Setting>& rows()
          .doc = "halvings; each doubles the glow's reach", .subcommands = kRender | kBench, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
         {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = shadingNames,
-         .doc = "deferred: a G-buffer, a mask of shadows, and a pass that shades; forward: surfaces are shaded as they are drawn and ask the maps themselves", .subcommands = kRender | kBench, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
+         .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kRender | kBench, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
         {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,
          .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kRender | kBench, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyReflection},
         {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
