@@ -6,6 +6,7 @@
 
 // What the pipeline's materials need, so that plain ones pay for nothing.
 layout(constant_id = 0) const bool kBaseTexture = false;
+layout(constant_id = 1) const bool kEmits = false; // some material of the scene does
 layout(constant_id = 2) const bool kAllTextures = false;
 
 layout(set = 1, binding = 1) uniform sampler2D base_colour_texture;
@@ -45,7 +46,7 @@ vec4 baseColour(vec4 uvs, vec4 colour)
 
 vec3 emission(vec4 uvs)
 {
-    return kAllTextures ? material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb : material.emissive.rgb;
+    return kEmits ? material.emissive.rgb * texture(emissive_texture, place(4, uvs)).rgb : vec3(0.0);
 }
 
 // `p`: eye-relative position. The tangent's w is the handedness, 0 where there is no tangent.

@@ -8,7 +8,7 @@ namespace gnomon::host {
 /// The constant_ids of the host's shaders. tone.frag has its own meaning for the first four.
 enum Constant : std::uint32_t {
     kBaseTexture,
-    kFree,
+    kEmits,
     kAllTextures,
     kEmissiveOnly,
     kFixedLights,

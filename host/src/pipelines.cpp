@@ -289,6 +289,7 @@ void Pipelines::makeScene(const Materials& materials)
         wish.name = "emissive";
         wish.constants = {};
         wish.constants[kAllTextures] = VK_TRUE;
+        wish.constants[kEmits] = VK_TRUE;
         wish.constants[kEmissiveOnly] = VK_TRUE;
         emissive = makeSurface(wish, anyCut(emitsOnly));
     }
@@ -302,6 +303,7 @@ Pipelines::Wish Pipelines::blendedWish()
     wish.constants[kBaseTexture] = VK_TRUE;
     wish.constants[kAllTextures] = VK_TRUE;
     wish.constants[kTints] = VK_TRUE;
+    wish.constants[kEmits] = VK_TRUE;
     wish.colours = {&kLightFormat, 1};
     wish.scene = true;
     wish.blend = true;

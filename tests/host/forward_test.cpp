@@ -41,6 +41,22 @@ void PrintTo(const Case& one, std::ostream* out)
     *out << one.name;
 }
 
+/// What glows does so by a texture of its own, beside none of the other textures.
+scene::Scene sceneWithAGlowingTexture()
+{
+    scene::Scene scene = smallScene();
+    std::uint32_t texture = scene::kNone;
+    for (const scene::Material& material : scene.materials) {
+        texture = material.base_colour_texture.texture != scene::kNone ? material.base_colour_texture.texture : texture;
+    }
+    for (scene::Material& material : scene.materials) {
+        if (material.emissive != glm::vec3(0.0F)) {
+            material.emissive_texture.texture = texture;
+        }
+    }
+    return scene;
+}
+
 class Forward : public testing::Test {
 protected:
     Forward()
@@ -61,7 +77,7 @@ protected:
         return renderer.read({.colour = true, .linear = options.keeps_light});
     }
 
-    scene::Scene scene_ = smallScene();
+    scene::Scene scene_ = sceneWithAGlowingTexture();
     scene::State state_ = scene::evaluate(scene_, 0.0);
     std::vector<ShadedLight> lights_ = lightsOf(scene_, state_);
     Gpu gpu_{{.gpu = "software", .validate = true}};
