@@ -112,6 +112,12 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
     return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
 }
 
+// What the GPU has yet to fit has a slice that is not known here.
+bool servesAll(const View& view)
+{
+    return !view.slice.bounded() && !view.sector.bounded() && view.gpu_cascade == kNoIndex;
+}
+
 // The lights of one strip of a layer that have these options.
 MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::uint32_t options)
 {
@@ -131,6 +137,7 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
         }
     }
     draw.few_views = fewViewsOf(plan);
+    draw.one_whole = draw.few_views == 1 && servesAll(plan.views.front());
     return draw;
 }
 

@@ -151,9 +151,13 @@ void placeObject(inout FilterInput f, uvec4 options, vec3 p)
 // A pass may define GNOMON_FEW_VIEWS: how many views its one light has, 1 to kFewViews, which are all of the plan's; 0: a
 // draw for which this is not so. And GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, the light's GpuLight::place. Few
 // views are read as uniforms, which software loads faster, and told apart by their slices before one of them is loaded.
+// Where there is one that serves all of its map, the pass may have it already: GNOMON_ONE_VIEW_OF.
 #ifdef GNOMON_FEW_VIEWS
 GpuView viewAt(uint i)
 {
+#ifdef GNOMON_ONE_VIEW_OF
+    return GNOMON_ONE_VIEW_OF;
+#endif
     if (GNOMON_FEW_VIEWS > 0) {
         return gnomon_few_views[i];
     }
@@ -297,7 +301,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
         more = more && !is_later;
         range = light.views.zw;
         is_later = true;
-    } while (more);
+    } while (GNOMON_FEW_VIEWS == 0 && more); // few views are of one position
     v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
     return at.faces ? v : vec4(0.0);
 }

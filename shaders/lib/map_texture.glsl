@@ -12,6 +12,11 @@
 #include "../shared/choice_numbers.h"
 #include "../shared/map_blocks.h"
 #include "../shared/paired_depth.h"
+// A pass in software whose sampler of these maps is a nearest one may define GNOMON_NEAREST_MAPS, a constant: see
+// screen_surface.glsl.
+#ifndef GNOMON_NEAREST_MAPS
+#define GNOMON_NEAREST_MAPS false
+#endif
 #ifndef GNOMON_DEPTH_HOLDING
 #define GNOMON_DEPTH_HOLDING kDepthAlone
 #endif
@@ -20,7 +25,9 @@ layout(set = GNOMON_MAP_SET, binding = GNOMON_MAP_BINDING) uniform sampler2DArra
 
 float mapTexel(vec2 texel, float layer, float part)
 {
-    return pairedDepth(GNOMON_DEPTH_HOLDING, texelFetch(gnomon_maps, ivec3(texel, layer), 0), part);
+    vec4 held = GNOMON_NEAREST_MAPS ? textureLod(gnomon_maps, vec3((texel + 0.5) * GNOMON_MAP_TEXEL_SIZE, layer), 0.0)
+                                    : texelFetch(gnomon_maps, ivec3(texel, layer), 0);
+    return pairedDepth(GNOMON_DEPTH_HOLDING, held, part);
 }
 
 // A gather is of one channel, which must be a constant.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL only: what is the same for all of the mask's pixels and may come to them from the vertex shader. lavapipe 22.3
-// loads a uniform in a fragment shader once for each lane, and takes as long to compile that as to execute it; in a
-// vertex shader, and of an attribute that is flat, once.
+// loads a uniform in a fragment shader once for each lane, some 28 instructions, and takes as long to compile that as to
+// execute it; in a vertex shader, and of an attribute that is flat, once.
 #ifndef GNOMON_MASK_NUMBERS_GLSL
 #define GNOMON_MASK_NUMBERS_GLSL
 
@@ -21,6 +21,26 @@
     DO(11, rule.moment_variance)                                                                                       \
     DO(12, rule.moment_shape)
 const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
+
+// The same of the one view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). That is more
+// than some devices have, so such a draw is for software alone. What is not listed a view that serves all of its map
+// does without; the last three are of orthographic views.
+#ifdef GNOMON_ONE_VIEW
+#define GNOMON_VIEW_NUMBERS(DO)                                                                                        \
+    DO(14, x)                                                                                                          \
+    DO(15, y)                                                                                                          \
+    DO(16, w)                                                                                                          \
+    DO(17, metric)                                                                                                     \
+    DO(18, tile)                                                                                                       \
+    DO(19, scale)                                                                                                      \
+    DO(20, whole)                                                                                                      \
+    DO(21, more)                                                                                                       \
+    DO(22, plane_x)                                                                                                    \
+    DO(23, plane_y)                                                                                                    \
+    DO(24, plane_w)
+const int kMaskNumbers = 25;
+#else
 const int kMaskNumbers = 14;
+#endif
 
 #endif

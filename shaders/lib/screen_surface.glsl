@@ -4,6 +4,16 @@
 #ifndef GNOMON_SCREEN_SURFACE_GLSL
 #define GNOMON_SCREEN_SURFACE_GLSL
 
+// A texel of an image that is as large as the screen. llvmpipe 22.3 fetches with a mip level for each lane, three times
+// as many instructions as a nearest sampler takes, so a pass that knows that its samplers are such and that it is drawn
+// in software may define GNOMON_SURFACE_SAMPLED, a constant.
+#ifndef GNOMON_SURFACE_SAMPLED
+#define GNOMON_SURFACE_SAMPLED false
+#endif
+#define GNOMON_SCREEN_TEXEL(IMAGE, PIXEL)                                                                              \
+    (GNOMON_SURFACE_SAMPLED ? textureLod(IMAGE, (vec2(PIXEL) + 0.5) * GNOMON_SURFACE_SCREEN.size.zw, 0.0)              \
+                            : texelFetch(IMAGE, PIXEL, 0))
+
 // Eye-relative position of a pixel, homogeneous.
 vec4 pointAt(ivec2 pixel, float depth)
 {
@@ -24,8 +34,8 @@ vec3 side(ivec2 pixel, ivec2 step_px, float depth)
     if (any(lessThan(far, ivec2(0))) || any(greaterThanEqual(vec2(far), GNOMON_SURFACE_SCREEN.size.xy))) {
         return vec3(depth, depth, 3e38);
     }
-    float a = texelFetch(depths, pixel + step_px, 0).r;
-    float b = texelFetch(depths, far, 0).r;
+    float a = GNOMON_SCREEN_TEXEL(depths, pixel + step_px).r;
+    float b = GNOMON_SCREEN_TEXEL(depths, far).r;
     return vec3(a, b, abs(2.0 * a - b - depth));
 }
 

@@ -113,9 +113,13 @@ GN_FN bool inSector(GpuView view, real3 p)
 // Does this view serve a point, and is the point in the map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p)
 {
+#ifdef GNOMON_ONE_VIEW_OF
+    bool is_served = true;
+#else
     bool is_served = inSlice(view, p);
     bool is_own = inSector(view, p);
     is_served = is_served && is_own;
+#endif
     if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
         return is_served; // its half space is the disc, around which there is room for taps
     }

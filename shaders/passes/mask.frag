@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // The mask. Up to four lights of one layer of the mask, for the pixel's surface; of a compact mask the lights of the
-// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER) and for
-// orthographic maps alone (GNOMON_ORTHOGRAPHIC_ONLY).
+// pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER), for orthographic maps alone
+// (GNOMON_ORTHOGRAPHIC_ONLY), and in software for one view that serves all of its map (GNOMON_ONE_VIEW).
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/choice_numbers.h"
 #include "../lib/mask_numbers.glsl"
@@ -12,15 +12,26 @@
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
 #include "../include/gnomon/technique_constants.glsl" // 0 to 7
 layout(constant_id = 8) const bool kHasNormals = true;
-layout(constant_id = 9) const bool kByVertex = false;  // see mask_numbers.glsl; for software
+#ifdef GNOMON_ONE_VIEW
+#undef GNOMON_FEW_VIEWS
+#define GNOMON_FEW_VIEWS 1u
+const bool kInSoftware = true;
+#else
+layout(constant_id = 9) const bool kInSoftware = false; // see mask_numbers.glsl and screen_surface.glsl
+#endif
 layout(constant_id = 10) const bool kHasSmooth = false;
 layout(constant_id = 11) const bool kTints = false; // some view has a map of tints
 layout(constant_id = 12) const bool kRaysAsMask = false; // see lib/raymarch.glsl
 layout(constant_id = 13) const bool kConfidence = false; // for converge.frag: packSeen()
 layout(constant_id = 14) const bool kColoured = false; // all four channels are of one light: red, green, blue, luminance
+#ifdef GNOMON_ONE_VIEW
+const uint kTileChannels = 0;
+const bool kTakesAway = false;
+#else
 layout(constant_id = 15) const uint kTileChannels = 0; // of a compact mask: 4 or 8; 0: the mask is not compact
 layout(constant_id = 16) const bool kTakesAway = false; // of a compact mask, several draws: this one's is taken from 1
-#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || (GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
+#endif
+#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || defined(GNOMON_ONE_VIEW) || (GNOMON_FILTER != GNOMON_FILTER_HARD && GNOMON_FILTER != GNOMON_FILTER_PCF)
 #define GNOMON_PARABOLOID false
 #else
 layout(constant_id = 17) const bool kParaboloid = false; // views may be paraboloids
@@ -30,8 +41,13 @@ layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a s
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
-#define GNOMON_FEW_PLACE (kByVertex ? numbers_in[kLightPlace] : gnomon_lights[0].place)
+#define GNOMON_FEW_PLACE (kInSoftware ? numbers_in[kLightPlace] : gnomon_lights[0].place)
 #define GNOMON_FEW_BINDING 8
+#define GNOMON_NEAREST_MAPS kInSoftware // that the sampler of maps that are not filterable is so does not help others
+#ifdef GNOMON_ONE_VIEW
+GpuView one_view;
+#define GNOMON_ONE_VIEW_OF one_view
+#endif
 #define GNOMON_BLOCKS_BINDING 9
 #define GNOMON_TINTS kTints
 #define GNOMON_TINTS_BINDING 11
@@ -82,6 +98,9 @@ Left lightsOf(ivec2 pixel)
 
 bool isLeft(Left left)
 {
+    if (GNOMON_FEW_VIEWS > 0) {
+        return false; // its one light has been looked at
+    }
     return kTileChannels > 0u ? left.next < left.end : left.channels != 0u;
 }
 
@@ -106,24 +125,29 @@ GnomonTileLight nextLight(inout Left left)
 }
 
 #define GNOMON_SURFACE_SCREEN numbers.screen
+#define GNOMON_SURFACE_SAMPLED kInSoftware
 #include "../lib/screen_surface.glsl"
 
 void main()
 {
-#define READ(PLACE, MEMBER) numbers.MEMBER = kByVertex ? numbers_in[PLACE] : gnomon.MEMBER;
+#define READ(PLACE, MEMBER) numbers.MEMBER = kInSoftware ? numbers_in[PLACE] : gnomon.MEMBER;
     GNOMON_MASK_NUMBERS(READ)
+#ifdef GNOMON_ONE_VIEW
+#define READ_VIEW(PLACE, MEMBER) one_view.MEMBER = numbers_in[PLACE];
+    GNOMON_VIEW_NUMBERS(READ_VIEW)
+#endif
     visibility = vec4(1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(depths, pixel, 0).r;
+    float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
     // What is not drawn stays lit. Nor is the shader compiled twice by lavapipe, where no pixel is known to be drawn.
     if (depth == numbers.screen.fade.z) {
         discard;
     }
-    if (kHasIds && texelFetch(object_ids, pixel, 0).r == 0) {
+    if (kHasIds && GNOMON_SCREEN_TEXEL(object_ids, pixel).r == 0) {
         discard;
     }
 #ifdef GNOMON_OBJECT
-    uint number = texelFetch(object_ids, pixel, 0).r;
+    uint number = GNOMON_SCREEN_TEXEL(object_ids, pixel).r;
     receiver_object = (number & ((1u << kPieceShift) - 1u)) - 1u;
     receiver_piece = number >> kPieceShift;
 #endif
@@ -133,8 +157,8 @@ void main()
     }
     vec4 h = pointAt(pixel, depth);
     vec3 p = h.xyz / h.w;
-    vec3 n = kHasNormals ? octahedralDecode(texelFetch(normals, pixel, 0).rg) : normalFromDepth(pixel, depth, p);
-    SmoothSurface s = kHasSmooth ? smoothDecode(texelFetch(smooth_surfaces, pixel, 0).rgb, p, n) : flatSurface(n);
+    vec3 n = kHasNormals ? octahedralDecode(GNOMON_SCREEN_TEXEL(normals, pixel).rg) : normalFromDepth(pixel, depth, p);
+    SmoothSurface s = kHasSmooth ? smoothDecode(GNOMON_SCREEN_TEXEL(smooth_surfaces, pixel).rgb, p, n) : flatSurface(n);
     do {
         GnomonTileLight one = nextLight(left);
         vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), gl_FragCoord.xy, h.w);

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// One triangle that covers the screen. WITH_NUMBERS: with what lib/mask_numbers.glsl lists.
+// One triangle that covers the screen. WITH_NUMBERS: with what lib/mask_numbers.glsl lists; GNOMON_ONE_VIEW: and with its
+// one view.
 #ifdef WITH_NUMBERS
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/mask_numbers.glsl"
@@ -13,6 +14,12 @@ layout(set = 0, binding = 2, std430) restrict readonly buffer Lights
 {
     GpuLight lights[];
 };
+#ifdef GNOMON_ONE_VIEW
+layout(set = 0, binding = 8, std140) uniform FewViews
+{
+    GpuView views[kFewViews];
+};
+#endif
 layout(location = 0) flat out vec4 numbers[kMaskNumbers];
 #endif
 
@@ -24,5 +31,9 @@ void main()
 #define WRITE(PLACE, MEMBER) numbers[PLACE] = constants.MEMBER;
     GNOMON_MASK_NUMBERS(WRITE)
     numbers[kLightPlace] = lights[0].place;
+#ifdef GNOMON_ONE_VIEW
+#define WRITE_VIEW(PLACE, MEMBER) numbers[PLACE] = views[0].MEMBER;
+    GNOMON_VIEW_NUMBERS(WRITE_VIEW)
+#endif
 #endif
 }

@@ -12,16 +12,18 @@
 namespace gnomon::vulkan {
 namespace {
 
-std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic)
+/// `one`: for one view whose numbers come from the vertex shader.
+std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bool one)
 {
     using namespace spirv;
-    using Codes = std::array<std::span<const std::uint32_t>, 2>; // by orthographic
+    using Codes = std::array<std::span<const std::uint32_t>, 4>; // by orthographic, and one
     const auto of = [&](const Codes& codes) {
-        return codes[orthographic ? 1 : 0];
+        return codes[(orthographic ? 1 : 0) + (one ? 2 : 0)];
     };
 #define GN_CODES(NAME)                                                                                                 \
     {                                                                                                                  \
-        mask_##NAME##_frag, mask_##NAME##_orthographic_frag                                                            \
+        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_one_frag,                                   \
+            mask_##NAME##_orthographic_one_frag                                                                        \
     }
     switch (filter) {
     case Filter::hard:
@@ -68,10 +70,17 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
     : device_(device), cache_(options.pipeline_cache), shows_rays_(options.shows_rays),
       vertex_(makeShader(device, spirv::mask_numbers_vert))
 {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    constexpr std::uint32_t kComponents = 128; // more than the numbers of mask_numbers.glsl and a position
+    if (device.software() && limits.maxVertexOutputComponents >= kComponents &&
+        limits.maxFragmentInputComponents >= kComponents) {
+        vertex_one_ = makeShader(device, spirv::mask_numbers_one_vert);
+    }
 }
 
-VkPipeline MaskPipelines::get(const MaskPipelineKey& key, VkPipelineLayout layout)
+VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
+    key.one_whole = key.one_whole && vertex_one_;
     const auto found = std::ranges::find(made_, key, &Made::key);
     if (found != made_.end()) {
         return found->pipeline.get();
@@ -82,11 +91,11 @@ VkPipeline MaskPipelines::get(const MaskPipelineKey& key, VkPipelineLayout layou
 Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout)
 {
     MaskConstants constants = key.constants;
-    constants.by_vertex = device_.software() ? VK_TRUE : VK_FALSE;
+    constants.in_software = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
-    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic));
-    const TwoStages stages = stagesOf(vertex_, fragment, specialisation.info());
+    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.one_whole));
+    const TwoStages stages = stagesOf(key.one_whole ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout;

@@ -14,7 +14,7 @@ namespace gnomon::vulkan {
 struct MaskConstants {
     pack::TechniqueConstants technique; // few_views: pack::MaskDraw::few_views
     VkBool32 has_normals = VK_FALSE;
-    VkBool32 by_vertex = VK_FALSE; // what is the same for all pixels comes from the vertex shader: in software
+    VkBool32 in_software = VK_FALSE; // what is the same for all pixels comes from the vertex shader; see mask.frag
     VkBool32 has_smooth = VK_FALSE;
     VkBool32 tints = VK_FALSE;       // views of the draw's options have maps of tints
     VkBool32 shows_rays = VK_FALSE;  // ShadowRendererOptions::shows_rays
@@ -33,6 +33,7 @@ struct MaskPipelineKey {
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
     bool orthographic = false;             // all views of the draw's lights
+    bool one_whole = false;                // pack::MaskDraw::one_whole
     bool shares = false;                   // pack::MaskDraw::shares: channels of other draws stay as they are
 
     bool operator==(const MaskPipelineKey&) const = default;
@@ -45,7 +46,7 @@ public:
     MaskPipelines(Device& device, const ShadowRendererOptions& options);
 
     /// Makes it where it is not there.
-    [[nodiscard]] VkPipeline get(const MaskPipelineKey& key, VkPipelineLayout layout);
+    [[nodiscard]] VkPipeline get(MaskPipelineKey key, VkPipelineLayout layout);
 
 private:
     struct Made {
@@ -59,6 +60,7 @@ private:
     VkPipelineCache cache_;
     bool shows_rays_;
     ShaderModule vertex_;
+    ShaderModule vertex_one_; // of a draw with one view: where the device lets it have that many outputs
     std::vector<Made> made_;
 };
 

@@ -47,6 +47,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
         key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
     }
     key.orthographic = draw.orthographic;
+    key.one_whole = draw.one_whole;
     key.shares = draw.shares;
     key.constants.technique.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
@@ -141,11 +142,12 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     key.format = formatOf(channelsAlone(options));
     key.constants.technique.few_views = pack::fewViews(options);
     make();
-    if (key.constants.technique.few_views > 1) { // a spot has one map
-        key.constants.technique.few_views = 1;
-        make();
-    }
+    key.constants.technique.few_views = std::min(key.constants.technique.few_views, 1U); // a spot has one map
+    make();
+    key.one_whole = key.constants.technique.few_views == 1;
+    make();
     key.constants.technique.few_views = 0;
+    key.one_whole = false;
     key.format = formatOf(4);
     if (what.several_lights) {
         make();

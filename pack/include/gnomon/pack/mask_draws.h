@@ -34,6 +34,7 @@ struct MaskDraw {
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // other draws may have further channels of these pixels
     std::uint32_t few_views = 0;                           // fewViewsOf() the plan
+    bool one_whole = false; // few_views is 1, and that view serves all that is on its map
 };
 
 /// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.
