@@ -112,10 +112,18 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
     return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
 }
 
-// What the GPU has yet to fit has a slice that is not known here.
-bool servesAll(const View& view)
+// What the GPU has yet to fit will have a slice.
+ToldApart toldApart(std::span<const View> views)
 {
-    return !view.slice.bounded() && !view.sector.bounded() && view.gpu_cascade == kNoIndex;
+    const View& first = views.front();
+    if (views.size() == 1) {
+        const bool all = !first.slice.bounded() && !first.sector.bounded() && first.gpu_cascade == kNoIndex;
+        return all ? ToldApart::alone : ToldApart::tests;
+    }
+    const bool slices = std::ranges::all_of(views, [&](const View& view) {
+        return !view.sector.bounded() && !view.slice.isRatio() && view.slice.axis == first.slice.axis;
+    });
+    return slices ? ToldApart::slices : ToldApart::tests;
 }
 
 // The lights of one strip of a layer that have these options.
@@ -137,7 +145,7 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
         }
     }
     draw.few_views = fewViewsOf(plan);
-    draw.one_whole = draw.few_views == 1 && servesAll(plan.views.front());
+    draw.told_apart = draw.few_views > 0 ? toldApart(plan.views) : ToldApart::tests;
     return draw;
 }
 

@@ -5,6 +5,8 @@
 
 #include <gpu_structs.h>
 
+#include <algorithm>
+
 namespace gnomon::pack {
 
 TechniqueConstants techniqueConstants(const ResolvedOptions& options)
@@ -27,8 +29,9 @@ std::uint32_t fewViews(const ResolvedOptions& options)
     const bool steps = technique.motion != Motion::free && technique.motion != Motion::snap;
     const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
                         technique.partition == Partition::multi || technique.partition == Partition::automatic;
-    const bool divided = technique.partition != Partition::single && options.cascades().count > 1;
-    return steps ? 0 : around || divided ? shared::kFewViews : 1;
+    const std::uint32_t cascades = std::min(static_cast<std::uint32_t>(options.cascades().count), shared::kFewViews);
+    const bool divided = technique.partition != Partition::single && cascades > 1;
+    return steps ? 0 : around ? shared::kFewViews : divided ? cascades : 1;
 }
 
 // Which view it is is known beforehand only where the light has all of the plan's.
@@ -43,7 +46,7 @@ std::uint32_t fewViewsOf(const Plan& plan)
         return 0;
     }
     const std::uint32_t few = fewViews((*plan.options)[light.options]);
-    return few == 0 ? 0 : count == 1 ? 1 : shared::kFewViews;
+    return few == 0 ? 0 : count == 1 ? 1 : count <= few ? few : shared::kFewViews;
 }
 
 } // namespace gnomon::pack

@@ -86,6 +86,15 @@ vec2 discPoint(int i)
     vec4 two = gnomon.rule.disc_points[i >> 1];
     return (i & 1) == 0 ? two.xy : two.zw;
 }
+// Whether few views are told apart by slices of one depth alone, which all of them count in: a constant.
+#ifndef GNOMON_SLICES_ALONE
+#define GNOMON_SLICES_ALONE false
+#endif
+#ifdef GNOMON_ONE_VIEW_OF
+#define GNOMON_KNOWN_VIEW true
+#else
+#define GNOMON_KNOWN_VIEW GNOMON_SLICES_ALONE
+#endif
 #include "visibility.glsl"
 // A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
 #ifdef GNOMON_TINTS
@@ -164,12 +173,20 @@ GpuView viewAt(uint i)
     return gnomon_views[i];
 }
 
+float sharedDepth(vec3 p)
+{
+    return dotRow(gnomon_few_views[0].slice_axis, p);
+}
+
 // A bit for each view whose slice holds the point.
 uint slicesAt(vec3 p)
 {
     uint slices = 0u;
+    float depth = GNOMON_SLICES_ALONE ? sharedDepth(p) : 0.0;
     for (uint i = 0u; i < GNOMON_FEW_VIEWS; ++i) {
-        slices |= inSlice(gnomon_few_views[i], p) ? 1u << i : 0u;
+        bool holds = GNOMON_SLICES_ALONE ? !(depth < gnomon_few_views[i].slice.x || depth > gnomon_few_views[i].slice.y)
+                                         : inSlice(gnomon_few_views[i], p);
+        slices |= holds ? 1u << i : 0u;
     }
     return slices;
 }
@@ -179,6 +196,11 @@ uint slicesAt(vec3 p)
 GpuView viewAt(uint i)
 {
     return gnomon_views[i];
+}
+
+float sharedDepth(vec3 p)
+{
+    return 0.0;
 }
 
 uint slicesAt(vec3 p)
@@ -209,7 +231,7 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
         s.slices &= s.slices - 1u;
         ++s.next;
         GpuView asked = viewAt(view);
-        share = is_first ? 1.0 : viewShare(asked, r.p);
+        share = is_first ? 1.0 : viewShare(asked, GNOMON_SLICES_ALONE ? sharedDepth(r.p) : sliceDepth(asked, r.p));
         share = viewContains(asked, r.p) ? share : 0.0;
     } while (share == 0.0 && isLeft(s));
     return share;

@@ -17,6 +17,10 @@
 #define GNOMON_PARABOLOID true
 #endif
 #endif
+// Whether it is known already that a view's slice and sector hold a point, a constant.
+#ifndef GNOMON_KNOWN_VIEW
+#define GNOMON_KNOWN_VIEW false
+#endif
 GN_BEGIN
 
 GN_FN MapRows rowsOf(GpuView view)
@@ -113,13 +117,9 @@ GN_FN bool inSector(GpuView view, real3 p)
 // Does this view serve a point, and is the point in the map, so far from its tile's edge that no tap leaves the tile?
 GN_FN bool viewContains(GpuView view, real3 p)
 {
-#ifdef GNOMON_ONE_VIEW_OF
-    bool is_served = true;
-#else
-    bool is_served = inSlice(view, p);
-    bool is_own = inSector(view, p);
+    bool is_served = GNOMON_KNOWN_VIEW || inSlice(view, p);
+    bool is_own = GNOMON_KNOWN_VIEW || inSector(view, p);
     is_served = is_served && is_own;
-#endif
     if (GNOMON_PARABOLOID && view.plane_y.w > 0.0) {
         return is_served; // its half space is the disc, around which there is room for taps
     }
@@ -145,10 +145,16 @@ GN_FN bool viewContains(GpuView view, real3 p)
     return is_within;
 }
 
-// What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
-GN_FN real viewShare(GpuView view, real3 p)
+// At which depth of those that its slice counts in.
+GN_FN real sliceDepth(GpuView view, real3 p)
 {
-    real depth = dotRow(real4(view.slice_axis), p) / dotRow(real4(view.sector_w), p);
+    return dotRow(real4(view.slice_axis), p) / dotRow(real4(view.sector_w), p);
+}
+
+// What a view's visibility counts for where a view before it serves the point too: the one fades over into the other.
+// `depth`: sliceDepth().
+GN_FN real viewShare(GpuView view, real depth)
+{
     return clamp((depth - real(view.slice.x)) * real(view.slice.z), real(0.0), real(1.0)) * real(view.slice.w);
 }
 

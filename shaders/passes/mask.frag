@@ -38,6 +38,10 @@ layout(constant_id = 17) const bool kParaboloid = false; // views may be parabol
 #define GNOMON_PARABOLOID kParaboloid
 #endif
 layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a stand-in
+#ifndef GNOMON_ONE_VIEW
+layout(constant_id = 19) const bool kSlicesAlone = false; // see light_visibility.glsl
+#define GNOMON_SLICES_ALONE kSlicesAlone
+#endif
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers

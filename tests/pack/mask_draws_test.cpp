@@ -61,7 +61,11 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
     for (std::uint32_t count = 1; count <= kMaxCascades; ++count) {
         PlanByHand by_hand({cascades});
         by_hand.add(0, count);
-        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, count == 1 ? 1U : shared::kFewViews) << count;
+        const auto wished = static_cast<std::uint32_t>((*by_hand.plan.options)[0].cascades().count);
+        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, count == 1        ? 1U
+                                                      : count <= wished ? wished
+                                                                        : shared::kFewViews)
+            << count;
         by_hand.add(0, 0);
         EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "another light may come to have a map";
     }
@@ -70,6 +74,36 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
     PlanByHand by_hand({stepping});
     by_hand.add(0, 1);
     EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "it will be seen from two positions";
+}
+
+TEST(MaskDraws, FewViewsAreToldApartByWhatSetsThemApart)
+{
+    ShadowOptions cascades{.technique = kPlainTechnique};
+    cascades.technique.partition = Partition::cascades;
+    PlanByHand one({ShadowOptions{.technique = kPlainTechnique}});
+    one.add(0, 1);
+    const auto told = [](const PlanByHand& by_hand) {
+        return drawsOf(by_hand.plan)[0].told_apart;
+    };
+    EXPECT_EQ(told(one), pack::ToldApart::alone);
+    one.plan.views[0].slice.end_m = 5.0;
+    EXPECT_EQ(told(one), pack::ToldApart::tests) << "it does not serve what is farther";
+    one.plan.views[0].slice = {};
+    one.plan.views[0].gpu_cascade = 0;
+    EXPECT_EQ(told(one), pack::ToldApart::tests) << "the GPU gives it a slice";
+
+    PlanByHand several({cascades});
+    several.add(0, 3);
+    for (View& view : several.plan.views) {
+        view.slice.axis = {0.0, 0.0, -1.0, 2.0};
+        view.slice.end_m = 5.0;
+    }
+    EXPECT_EQ(told(several), pack::ToldApart::slices);
+    several.plan.views[1].slice.axis.w = 3.0;
+    EXPECT_EQ(told(several), pack::ToldApart::tests) << "one counts from elsewhere";
+    several.plan.views[1].slice.axis.w = 2.0;
+    several.plan.views[2].sector.x = {1.0, 0.0, 0.0, 0.0};
+    EXPECT_EQ(told(several), pack::ToldApart::tests) << "one stands beside others";
 }
 
 TEST(MaskDraws, ColouredLightIsDrawnToAllChannelsOfItsLayer)

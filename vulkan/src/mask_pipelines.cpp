@@ -80,7 +80,7 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
-    key.one_whole = key.one_whole && vertex_one_;
+    key.alone = key.alone && vertex_one_;
     const auto found = std::ranges::find(made_, key, &Made::key);
     if (found != made_.end()) {
         return found->pipeline.get();
@@ -94,8 +94,8 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.in_software = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
-    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.one_whole));
-    const TwoStages stages = stagesOf(key.one_whole ? vertex_one_ : vertex_, fragment, specialisation.info());
+    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.alone));
+    const TwoStages stages = stagesOf(key.alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout;

@@ -4,6 +4,7 @@
 
 #include "device.h"
 
+#include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/technique_constants.h>
 
 #include <vector>
@@ -24,6 +25,7 @@ struct MaskConstants {
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
     VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
     VkBool32 has_ids = VK_FALSE;
+    VkBool32 slices_alone = VK_FALSE; // ToldApart::slices
 
     bool operator==(const MaskConstants&) const = default;
 };
@@ -33,9 +35,14 @@ struct MaskPipelineKey {
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
     bool orthographic = false;             // all views of the draw's lights
-    bool one_whole = false;                // pack::MaskDraw::one_whole
+    bool alone = false;                    // ToldApart::alone
     bool shares = false;                   // pack::MaskDraw::shares: channels of other draws stay as they are
 
+    void tellApart(pack::ToldApart how)
+    {
+        alone = how == pack::ToldApart::alone;
+        constants.slices_alone = how == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
+    }
     bool operator==(const MaskPipelineKey&) const = default;
 };
 /// Of a draw of such options; format, device and what concerns the draw are left to be filled in.

@@ -47,7 +47,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
         key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
     }
     key.orthographic = draw.orthographic;
-    key.one_whole = draw.one_whole;
+    key.tellApart(draw.told_apart);
     key.shares = draw.shares;
     key.constants.technique.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
@@ -140,14 +140,16 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     }
     key.constants.coloured = isColoured(options) ? VK_TRUE : VK_FALSE;
     key.format = formatOf(channelsAlone(options));
-    key.constants.technique.few_views = pack::fewViews(options);
-    make();
-    key.constants.technique.few_views = std::min(key.constants.technique.few_views, 1U); // a spot has one map
-    make();
-    key.one_whole = key.constants.technique.few_views == 1;
-    make();
+    using pack::ToldApart;
+    for (const std::uint32_t few : {pack::fewViews(options), std::min(pack::fewViews(options), 1U)}) { // a spot has one
+        key.constants.technique.few_views = few;
+        for (const ToldApart how : {ToldApart::tests, few == 1 ? ToldApart::alone : ToldApart::slices}) {
+            key.tellApart(how);
+            make();
+        }
+    }
+    key.tellApart(ToldApart::tests);
     key.constants.technique.few_views = 0;
-    key.one_whole = false;
     key.format = formatOf(4);
     if (what.several_lights) {
         make();

@@ -368,7 +368,9 @@
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
+#define sharedDepth gnomon_sharedDepth
 #define signNotZero gnomon_signNotZero
+#define sliceDepth gnomon_sliceDepth
 #define slicesAt gnomon_slicesAt
 #define smoothDecode gnomon_smoothDecode
 #define smoothEncode gnomon_smoothEncode

@@ -368,7 +368,9 @@
 #undef shapeVisibility
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
+#undef sharedDepth
 #undef signNotZero
+#undef sliceDepth
 #undef slicesAt
 #undef smoothDecode
 #undef smoothEncode

@@ -20,6 +20,13 @@ namespace gnomon::pack {
 /// Which positions of a sun are seen.
 enum class SunShown : std::uint8_t { all, earlier, later };
 
+/// How a draw finds a point's view among few.
+enum class ToldApart : std::uint8_t {
+    tests,  // each has a slice and a sector of its own; also where views are not few
+    slices, // by slices of one depth, which they all count in
+    alone   // there is one, which serves all that is on its map
+};
+
 /// A triangle over a rectangle of one layer of the mask. Before the first draw the layer is 1 all over: lights without
 /// a map have no draw, and others none where they do not reach.
 struct MaskDraw {
@@ -34,7 +41,7 @@ struct MaskDraw {
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // other draws may have further channels of these pixels
     std::uint32_t few_views = 0;                           // fewViewsOf() the plan
-    bool one_whole = false; // few_views is 1, and that view serves all that is on its map
+    ToldApart told_apart = ToldApart::tests;
 };
 
 /// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.

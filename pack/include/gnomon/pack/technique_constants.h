@@ -27,7 +27,7 @@ struct TechniqueConstants {
 [[nodiscard]] TechniqueConstants techniqueConstants(const ResolvedOptions& options);
 
 /// A light that is never seen from two positions, alone in a plan, may have few views: then a pass may look among so
-/// many, 1 or kFewViews, of which some may be left over (fillViews()). Else 0.
+/// many, at most kFewViews, of which some may be left over (fillViews()). Else 0.
 [[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
 /// The same of a plan as it is: 0 where it has several lights, no views, more than kFewViews, or views of two positions
 /// of a sun.
