@@ -64,6 +64,9 @@ struct RenderOptions {
     ShadowOptions shadow;
     bool shadows = true;    // false: no plan, no maps, every mask reads 1 (the baseline of frame_ratio)
     bool reuse_maps = true; // false: every map is drawn every frame whatever the plan says
+    /// A mask that would come out as the one before is left as it is (MaskInputs::content). False: masks are drawn in
+    /// every frame, as of a camera that moves.
+    bool reuse_masks = true;
     /// Each frame looks at another point of its pixels (convergeSample()), so that what is averaged over frames is
     /// averaged over pixels too. The first looks at their middles.
     bool average_pixels = false;
@@ -104,6 +107,7 @@ struct FrameTimes {
     double frame_ms = 0.0; // from the start of submit() to the end of finish(), without read-back
     PassRecords passes;
     vulkan::MapReuse reuse; // which maps were drawn, restored and left as they were; zeros without shadows
+    bool mask_kept = false; // the mask was left as it was
 };
 
 /// Draws frames of one size, one after the other. Several may share a scene.

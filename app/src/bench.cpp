@@ -20,6 +20,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace gnomon::app {
 namespace {
@@ -41,15 +43,28 @@ void requireForward(const lab::Contestant& contestant)
     }
 }
 
-/// Every technique twice: maps drawn anew, and kept while they hold.
-std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques)
+/// What a technique's frames keep of those before.
+struct Kept {
+    bool maps = false;
+    bool masks = false;
+};
+
+/// Each technique's turns: all is drawn anew; maps are kept while they hold; and where nothing moves masks, too.
+std::span<const Kept> turnsOf(const Settings& settings)
+{
+    static constexpr std::array kTurns{Kept{false, false}, Kept{true, false}, Kept{true, true}};
+    return std::span(kTurns).first(settings.path.empty() ? 3 : 2);
+}
+
+std::vector<lab::Contestant> contestantsOf(const std::vector<Settings>& techniques, std::span<const Kept> turns)
 {
     std::vector<lab::Contestant> contestants;
     for (const Settings& technique : techniques) {
-        for (const bool reuse_maps : {false, true}) {
+        for (const Kept& kept : turns) {
             lab::Contestant contestant{describeTechnique(technique), renderOptions(technique)};
             requireForward(contestant);
-            contestant.options.reuse_maps = reuse_maps;
+            contestant.options.reuse_maps = kept.maps;
+            contestant.options.reuse_masks = kept.masks;
             contestant.options.keeps_light = false; // as of a frame that is shown
             contestants.push_back(std::move(contestant));
         }
@@ -94,7 +109,8 @@ void measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::ve
     const lab::TimingOptions options = timingOptions(settings);
     const host::SceneOnGpu scene(gpu, shot.scene, shot.state);
     lab::Subject subject = subjectOf(shot);
-    const std::vector<lab::Contestant> contestants = contestantsOf(techniques);
+    const std::span<const Kept> turns = turnsOf(settings);
+    const std::vector<lab::Contestant> contestants = contestantsOf(techniques, turns);
     Progress progress("timing", lab::timingSteps(subject, contestants, options));
     const lab::SubjectAt subject_at = [&](std::uint32_t round) -> const lab::Subject& {
         if (!settings.path.empty()) {
@@ -112,8 +128,12 @@ void measure(host::Gpu& gpu, Shot& shot, const Settings& settings, const std::ve
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         BenchedTechnique benched;
         benched.settings = techniques[i];
-        benched.redrawn = std::move(timing.techniques[2 * i]);
-        benched.reused = std::move(timing.techniques[2 * i + 1]);
+        const std::size_t first = i * turns.size();
+        benched.redrawn = std::move(timing.techniques[first]);
+        benched.reused = std::move(timing.techniques[first + 1]);
+        if (turns.size() > 2) {
+            benched.still = std::move(timing.techniques[first + 2]);
+        }
         result.techniques.push_back(std::move(benched));
     }
     measureFit(scene, shot, settings, result);

@@ -109,6 +109,12 @@ std::string reuseTable(const BenchResult& result)
     return "\n" + fittedTableText(table);
 }
 
+/// In how many of its frames the mask was left as it was.
+std::size_t keptMasks(const lab::Timed& technique)
+{
+    return static_cast<std::size_t>(std::ranges::count_if(technique.samples, &host::FrameTimes::mask_kept));
+}
+
 Json techniqueJson(const BenchedTechnique& technique)
 {
     Json json{{"technique", describeTechnique(technique.settings)},
@@ -120,6 +126,11 @@ Json techniqueJson(const BenchedTechnique& technique)
     json["static_frame_ratio"] = frameRatioJson(technique.reused);
     json["static_mean_texels_rendered"] = numberJson(technique.reused.mean_texels_rendered);
     json["static_reuse"] = reuseJson(technique.reused.samples);
+    if (technique.still) {
+        addTimes(json, "still_", technique.still->samples);
+        json["still_frame_ratio"] = frameRatioJson(*technique.still);
+        json["still_masks_kept"] = keptMasks(*technique.still);
+    }
     addMemory(json, technique.redrawn.added_memory);
     json["texel_density"] = densityJson(technique.density);
     json["fit_efficiency"] = fitEfficiencyJson(technique.density, technique.fit_efficiency);
@@ -167,6 +178,9 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     json["units"]["static_mean_texels_rendered"] = "texels per frame, maps that still hold kept";
     json["units"]["static_reuse"] = "maps, texels and casters per frame, maps that still hold kept";
     json["units"]["static_frame_ratio"] = "median frame with maps that still hold kept / median frame without shadows";
+    json["units"]["still_frame_ratio"] =
+        "median frame with maps and masks that still hold kept / median frame without shadows";
+    json["units"]["still_masks_kept"] = "of the frames timed";
     return json;
 }
 
@@ -180,13 +194,14 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
         settings.path.empty() ? "" : fmt::format(" along {} from {}", settings.path, settings.frames->first);
     std::string text = fmt::format(
         "{}, camera {}, {}x{}, map {}, on {} ({})\nmedian milliseconds of {} frames{}; static: "
-        "maps that still hold are kept\n\n{:<{}}",
+        "maps that still hold are kept, still: masks too\n\n{:<{}}",
         settings.scene, shot.camera, settings.size_px.x, settings.size_px.y, largestSide(settings.shadow),
         result.device, result.driver, result.techniques.front().redrawn.samples.size(), path, "technique", width);
     for (const Stage& stage : stages()) {
         text += fmt::format("{:>9}", stage.name);
     }
-    text += fmt::format("{:>8}{:>7}{:>9}{:>7}{:>9}\n", "iqr", "ratio", "static", "ratio", "MiB");
+    text += fmt::format("{:>8}{:>7}{:>9}{:>7}{:>9}{:>7}{:>9}\n", "iqr", "ratio", "static", "ratio", "still", "ratio",
+                        "MiB");
     text += fmt::format("{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9.3f}{:>8}{:>7}\n", "no shadows", width, "", "", "", "",
                         frameMedian(result.baseline.samples), iqrCell(result.baseline.samples), "1.00");
     for (const BenchedTechnique& technique : result.techniques) {
@@ -194,9 +209,12 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
         for (const Stage& stage : stages()) {
             text += fmt::format("{:>9.3f}", spreadOfStage(technique.redrawn.samples, stage).median);
         }
-        text += fmt::format("{:>8}{:>7}{:>9.3f}{:>7}{:>9.2f}\n", iqrCell(technique.redrawn.samples),
+        const std::optional<lab::Timed>& still = technique.still;
+        text += fmt::format("{:>8}{:>7}{:>9.3f}{:>7}{:>9}{:>7}{:>9.2f}\n", iqrCell(technique.redrawn.samples),
                             ratioCell(technique.redrawn), frameMedian(technique.reused.samples),
                             ratioCell(technique.reused),
+                            cell(still ? std::optional(frameMedian(still->samples)) : std::nullopt, 3),
+                            still ? ratioCell(*still) : std::string(kNoNumber),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
     }
     return text + passTable(result) + blurTable(result) + cascadeTable(result) +

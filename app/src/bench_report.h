@@ -8,6 +8,7 @@
 #include "result_json.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace gnomon::app {
 
 struct BenchedTechnique {
     Settings settings;
-    lab::Timed redrawn;        // every map drawn in every frame
-    lab::Timed reused;         // maps that still hold are kept
+    lab::Timed redrawn; // every map drawn in every frame
+    lab::Timed reused;  // maps that still hold are kept
+    /// Masks that still hold, too. Not along a path, where something moves.
+    std::optional<lab::Timed> still;
     lab::TexelDensity density; // of the first light; and so the next
     double fit_efficiency = 0.0;
 };

@@ -42,6 +42,7 @@ FrameTimes FrameRenderer::finish()
         self.times.passes.push_back(pass);
     }
     self.times.reuse = self.plan != nullptr ? self.now().shadows->renderer.reuse(self.slot) : vulkan::MapReuse{};
+    self.times.mask_kept = self.plan != nullptr && self.now().shadows->renderer.maskKept(self.slot);
     return self.times;
 }
 
@@ -171,6 +172,15 @@ void FrameRenderer::Impl::look(const scene::State& state, const Eye& eye, const 
     const Frustum frustum = frustumFromClip(frame.camera.clip_from_world);
     objects.query(frustum.planes, ObjectSet::Want::all, visible);
     sortNearestFirst();
+    nameContent();
+}
+
+/// Every object is in the set, receiver or not, and whatever moves or deforms it raises the set's version.
+void FrameRenderer::Impl::nameContent()
+{
+    const Shown now{frame.camera, frame.size_px, objects.version()};
+    content += content == 0 || now != shown_last ? 1 : 0;
+    shown_last = now;
 }
 
 void FrameRenderer::Impl::choosePipelines()

@@ -68,6 +68,16 @@ struct FrameRenderer::Impl {
     bool deform_now = false;
     bool whole = true; // it was submitted; false: something threw before
 
+    /// What depth and G-buffer show, and the number that names it.
+    struct Shown {
+        Camera camera;
+        glm::uvec2 size_px{0};
+        std::uint64_t version = 0; // of `objects`
+
+        bool operator==(const Shown&) const = default;
+    } shown_last;
+    ContentNumber content = 0;
+
     ObjectSet objects;
     std::vector<Light> frame_lights;
     std::vector<int> cookie_layers;
@@ -89,6 +99,7 @@ struct FrameRenderer::Impl {
     void finish();
     void update(const scene::State& state);
     void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights, Maps maps);
+    void nameContent();
     void sortNearestFirst();
     void makePlan(Maps maps, bool masked_instead);
     void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);

@@ -97,6 +97,7 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     inputs.smooth = targets.smooth().view;
     inputs.object_id = targets.ids().view;
     inputs.object_pieces = true; // scene.vert
+    inputs.content = options.reuse_masks ? content : 0;
     recordMaps(cmd, inputs);
     vulkan::ShadowRenderer& renderer = shadows->renderer;
     if (shadows->volumes) {

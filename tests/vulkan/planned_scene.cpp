@@ -3,9 +3,12 @@
 
 namespace gnomon::test {
 
-Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in)
-    : compact(compact_in), renderer(gpu.view(), {.compact = compact_in, .draws_fins = true}), drawer(gpu.view(), {}),
-      fins(gpu.view(), {})
+Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in,
+                 std::uint32_t frames_in_flight)
+    : compact(compact_in),
+      renderer(gpu.view(), {.frames_in_flight = frames_in_flight, .compact = compact_in, .draws_fins = true}),
+      drawer(gpu.view(), {.frames_in_flight = frames_in_flight}),
+      fins(gpu.view(), {.frames_in_flight = frames_in_flight})
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
     fins.setScene(mesh.outlines);
@@ -22,12 +25,21 @@ std::vector<Light> sunsAndSpots(std::uint32_t count)
     return lights;
 }
 
+namespace {
+
+Aabb boundsOf(const Box& box)
+{
+    const auto reach = static_cast<float>(glm::length(box.half)); // turned by whatever angle
+    return {glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach};
+}
+
+} // namespace
+
 PlannedScene::PlannedScene(Gpu& gpu, VkExtent2D screen) : gpu_(gpu), mesh_(uploadMesh(gpu, scene_))
 {
     (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}});
     for (const Box& box : scene_.boxes) {
-        const auto reach = static_cast<float>(glm::length(box.half)); // turned by whatever angle
-        (void)objects_.add({glm::vec3(box.centre) - reach, glm::vec3(box.centre) + reach});
+        (void)objects_.add(boundsOf(box));
     }
     remakeViews(screen, true, false);
 }
@@ -61,6 +73,12 @@ void PlannedScene::remakeViews(VkExtent2D screen, bool normals, bool ids)
     }
 }
 
+void PlannedScene::moveCaster()
+{
+    scene_.boxes[0].centre += glm::dvec3(0.4, 0.0, 0.3);
+    (void)objects_.update(objects_.idAt(1), boundsOf(scene_.boxes[0]));
+}
+
 Frame PlannedScene::frameOf(std::span<const Light> lights) const
 {
     Frame frame;
@@ -71,18 +89,25 @@ Frame PlannedScene::frameOf(std::span<const Light> lights) const
     return frame;
 }
 
-std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, const Plan& plan, std::uint32_t slot)
+std::vector<std::byte> PlannedScene::draw(Drawing& drawing, const Frame& frame, const Plan& plan, std::uint32_t slot,
+                                          vulkan::Profiler* profiler)
 {
     (void)drawing.renderer.prepare(plan, inputs_.extent);
     const auto transforms = scene_.transforms();
     gpu_.run([&](VkCommandBuffer commands) {
+        if (profiler != nullptr) {
+            profiler->beginFrame(commands, slot);
+        }
         drawing.drawer.beginFrame(slot, plan, mesh_.geometry, transforms);
         drawing.fins.beginFrame(slot, mesh_.edges, transforms);
-        drawing.renderer.recordBounds(commands, slot, frame, plan, inputs_);
-        drawing.renderer.recordMaps(commands, slot, frame, plan, [&](const vulkan::MapPass& pass) {
-            (void)(pass.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
-        });
-        drawing.renderer.recordMask(commands, slot, frame, plan, inputs_);
+        drawing.renderer.recordBounds(commands, slot, frame, plan, inputs_, profiler);
+        drawing.renderer.recordMaps(
+            commands, slot, frame, plan,
+            [&](const vulkan::MapPass& pass) {
+                (void)(pass.formats.fins ? drawing.fins.draw(pass) : drawing.drawer.draw(pass));
+            },
+            profiler);
+        drawing.renderer.recordMask(commands, slot, frame, plan, inputs_, profiler);
     });
     const vulkan::ImageRef mask = drawing.renderer.mask();
     const std::uint32_t layers = drawing.compact.channels > 0 ? mask.layers : plan.mask_layers;

@@ -12,7 +12,8 @@ namespace gnomon::test {
 
 /// A renderer and drawers on a device.
 struct Drawing {
-    Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {});
+    Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {},
+            std::uint32_t frames_in_flight = 2);
 
     pack::CompactMaskRule compact;
     vulkan::ShadowRenderer renderer;
@@ -30,9 +31,13 @@ public:
     /// The camera moves; destroys the views of what it saw and makes them anew, of this size.
     void remakeViews(VkExtent2D screen, bool normals, bool ids);
     [[nodiscard]] Frame frameOf(std::span<const Light> lights) const;
+    /// MaskInputs::content, until the views are made anew.
+    void nameContent(ContentNumber content) { inputs_.content = content; }
+    /// A box moves, for maps alone: the picture stays.
+    void moveCaster();
     /// All layers of the mask, one after the other.
     [[nodiscard]] std::vector<std::byte> draw(Drawing& drawing, const Frame& frame, const Plan& plan,
-                                              std::uint32_t slot = 0);
+                                              std::uint32_t slot = 0, vulkan::Profiler* profiler = nullptr);
     [[nodiscard]] const SceneMesh& mesh() const { return mesh_; }
 
 private:

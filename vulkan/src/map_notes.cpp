@@ -125,6 +125,7 @@ void MapNotes::done(const Plan& plan)
     assert(work_.size() == plan.views.size());
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
+        changes_ += work_[i].draw || work_[i].draw_kept ? 1 : 0;
         if (view.kept_map && work_[i].draw_kept) {
             note(view.kept_map, keptOf(plan, view));
         }
@@ -138,6 +139,7 @@ void MapNotes::done(const Plan& plan)
 
 void MapNotes::lose(std::uint32_t options)
 {
+    change();
     for (Held& held : held_) {
         if (held.options == options) {
             held.content = 0;

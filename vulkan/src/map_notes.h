@@ -24,6 +24,9 @@ public:
     [[nodiscard]] std::span<const ViewWork> workFor(const Plan& plan);
     /// The last work has been recorded: maps hold what their views make. Allocates nothing.
     void done(const Plan& plan);
+    /// Grows whenever what any map holds may be another than before.
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }
+    void change() { ++changes_; }
     /// Room for such a plan, so that neither of the above allocates.
     void reserve(const Plan& plan);
     /// The texels of all maps of one of the plan's options are gone, and of the kept ones, too.
@@ -47,6 +50,7 @@ private:
 
     std::vector<Held> held_; // by MapId::index
     std::vector<ViewWork> work_;
+    std::uint64_t changes_ = 0;
 };
 
 } // namespace gnomon::vulkan

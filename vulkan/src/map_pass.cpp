@@ -317,8 +317,9 @@ void DepthMaps::drawTogether(const MapJob& job, std::uint32_t first, std::uint32
 
 void DepthMaps::record(const MapJob& job)
 {
+    Profiler* const profiler = job.profilerOfWork();
     {
-        const Timed timed(job.profiler, job.commands, "shadow maps");
+        const Timed timed(profiler, job.commands, "shadow maps");
         copyOutgrown(job.commands);
         drawKept(job);
         drawMaps(job);
@@ -328,11 +329,11 @@ void DepthMaps::record(const MapJob& job)
         }
     }
     if (smoothies_) {
-        const Timed timed(job.profiler, job.commands, "shadow filter");
+        const Timed timed(profiler, job.commands, "shadow filter");
         smoothies_->record(job);
     }
     if (fins_) {
-        const Timed timed(job.profiler, job.commands, "shadow filter");
+        const Timed timed(profiler, job.commands, "shadow filter");
         fins_->record(job);
     }
 }

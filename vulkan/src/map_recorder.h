@@ -24,6 +24,16 @@ struct MapJob {
     {
         return optionsIndexOf(plan, plan.views[view]) == options ? work[view] : ViewWork{};
     }
+    /// The profiler where there is a map to draw: a pass that draws none is not listed.
+    [[nodiscard]] Profiler* profilerOfWork() const
+    {
+        for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
+            if (of(i).draw) {
+                return profiler;
+            }
+        }
+        return nullptr;
+    }
 };
 
 class MapRecorder {

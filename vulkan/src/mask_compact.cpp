@@ -10,6 +10,7 @@
 #include <gpu_structs.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace gnomon::vulkan {
 
@@ -70,16 +71,23 @@ std::uint32_t MaskPassRecorder::lightRoomFor(const Plan& plan) const
     return isCompact() ? std::max(static_cast<std::uint32_t>(plan.lights.size()), 1U) : pack::maskLightCount(plan);
 }
 
-void MaskPassRecorder::fillTiles(Slot& slot, const Frame& frame, const Plan& plan, glm::uvec2 size_px)
+void MaskPassRecorder::describeTiles(const Frame& frame, const Plan& plan, glm::uvec2 size_px)
 {
     pack::listCompactMask(frame, plan, compact_, size_px, lists_, tiles_);
-    const VkDeviceSize bytes = pack::maskTileWords(tiles_) * sizeof(glm::uvec2);
+    now_.tiles.resize(pack::maskTileWords(tiles_));
+    pack::fillMaskTiles(tiles_, now_.tiles);
+}
+
+void MaskPassRecorder::fillTiles(Slot& slot)
+{
+    const VkDeviceSize bytes = now_.tiles.size() * sizeof(glm::uvec2);
     if (slot.tiles.size() < bytes) {
         device_.retire(std::move(slot.tiles));
         // With room for a while: the lists change from frame to frame.
         slot.tiles = HostBuffer(device_, bytes + bytes / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "mask tiles");
     }
-    pack::fillMaskTiles(tiles_, {static_cast<glm::uvec2*>(slot.tiles.data()), pack::maskTileWords(tiles_)});
+    std::memcpy(slot.tiles.data(), now_.tiles.data(), bytes);
+    slot.tiles_of = drawings_;
 }
 
 BufferRef MaskPassRecorder::tiles(std::uint32_t slot) const

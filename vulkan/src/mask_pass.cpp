@@ -13,6 +13,7 @@
 #include <array>
 #include <cassert>
 #include <cstdio>
+#include <cstring>
 
 namespace gnomon::vulkan {
 namespace {
@@ -113,6 +114,7 @@ void MaskPassRecorder::makeObjects(const Plan& plan)
         return;
     }
     room_.objects = vectors + vectors / 2;
+    now_.numbers.resize(room_.objects);
     for (Slot& slot : slots_) {
         device_.retire(std::move(slot.objects));
         slot.objects =
@@ -122,7 +124,7 @@ void MaskPassRecorder::makeObjects(const Plan& plan)
 
 void MaskPassRecorder::makeBuffers(const Plan& plan)
 {
-    draws_.reserve(pack::mostMaskDraws(plan));
+    now_.draws.reserve(pack::mostMaskDraws(plan));
     makeObjects(plan);
     const auto options = static_cast<std::uint32_t>(plan.options->size());
     const std::uint32_t lights = lightRoomFor(plan);
@@ -152,10 +154,12 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
             device_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "constants");
     }
     map_images_.resize(room_.options);
+    now_.constants.resize(bytes);
 }
 
 void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
 {
+    drawn_.reset();
     device_.retire(std::move(mask_));
     mask_ = Image(device_,
                   {maskFormat(channelsFor(plan)), screen, layersFor(plan),
@@ -241,39 +245,21 @@ void MaskPassRecorder::makeStandInReadable(VkCommandBuffer commands)
     stand_in_readable_ = true;
 }
 
-void MaskPassRecorder::fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs,
-                            const MapClasses& maps)
+void MaskPassRecorder::fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps)
 {
-    auto* const bytes = static_cast<std::byte*>(slot.constants.data());
-    const glm::uvec2 screen_px(inputs.extent.width, inputs.extent.height);
+    ++drawings_;
+    std::memcpy(slot.constants.data(), now_.constants.data(), now_.constants.size());
     if (isCompact()) {
-        fillTiles(slot, frame, plan, screen_px);
+        fillTiles(slot);
     }
     if (slot.objects) {
-        pack::fillObjects(frame, plan, {static_cast<glm::vec4*>(slot.objects.data()), room_.objects});
+        std::memcpy(slot.objects.data(), now_.numbers.data(), now_.numbers.size() * sizeof(glm::vec4));
     }
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
-        map_images_[i] = {};
         if (maps[i]) {
-            const ImageInfo& info = maps[i]->recorder->maps().info();
-            map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
             writeSet(slot, i, inputs, *maps[i]);
         }
-        auto& constants = *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride);
-        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], constants);
-        if (drawsToConverge(plan) && weighsFrames((*plan.options)[i])) {
-            constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
-        }
     }
-    const std::span lights(reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights);
-    if (isCompact()) {
-        pack::fillLights(frame, plan, lights);
-    } else {
-        pack::fillMaskLights(frame, plan, draws_, lights);
-    }
-    const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
-    pack::fillViews(frame, plan, map_images_, views);
-    placeTints(plan, maps, views);
 }
 
 void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuView> views)
@@ -320,7 +306,7 @@ void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, c
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
                               0.0F, 1.0F};
     device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    for (const pack::MaskDraw& draw : draws_) {
+    for (const pack::MaskDraw& draw : now_.draws) {
         if (draw.layer == layer) {
             recordDraw(commands, plan, slot, draw);
         }
@@ -354,19 +340,12 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
-    shape_ =
-        MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
+    drawn_.reset(); // until all of it is there
     if (!stand_in_readable_) {
         makeStandInReadable(commands);
     }
     Slot& slot = slots_[slot_index];
-    const glm::uvec2 size_px(inputs.extent.width, inputs.extent.height);
-    if (isCompact()) {
-        pack::listCompactMaskDraws(plan, compact_, size_px, draws_);
-    } else {
-        pack::listMaskDraws(frame, plan, size_px, draws_);
-    }
-    fill(slot, frame, plan, inputs, maps);
+    fill(slot, plan, inputs, maps);
     if (CascadeFitter::fits(plan)) {
         fitter.recordViews(commands, slot_index, CascadeFitter::Reader::mask,
                            {slot.constants.buffer(), room_.views_at, static_cast<std::uint32_t>(plan.views.size())});
@@ -392,6 +371,9 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
         converge_->record(commands, slot_index, frame, plan,
                           {inputs.depth, inputs.depth_layout, inputs.normal, slot.constants.buffer()}, mask_);
         toReadable(device_, commands, mask_);
+    }
+    if (now_.inputs != 0) {
+        drawn_ = now_;
     }
 }
 

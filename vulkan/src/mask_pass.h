@@ -7,6 +7,7 @@
 #include "converge_pass.h"
 #include "map_class.h"
 #include "mask_pipelines.h"
+#include "mask_source.h"
 #include "soften_pass.h"
 #include "volume_pass.h"
 
@@ -47,6 +48,14 @@ public:
     /// plan needs for inputs of the options' shape; without one, for inputs as record() was given last. Only a first
     /// record() whose shape nobody told makes its own.
     bool prepare(const Plan& plan, VkExtent2D screen, const MapClasses& maps);
+    /// Finds what this frame's mask is drawn from: before all below. `map_changes`: MapNotes::changes().
+    void describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
+                  std::uint64_t map_changes);
+    /// Is the mask that was described the one that mask() has?
+    [[nodiscard]] bool holds() const { return now_.inputs != 0 && drawn_ && now_ == *drawn_; }
+    /// Instead of record() and recordSoften(), where it is.
+    void keep(std::uint32_t slot);
+    /// Draws what was described.
     void record(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                 const MaskInputs& inputs, const MapClasses& maps, CascadeFitter& fitter);
     /// Blurs what record() left, for a plan that wants it.
@@ -63,6 +72,7 @@ private:
     struct Slot {
         HostBuffer constants;              // GpuConstants by options, then lights and views
         HostBuffer tiles;                  // of a compact mask
+        std::uint64_t tiles_of = 0;        // which mask's they are: drawings_
         HostBuffer objects;                // pack::fillObjects(); of plans without ids none
         std::vector<VkDescriptorSet> sets; // by options
     };
@@ -83,7 +93,9 @@ private:
     [[nodiscard]] std::uint32_t layersFor(const Plan& plan) const;
     [[nodiscard]] std::uint32_t channelsFor(const Plan& plan) const;
     [[nodiscard]] std::uint32_t lightRoomFor(const Plan& plan) const;
-    void fillTiles(Slot& slot, const Frame& frame, const Plan& plan, glm::uvec2 size_px);
+    void describeTiles(const Frame& frame, const Plan& plan, glm::uvec2 size_px);
+    void describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px, const MapClasses& maps);
+    void fillTiles(Slot& slot);
 
     void makeLayouts();
     void makeSets(std::uint32_t options);
@@ -107,7 +119,7 @@ private:
     void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
     [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape);
     void makeStandInReadable(VkCommandBuffer commands);
-    void fill(Slot& slot, const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
+    void fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
                      std::uint32_t layer);
     void recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const pack::MaskDraw& draw);
@@ -126,8 +138,10 @@ private:
     MaskPipelines pipelines_;
     std::vector<Slot> slots_;
     Room room_;
-    std::vector<pack::MaskDraw> draws_;         // of the frame that is being recorded
-    std::vector<pack::MapImage> map_images_;    // likewise, by options
+    MaskSource now_;                            // of the frame that is being recorded
+    std::optional<MaskSource> drawn_;           // what mask_ was drawn from, where that is known
+    std::uint64_t drawings_ = 0;                // of masks
+    std::vector<pack::MapImage> map_images_;    // of the frame that is being recorded, by options
     std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
     pack::LightLists lists_;                    // of the frame, for a compact mask
     pack::CompactMask tiles_;                   // likewise

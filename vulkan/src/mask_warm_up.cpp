@@ -61,11 +61,11 @@ void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
 {
     const glm::uvec2 size_px(mask_.info().extent.width, mask_.info().extent.height);
     if (isCompact()) {
-        pack::listCompactMaskDraws(plan, compact_, size_px, draws_);
+        pack::listCompactMaskDraws(plan, compact_, size_px, now_.draws);
     } else {
-        pack::listMaskDraws(plan, size_px, draws_);
+        pack::listMaskDraws(plan, size_px, now_.draws);
     }
-    for (const pack::MaskDraw& draw : draws_) {
+    for (const pack::MaskDraw& draw : now_.draws) {
         (void)pipeline(plan, draw, shape);
     }
 }

@@ -147,7 +147,9 @@ void ShadowRenderer::recordMaps(VkCommandBuffer commands, std::uint32_t slot, [[
             if (pass.kind == pack::FramePassKind::maps) {
                 const MapJob job{commands, slot, plan, pass.options, work, placed, profiler};
                 parts.classes[pass.options]->recorder->record(job);
-                parts.classes[pass.options]->tints.record(job);
+                if (parts.classes[pass.options]->tints.record(job)) {
+                    parts.notes.change();
+                }
             }
         }
         parts.notes.done(plan);
@@ -180,6 +182,18 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
         refuseUse(kTried, "prepare() made no images for this plan's blur", "call prepare() with it first");
     }
     impl_->device.enter(slot, Retirement::Work::mask);
+    bool kept = false;
+    impl_->whole([&](RendererParts& parts) {
+        parts.mask.describe(frame, plan, inputs, parts.classes, parts.notes.changes());
+        kept = parts.mask.holds();
+        if (kept) {
+            parts.mask.keep(slot);
+        }
+        parts.mask_kept[slot] = kept ? 1 : 0;
+    });
+    if (kept) {
+        return;
+    }
     std::optional<Timed> timed(std::in_place, profiler, commands, "mask");
     impl_->whole([&](RendererParts& parts) {
         for (const std::unique_ptr<MapClass>& maps : parts.classes) {
@@ -275,6 +289,11 @@ FilterCost ShadowRenderer::filterCost(std::uint32_t slot) const
         }
     }
     return sum;
+}
+
+bool ShadowRenderer::maskKept(std::uint32_t slot) const
+{
+    return slot < impl_->parts->mask_kept.size() && impl_->parts->mask_kept[slot] != 0;
 }
 
 MapReuse ShadowRenderer::reuse(std::uint32_t slot) const

@@ -123,6 +123,9 @@ bool RendererParts::prepare(const Plan& plan, VkExtent2D screen)
             }
         }
     }
+    if (changed) {
+        notes.change();
+    }
     fitter.prepare(plan);
     const bool wants_mask = screen.width > 0 && screen.height > 0;
     const bool mask_changed = wants_mask && mask.prepare(plan, screen, classes);

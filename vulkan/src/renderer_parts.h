@@ -26,7 +26,8 @@ struct Spare {
 struct RendererParts {
     RendererParts(Device& device_in, const ShadowRendererOptions& options_in, bool layered_in)
         : device(device_in), options(options_in), fitter(device, options.frames_in_flight, options.pipeline_cache),
-          mask(device, options), layered(layered_in), reuse(options.frames_in_flight)
+          mask(device, options), layered(layered_in), reuse(options.frames_in_flight),
+          mask_kept(options.frames_in_flight)
     {
     }
 
@@ -54,6 +55,7 @@ struct RendererParts {
     bool layered;                        // the device can
     std::vector<pack::FramePass> passes; // of the plan that was prepared last
     std::vector<MapReuse> reuse;         // by slot
+    std::vector<std::uint8_t> mask_kept; // likewise
     MapNotes notes;
     PreparedSize prepared;
     bool has_mask = false; // prepare() was given a screen

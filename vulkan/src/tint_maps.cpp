@@ -83,23 +83,33 @@ bool TintMaps::prepare(const Plan& plan, std::uint32_t options, const std::funct
     return grows || in_use_ != was_in_use;
 }
 
-void TintMaps::record(const MapJob& job)
+bool TintMaps::draws(const MapJob& job, std::uint32_t index) const
+{
+    const View& view = job.plan.views[index];
+    const bool holds = view.makes == 0 || held_[view.map.index] == view.makes;
+    return places_[index] != 0 && (job.of(index).draw || !holds);
+}
+
+bool TintMaps::record(const MapJob& job)
 {
     if (!in_use_) {
-        return;
+        return false;
     }
-    const Timed timed(job.profiler, job.commands, "maps of tints");
+    bool any = false;
+    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+        any = any || draws(job, i);
+    }
+    const Timed timed(any ? job.profiler : nullptr, job.commands, "maps of tints");
     tints_.copyOutgrown(job.commands);
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
-        const View& view = job.plan.views[i];
-        const bool holds = view.makes == 0 || held_[view.map.index] == view.makes;
-        if (places_[i] != 0 && (job.of(i).draw || !holds)) {
+        if (draws(job, i)) {
             draw(job, i);
-            held_[view.map.index] = view.makes;
+            held_[job.plan.views[i].map.index] = job.plan.views[i].makes;
         }
     }
     BarrierBatch after(device_, job.commands);
     tints_.makeReadable(after);
+    return any;
 }
 
 void TintMaps::draw(const MapJob& job, std::uint32_t index)

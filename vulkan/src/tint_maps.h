@@ -28,8 +28,8 @@ public:
     /// Finds the views with blended casters, and makes what images they need. Returns whether image() or inUse() is
     /// another than before. Throws Error where the device cannot blend in the format of tints.
     bool prepare(const Plan& plan, std::uint32_t options, const std::function<bool(std::uint32_t)>& is_blended);
-    /// After the maps: draws those that do not hold what their views want.
-    void record(const MapJob& job);
+    /// After the maps: draws those that do not hold what their views want. Were there any?
+    bool record(const MapJob& job);
     /// Some view of the prepared plan has one.
     [[nodiscard]] bool inUse() const { return in_use_; }
     [[nodiscard]] const Image& image() const { return tints_.image(); }
@@ -38,6 +38,7 @@ public:
 
 private:
     void makeImages(const MapPages& pages, std::uint32_t layers);
+    [[nodiscard]] bool draws(const MapJob& job, std::uint32_t view) const;
     void draw(const MapJob& job, std::uint32_t view);
     void beginRendering(VkCommandBuffer commands, const Tile& tile, VkImageView colour);
 

@@ -19,6 +19,8 @@ struct ScreenBounds {
     std::uint32_t y1 = 0;
 
     [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+
+    bool operator==(const ScreenBounds&) const = default;
 };
 
 /// Every pixel that may show a point in the light's reach is inside: all of the picture for a directional light, for a

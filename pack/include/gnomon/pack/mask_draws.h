@@ -42,6 +42,8 @@ struct MaskDraw {
     bool shares = false;                                   // other draws may have further channels of these pixels
     std::uint32_t few_views = 0;                           // fewViewsOf() the plan
     ToldApart told_apart = ToldApart::tests;
+
+    bool operator==(const MaskDraw&) const = default;
 };
 
 /// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.

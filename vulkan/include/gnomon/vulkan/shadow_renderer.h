@@ -31,6 +31,8 @@ struct MaskShape {
     bool normals = false;
     bool ids = false; // of objects
     bool smooth = false;
+
+    bool operator==(const MaskShape&) const = default;
 };
 
 inline constexpr std::uint32_t kMostFrames = 64; // in flight
@@ -100,6 +102,11 @@ struct MaskInputs {
     /// The upper 12 bits of `object_id` are the piece of the object, counted from 0 (pixelObject()), as casters have
     /// it. Lights with IdOf::face need it.
     bool object_pieces = false;
+    /// Names what all these images show; 0: nobody knows. With the number that the recordMask() before was given, the
+    /// host says that they hold what they held then, texel by texel, be they other images or not. recordMask() then
+    /// leaves the mask as it is, and records nothing, where all else that it is drawn from is as it was, too. That it
+    /// finds out by itself: maps, lights, camera, options.
+    ContentNumber content = 0;
     /// Draws shadow volumes (VolumeDrawer is such a callback). Needed where the plan has lights with filter volumes.
     DrawVolumes volumes;
 };
@@ -311,7 +318,9 @@ public:
     /// that faces away from a light (or that it grazes, below 0.11 degrees) 0. Pixels at which nothing can be in a
     /// spot or point light's reach (pack::screenBounds()) are 1, whichever way their surface faces: it is not drawn
     /// there. Without Frame::objects only a light with a range has such pixels. Afterwards mask() is readable by
-    /// FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER.
+    /// FRAGMENT_SHADER, COMPUTE_SHADER and TRANSFER. Nothing is recorded where mask() holds all this already
+    /// (MaskInputs::content); of lights whose frames converge, of suns with step-alternate and of views with
+    /// View::gpu_cascade that is not known.
     void recordMask(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                     const MaskInputs& inputs, Profiler* profiler = nullptr);
 
@@ -350,6 +359,8 @@ public:
     /// Of the last recordMaps() that was given this slot, once the GPU has finished it. What that counted is made
     /// visible to the host by recordMaps().
     [[nodiscard]] FilterCost filterCost(std::uint32_t slot) const;
+    /// Did the last recordMask() that was given this slot leave the mask as it was?
+    [[nodiscard]] bool maskKept(std::uint32_t slot) const;
     /// Of the last recordMaps() that was given this slot.
     [[nodiscard]] MapReuse reuse(std::uint32_t slot) const;
     /// lvsm: the layers of a view of the plan that was recorded last, nearest first, once the GPU has finished

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mask pass draws from, found before anything is recorded, and held against what the mask was drawn from.
+#include "mask_source.h"
+
+#include "mask_pass.h"
+
+#include <gnomon/pack/frame_passes.h>
+#include <gnomon/plan_views.h>
+
+#include <gpu_structs.h>
+
+#include <algorithm>
+
+namespace gnomon::vulkan {
+
+ContentNumber nameOfInputs(const Plan& plan, const MaskInputs& inputs)
+{
+    const bool goes_on = std::ranges::any_of(
+        plan.lights, [](const LightPlan& light) { return pack::takesTurns(light) || pack::joinsFrames(light); });
+    return goes_on || CascadeFitter::fits(plan) ? 0 : inputs.content;
+}
+
+void MaskPassRecorder::describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
+                                std::uint64_t map_changes)
+{
+    assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
+    shape_ =
+        MaskShape{inputs.normal != VK_NULL_HANDLE, inputs.object_id != VK_NULL_HANDLE, inputs.smooth != VK_NULL_HANDLE};
+    const glm::uvec2 size_px(inputs.extent.width, inputs.extent.height);
+    const bool counts = VolumePassRecorder::draws(plan) && frame.objects != nullptr;
+    now_.inputs = nameOfInputs(plan, inputs);
+    now_.map_changes = map_changes;
+    now_.options = plan.options;
+    now_.shape = *shape_;
+    now_.pieces = inputs.object_pieces;
+    now_.objects = counts ? frame.objects->identity() : 0;
+    now_.version = counts ? frame.objects->version() : 0;
+    now_.camera = counts ? frame.camera : Camera{};
+    now_.lights.assign(frame.lights.begin(), counts ? frame.lights.end() : frame.lights.begin());
+    if (isCompact()) {
+        describeTiles(frame, plan, size_px);
+        pack::listCompactMaskDraws(plan, compact_, size_px, now_.draws);
+    } else {
+        pack::listMaskDraws(frame, plan, size_px, now_.draws);
+    }
+    if (!now_.numbers.empty()) {
+        pack::fillObjects(frame, plan, now_.numbers);
+    }
+    describeConstants(frame, plan, size_px, maps);
+}
+
+void MaskPassRecorder::describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
+                                         const MapClasses& maps)
+{
+    std::byte* const bytes = now_.constants.data();
+    for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
+        map_images_[i] = {};
+        if (maps[i]) {
+            const ImageInfo& info = maps[i]->recorder->maps().info();
+            map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
+        }
+        auto& constants = *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride);
+        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], constants);
+        if (drawsToConverge(plan) && weighsFrames((*plan.options)[i])) {
+            constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
+        }
+    }
+    const std::span lights(reinterpret_cast<shared::GpuLight*>(bytes + room_.lights_at), room_.lights);
+    if (isCompact()) {
+        pack::fillLights(frame, plan, lights);
+    } else {
+        pack::fillMaskLights(frame, plan, now_.draws, lights);
+    }
+    const std::span views(reinterpret_cast<shared::GpuView*>(bytes + room_.views_at), room_.views);
+    pack::fillViews(frame, plan, map_images_, views);
+    placeTints(plan, maps, views);
+}
+
+void MaskPassRecorder::keep(std::uint32_t slot)
+{
+    assert(slot < slots_.size() && holds());
+    if (isCompact() && slots_[slot].tiles_of != drawings_) {
+        fillTiles(slots_[slot]);
+    }
+}
+
+} // namespace gnomon::vulkan
