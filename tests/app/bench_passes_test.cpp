@@ -50,6 +50,27 @@ TEST(BenchPasses, AreInJson)
     EXPECT_TRUE(bench["baseline"]["passes"][0]["texels"].is_null());
 }
 
+/// Where nothing moves the mask stays from the second frame on, but where frames converge.
+TEST(BenchPasses, AreNoneOfShadowsWhereNothingMoves)
+{
+    const test::Folder folder;
+    const test::Ran ran =
+        test::gnomon({"bench", "planes", "--sun", "1,-2,1", "--size", "64x32", "--map-size", "128", "--repetitions",
+                      "4", "--warmup", "3", "--techniques", "pcf,pcf+converge", "--json"},
+                     {.folder = folder.path()});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json bench = json::parse(ran.out);
+    const json& still = bench["results"][0];
+    EXPECT_EQ(still["still_masks_kept"], 4);
+    EXPECT_EQ(still["still_time_ms"]["mask"], 0.0);
+    EXPECT_EQ(still["still_time_ms"]["maps"], 0.0);
+    EXPECT_GT(still["still_time_ms"]["frame"].get<double>(), 0.0);
+    EXPECT_GT(still["still_frame_ratio"].get<double>(), 0.0);
+    EXPECT_GT(still["static_time_ms"]["mask"].get<double>(), 0.0);
+    EXPECT_EQ(bench["results"][1]["still_masks_kept"], 0);
+    EXPECT_GT(bench["results"][1]["still_time_ms"]["mask"].get<double>(), 0.0);
+}
+
 /// Surfaces ask the maps themselves, so there is neither G-buffer nor mask.
 TEST(BenchPasses, AreThoseOfForwardShading)
 {

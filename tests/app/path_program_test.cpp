@@ -223,6 +223,7 @@ TEST(PathProgram, BenchTimesTheFrames)
     const json result = json::parse(ran.out);
     EXPECT_EQ(result["path"]["frames"]["last"], 3);
     EXPECT_GT(result["results"][0]["time_ms"]["frame"].get<double>(), 0.0);
+    EXPECT_FALSE(result["results"][0].contains("still_time_ms")); // something moves
     // A free motion follows the camera: every map is drawn in every frame.
     EXPECT_EQ(result["results"][0]["static_mean_texels_rendered"], 2 * 64.0 * 64.0); // sun and spot
 }

@@ -95,7 +95,7 @@ public:
         times_ = renderer_.finish();
         return renderer_.read({.colour = false, .linear = true}).linear;
     }
-    /// Were maps of tints there for the last frame?
+    /// Were maps of tints drawn in the last frame?
     [[nodiscard]] bool tinted() const
     {
         return std::ranges::any_of(times_.passes, [](const vulkan::PassRecord& pass) {
@@ -267,7 +267,8 @@ TEST_F(TintedReceiver, StaysRightWhileGlassComesAndGoes)
             stage.moveGlass(away);
         }
         const ImageF picture = stage.drawn(steps[i].lights);
-        EXPECT_EQ(stage.tinted(), !away) << "step " << i;
+        const bool repeats = i > 0 && steps[i].away == steps[i - 1].away && steps[i].lights == steps[i - 1].lights;
+        EXPECT_EQ(stage.tinted(), !away && !repeats) << "step " << i;
         Stage fresh(gpu_, wish, plainWith(Filter::pcf), Translucent::colour);
         if (away) {
             fresh.moveGlass(true);

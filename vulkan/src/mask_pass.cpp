@@ -159,7 +159,7 @@ void MaskPassRecorder::makeBuffers(const Plan& plan)
 
 void MaskPassRecorder::makeMask(const Plan& plan, VkExtent2D screen)
 {
-    drawn_.reset();
+    drawn_is_known_ = false;
     device_.retire(std::move(mask_));
     mask_ = Image(device_,
                   {maskFormat(channelsFor(plan)), screen, layersFor(plan),
@@ -340,7 +340,7 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     assert(frame.lights.size() == plan.lights.size() && plan.views.size() <= room_.views);
     assert(inputs.depth != VK_NULL_HANDLE);
     assert(inputs.extent.width == mask_.info().extent.width && inputs.extent.height == mask_.info().extent.height);
-    drawn_.reset(); // until all of it is there
+    drawn_is_known_ = false; // until all of it is there
     if (!stand_in_readable_) {
         makeStandInReadable(commands);
     }
@@ -373,7 +373,8 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
         toReadable(device_, commands, mask_);
     }
     if (now_.inputs != 0) {
-        drawn_ = now_;
+        drawn_ = now_; // keeps what it has allocated
+        drawn_is_known_ = true;
     }
 }
 

@@ -52,7 +52,7 @@ public:
     void describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
                   std::uint64_t map_changes);
     /// Is the mask that was described the one that mask() has?
-    [[nodiscard]] bool holds() const { return now_.inputs != 0 && drawn_ && now_ == *drawn_; }
+    [[nodiscard]] bool holds() const { return now_.inputs != 0 && drawn_is_known_ && now_ == drawn_; }
     /// Instead of record() and recordSoften(), where it is.
     void keep(std::uint32_t slot);
     /// Draws what was described.
@@ -138,8 +138,9 @@ private:
     MaskPipelines pipelines_;
     std::vector<Slot> slots_;
     Room room_;
-    MaskSource now_;                            // of the frame that is being recorded
-    std::optional<MaskSource> drawn_;           // what mask_ was drawn from, where that is known
+    MaskSource now_;   // of the frame that is being recorded
+    MaskSource drawn_; // what mask_ was drawn from
+    bool drawn_is_known_ = false;
     std::uint64_t drawings_ = 0;                // of masks
     std::vector<pack::MapImage> map_images_;    // of the frame that is being recorded, by options
     std::vector<std::uint8_t> tinted_;          // by options: some view has a map of tints
