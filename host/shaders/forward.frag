@@ -31,7 +31,7 @@ uint receiver_piece;
 #include "shaded_lights.glsl"
 #include "shown.glsl"
 
-layout(set = 0, binding = 7) uniform sampler2DArray cookies;
+layout(set = 0, binding = 4) uniform sampler2DArray cookies;
 
 layout(location = 0) in vec4 normal;
 layout(location = 1) in vec4 uvs;

@@ -4,7 +4,7 @@
 // neighbours' luma, two taps near and two far along it, the far ones taken only where they stay in the local range).
 #version 460
 
-layout(set = 0, binding = 9) uniform sampler2D picture; // linear filter, clamped; alpha: luma
+layout(set = 0, binding = 6) uniform sampler2D picture; // linear filter, clamped; alpha: luma
 layout(location = 0) out vec4 out_colour;
 
 const float kLeastContrast = 1.0 / 24.0;    // of full range: what is flatter stays

@@ -7,15 +7,13 @@
 #include "screen_numbers.glsl"
 #include "ray.glsl"
 #include "shaded_lights.glsl"
-#include "shared/octahedral.h"
+#include "gbuffer_surface.glsl"
 #include "shown.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D depths;
-layout(set = 0, binding = 2) uniform sampler2D bases;
-layout(set = 0, binding = 3) uniform sampler2D normals;
-layout(set = 0, binding = 4) uniform sampler2D materials;
-layout(set = 0, binding = 6) uniform sampler2DArray mask;
-layout(set = 0, binding = 7) uniform sampler2DArray cookies;
+layout(set = 0, binding = 2) uniform usampler2D surfaces;
+layout(set = 0, binding = 3) uniform sampler2DArray mask;
+layout(set = 0, binding = 4) uniform sampler2DArray cookies;
 layout(location = 0) out vec4 out_light;
 #ifdef HOST_COMPACT_MASK
 #define GNOMON_TILES_SET 1
@@ -46,20 +44,19 @@ vec3 seenOf(uint i, ivec2 pixel)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 base = texelFetch(bases, pixel, 0);
-    base.rgb *= base.rgb;
-    vec4 numbers = texelFetch(materials, pixel, 0);
-    float model = kPhysicalOnly ? 0.0 : floor(numbers.a * 2.0 + 0.5);
+    StoredSurface stored = unpackSurface(texelFetch(surfaces, pixel, 0).xyz);
+    vec4 base = stored.base;
+    float model = kPhysicalOnly ? 0.0 : stored.model;
     if (model == 2.0) {
         out_light = shown(base.rgb * FRAME_HORIZON.w, 1.0);
         return;
     }
     float depth = texelFetch(depths, pixel, 0).r;
     vec3 p = rayOf(gl_FragCoord.xy) / (FRAME_DEPTH.x * depth + FRAME_DEPTH.y);
-    vec3 n = octahedralDecode(texelFetch(normals, pixel, 0).ba);
-    float second = model == 1.0 ? exp2(numbers.g * 16.0) - 1.0 : numbers.g;
-    Lit s = litSurface(p, n, base.rgb, kPhong2005 ? 0.0 : numbers.r, second, kPhong2005 ? 1.0 : model);
-    vec3 sum = kPhong2005 ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : numbers.g, base.a);
+    float second = model == 1.0 ? exp2(stored.second * 16.0) - 1.0 : stored.second;
+    Lit s = litSurface(p, stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
+                       kPhong2005 ? 1.0 : model);
+    vec3 sum = kPhong2005 ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : stored.second, base.a);
 #ifdef HOST_COMPACT_MASK
     GnomonTileLights tile = gnomonTileLights(pixel);
     for (uint i = tile.first; i < tile.first + tile.count; ++i) {

@@ -10,8 +10,8 @@ layout(constant_id = 0) const bool kAverageFour = false;
 layout(constant_id = 1) const bool kBloom = false;
 layout(constant_id = 2) const float kBloomShare = 0.0; // intensity / levels
 layout(constant_id = 3) const float kBloomRadius = 1.0;
-layout(set = 0, binding = 8) uniform sampler2D radiance;
-layout(set = 0, binding = 10) uniform sampler2D glow; // half the size, linear filter, clamped
+layout(set = 0, binding = 5) uniform sampler2D radiance;
+layout(set = 0, binding = 7) uniform sampler2D glow; // half the size, linear filter, clamped
 layout(location = 0) out vec4 out_colour;
 
 // `added` is left out, not 0, where there is no bloom: the picture is the same to the last bit.

@@ -201,6 +201,9 @@ void FrameRenderer::Impl::choosePipelines()
         chooseForward(by);
         return;
     }
+    gbuffer.shape = plan != nullptr ? shadows->reads : GBufferShape{};
+    gbuffer.pipelines = &pipelines.gbufferFor(gbuffer.shape);
+    screen->needGBuffer(gbuffer.shape);
     shade = pipelines.shadeFor(by);
     by.fixed_lights = 0; // tiles have any number
     by.all_directional = false;
@@ -315,7 +318,7 @@ void FrameRenderer::Impl::describeFrame()
         return;
     }
     finished.normals = refOf(targets.normals(), kSampled);
-    finished.ids = refOf(targets.ids(), kSampled);
+    finished.ids = refOf(targets.surfaces(), kSampled);
     finished.compact_masks = hasTiles();
     if (!frame_lights.empty() && (plan != nullptr || instead != nullptr)) {
         finished.masks = instead != nullptr ? refOf(*instead, kSampled) : shadows->renderer.mask();

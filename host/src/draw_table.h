@@ -40,6 +40,9 @@ struct DrawTable {
     std::vector<std::uint8_t> closed;   // closedObjects()
     std::vector<std::uint8_t> outlined; // outlinedObjects()
     std::vector<std::uint16_t> pieces;  // pieceCounts()
+    // Of opaque objects.
+    bool all_receive = true;
+    bool any_smooth = false; // Geometry::isSmooth()
     /// Per object, which primitive of which mesh it is.
     struct Source {
         std::uint32_t mesh = 0;

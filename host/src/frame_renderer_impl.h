@@ -57,6 +57,11 @@ struct FrameRenderer::Impl {
         ForwardFacts facts;
         const KindPipelines* pipelines = nullptr;
     } forward;
+    /// Of a frame with a G-buffer.
+    struct {
+        GBufferShape shape;
+        const KindPipelines* pipelines = nullptr;
+    } gbuffer;
     bool toned = false; // what shades goes through the tone curve at once
     VkPipeline sky = VK_NULL_HANDLE;
     VkPipeline shade = VK_NULL_HANDLE;

@@ -4,6 +4,7 @@
 #include <gnomon/error.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,33 @@ void packConstant(const scene::Primitive& primitive, std::uint32_t base_set, std
         const glm::vec4 c = primitive.colours[i];
         out.colour = {rootUnorm(c.x), rootUnorm(c.y), rootUnorm(c.z), rootUnorm(c.w)};
     }
+}
+
+// Of flat triangles smooth_surface.h takes everything below four times this for flat. Transforms may stretch it.
+constexpr float kLeaning = 0.001F;
+
+// Does a normal of a triangle without a creased vertex lean away from the triangle's own?
+bool leans(const scene::Primitive& primitive, const std::uint32_t* v)
+{
+    const glm::vec3 first = primitive.positions[v[0]];
+    const glm::vec3 across = glm::cross(primitive.positions[v[1]] - first, primitive.positions[v[2]] - first);
+    const float length = glm::length(across);
+    return std::all_of(v, v + 3, [&](std::uint32_t i) { return primitive.creased[i] == 0; }) &&
+           std::any_of(v, v + 3, [&](std::uint32_t i) {
+               const glm::vec3& normal = primitive.normals[i];
+               const float side = glm::dot(across, normal) < 0.0F ? -1.0F : 1.0F;
+               return !(glm::length(normal * length - across * side) <= kLeaning * length);
+           });
+}
+
+bool anyLeans(const scene::Primitive& primitive)
+{
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        if (leans(primitive, &primitive.indices[i])) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -123,6 +151,7 @@ void Geometry::place(const scene::Scene& scene, const scene::State& state)
             index_counts_[which] = drawn[which] ? index_counts_[which] : 0;
             if (drawn[which]) {
                 pieces_[which] = scene::piecesOf(primitive);
+                ranges_[which].smooth = anyLeans(primitive);
             }
             ++which;
         }
@@ -180,6 +209,11 @@ void Geometry::upload(Uploader& uploader, const scene::Scene& scene, const scene
 std::uint16_t Geometry::pieces(const scene::Object& object) const
 {
     return static_cast<std::uint16_t>(pieces_[first_primitive_[object.mesh] + object.primitive].count);
+}
+
+bool Geometry::isSmooth(const scene::Object& object) const
+{
+    return object.deformed != scene::kNone || ranges_[first_primitive_[object.mesh] + object.primitive].smooth;
 }
 
 vulkan::MeshRange Geometry::range(const scene::Object& object) const

@@ -39,6 +39,8 @@ public:
     /// Of how many pieces an object is, for ObjectFlags::pieces.
     [[nodiscard]] std::uint16_t pieces(const scene::Object& object) const;
     [[nodiscard]] bool deforms() const { return deformed_vertices_ > 0; }
+    /// Do normals of its triangles lean, so that a smooth surface may lie over them (smooth_surface.h)?
+    [[nodiscard]] bool isSmooth(const scene::Object& object) const;
     /// A buffer for one frame's deformed vertices.
     [[nodiscard]] Buffer makeStaging(Memory& memory) const;
     /// Writes the deformed vertices of `state` to `staging`, from where recordDeformed() copies them to their ranges.
@@ -55,6 +57,7 @@ private:
         std::uint32_t first_index = 0;
         std::uint32_t first_vertex = 0;
         bool used = false; // by an object that does not deform
+        bool smooth = false;
     };
     void place(const scene::Scene& scene, const scene::State& state);
     void upload(Uploader& uploader, const scene::Scene& scene, const scene::State& state);

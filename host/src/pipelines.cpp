@@ -101,7 +101,7 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
 {
     VkDevice device = gpu_.view().device;
-    std::array<VkDescriptorSetLayoutBinding, 11> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, 8> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
@@ -256,25 +256,16 @@ void Pipelines::makeScene(const Materials& materials)
             return batch.cut != 0 && says(materials.all()[batch.material]);
         });
     };
-    Wish wish;
-    wish.scene = true;
-    wish.depth = true;
-    wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew
-    wish.fragment = "gbuffer.frag";
-    wish.colours = kGBufferFormats;
-    wish.name = "g-buffer";
-    for (std::size_t i = 0; i < gbuffer.size(); ++i) {
+    for (std::size_t i = 0; i < opaque_kinds_.size(); ++i) {
         const auto kind = static_cast<SurfaceKind>(i);
         const auto isOpaque = [kind](const MaterialFacts& m) {
             return m.kind == kind && !m.blended;
         };
         if (any(isOpaque)) {
-            setKind(wish, kind);
             opaque_kinds_[i] = anyCut(isOpaque) ? Kind::cut : Kind::whole;
-            gbuffer[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
         }
     }
-    wish = blendedWish();
+    Wish wish = blendedWish();
     const auto isBlended = [](const MaterialFacts& m) {
         return m.blended;
     };
@@ -293,6 +284,36 @@ void Pipelines::makeScene(const Materials& materials)
         wish.constants[kEmissiveOnly] = VK_TRUE;
         emissive = makeSurface(wish, anyCut(emitsOnly));
     }
+}
+
+const KindPipelines& Pipelines::gbufferFor(const GBufferShape& shape)
+{
+    const std::size_t number = (shape.ids ? 1U : 0U) + (shape.smooth ? 2U : 0U);
+    std::optional<KindPipelines>& known = gbuffer_[number];
+    if (known) {
+        return *known;
+    }
+    std::array<VkFormat, kGBufferFormats.size()> formats{};
+    for (std::size_t i = 0; i < shape.count(); ++i) {
+        formats[i] = kGBufferFormats[shape.image(i)];
+    }
+    Wish wish;
+    wish.scene = true;
+    wish.depth = true;
+    wish.compare = VK_COMPARE_OP_EQUAL; // with what depth_alone drew
+    wish.colours = std::span(formats).first(shape.count());
+    wish.name = "g-buffer";
+    constexpr std::array<const char*, 4> kFragments{"gbuffer.frag", "gbuffer_ids.frag", "gbuffer_smooth.frag",
+                                                    "gbuffer_ids_smooth.frag"};
+    wish.fragment = kFragments[number];
+    KindPipelines made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        if (opaque_kinds_[i] != Kind::none) {
+            setKind(wish, static_cast<SurfaceKind>(i));
+            made[i] = makeSurface(wish, opaque_kinds_[i] == Kind::cut);
+        }
+    }
+    return known.emplace(made);
 }
 
 Pipelines::Wish Pipelines::blendedWish()

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,10 +20,19 @@ namespace gnomon::host {
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
-/// Base colour and occlusion; geometric and shading normal; material; ids; MaskInputs::smooth.
-inline constexpr std::array<VkFormat, 5> kGBufferFormats{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SNORM,
-                                                         VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32G32_UINT,
-                                                         VK_FORMAT_R16G16B16A16_SNORM};
+/// What shading reads, with the object's id (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
+inline constexpr std::array<VkFormat, 4> kGBufferFormats{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R16G16_SNORM,
+                                                         VK_FORMAT_R32_UINT, VK_FORMAT_R16G16B16A16_SNORM};
+
+/// Which of them a frame needs besides the first two. They are attached without a gap, in their order.
+struct GBufferShape {
+    bool ids = false;
+    bool smooth = false;
+
+    [[nodiscard]] std::size_t count() const { return 2U + (ids ? 1U : 0U) + (smooth ? 1U : 0U); }
+    /// Which of kGBufferFormats attachment `i` is.
+    [[nodiscard]] std::size_t image(std::size_t i) const { return i == 2 && !ids ? 3 : i; }
+};
 
 /// What gnomon/visibility.glsl and technique_constants.glsl want bound: constants, maps, lights, views, layers of
 /// depth, blocks, tints, objects, few views.
@@ -95,13 +105,14 @@ public:
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
-    KindPipelines gbuffer;    // of opaque surfaces
     SurfacePipelines blended; // lit without shadow
     SurfacePipelines emissive;
-    KindPipelines depth_alone; // the same
+    KindPipelines depth_alone; // of opaque surfaces
     VkPipeline sky = VK_NULL_HANDLE;
 
     // Compiled when first asked for, which is not to be while a frame is recorded.
+    /// Opaque surfaces to the images of this shape.
+    [[nodiscard]] const KindPipelines& gbufferFor(const GBufferShape& shape);
     /// The shading pass. Phong and unlit surfaces are left out where the scene has none.
     [[nodiscard]] VkPipeline shadeFor(const ShadedBy& by);
     /// Blended surfaces in the shadow of maps of this filter. Precondition: the scene has some.
@@ -147,6 +158,7 @@ private:
     const DrawTable& table_;
     std::array<Kind, static_cast<std::size_t>(SurfaceKind::count)> opaque_kinds_{}; // that the scene has
     std::deque<std::pair<ForwardFacts, KindPipelines>> forward_;                    // references to them stay
+    std::array<std::optional<KindPipelines>, 4> gbuffer_;                           // by shape
     VkPipeline toned_sky_ = VK_NULL_HANDLE;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_compact_;

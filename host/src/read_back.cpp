@@ -165,11 +165,13 @@ void ReadBack::Impl::readGeometry(Picture& picture) const
     eachPixel<float>(at.depth, drawn, shown,
                      [&](std::uint32_t x, std::uint32_t y, float z) { *picture.depth.pixel(x, y) = z; });
     picture.object_ids = ImageOf<std::uint32_t>(shown.width, shown.height, 1);
-    using Ids = std::array<std::uint32_t, 2>;
-    eachPixel<Ids>(at.ids, drawn, shown,
-                   [&](std::uint32_t x, std::uint32_t y, const Ids& id) { *picture.object_ids.pixel(x, y) = id[1]; });
+    using Surface = std::array<std::uint32_t, 4>;
+    eachPixel<Surface>(at.ids, drawn, shown, [&](std::uint32_t x, std::uint32_t y, const Surface& surface) {
+        // Where nothing was drawn there may be anything.
+        *picture.object_ids.pixel(x, y) = *picture.depth.pixel(x, y) != 0.0F ? surface[3] : 0;
+    });
     picture.normals = ImageF(shown.width, shown.height, 3);
-    using Normals = std::array<std::int16_t, 4>;
+    using Normals = std::array<std::int16_t, 2>;
     const auto snorm = [](std::int16_t v) {
         return std::max(static_cast<float>(v) / 32767.0F, -1.0F);
     };

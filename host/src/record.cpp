@@ -69,21 +69,24 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     memory.names().begin(cmd, "g-buffer");
     profiler.beginPass(cmd, "g-buffer");
     std::array<VkRenderingAttachmentInfo, kGBufferFormats.size()> colours{};
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-        barrier(cmd, targets.gbuffer[i], discardAfter(kSampledByAll), kColourWrite);
-        // Where nothing is drawn only depth and ids are looked at.
-        const VkAttachmentLoadOp load = i == 3 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        colours[i] = attachment(targets.gbuffer[i], kColourWrite.layout, load);
+    const std::size_t count = gbuffer.shape.count();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Image& image = targets.gbuffer[gbuffer.shape.image(i)];
+        barrier(cmd, image, discardAfter(kSampledByAll), kColourWrite);
+        // Where nothing is drawn only depth and receivers are looked at.
+        const bool cleared = &image == &targets.receivers();
+        colours[i] = attachment(image, kColourWrite.layout,
+                                cleared ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_DONT_CARE);
     }
     const VkRenderingAttachmentInfo depth = attachment(targets.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD);
-    beginRendering(cmd, targets.drawn, colours, &depth);
+    beginRendering(cmd, targets.drawn, std::span(colours).first(count), &depth);
     setViewport(cmd, targets.drawn);
     // llvmpipe 22.3 crashes on a descriptor set before the first graphics pipeline, and nothing opaque may be in sight.
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipelines.sky);
-    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, scene.pipelines.gbuffer, frame_set));
+    profiler.addDraws(draws.recordOpaque(cmd, scene.pipelines, *gbuffer.pipelines, frame_set));
     vkCmdEndRendering(cmd);
-    for (const Image& image : targets.gbuffer) {
-        barrier(cmd, image, kColourWrite, kSampledByAll);
+    for (std::size_t i = 0; i < count; ++i) {
+        barrier(cmd, targets.gbuffer[gbuffer.shape.image(i)], kColourWrite, kSampledByAll);
     }
     profiler.endPass(cmd);
     memory.names().end(cmd);
@@ -94,9 +97,9 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     const Targets& targets = screen->targets;
     vulkan::MaskInputs inputs = depthInputs();
     inputs.normal = targets.normals().view;
-    inputs.smooth = targets.smooth().view;
-    inputs.object_id = targets.ids().view;
-    inputs.object_pieces = true; // scene.vert
+    inputs.smooth = gbuffer.shape.smooth ? targets.smooth().view : VK_NULL_HANDLE;
+    inputs.object_id = gbuffer.shape.ids ? targets.receivers().view : VK_NULL_HANDLE;
+    inputs.object_pieces = gbuffer.shape.ids; // scene.vert
     inputs.content = options.reuse_masks ? content : 0;
     recordMaps(cmd, inputs);
     vulkan::ShadowRenderer& renderer = shadows->renderer;

@@ -12,7 +12,8 @@
 namespace gnomon::host {
 namespace {
 
-constexpr std::uint32_t kMaskBinding = 6;
+constexpr std::uint32_t kSurfacesBinding = 2;
+constexpr std::uint32_t kMaskBinding = 3;
 
 ToneFacts toneFacts(const RenderOptions& options)
 {
@@ -89,7 +90,7 @@ void Screen::makeSets(std::span<const Buffer> frame_data)
     VkDevice device = scene_.gpu.view().device;
     const auto count = static_cast<std::uint32_t>(frame_data.size());
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 10 * count}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 7 * count}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = sizes.size();
@@ -110,20 +111,17 @@ void Screen::makeSets(std::span<const Buffer> frame_data)
     const VkDescriptorImageInfo cookies = scene_.textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
     const VkImageView glow = bloom ? bloom->result().view : targets.light.view; // not read then
-    const std::array<VkDescriptorImageInfo, 10> images{{{nearest, targets.depth.view, kDepthRead.layout},
-                                                        {nearest, targets.gbuffer[0].view, kSampled.layout},
-                                                        {nearest, targets.gbuffer[1].view, kSampled.layout},
-                                                        {nearest, targets.gbuffer[2].view, kSampled.layout},
-                                                        {nearest, targets.gbuffer[3].view, kSampled.layout},
-                                                        cookies, // in the mask's place
-                                                        cookies,
-                                                        {nearest, targets.light.view, kSampled.layout},
-                                                        {scene_.textures.plainSampler(), toned, kSampled.layout},
-                                                        {scene_.textures.plainSampler(), glow, kSampled.layout}}};
+    const std::array<VkDescriptorImageInfo, 7> images{{{nearest, targets.depth.view, kDepthRead.layout},
+                                                       cookies, // in the place of surfaces
+                                                       cookies, // in the mask's place
+                                                       cookies,
+                                                       {nearest, targets.light.view, kSampled.layout},
+                                                       {scene_.textures.plainSampler(), toned, kSampled.layout},
+                                                       {scene_.textures.plainSampler(), glow, kSampled.layout}}};
     for (std::uint32_t slot = 0; slot < count; ++slot) {
         memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[slot], "frame");
         const VkDescriptorBufferInfo buffer{frame_data[slot].handle, 0, sizeof(FrameData)};
-        std::array<VkWriteDescriptorSet, 11> writes{};
+        std::array<VkWriteDescriptorSet, 8> writes{};
         for (std::uint32_t i = 0; i < writes.size(); ++i) {
             writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
             writes[i].dstSet = sets_[slot];
@@ -145,13 +143,20 @@ VkDescriptorSet Screen::frameSet(std::uint32_t slot, VkImageView mask) const
     if (mask != VK_NULL_HANDLE) {
         image = {scene_.textures.nearestSampler(), mask, kSampled.layout};
     }
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = sets_[slot];
-    write.dstBinding = kMaskBinding;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.pImageInfo = &image;
-    vkUpdateDescriptorSets(scene_.gpu.view().device, 1, &write, 0, nullptr);
+    const VkDescriptorImageInfo surfaces{scene_.textures.nearestSampler(), targets.surfaces().view, kSampled.layout};
+    std::array<VkWriteDescriptorSet, 2> writes{};
+    for (VkWriteDescriptorSet& write : writes) {
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = sets_[slot];
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+    writes[0].dstBinding = kMaskBinding;
+    writes[0].pImageInfo = &image;
+    writes[1].dstBinding = kSurfacesBinding;
+    writes[1].pImageInfo = &surfaces;
+    const bool shaded_deferred = targets.surfaces().view != VK_NULL_HANDLE;
+    vkUpdateDescriptorSets(scene_.gpu.view().device, shaded_deferred ? 2 : 1, writes.data(), 0, nullptr);
     return sets_[slot];
 }
 

@@ -26,6 +26,8 @@ public:
     /// The set 0 of a slot's frame, with this mask; the scene's cookies stand in for none. The GPU has finished the
     /// slot's last frame.
     [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
+    /// Makes what a frame of deferred shading draws to. Throws Error.
+    void needGBuffer(const GBufferShape& shape) { targets.needGBuffer(memory_, shape); }
     /// An image for masks of someone else's, with so many layers at least.
     [[nodiscard]] const Image& insteadFor(std::uint32_t layers);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }

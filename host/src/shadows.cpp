@@ -7,7 +7,14 @@
 namespace gnomon::host {
 namespace {
 
-vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const RenderOptions& options)
+/// Ids say which object does not receive, if there is one, and tell objects apart for filters that do.
+GBufferShape readBy(const DrawTable& table, const ResolvedOptions& options)
+{
+    return {!table.all_receive || options.traits().ids, table.any_smooth};
+}
+
+vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const RenderOptions& options,
+                                              const GBufferShape& reads)
 {
     vulkan::ShadowRendererOptions wish;
     if (std::ranges::find(scene.table.blended, 1) != scene.table.blended.end()) {
@@ -15,7 +22,7 @@ vulkan::ShadowRendererOptions rendererOptions(const SceneData& scene, const Rend
             return blended[object] != 0;
         };
     }
-    wish.mask_shape = vulkan::MaskShape{true, true, true}; // recordShadows() gives all
+    wish.mask_shape = vulkan::MaskShape{true, reads.ids, reads.smooth}; // as recordShadows() gives them
     wish.frames_in_flight = options.frames_in_flight;
     wish.pipeline_cache = scene.gpu.pipelineCache();
     wish.compact = options.compact_mask;
@@ -42,7 +49,8 @@ bool isFitted(const View& view)
 } // namespace
 
 Shadows::Shadows(SceneData& scene, const RenderOptions& options)
-    : planner(resolvedOrThrow(options.shadow).asked()), renderer(scene.gpu.view(), rendererOptions(scene, options)),
+    : reads(readBy(scene.table, resolvedOrThrow(options.shadow))), planner(resolvedOrThrow(options.shadow).asked()),
+      renderer(scene.gpu.view(), rendererOptions(scene, options, reads)),
       casters(scene.gpu.view(), casterOptions(scene.gpu, options))
 {
     casters.setScene(scene.table.caster_parts, scene.table.caster_objects, scene.table.caster_batches);

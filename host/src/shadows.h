@@ -25,6 +25,7 @@ struct Shadows {
     /// The last plan as the GPU has fitted it. The GPU has finished it, with this slot.
     [[nodiscard]] const Plan& fittedPlan(std::uint32_t slot);
 
+    GBufferShape reads; // what the mask wants to know of surfaces
     Planner planner;
     vulkan::ShadowRenderer renderer;
     vulkan::CasterDrawer casters;

@@ -12,14 +12,17 @@ struct Targets {
     VkExtent2D drawn; // everything up to the tone curve: twice `shown` on each side with supersampling
     VkExtent2D shown;
     Image depth;
-    std::array<Image, kGBufferFormats.size()> gbuffer;
+    std::array<Image, kGBufferFormats.size()> gbuffer; // null: not yet needed
     Image light;
     Image toned; // before fxaa; null without it
     Image picture;
 
-    [[nodiscard]] const Image& ids() const { return gbuffer[3]; }
+    /// Makes the images of the G-buffer that are not there yet. Throws Error.
+    void needGBuffer(Memory& memory, const GBufferShape& shape);
+    [[nodiscard]] const Image& surfaces() const { return gbuffer[0]; }
     [[nodiscard]] const Image& normals() const { return gbuffer[1]; }
-    [[nodiscard]] const Image& smooth() const { return gbuffer[4]; }
+    [[nodiscard]] const Image& receivers() const { return gbuffer[2]; } // ids
+    [[nodiscard]] const Image& smooth() const { return gbuffer[3]; }
 };
 
 } // namespace gnomon::host

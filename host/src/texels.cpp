@@ -46,10 +46,10 @@ TexelForm formOf(VkFormat format)
         return {2, 8, Number::single};
     case VK_FORMAT_R32G32B32A32_SFLOAT:
         return {4, 16, Number::single};
-    case VK_FORMAT_R16G16B16A16_SNORM:
-        return {4, 8, Number::other};
-    case VK_FORMAT_R32G32_UINT:
-        return {2, 8, Number::other};
+    case VK_FORMAT_R16G16_SNORM:
+        return {2, 4, Number::other};
+    case VK_FORMAT_R32G32B32A32_UINT:
+        return {4, 16, Number::other};
     default:
         return {};
     }

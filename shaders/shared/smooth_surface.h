@@ -66,6 +66,15 @@ GN_FN SmoothSurface smoothSurface(real3 p, real3 n, real3 normal, real plane)
     return s;
 }
 
+// The last of the three numbers of smoothEncode(), where `unit` is the interpolated normal's direction already, on the
+// side of `n`: what smoothSurface() finds, by one division less.
+GN_FN real smoothLift(real3 p, real3 n, real3 unit, real3 normal, real plane)
+{
+    real share = (plane - dot(normal, p)) / (dot(unit, normal) * length(p));
+    bool is_flat = !(share > kLeastLift && share < kMostLift) || length(unit - n) < kFlat;
+    return is_flat ? real(0.0) : sqrt(share);
+}
+
 // What MaskInputs::smooth holds, each in [-1, 1]: the normal, octahedral, and the root of the lift as a share of the
 // distance from the eye, 0 where there is none; so 16 bits do for every size of scene.
 GN_FN real3 smoothEncode(SmoothSurface s, real3 p)

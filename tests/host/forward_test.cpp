@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <ostream>
 #include <string>
@@ -133,6 +134,36 @@ TEST_F(Forward, HasNoMasksAndNoGeometry)
     EXPECT_THROW((void)renderer.read({.masks = true}), Error);
     EXPECT_THROW((void)renderer.read({.geometry = true}), Error);
     EXPECT_NO_THROW((void)renderer.read({.linear = true}));
+}
+
+TEST_F(Forward, TakesNoMemoryForAGBuffer)
+{
+    const auto bytes = [&](const SceneOnGpu& on_gpu, Shading shading, bool shadows) {
+        RenderOptions options = options_;
+        options.shading = shading;
+        options.shadows = shadows;
+        FrameRenderer renderer(on_gpu, options);
+        renderer.draw(state_, smallEye(), lights_);
+        std::uint64_t sum = 0;
+        for (const vulkan::MemoryUse& use : renderer.memory()) {
+            sum += std::string_view(use.purpose) == "host pictures" ? use.bytes : 0;
+        }
+        return sum;
+    };
+    const std::uint64_t pixels = std::uint64_t{options_.width} * options_.height;
+    const std::uint64_t forward = bytes(on_gpu_, Shading::forward, true);
+    EXPECT_GE(forward, pixels * (4 + 8 + 4)); // depth, light, picture
+    EXPECT_LT(forward, pixels * (4 + 8 + 4 + 4));
+    const std::uint64_t lit = bytes(on_gpu_, Shading::deferred, false);
+    EXPECT_GE(lit, forward + pixels * (16 + 4)); // surfaces, normals
+    // Smooth surfaces, and which objects receive: one does not.
+    EXPECT_GE(bytes(on_gpu_, Shading::deferred, true), lit + pixels * (8 + 4));
+    for (scene::Node& node : scene_.nodes) {
+        node.receives = true;
+    }
+    state_ = scene::evaluate(scene_, 0.0);
+    const SceneOnGpu all_receive(gpu_, scene_, state_);
+    EXPECT_LT(bytes(all_receive, Shading::deferred, true), lit + pixels * (8 + 4));
 }
 
 TEST_F(Forward, ShadesMasksOfSomeoneElseAllTheSame)

@@ -147,6 +147,27 @@ TEST(SmoothSurface, IsStoredAsSharesOfTheDistance)
     EXPECT_EQ(smoothEncode(far, {0.0, 0.0, 1.0}).z, 1.0);
 }
 
+// By the normal's direction, which who shades has already, the lift is the same.
+TEST(SmoothSurface, IsStoredLikewiseByItsUnitNormal)
+{
+    Triangles triangles;
+    int flat = 0;
+    for (int i = 0; i < 600; ++i) {
+        const Sample at =
+            triangles.on(1.0, 4.0 * triangles.direction(), i % 3 == 0 ? 0.0005 : 0.4, i % 2 == 0 ? 1 : -1);
+        for (const dvec3& n : {at.n, -at.n}) {
+            const double stored = smoothEncode(smoothSurface(at.p, n, at.normal, at.plane), at.p).z;
+            const dvec3 unit = glm::normalize(at.normal) * (glm::dot(at.normal, n) < 0.0 ? -1.0 : 1.0);
+            EXPECT_NEAR(smoothLift(at.p, n, unit, at.normal, at.plane), stored, 1e-9);
+            flat += stored == 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(flat, 700); // half of all are hollows, and of the rest a third is nearly flat
+    EXPECT_LT(flat, 900);
+    const dvec3 none(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(smoothLift({1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, none, {0.0, 0.0, 0.0}, 0.0), 0.0);
+}
+
 // Bit for bit, so that nothing changes for flat meshes, nor for hosts that have no normals.
 TEST(LightPoint, OfAFlatSurfaceIsItself)
 {

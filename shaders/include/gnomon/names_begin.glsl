@@ -374,6 +374,7 @@
 #define slicesAt gnomon_slicesAt
 #define smoothDecode gnomon_smoothDecode
 #define smoothEncode gnomon_smoothEncode
+#define smoothLift gnomon_smoothLift
 #define smoothPlane gnomon_smoothPlane
 #define smoothSurface gnomon_smoothSurface
 #define smoothieAlpha gnomon_smoothieAlpha

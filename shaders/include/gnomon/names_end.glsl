@@ -374,6 +374,7 @@
 #undef slicesAt
 #undef smoothDecode
 #undef smoothEncode
+#undef smoothLift
 #undef smoothPlane
 #undef smoothSurface
 #undef smoothieAlpha
