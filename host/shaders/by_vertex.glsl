@@ -30,5 +30,6 @@ const int kScreenPlace = 7; // of the first light
 const int kScreenColour = 8;
 const int kScreenRight = 9;
 const int kScreenNumberCount = 10;
+const int kScreenPixel = 10; // location of a pixel's place in the picture: 0 .. 1
 
 #endif

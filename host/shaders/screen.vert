@@ -6,11 +6,13 @@
 #include "frame.glsl"
 
 layout(location = 0) flat out vec4 numbers[kScreenNumberCount];
+layout(location = kScreenPixel) out vec2 place;
 
 void main()
 {
     vec2 p = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
     gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+    place = p;
     if (kByVertex) {
         numbers[kScreenRayX] = frame.ray_x;
         numbers[kScreenRayY] = frame.ray_y;

@@ -5,6 +5,7 @@
 #include "by_vertex.glsl"
 
 layout(location = 0) flat in vec4 numbers_in[kScreenNumberCount];
+layout(location = kScreenPixel) in vec2 place_in;
 #define SCREEN_NUMBER(PLACE, MEMBER) (kByVertex ? numbers_in[PLACE] : frame.MEMBER)
 #define FRAME_RAY_X SCREEN_NUMBER(kScreenRayX, ray_x)
 #define FRAME_RAY_Y SCREEN_NUMBER(kScreenRayY, ray_y)
@@ -13,5 +14,21 @@ layout(location = 0) flat in vec4 numbers_in[kScreenNumberCount];
 #define FRAME_ZENITH SCREEN_NUMBER(kScreenZenith, sky_zenith)
 #define FRAME_HORIZON SCREEN_NUMBER(kScreenHorizon, sky_horizon)
 #define FRAME_GROUND SCREEN_NUMBER(kScreenGround, ground)
+
+// The pixel's own texel of an image that is as large as the picture and has a nearest sampler. llvmpipe 22.3 fetches with
+// a mip level for each lane, which takes three times as long as a sample does.
+vec4 texelHere(sampler2D image)
+{
+    return kByVertex ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+}
+uvec4 texelHere(usampler2D image)
+{
+    return kByVertex ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+}
+vec4 texelHere(sampler2DArray image, int layer)
+{
+    return kByVertex ? textureLod(image, vec3(place_in, layer), 0.0)
+                     : texelFetch(image, ivec3(gl_FragCoord.xy, layer), 0);
+}
 
 #endif

@@ -31,33 +31,33 @@ LightData lightAt(uint i)
     return light;
 }
 
-vec3 seenOf(uint i, ivec2 pixel)
+vec3 seenOf(uint i)
 {
     if (FRAME_DEPTH.z == 0.0) {
         return vec3(1.0);
     }
     int slot = int(lightAt(i).right.w);
-    vec4 texel = texelFetch(mask, ivec3(pixel, slot >> 3), 0);
+    vec4 texel = texelHere(mask, slot >> 3);
     return (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
 }
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    StoredSurface stored = unpackSurface(texelFetch(surfaces, pixel, 0).xyz);
+    StoredSurface stored = unpackSurface(texelHere(surfaces).xyz);
     vec4 base = stored.base;
     float model = kPhysicalOnly ? 0.0 : stored.model;
     if (model == 2.0) {
         out_light = shown(base.rgb * FRAME_HORIZON.w, 1.0);
         return;
     }
-    float depth = texelFetch(depths, pixel, 0).r;
+    float depth = texelHere(depths).r;
     vec3 p = rayOf(gl_FragCoord.xy) / (FRAME_DEPTH.x * depth + FRAME_DEPTH.y);
     float second = model == 1.0 ? exp2(stored.second * 16.0) - 1.0 : stored.second;
     Lit s = litSurface(p, stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
                        kPhong2005 ? 1.0 : model);
     vec3 sum = kPhong2005 ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : stored.second, base.a);
 #ifdef HOST_COMPACT_MASK
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
     GnomonTileLights tile = gnomonTileLights(pixel);
     for (uint i = tile.first; i < tile.first + tile.count; ++i) {
         GnomonTileLight one = gnomonTileLight(i);
@@ -66,11 +66,11 @@ void main()
 #else
     if (kFixedLights > 0) {
         for (uint i = 0; i < kFixedLights; ++i) {
-            sum += lightFrom(lightAt(i), s, cookies, seenOf(i, pixel));
+            sum += lightFrom(lightAt(i), s, cookies, seenOf(i));
         }
     } else {
         for (uint i = 0; i < frame.counts.x; ++i) {
-            sum += lightFrom(lightAt(i), s, cookies, seenOf(i, pixel));
+            sum += lightFrom(lightAt(i), s, cookies, seenOf(i));
         }
     }
 #endif
