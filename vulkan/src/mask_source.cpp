@@ -10,6 +10,7 @@
 #include <gpu_structs.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace gnomon::vulkan {
 
