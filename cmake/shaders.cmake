@@ -42,12 +42,15 @@ endfunction()
 # std::uint32_t> gnomon::spirv::NAME` (with dots as underscores), declared in the generated header "TARGET.h", which also
 # has all of them in `gnomon::spirv::all_of_TARGET`. An entry is a source, or one of gnomon_shader_variants(). Debug
 # builds keep the source's lines and names in the SPIR-V, but for those with sanitizers, which look at C++ alone.
+# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are: of the same sources, Release or with
+# sanitizers.
 function(gnomon_shaders target)
     set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
     set(keep_names)
     if(NOT GNOMON_SANITIZE)
         set(keep_names $<$<CONFIG:Debug>:-g>)
     endif()
+    file(RELATIVE_PATH place ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
     set(embed ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake)
     file(MAKE_DIRECTORY ${dir})
     set(header "#pragma once\n#include <cstdint>\n#include <span>\nnamespace gnomon::spirv {\n")
@@ -72,6 +75,16 @@ function(gnomon_shaders target)
         string(APPEND header "extern const std::span<const std::uint32_t> ${id};\n")
         string(APPEND words "constexpr std::uint32_t words_${id}[] =\n#include \"${name}.inc\"\n;\n")
         string(APPEND spans "const std::span<const std::uint32_t> ${id}{words_${id}};\n")
+        list(APPEND incs ${dir}/${name}.inc)
+        if(GNOMON_SPIRV_FROM)
+            set(made ${GNOMON_SPIRV_FROM}/${place}/${target}/${name})
+            add_custom_command(
+                OUTPUT ${dir}/${name}.inc
+                COMMAND ${CMAKE_COMMAND} -E copy ${made}.spv ${dir}/${name}.spv
+                COMMAND ${CMAKE_COMMAND} -E copy ${made}.inc ${dir}/${name}.inc
+                DEPENDS ${made}.inc VERBATIM COMMENT "copying ${name}")
+            continue()
+        endif()
         add_custom_command(
             OUTPUT ${dir}/${name}.inc
             COMMAND ${GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines}
@@ -81,7 +94,6 @@ function(gnomon_shaders target)
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DSPIRV=${dir}/${name}.spv -DINC=${dir}/${name}.inc -P ${embed}
             DEPENDS ${source} ${embed} DEPFILE ${dir}/${name}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
-        list(APPEND incs ${dir}/${name}.inc)
     endforeach()
     list(JOIN ids ", &" all)
     list(LENGTH ids count)
