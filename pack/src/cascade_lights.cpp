@@ -88,7 +88,7 @@ std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2
 
 glm::uvec2 groupsOver(glm::uvec2 screen_px)
 {
-    constexpr std::uint32_t kSide = 2 * shared::kBoundsGroup;
+    constexpr std::uint32_t kSide = shared::kBoundsPixels * shared::kBoundsGroup;
     return (screen_px + (kSide - 1)) / kSide;
 }
 

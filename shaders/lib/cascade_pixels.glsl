@@ -91,9 +91,11 @@ Seen seenAt(GpuCascadeLight light, ivec2 pixel)
     return seen;
 }
 
-// The i-th of the four pixels of this thread.
+// A thread looks at several pixels: what it reads of the light, and its atomics, which software does one by one, are
+// for all of them. The i-th of kBoundsPixels^2.
 ivec2 pixelOf(int i)
 {
-    return (ivec2(gl_WorkGroupID.xy) * 2 + ivec2(i & 1, i >> 1)) * kBoundsGroup + ivec2(gl_LocalInvocationID.xy);
+    ivec2 block = ivec2(gl_WorkGroupID.xy) * kBoundsPixels + ivec2(i % kBoundsPixels, i / kBoundsPixels);
+    return block * kBoundsGroup + ivec2(gl_LocalInvocationID.xy);
 }
 #endif

@@ -10,29 +10,12 @@ layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 shared uint found[kBoundKeys * kMostCascades];
 shared vec2 slices[kMostCascades]; // begin, end
 
-// Lets cascade c's bounds hold what this thread sees of it. Atomics are done once for all of its pixels: software does
-// them one by one.
-void note(int c, Seen seen[4])
-{
-    const float nothing = -3.4e38;
-    vec4 ends = vec4(nothing);
-    vec4 roomy = vec4(nothing);
-    bool any_counts = false;
-    for (int i = 0; i < 4; ++i) {
-        if (seen[i].counts && sliceCounts(seen[i].depth_m, slices[c].x, slices[c].y)) {
-            vec4 place = vec4(-seen[i].place, seen[i].place);
-            ends = max(ends, place);
-            roomy = max(roomy, place + seen[i].room.xyxy);
-            any_counts = true;
-        }
-    }
-    if (any_counts) {
-        for (int i = 0; i < 4; ++i) {
-            atomicMax(found[kBoundKeys * c + i], greatestKey(ends[i]));
-            atomicMax(found[kBoundKeys * c + 4 + i], greatestKey(roomy[i]));
-        }
-    }
-}
+// Of what a thread sees in a cascade: minus x, minus y, x, y, each the greatest; and with room around.
+struct Bounds {
+    vec4 ends;
+    vec4 roomy;
+};
+const float kNothing = -3.4e38;
 
 void main()
 {
@@ -46,12 +29,29 @@ void main()
         slices[thread] = cascadeSlice(light, thread).xy;
     }
     barrier();
-    Seen seen[4];
-    for (int i = 0; i < 4; ++i) {
-        seen[i] = seenAt(light, pixelOf(i));
+    // Their number is a constant, so that they are registers.
+    Bounds bounds[kMostCascades];
+    vec2 slice[kMostCascades];
+    for (int c = 0; c < kMostCascades; ++c) {
+        bounds[c] = Bounds(vec4(kNothing), vec4(kNothing));
+        slice[c] = slices[c];
     }
-    for (int c = 0; c < count; ++c) {
-        note(c, seen);
+    for (int i = 0; i < kBoundsPixels * kBoundsPixels; ++i) {
+        Seen seen = seenAt(light, pixelOf(i));
+        vec4 place = vec4(-seen.place, seen.place);
+        for (int c = 0; c < kMostCascades; ++c) {
+            bool holds = seen.counts && c < count && sliceCounts(seen.depth_m, slice[c].x, slice[c].y);
+            bounds[c].ends = holds ? max(bounds[c].ends, place) : bounds[c].ends;
+            bounds[c].roomy = holds ? max(bounds[c].roomy, place + seen.room.xyxy) : bounds[c].roomy;
+        }
+    }
+    for (int c = 0; c < kMostCascades; ++c) {
+        if (bounds[c].ends.x > kNothing) {
+            for (int i = 0; i < 4; ++i) {
+                atomicMax(found[kBoundKeys * c + i], greatestKey(bounds[c].ends[i]));
+                atomicMax(found[kBoundKeys * c + 4 + i], greatestKey(bounds[c].roomy[i]));
+            }
+        }
     }
     barrier();
     if (thread < kBoundKeys * count && found[thread] != 0u) {

@@ -17,7 +17,7 @@ void main()
     GpuCascadeLight light = cascade_lights[gl_WorkGroupID.z];
     uint least = 0u;
     uint greatest = 0u;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < kBoundsPixels * kBoundsPixels; ++i) {
         Seen seen = seenAt(light, pixelOf(i));
         if (seen.counts) {
             least = max(least, greatestKey(-seen.depth_m));

@@ -19,7 +19,8 @@ namespace gnomon::shared {
 #endif
 
 GN_CASCADE_CONST int kMostCascades = 6;
-GN_CASCADE_CONST int kBoundsGroup = 16;   // threads of a group along x and y; it looks at twice as many pixels
+GN_CASCADE_CONST int kBoundsGroup = 16;   // threads of a group along x and y
+GN_CASCADE_CONST int kBoundsPixels = 4;   // pixels that a thread looks at along x and y
 GN_CASCADE_CONST int kCompleteGroup = 64; // views that one group of cascade_constants.comp completes
 GN_CASCADE_CONST int kDepthKeys = 2;      // of GpuCascadeKeys::key: least and greatest depth, then the cascades' bounds
 GN_CASCADE_CONST int kBoundKeys = 8;      // of a cascade: x, y low, then high; the same again with room on all sides

@@ -134,8 +134,8 @@ TEST(CascadeFitter, FitsBeforeItDrawsAndCompletesTheConstantsBeforeTheMask)
     expected.push_back(Kind::dispatch); // the constants
     expected.push_back(Kind::begin_rendering);
     EXPECT_EQ(work, expected);
-    // Squares of 32 pixels, two lights.
-    EXPECT_EQ(groups, (std::vector<std::uint32_t>{4 * 3 * 2, 4 * 3 * 2, 2, 1}));
+    // Squares of 64 pixels, two lights.
+    EXPECT_EQ(groups, (std::vector<std::uint32_t>{2 * 2 * 2, 2 * 2 * 2, 2, 1}));
     EXPECT_NE(host.placement, VkBuffer{VK_NULL_HANDLE});
     EXPECT_EQ(host.last_offset, (2 * kCascades - 1) * 48U);
 }
