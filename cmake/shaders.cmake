@@ -42,8 +42,8 @@ endfunction()
 # std::uint32_t> gnomon::spirv::NAME` (with dots as underscores), declared in the generated header "TARGET.h", which also
 # has all of them in `gnomon::spirv::all_of_TARGET`. An entry is a source, or one of gnomon_shader_variants(). Debug
 # builds keep the source's lines and names in the SPIR-V, but for those with sanitizers, which look at C++ alone.
-# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are: of the same sources, Release or with
-# sanitizers.
+# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are. It has to be built already, from the same
+# sources, in Release or with sanitizers.
 function(gnomon_shaders target)
     set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
     set(keep_names)

@@ -160,6 +160,9 @@ public:
     // Of the last frame, which is waited for where the GPU knows the answer.
     /// Its plan; views with View::gpu_cascade as the GPU has fitted them.
     [[nodiscard]] const Plan& plan() const;
+    /// Whether the mask's pass is given object ids: where some object does not receive, or the filter tells objects
+    /// apart.
+    [[nodiscard]] bool masksReadIds() const;
     /// What making its maps filterable took; zeros without such passes.
     [[nodiscard]] vulkan::FilterCost filterCost() const;
     /// lvsm: the layers of depth of a view of plan(), nearest first; else empty.

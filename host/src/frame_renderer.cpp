@@ -149,6 +149,11 @@ ImageF FrameRenderer::readMap(std::uint32_t layer)
     return image;
 }
 
+bool FrameRenderer::masksReadIds() const
+{
+    return impl_->gbuffer.shape.ids;
+}
+
 const Plan& FrameRenderer::plan() const
 {
     Impl& self = *impl_;

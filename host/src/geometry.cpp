@@ -61,7 +61,8 @@ void packConstant(const scene::Primitive& primitive, std::uint32_t base_set, std
     }
 }
 
-// Of flat triangles smooth_surface.h takes everything below four times this for flat. Transforms may stretch it.
+// smooth_surface.h takes normals for flat below four times this. Transforms may stretch a mesh: one that an uneven
+// scale makes lean four times as much has no smooth terminator, unless another mesh is smooth.
 constexpr float kLeaning = 0.001F;
 
 // Does a normal of a triangle without a creased vertex lean away from the triangle's own?

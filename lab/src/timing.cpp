@@ -32,6 +32,7 @@ std::vector<Turn> makeTurns(const host::SceneOnGpu& scene, std::span<const Conte
         wish = contestants[i == 0 ? 0 : i - 1].options;
         wish.shadows = i != 0;
         wish.reuse_maps = wish.reuse_maps && options.reuse_maps;
+        wish.reuse_masks = wish.reuse_masks && options.reuse_maps; // shadow volumes have no map to be drawn anew
         turns[i].renderer = std::make_unique<host::FrameRenderer>(scene, wish);
     }
     return turns;

@@ -29,7 +29,7 @@ TrafficOptions trafficOf(const host::FrameRenderer& renderer, const host::Render
     traffic.image_layers = imageLayersPerMap(filterOf(options.shadow), options.shadow.moments);
     traffic.mip_levels = pack::mipLevels(resolvedOrThrow(options.shadow), atlas.width, atlas.height);
     traffic.redraws_all = !options.reuse_maps;
-    traffic.reads_object_ids = true;
+    traffic.reads_object_ids = renderer.masksReadIds();
     traffic.samples = options.anti_aliasing == host::AntiAliasing::ssaa4 ? 4 : 1;
     traffic.filterable = traits != nullptr && traits->filterable;
     traffic.depth_samples = options.shadow.moments.samples;

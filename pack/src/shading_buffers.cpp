@@ -163,6 +163,7 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
     const std::size_t few = std::min<std::size_t>(views.size(), shared::kFewViews);
     for (std::size_t i = plan.views.size(); i < few; ++i) { // a shader may look at as many: they serve no depth
         views[i] = {};
+        views[i].tile = {1.0F, 1.0F, -1.0F, -1.0F};
         views[i].slice = {1.0F, -1.0F, 0.0F, 0.0F};
         views[i].sector_w = {0.0F, 0.0F, 0.0F, 1.0F};
     }

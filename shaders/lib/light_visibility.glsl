@@ -166,11 +166,12 @@ GpuView viewAt(uint i)
 {
 #ifdef GNOMON_ONE_VIEW_OF
     return GNOMON_ONE_VIEW_OF;
-#endif
+#else
     if (GNOMON_FEW_VIEWS > 0) {
         return gnomon_few_views[i];
     }
     return gnomon_views[i];
+#endif
 }
 
 float sharedDepth(vec3 p)
@@ -228,11 +229,13 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
     float share = 0.0;
     do {
         view = GNOMON_FEW_VIEWS > 1 ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
+        bool is_held = !GNOMON_SLICES_ALONE || s.slices != 0u; // a slice in which nobody casts has no view
         s.slices &= s.slices - 1u;
         ++s.next;
         GpuView asked = viewAt(view);
         share = is_first ? 1.0 : viewShare(asked, GNOMON_SLICES_ALONE ? sharedDepth(r.p) : sliceDepth(asked, r.p));
-        share = viewContains(asked, r.p) ? share : 0.0;
+        bool is_within = viewContains(asked, r.p);
+        share = is_within && is_held ? share : 0.0;
     } while (share == 0.0 && isLeft(s));
     return share;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL only. Texels of the maps from one array texture: define GNOMON_MAP_SET and GNOMON_MAP_BINDING, and
 // GNOMON_MAP_TEXEL_SIZE as an expression for (1 / width, 1 / height) of the atlas. For filterable maps the sampler must
-// be linear within and between mip levels and clamp to the edge; for all others its filter does not matter. For lvsm
+// be linear within and between mip levels and clamp to the edge; for all others its filter does not matter without GNOMON_NEAREST_MAPS. For lvsm
 // define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For pcss and raymarch define
 // GNOMON_BLOCKS_BINDING: the image of the maps' blocks; for hard and pcf with GNOMON_SMOOTHIES that of their smoothies.
 // For formats of two maps a texel (rg16 and rg16f of hard and pcf, rgba8) define GNOMON_DEPTH_HOLDING: kDepthChannel or

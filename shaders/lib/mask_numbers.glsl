@@ -22,9 +22,9 @@
     DO(12, rule.moment_shape)
 const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
 
-// The same of the one view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). That is more
-// than some devices have, so such a draw is for software alone. What is not listed a view that serves all of its map
-// does without; the last three are of orthographic views.
+// The same of the one view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). Some
+// devices do not have that many outputs, so such a draw is for software alone. Where a view serves all of its map, what
+// is not listed is not read. The last three are of orthographic views.
 #ifdef GNOMON_ONE_VIEW
 #define GNOMON_VIEW_NUMBERS(DO)                                                                                        \
     DO(14, x)                                                                                                          \

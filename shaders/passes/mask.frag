@@ -47,7 +47,7 @@ GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
 #define GNOMON_FEW_PLACE (kInSoftware ? numbers_in[kLightPlace] : gnomon_lights[0].place)
 #define GNOMON_FEW_BINDING 8
-#define GNOMON_NEAREST_MAPS kInSoftware // that the sampler of maps that are not filterable is so does not help others
+#define GNOMON_NEAREST_MAPS kInSoftware // filterable maps have a linear sampler, and no mapTexel() reads them
 #ifdef GNOMON_ONE_VIEW
 GpuView one_view;
 #define GNOMON_ONE_VIEW_OF one_view

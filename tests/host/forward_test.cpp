@@ -126,6 +126,46 @@ INSTANTIATE_TEST_SUITE_P(
         ofSun("sun_msm", Filter::msm), ofSun("sun_id", Filter::id), ofSun("sun_depth_id", Filter::depth_id)),
     [](const auto& one) { return std::string(one.param.name); });
 
+// A slice in which nothing casts has no map, so what lies in it has no view. It was taken for dark where a caster
+// covers the first texel of the maps.
+TEST(ForwardOfRing, IsAsDeferredWhereACascadeHasNoMap)
+{
+    const scene::Scene ring = scene::makeRing(1);
+    const scene::State state = scene::evaluate(ring, 0.0);
+    Gpu gpu({.gpu = "software", .validate = true});
+    const SceneOnGpu on_gpu(gpu, ring, state);
+    RenderOptions options;
+    options.width = 160;
+    options.height = 90;
+    options.shadow.map_size = 64;
+    options.shadow.technique = {
+        .partition = Partition::cascades, .fit = Fit::uniform, .filter = Filter::hard, .motion = Motion::free};
+    options.shadow.cascades = {.count = 6, .lambda = 0.1, .blend = 0.0};
+    Eye eye;
+    eye.position_ws = {0.04, 55.64, 3.14};
+    eye.target_ws = {0.09, 59.99, 1.16};
+    eye.up_ws = {0.005, -1.0, 0.0};
+    eye.fov_y_rad = glm::radians(14.0);
+    ShadedLight sun;
+    sun.caster.direction_ws = glm::normalize(glm::dvec3(-0.007, 1.5, -0.5));
+    setBrightness(sun);
+    std::array<Picture, 2> pictures;
+    for (const Shading shading : {Shading::deferred, Shading::forward}) {
+        options.shading = shading;
+        FrameRenderer renderer(on_gpu, options);
+        renderer.draw(state, eye, {sun});
+        EXPECT_LT(renderer.plan().views.size(), 6U) << "else the test is about nothing";
+        pictures[shading == Shading::forward ? 1 : 0] = renderer.read({.colour = true, .linear = false});
+    }
+    const auto& deferred = pictures[0].colour.values;
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < deferred.size(); ++i) {
+        far += std::abs(int{deferred[i]} - int{pictures[1].colour.values[i]}) > 24 ? 1 : 0;
+    }
+    EXPECT_LT(far, deferred.size() / 100);
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
 TEST_F(Forward, HasNoMasksAndNoGeometry)
 {
     options_.shading = Shading::forward;

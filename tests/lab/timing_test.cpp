@@ -110,6 +110,20 @@ protected:
     std::vector<Contestant> contestants;
 };
 
+// Shadow volumes have no map whose drawing would make the mask another one.
+TEST_F(TimeInTurn, DrawsMasksAnewWhereMapsAre)
+{
+    contestants.resize(1);
+    contestants[0].options.shadow.technique.filter = Filter::volumes;
+    for (const bool kept : {false, true}) {
+        const TimingResult result = timeInTurn(stage.uploaded(), stage.subject(), contestants,
+                                               {.repetitions = 2, .warmup = 3, .reuse_maps = kept}, nullptr);
+        for (const host::FrameTimes& times : result.techniques[0].samples) {
+            EXPECT_EQ(times.mask_kept, kept);
+        }
+    }
+}
+
 TEST_F(TimeInTurn, KeepsEachOnesFramesAndWhatTheyTook)
 {
     int steps = 0;

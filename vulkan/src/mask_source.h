@@ -18,8 +18,8 @@
 
 namespace gnomon::vulkan {
 
-/// All that the pass reads: what shaders read is here as they read it, and images are named by what they hold. So
-/// nothing that makes a difference to a pixel can be missed.
+/// All that the pass reads: what shaders read is here as they read it, and images are named by what they hold, which
+/// the host says.
 struct MaskSource {
     ContentNumber inputs = 0;      // MaskInputs::content. 0: what the pass makes cannot be told from this
     std::uint64_t map_changes = 0; // MapNotes::changes()

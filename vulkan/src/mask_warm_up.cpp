@@ -141,9 +141,18 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     key.constants.coloured = isColoured(options) ? VK_TRUE : VK_FALSE;
     key.format = formatOf(channelsAlone(options));
     using pack::ToldApart;
-    for (const std::uint32_t few : {pack::fewViews(options), std::min(pack::fewViews(options), 1U)}) { // a spot has one
-        key.constants.technique.few_views = few;
-        for (const ToldApart how : {ToldApart::tests, few == 1 ? ToldApart::alone : ToldApart::slices}) {
+    const std::uint32_t few = pack::fewViews(options);
+    const Partition partition = options.technique().partition;
+    const bool side_by_side = partition == Partition::cube || partition == Partition::paraboloid;
+    key.constants.technique.few_views = few;
+    make();
+    if (few > 1 && !side_by_side) {
+        key.tellApart(ToldApart::slices);
+        make();
+    }
+    if (few > 0) { // a spot has one map
+        key.constants.technique.few_views = 1;
+        for (const ToldApart how : {ToldApart::tests, ToldApart::alone}) {
             key.tellApart(how);
             make();
         }

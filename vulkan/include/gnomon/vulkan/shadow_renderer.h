@@ -85,7 +85,7 @@ using DrawVolumes = std::function<void(const VolumePass&)>;
 /// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
 /// DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads by the host.
 struct MaskInputs {
-    VkExtent2D extent{};                // of depth, normal and the mask
+    VkExtent2D extent{};                // of the mask, and of each image here: no larger ones
     VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     /// Geometric world-space normals, octahedral in RG (snorm or float; shaders/shared/octahedral.h), or
@@ -103,9 +103,10 @@ struct MaskInputs {
     /// it. Lights with IdOf::face need it.
     bool object_pieces = false;
     /// Names what all these images show; 0: nobody knows. With the number that the recordMask() before was given, the
-    /// host says that they hold what they held then, texel by texel, be they other images or not. recordMask() then
-    /// leaves the mask as it is, and records nothing, where all else that it is drawn from is as it was, too. That it
-    /// finds out by itself: maps, lights, camera, options.
+    /// host says that they hold what they held then, texel by texel, be they other images or not; a camera that moves
+    /// makes another number. recordMask() then leaves the mask as it is, and records nothing, where all else that it is
+    /// drawn from is as it was, too: maps, lights and options it compares by itself. So mask() has to stay as it was
+    /// left, in content and layout, and a frame that was recorded has to be submitted, or reset() called.
     ContentNumber content = 0;
     /// Draws shadow volumes (VolumeDrawer is such a callback). Needed where the plan has lights with filter volumes.
     DrawVolumes volumes;
