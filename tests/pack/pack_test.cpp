@@ -130,7 +130,7 @@ TEST(CascadeLights, AreOnlyThoseThatTheGpuFits)
     EXPECT_EQ(lights[0].cascades.y, 1U) << "its first view";
     EXPECT_EQ(lights[0].reach.y, 80.0F) << "by its own options";
     EXPECT_EQ(lights[0].screen.x, 320.0F);
-    EXPECT_EQ(pack::groupsOver({320, 200}), glm::uvec2(10, 7));
+    EXPECT_EQ(pack::groupsOver({320, 200}), glm::uvec2(5, 4));
 }
 
 TEST(CascadeLights, WhatWasFoundHasInfinitiesAgain)
