@@ -5,7 +5,7 @@
 #ifndef HOST_BY_VERTEX_GLSL
 #define HOST_BY_VERTEX_GLSL
 
-layout(constant_id = 19) const bool kByVertex = false;
+layout(constant_id = 19) const bool kInSoftware = false;
 
 // Of scene.vert, from location 5 on.
 const int kSceneRayX = 0;

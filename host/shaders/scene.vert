@@ -46,7 +46,7 @@ void main()
     out_uvs = vec4(uv_base, uv_other);
     out_colour = colour * colour;
     out_ids = ids;
-    if (kByVertex) {
+    if (kInSoftware) {
         numbers[kSceneRayX] = frame.ray_x;
         numbers[kSceneRayY] = frame.ray_y;
         numbers[kSceneRay0] = frame.ray_0;

@@ -6,7 +6,7 @@
 #include "by_vertex.glsl"
 
 layout(location = 5) flat in vec4 numbers_in[kSceneNumberCount];
-#define SCENE_NUMBER(PLACE, VALUE) (kByVertex ? numbers_in[PLACE] : VALUE)
+#define SCENE_NUMBER(PLACE, VALUE) (kInSoftware ? numbers_in[PLACE] : VALUE)
 #define FRAME_RAY_X SCENE_NUMBER(kSceneRayX, frame.ray_x)
 #define FRAME_RAY_Y SCENE_NUMBER(kSceneRayY, frame.ray_y)
 #define FRAME_RAY_0 SCENE_NUMBER(kSceneRay0, frame.ray_0)

@@ -13,7 +13,7 @@ void main()
     vec2 p = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
     gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
     place = p;
-    if (kByVertex) {
+    if (kInSoftware) {
         numbers[kScreenRayX] = frame.ray_x;
         numbers[kScreenRayY] = frame.ray_y;
         numbers[kScreenRay0] = frame.ray_0;

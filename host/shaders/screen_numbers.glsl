@@ -6,7 +6,7 @@
 
 layout(location = 0) flat in vec4 numbers_in[kScreenNumberCount];
 layout(location = kScreenPixel) in vec2 place_in;
-#define SCREEN_NUMBER(PLACE, MEMBER) (kByVertex ? numbers_in[PLACE] : frame.MEMBER)
+#define SCREEN_NUMBER(PLACE, MEMBER) (kInSoftware ? numbers_in[PLACE] : frame.MEMBER)
 #define FRAME_RAY_X SCREEN_NUMBER(kScreenRayX, ray_x)
 #define FRAME_RAY_Y SCREEN_NUMBER(kScreenRayY, ray_y)
 #define FRAME_RAY_0 SCREEN_NUMBER(kScreenRay0, ray_0)
@@ -19,15 +19,15 @@ layout(location = kScreenPixel) in vec2 place_in;
 // a mip level for each lane, which takes three times as long as a sample does.
 vec4 texelHere(sampler2D image)
 {
-    return kByVertex ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+    return kInSoftware ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
 }
 uvec4 texelHere(usampler2D image)
 {
-    return kByVertex ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+    return kInSoftware ? textureLod(image, place_in, 0.0) : texelFetch(image, ivec2(gl_FragCoord.xy), 0);
 }
 vec4 texelHere(sampler2DArray image, int layer)
 {
-    return kByVertex ? textureLod(image, vec3(place_in, layer), 0.0)
+    return kInSoftware ? textureLod(image, vec3(place_in, layer), 0.0)
                      : texelFetch(image, ivec3(gl_FragCoord.xy, layer), 0);
 }
 

@@ -23,7 +23,7 @@ layout(location = 0) out vec4 out_light;
 LightData lightAt(uint i)
 {
     LightData light = frame.lights[i];
-    if (kByVertex && kFixedLights == 1) {
+    if (kInSoftware && kFixedLights == 1) {
         light.place = numbers_in[kScreenPlace];
         light.colour = numbers_in[kScreenColour];
         light.right = numbers_in[kScreenRight];

@@ -18,12 +18,12 @@ enum Constant : std::uint32_t {
     kOpaque,
     kToned,
     kTints,
-    kTechnique,                                                    // pack::TechniqueConstants
-    kByVertex = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
+    kTechnique,                                                      // pack::TechniqueConstants
+    kInSoftware = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
     kMostConstants
 };
 
-static_assert(kTechnique == 11 && kByVertex == 19); // forward.frag, by_vertex.glsl
+static_assert(kTechnique == 11 && kInSoftware == 19); // forward.frag, by_vertex.glsl
 
 struct Pipelines::Wish {
     const char* name = "";

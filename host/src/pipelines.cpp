@@ -187,7 +187,7 @@ VkPipeline Pipelines::make(const Wish& wish)
         entries[i] = {i, i * 4, 4};
     }
     std::array<VkBool32, kMostConstants> values = wish.constants;
-    values[kByVertex] = gpu_.software() ? VK_TRUE : VK_FALSE;
+    values[kInSoftware] = gpu_.software() ? VK_TRUE : VK_FALSE;
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof values, values.data()};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     const std::size_t stage_count = wish.fragment.empty() ? 1 : 2;

@@ -23,8 +23,8 @@
 const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
 
 // The same of the one view of a draw that is made for one (GNOMON_ONE_VIEW): DO(place, member of GpuView). Some
-// devices do not have that many outputs, so such a draw is for software alone. Where a view serves all of its map, what
-// is not listed is not read. The last three are of orthographic views.
+// devices do not have that many outputs, so such a draw is for software alone. What is not listed is not read: the view
+// serves all of its map, and an orthographic one is read as one in perspective whose w is 1 everywhere.
 #ifdef GNOMON_ONE_VIEW
 #define GNOMON_VIEW_NUMBERS(DO)                                                                                        \
     DO(14, x)                                                                                                          \
@@ -34,11 +34,8 @@ const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
     DO(18, tile)                                                                                                       \
     DO(19, scale)                                                                                                      \
     DO(20, whole)                                                                                                      \
-    DO(21, more)                                                                                                       \
-    DO(22, plane_x)                                                                                                    \
-    DO(23, plane_y)                                                                                                    \
-    DO(24, plane_w)
-const int kMaskNumbers = 25;
+    DO(21, more)
+const int kMaskNumbers = 22;
 #else
 const int kMaskNumbers = 14;
 #endif

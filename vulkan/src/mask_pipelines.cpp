@@ -12,18 +12,19 @@
 namespace gnomon::vulkan {
 namespace {
 
-/// `one`: for one view whose numbers come from the vertex shader.
-std::span<const std::uint32_t> fragmentCode(Filter filter, bool orthographic, bool one)
+/// By what a module is made for. Alone: one view of any kind, whose numbers come from the vertex shader.
+enum class MaskModule : std::uint8_t { any, orthographic, alone };
+
+std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
 {
     using namespace spirv;
-    using Codes = std::array<std::span<const std::uint32_t>, 4>; // by orthographic, and one
+    using Codes = std::array<std::span<const std::uint32_t>, 3>; // by MaskModule
     const auto of = [&](const Codes& codes) {
-        return codes[(orthographic ? 1 : 0) + (one ? 2 : 0)];
+        return codes[static_cast<std::size_t>(module)];
     };
 #define GN_CODES(NAME)                                                                                                 \
     {                                                                                                                  \
-        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_one_frag,                                   \
-            mask_##NAME##_orthographic_one_frag                                                                        \
+        mask_##NAME##_frag, mask_##NAME##_orthographic_frag, mask_##NAME##_one_frag                                    \
     }
     switch (filter) {
     case Filter::hard:
@@ -80,7 +81,10 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
-    key.alone = key.alone && vertex_one_;
+    if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
+        key.told_apart = vertex_one_ ? pack::ToldApart::alone : pack::ToldApart::tests;
+        key.orthographic = key.orthographic && !vertex_one_;
+    }
     const auto found = std::ranges::find(made_, key, &Made::key);
     if (found != made_.end()) {
         return found->pipeline.get();
@@ -94,8 +98,11 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     constants.in_software = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
     const Specialisation specialisation(constants);
-    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, key.orthographic, key.alone));
-    const TwoStages stages = stagesOf(key.alone ? vertex_one_ : vertex_, fragment, specialisation.info());
+    constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
+    const bool alone = key.told_apart == pack::ToldApart::alone;
+    const MaskModule module = alone ? MaskModule::alone : key.orthographic ? MaskModule::orthographic : MaskModule::any;
+    const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, module));
+    const TwoStages stages = stagesOf(alone ? vertex_one_ : vertex_, fragment, specialisation.info());
     GraphicsState state;
     state.stages = stages;
     state.layout = layout;

@@ -25,7 +25,7 @@ struct MaskConstants {
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
     VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
     VkBool32 has_ids = VK_FALSE;
-    VkBool32 slices_alone = VK_FALSE; // ToldApart::slices
+    VkBool32 slices_alone = VK_FALSE; // by MaskPipelineKey::told_apart
 
     bool operator==(const MaskConstants&) const = default;
 };
@@ -35,14 +35,9 @@ struct MaskPipelineKey {
     MaskConstants constants;
     VkFormat format = VK_FORMAT_UNDEFINED; // of the mask
     bool orthographic = false;             // all views of the draw's lights
-    bool alone = false;                    // ToldApart::alone
-    bool shares = false;                   // pack::MaskDraw::shares: channels of other draws stay as they are
+    pack::ToldApart told_apart = pack::ToldApart::tests;
+    bool shares = false; // pack::MaskDraw::shares: channels of other draws stay as they are
 
-    void tellApart(pack::ToldApart how)
-    {
-        alone = how == pack::ToldApart::alone;
-        constants.slices_alone = how == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
-    }
     bool operator==(const MaskPipelineKey&) const = default;
 };
 /// Of a draw of such options; format, device and what concerns the draw are left to be filled in.

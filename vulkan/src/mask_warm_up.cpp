@@ -47,7 +47,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
         key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
     }
     key.orthographic = draw.orthographic;
-    key.tellApart(draw.told_apart);
+    key.told_apart = draw.told_apart;
     key.shares = draw.shares;
     key.constants.technique.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
@@ -147,17 +147,17 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     key.constants.technique.few_views = few;
     make();
     if (few > 1 && !side_by_side) {
-        key.tellApart(ToldApart::slices);
+        key.told_apart = ToldApart::slices;
         make();
     }
     if (few > 0) { // a spot has one map
         key.constants.technique.few_views = 1;
         for (const ToldApart how : {ToldApart::tests, ToldApart::alone}) {
-            key.tellApart(how);
+            key.told_apart = how;
             make();
         }
     }
-    key.tellApart(ToldApart::tests);
+    key.told_apart = ToldApart::tests;
     key.constants.technique.few_views = 0;
     key.format = formatOf(4);
     if (what.several_lights) {
