@@ -112,18 +112,44 @@ bool isOrthographic(const Plan& plan, const ShownViews& shown)
     return all(shown.first, shown.count) && all(shown.later_first, shown.later_count);
 }
 
-// What the GPU has yet to fit will have a slice.
+// Does a view serve all that is on its map? What the GPU has yet to fit will have a slice.
+bool servesAll(const View& view)
+{
+    return !view.slice.bounded() && !view.sector.bounded() && view.gpu_cascade == kNoIndex;
+}
+
 ToldApart toldApart(std::span<const View> views)
 {
     const View& first = views.front();
     if (views.size() == 1) {
-        const bool all = !first.slice.bounded() && !first.sector.bounded() && first.gpu_cascade == kNoIndex;
-        return all ? ToldApart::alone : ToldApart::tests;
+        return servesAll(first) ? ToldApart::alone : ToldApart::tests;
     }
     const bool slices = std::ranges::all_of(views, [&](const View& view) {
         return !view.sector.bounded() && !view.slice.isRatio() && view.slice.axis == first.slice.axis;
     });
     return slices ? ToldApart::slices : ToldApart::tests;
+}
+
+// Of a plan's only light with views, a sun in steps: where each of its positions that is seen has one view, these are
+// known beforehand.
+void knowPositions(const Plan& plan, MaskDraw& draw)
+{
+    const LightPlan& light = plan.lights.front();
+    const ShownViews views = shownViews(plan, light, draw.shown[light.mask_channel]);
+    const bool one_each = views.count == 1 && (views.later_count == 0 || (views.later_count == 1 && draw.orthographic));
+    const std::uint32_t last = views.later_count > 0 ? views.later_first : views.first;
+    if (one_each && last < shared::kFewViews && servesAll(plan.views[views.first]) && servesAll(plan.views[last])) {
+        draw.told_apart = ToldApart::alone;
+        draw.paired = views.later_count > 0;
+    }
+}
+
+// Is the mask's first light the only one with views?
+bool isAlone(const Plan& plan)
+{
+    const LightPlan& light = plan.lights.front();
+    const bool is_first = plan.lights.size() == 1 || (light.mask_layer == 0 && light.mask_channel == 0);
+    return is_first && light.view_count == plan.views.size();
 }
 
 // The lights of one strip of a layer that have these options.
@@ -144,8 +170,15 @@ MaskDraw drawOf(const Plan& plan, std::uint32_t layer, const Strip& strip, std::
             draw.orthographic = draw.orthographic && isOrthographic(plan, views);
         }
     }
-    draw.few_views = fewViewsOf(plan);
-    draw.told_apart = draw.few_views > 0 ? toldApart(plan.views) : ToldApart::tests;
+    if (draw.channels == 0 || !isAlone(plan)) {
+        return draw;
+    }
+    draw.few_views = fewViewsOf(plan, plan.lights.front());
+    if (draw.few_views > 0) {
+        draw.told_apart = toldApart(plan.views);
+    } else {
+        knowPositions(plan, draw);
+    }
     return draw;
 }
 

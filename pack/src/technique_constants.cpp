@@ -34,13 +34,14 @@ std::uint32_t fewViews(const ResolvedOptions& options)
     return steps ? 0 : around ? shared::kFewViews : divided ? cascades : 1;
 }
 
-// Which view it is is known beforehand only where the light has all of the plan's.
 std::uint32_t fewViewsOf(const Plan& plan)
 {
-    if (plan.lights.size() != 1) {
-        return 0;
-    }
-    const LightPlan& light = plan.lights.front();
+    return plan.lights.size() == 1 ? fewViewsOf(plan, plan.lights.front()) : 0;
+}
+
+// Which view it is is known beforehand only where the light has all of the plan's.
+std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light)
+{
     const std::size_t count = plan.views.size();
     if (count == 0 || light.steps.paired || light.view_count != count || count > shared::kFewViews) {
         return 0;

@@ -48,8 +48,11 @@ layout(set = GNOMON_SET, binding = GNOMON_OBJECTS_BINDING, std430) restrict read
 #ifndef GNOMON_FEW_BINDING
 #define GNOMON_FEW_BINDING GNOMON_BINDING + 8
 #endif
+#ifndef GNOMON_FEW_LIGHT
+#define GNOMON_FEW_LIGHT 0
+#endif
 #ifndef GNOMON_FEW_PLACE
-#define GNOMON_FEW_PLACE gnomon_lights[0].place
+#define GNOMON_FEW_PLACE gnomon_lights[GNOMON_FEW_LIGHT].place
 #endif
 layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFewViews
 {
@@ -158,14 +161,19 @@ void placeObject(inout FilterInput f, uvec4 options, vec3 p)
 #endif
 
 // A pass may define GNOMON_FEW_VIEWS: how many views its one light has, 1 to kFewViews, which are all of the plan's; 0: a
-// draw for which this is not so. And GNOMON_FEW_BINDING for them, and GNOMON_FEW_PLACE, the light's GpuLight::place. Few
-// views are read as uniforms, which software loads faster, and told apart by their slices before one of them is loaded.
-// Where there is one that serves all of its map, the pass may have it already: GNOMON_ONE_VIEW_OF.
+// draw for which this is not so. And GNOMON_FEW_BINDING for them, GNOMON_FEW_LIGHT, which GpuLight it is, if not the first,
+// and GNOMON_FEW_PLACE, its GpuLight::place. Few views are read as uniforms, which software loads faster, and told apart by
+// their slices before one of them is loaded.
+// Where there is one that serves all of its map, the pass may have it already: GNOMON_ONE_VIEW_OF(i). And where there is
+// one of each of two positions of a sun: GNOMON_PAIRED, a constant, and GNOMON_ONE_VIEW_STEPS for GpuLight::steps.
+#ifndef GNOMON_PAIRED
+#define GNOMON_PAIRED false
+#endif
 #ifdef GNOMON_FEW_VIEWS
 GpuView viewAt(uint i)
 {
 #ifdef GNOMON_ONE_VIEW_OF
-    return GNOMON_ONE_VIEW_OF;
+    return GNOMON_ONE_VIEW_OF(i);
 #else
     if (GNOMON_FEW_VIEWS > 0) {
         return gnomon_few_views[i];
@@ -193,6 +201,7 @@ uint slicesAt(vec3 p)
 }
 #else
 #define GNOMON_FEW_VIEWS 0
+#define GNOMON_FEW_LIGHT 0
 #define GNOMON_FEW_PLACE vec4(0.0)
 GpuView viewAt(uint i)
 {
@@ -291,9 +300,12 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     GpuLight light;
     if (GNOMON_FEW_VIEWS > 0) {
         light.place = GNOMON_FEW_PLACE;
-        light.size = gnomon_lights[0].size;
-        light.options = gnomon_lights[0].options;
-        light.views = uvec4(0u, GNOMON_FEW_VIEWS, 0u, 0u);
+        light.size = gnomon_lights[GNOMON_FEW_LIGHT].size;
+        light.options = gnomon_lights[GNOMON_FEW_LIGHT].options;
+        light.views = uvec4(0u, GNOMON_FEW_VIEWS, 1u, GNOMON_PAIRED ? 1u : 0u);
+#ifdef GNOMON_ONE_VIEW_STEPS
+        light.steps = GNOMON_ONE_VIEW_STEPS;
+#endif
     } else {
         light = gnomon_lights[index];
     }
@@ -326,7 +338,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
         more = more && !is_later;
         range = light.views.zw;
         is_later = true;
-    } while (GNOMON_FEW_VIEWS == 0 && more); // few views are of one position
+    } while ((GNOMON_FEW_VIEWS == 0 || GNOMON_PAIRED) && more); // else few views are of one position
     v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
     return at.faces ? v : vec4(0.0);
 }

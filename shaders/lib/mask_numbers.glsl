@@ -35,7 +35,11 @@ const int kLightPlace = 13; // of a draw with few views (light_visibility.glsl)
     DO(19, scale)                                                                                                      \
     DO(20, whole)                                                                                                      \
     DO(21, more)
-const int kMaskNumbers = 22;
+// Of the second view of a draw with two positions of the sun (kPaired), so many places after the first one's. It is
+// orthographic, so GpuLight::steps has the place of its w.
+const int kLaterNumbers = 8;
+const int kStepsPlace = 16 + kLaterNumbers;
+const int kMaskNumbers = 30;
 #else
 const int kMaskNumbers = 14;
 #endif

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mask. Up to four lights of one layer of the mask, for the pixel's surface; of a compact mask the lights of the
 // pixel's tile that have channels in the layer. Made for one filter (GNOMON_FILTER), for orthographic maps alone
-// (GNOMON_ORTHOGRAPHIC_ONLY), and in software for one view that serves all of its map (GNOMON_ONE_VIEW).
+// (GNOMON_ORTHOGRAPHIC_ONLY), and in software for one view that serves all of its map, or one of each position of the sun
+// (GNOMON_ONE_VIEW).
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/choice_numbers.h"
 #include "../lib/mask_numbers.glsl"
@@ -41,7 +42,15 @@ layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a s
 #ifndef GNOMON_ONE_VIEW
 layout(constant_id = 19) const bool kSlicesAlone = false; // see light_visibility.glsl
 #define GNOMON_SLICES_ALONE kSlicesAlone
+#else
+layout(constant_id = 20) const bool kPaired = false; // two positions of the sun
+#define GNOMON_PAIRED kPaired
 #endif
+layout(push_constant) uniform Lights
+{
+    uint first_light; // of the layer's; of a compact mask the layer
+    uint channels;    // bit i: this draw writes channel i; of a compact mask the draw's options
+};
 layout(location = 0) flat in vec4 numbers_in[kMaskNumbers];
 GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
@@ -50,7 +59,10 @@ GpuConstants numbers;
 #define GNOMON_NEAREST_MAPS kInSoftware // filterable maps have a linear sampler, and no mapTexel() reads them
 #ifdef GNOMON_ONE_VIEW
 GpuView one_view;
-#define GNOMON_ONE_VIEW_OF one_view
+GpuView later_view; // of the later position
+#define GNOMON_FEW_LIGHT first_light // of the draw's strip
+#define GNOMON_ONE_VIEW_OF(I) (!kPaired || (I) == 0u ? one_view : later_view)
+#define GNOMON_ONE_VIEW_STEPS numbers_in[kStepsPlace]
 #endif
 #define GNOMON_BLOCKS_BINDING 9
 #define GNOMON_TINTS kTints
@@ -67,11 +79,6 @@ uint receiver_piece;
 #endif
 #include "../lib/light_visibility.glsl"
 
-layout(push_constant) uniform Lights
-{
-    uint first_light; // of the layer's; of a compact mask the layer
-    uint channels;    // bit i: this draw writes channel i; of a compact mask the draw's options
-};
 layout(set = 0, binding = 5) uniform sampler2D depths;
 layout(set = 0, binding = 6) uniform sampler2D normals;
 layout(set = 0, binding = 10) uniform sampler2D smooth_surfaces;
@@ -139,6 +146,9 @@ void main()
 #ifdef GNOMON_ONE_VIEW
 #define READ_VIEW(PLACE, MEMBER) one_view.MEMBER = numbers_in[PLACE];
     GNOMON_VIEW_NUMBERS(READ_VIEW)
+#define READ_LATER(PLACE, MEMBER) later_view.MEMBER = numbers_in[PLACE + kLaterNumbers];
+    GNOMON_VIEW_NUMBERS(READ_LATER)
+    later_view.w = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
     visibility = vec4(1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // One triangle that covers the screen. WITH_NUMBERS: with what lib/mask_numbers.glsl lists; GNOMON_ONE_VIEW: and with its
-// one view.
+// one view, or one of each position of the sun.
 #ifdef WITH_NUMBERS
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/mask_numbers.glsl"
@@ -19,6 +19,10 @@ layout(set = 0, binding = 8, std140) uniform FewViews
 {
     GpuView views[kFewViews];
 };
+layout(push_constant) uniform Draw
+{
+    uint first_light;
+};
 #endif
 layout(location = 0) flat out vec4 numbers[kMaskNumbers];
 #endif
@@ -30,10 +34,16 @@ void main()
 #ifdef WITH_NUMBERS
 #define WRITE(PLACE, MEMBER) numbers[PLACE] = constants.MEMBER;
     GNOMON_MASK_NUMBERS(WRITE)
-    numbers[kLightPlace] = lights[0].place;
 #ifdef GNOMON_ONE_VIEW
-#define WRITE_VIEW(PLACE, MEMBER) numbers[PLACE] = views[0].MEMBER;
+    GpuLight light = lights[first_light];
+#define WRITE_VIEW(PLACE, MEMBER) numbers[PLACE] = views[light.views.x].MEMBER;
     GNOMON_VIEW_NUMBERS(WRITE_VIEW)
+#define WRITE_LATER(PLACE, MEMBER) numbers[PLACE + kLaterNumbers] = views[light.views.z].MEMBER;
+    GNOMON_VIEW_NUMBERS(WRITE_LATER)
+    numbers[kLightPlace] = light.place;
+    numbers[kStepsPlace] = light.steps;
+#else
+    numbers[kLightPlace] = lights[0].place;
 #endif
 #endif
 }

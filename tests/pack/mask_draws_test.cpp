@@ -2,6 +2,7 @@
 #include "plan_by_hand.h"
 
 #include <gnomon/pack/mask_draws.h>
+#include <gnomon/pack/technique_constants.h>
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,11 @@ TEST(MaskDraws, FewViewsAreThoseOfAPlansOnlyLight)
                                                                         : shared::kFewViews)
             << count;
         by_hand.add(0, 0);
-        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "another light may come to have a map";
+        const std::uint32_t alone = drawsOf(by_hand.plan)[0].few_views;
+        EXPECT_EQ(pack::fewViewsOf(by_hand.plan), 0U) << "a host may ask for the other light";
+        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, alone) << "the mask asks for lights with maps alone";
+        by_hand.add(0, 1);
+        EXPECT_EQ(drawsOf(by_hand.plan)[0].few_views, 0U) << "another light has a map";
     }
     ShadowOptions stepping{.technique = kPlainTechnique};
     stepping.technique.motion = Motion::step_blend;
@@ -104,6 +109,39 @@ TEST(MaskDraws, FewViewsAreToldApartByWhatSetsThemApart)
     several.plan.views[1].slice.axis.w = 2.0;
     several.plan.views[2].sector.x = {1.0, 0.0, 0.0, 0.0};
     EXPECT_EQ(told(several), pack::ToldApart::tests) << "one stands beside others";
+}
+
+TEST(MaskDraws, OneViewOfEachPositionOfASunIsKnown)
+{
+    ShadowOptions stepping{.technique = kPlainTechnique};
+    stepping.technique.motion = Motion::step_band;
+    PlanByHand by_hand({stepping});
+    by_hand.add(0, 1);
+    EXPECT_EQ(drawsOf(by_hand.plan)[0].told_apart, pack::ToldApart::alone) << "of the position that there is";
+    EXPECT_FALSE(drawsOf(by_hand.plan)[0].paired);
+
+    PlanByHand two({stepping});
+    LightPlan& light = two.add(0, 2);
+    two.plan.views[0].sun = SunPosition::earlier;
+    two.plan.views[1].sun = SunPosition::later;
+    light.steps.paired = true;
+    light.steps.band = 0.1;
+    light.steps.edge = 0.5;
+    const auto draws = drawsOf(two.plan);
+    ASSERT_EQ(draws.size(), 3U);
+    for (const pack::MaskDraw& draw : draws) {
+        EXPECT_EQ(draw.told_apart, pack::ToldApart::alone);
+        EXPECT_EQ(draw.few_views, 0U) << "where there are no modules for one view they are looked up";
+    }
+    EXPECT_TRUE(!draws[0].paired && draws[1].paired && !draws[2].paired) << "the band alone reads two maps";
+    two.plan.views[1].slice.end_m = 5.0;
+    EXPECT_EQ(drawsOf(two.plan)[1].told_apart, pack::ToldApart::tests) << "it does not serve what is farther";
+    EXPECT_FALSE(drawsOf(two.plan)[1].paired);
+
+    PlanByHand divided({stepping});
+    divided.add(0, 4).steps.paired = true;
+    divided.plan.views[2].sun = divided.plan.views[3].sun = SunPosition::later;
+    EXPECT_EQ(drawsOf(divided.plan)[0].told_apart, pack::ToldApart::tests) << "each position has two views";
 }
 
 TEST(MaskDraws, ColouredLightIsDrawnToAllChannelsOfItsLayer)

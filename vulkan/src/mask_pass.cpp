@@ -76,6 +76,7 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 } // namespace
 
@@ -89,8 +90,8 @@ MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& 
 
 void MaskPassRecorder::makeLayouts()
 {
-    sets_ = DescriptorSets(device_, kTypes, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT);
-    layout_ = makePipelineLayout(device_, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(MaskPush));
+    sets_ = DescriptorSets(device_, kTypes, kStages);
+    layout_ = makePipelineLayout(device_, sets_.layout(), kStages, sizeof(MaskPush));
     // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
     linear_ = makeSampler(device_, VK_FILTER_LINEAR);
@@ -280,7 +281,7 @@ void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, co
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1,
                                      &slot.sets[draw.options], 0, nullptr);
     const MaskPush push{draw.first_light, draw.channels};
-    device_.vk.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+    device_.vk.CmdPushConstants(commands, layout_.get(), kStages, 0, sizeof push, &push);
     device_.vk.CmdDraw(commands, 3, 1, 0, 0);
 }
 

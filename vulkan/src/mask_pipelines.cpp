@@ -72,7 +72,7 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
       vertex_(makeShader(device, spirv::mask_numbers_vert))
 {
     const VkPhysicalDeviceLimits& limits = device.limits();
-    constexpr std::uint32_t kComponents = 128; // more than the numbers of mask_numbers.glsl and a position
+    constexpr std::uint32_t kComponents = 128; // 120 of mask_numbers.glsl, and up to 7 of gl_PerVertex
     if (device.software() && limits.maxVertexOutputComponents >= kComponents &&
         limits.maxFragmentInputComponents >= kComponents) {
         vertex_one_ = makeShader(device, spirv::mask_numbers_one_vert);
@@ -84,6 +84,7 @@ VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
         key.told_apart = vertex_one_ ? pack::ToldApart::alone : pack::ToldApart::tests;
         key.orthographic = key.orthographic && !vertex_one_;
+        key.constants.paired = vertex_one_ ? key.constants.paired : VK_FALSE;
     }
     const auto found = std::ranges::find(made_, key, &Made::key);
     if (found != made_.end()) {
@@ -97,8 +98,8 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     MaskConstants constants = key.constants;
     constants.in_software = device_.software() ? VK_TRUE : VK_FALSE;
     constants.shows_rays = shows_rays_ ? VK_TRUE : VK_FALSE;
-    const Specialisation specialisation(constants);
     constants.slices_alone = key.told_apart == pack::ToldApart::slices ? VK_TRUE : VK_FALSE;
+    const Specialisation specialisation(constants);
     const bool alone = key.told_apart == pack::ToldApart::alone;
     const MaskModule module = alone ? MaskModule::alone : key.orthographic ? MaskModule::orthographic : MaskModule::any;
     const ShaderModule fragment = makeShader(device_, fragmentCode(key.filter, module));

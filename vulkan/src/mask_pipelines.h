@@ -26,6 +26,7 @@ struct MaskConstants {
     VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
     VkBool32 has_ids = VK_FALSE;
     VkBool32 slices_alone = VK_FALSE; // by MaskPipelineKey::told_apart
+    VkBool32 paired = VK_FALSE;       // pack::MaskDraw::paired; of modules for one view alone
 
     bool operator==(const MaskConstants&) const = default;
 };

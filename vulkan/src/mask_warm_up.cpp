@@ -48,6 +48,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     }
     key.orthographic = draw.orthographic;
     key.told_apart = draw.told_apart;
+    key.constants.paired = draw.paired ? VK_TRUE : VK_FALSE;
     key.shares = draw.shares;
     key.constants.technique.few_views = draw.few_views;
     key.constants.tints = tinted_[draw.options] != 0 ? VK_TRUE : VK_FALSE;
@@ -156,6 +157,13 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
             key.told_apart = how;
             make();
         }
+    } else { // a sun in steps may have one for each of its positions
+        key.told_apart = ToldApart::alone;
+        for (const VkBool32 paired : {VK_FALSE, VK_TRUE}) {
+            key.constants.paired = paired;
+            make();
+        }
+        key.constants.paired = VK_FALSE;
     }
     key.told_apart = ToldApart::tests;
     key.constants.technique.few_views = 0;

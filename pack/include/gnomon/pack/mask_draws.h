@@ -24,7 +24,7 @@ enum class SunShown : std::uint8_t { all, earlier, later };
 enum class ToldApart : std::uint8_t {
     tests,  // each has a slice and a sector of its own; also where views are not few
     slices, // by slices of one depth, which they all count in
-    alone   // there is one, which serves all that is on its map
+    alone   // there is one, of each position of the sun that is seen, which serves all that is on its map
 };
 
 /// A triangle over a rectangle of one layer of the mask. Before the first draw the layer is 1 all over: lights without
@@ -40,8 +40,9 @@ struct MaskDraw {
     std::array<SunShown, shared::kLightsPerLayer> shown{}; // by channel
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // other draws may have further channels of these pixels
-    std::uint32_t few_views = 0;                           // fewViewsOf() the plan
+    std::uint32_t few_views = 0;                           // fewViewsOf() the only light with views
     ToldApart told_apart = ToldApart::tests;
+    bool paired = false; // alone: two positions of the sun are seen, by orthographic views
 
     bool operator==(const MaskDraw&) const = default;
 };

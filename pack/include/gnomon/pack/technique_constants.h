@@ -32,5 +32,7 @@ struct TechniqueConstants {
 /// The same of a plan as it is: 0 where it has several lights, no views, more than kFewViews, or views of two positions
 /// of a sun.
 [[nodiscard]] std::uint32_t fewViewsOf(const Plan& plan);
+/// Of a pass that asks for this one of the plan's lights alone.
+[[nodiscard]] std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light);
 
 } // namespace gnomon::pack
