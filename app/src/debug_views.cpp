@@ -174,9 +174,10 @@ constexpr std::array kViews{
     DebugView{"map", isMapped, "a technique that has a map", mapPicture},
     DebugView{"rays",
               [](const Settings& s) {
-                  return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none;
+                  return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none &&
+                         s.shadow.mask_size == MaskSize::full;
               },
-              "filter raymarch and soften none", raysView},
+              "filter raymarch, soften none and mask-size full", raysView},
     DebugView{"steps", steps, "a motion that steps", stepsView},
     DebugView{"views", isMapped, "a technique that has a map", viewsView},
 };

@@ -144,7 +144,8 @@ bool mayBeCompact(const Settings& s)
     const Technique& technique = s.shadow.technique;
     const bool is_shadowed_picture = !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
     return is_shadowed_picture && technique.soften == Soften::none && s.shadow.translucent == Translucent::grey &&
-           (technique.motion == Motion::free || technique.motion == Motion::snap) && hasMaps(s.shadow);
+           (technique.motion == Motion::free || technique.motion == Motion::snap) && hasMaps(s.shadow) &&
+           s.shadow.mask_size == MaskSize::full;
 }
 bool isCompact(const Settings& s)
 {
@@ -169,7 +170,7 @@ const std::vector<Setting>& rows()
          .doc = "anti-aliasing of the picture: none, fxaa or ssaa4", .subcommands = kRender | kBench, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
         {.key = "compact-mask", .group = Group::picture, .type = choice, .form = "CHANNELS", .default_text = "none", .choices = compactMaskNames,
          .doc = "channels of the mask for each tile of the picture, 4 or 8, instead of one for each light: none, 4 or 8", .subcommands = kRender | kBench, .own_option = false, .used = mayBeCompact,
-         .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, and translucent=grey", .apply = applyCompactMask},
+         .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, translucent=grey and mask-size=full", .apply = applyCompactMask},
         {.key = "compact-mask.side", .group = Group::picture, .type = choice, .form = "PIXELS", .unit = "pixels", .default_text = "16", .choices = tileSideNames,
          .doc = "side of such a tile, 16 or 32", .subcommands = kRender | kBench, .own_option = false, .used = isCompact, .used_when = "compact-mask=4 or 8", .apply = applyTileSide},
         {.key = "bloom", .group = Group::picture, .type = flag, .default_text = "0", .doc = "let what is very bright glow into its surroundings",

@@ -19,6 +19,9 @@ std::string_view refusalOfForward(const RenderOptions& options)
     if (technique.soften == Soften::blur || technique.soften == Soften::converge) {
         return "soften=blur and converge work on the mask";
     }
+    if (options.shadow.mask_size != MaskSize::full) {
+        return "mask-size=half is of a mask";
+    }
     if (technique.motion == Motion::step_alternate) {
         return "step-alternate reads the mask of the frame before";
     }

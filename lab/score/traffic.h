@@ -78,7 +78,8 @@ struct LeastByPass {
 /// between its passes; one pass that does the work of two may stay below it.
 ///
 /// A map of depths is written once, b bytes a texel. The mask needs the camera's depth (kDepthBytes) once for each of
-/// its pixels, and writes a byte for each of their channels.
+/// its pixels, and writes a byte for each of their channels. With MaskSize::half a quarter as many bytes are written
+/// before and read again.
 ///
 /// `pixels`: of the picture. Views whose maps are not drawn (TrafficOptions::redraws_all) do not count.
 [[nodiscard]] LeastByPass leastByPass(const Plan& plan, std::uint64_t pixels, const TrafficOptions& options);

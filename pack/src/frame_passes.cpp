@@ -22,6 +22,11 @@ bool takesTurns(const LightPlan& light)
     return light.outcome.hasMap() && light.steps.paired && light.steps.alternate;
 }
 
+bool halvesMask(const Plan& plan, const LightPlan& light)
+{
+    return light.outcome.hasMap() && (*plan.options)[light.options].halvesMask();
+}
+
 bool joinsFrames(const LightPlan& light)
 {
     return light.outcome.hasMap() && light.sample.joined;
@@ -39,6 +44,9 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out)
         }
     }
     out.push_back({FramePassKind::mask});
+    if (std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return halvesMask(plan, light); })) {
+        out.push_back({FramePassKind::spread});
+    }
     if (std::ranges::any_of(plan.lights, [](const LightPlan& light) { return light.volume_count > 0; })) {
         out.push_back({FramePassKind::volumes});
     }

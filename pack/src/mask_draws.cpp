@@ -293,6 +293,17 @@ void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std
     listDraws(&frame, plan, size_px, out);
 }
 
+ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px)
+{
+    const auto first = [](std::uint32_t begin) {
+        return begin > 0 ? (begin - 1) / 2 : 0;
+    };
+    const auto end = [](std::uint32_t last, std::uint32_t size) {
+        return std::min(last / 2 + 1, (size + 1) / 2);
+    };
+    return {first(pixels.x0), first(pixels.y0), end(pixels.x1, size_px.x), end(pixels.y1, size_px.y)};
+}
+
 std::size_t mostMaskDraws(const Plan& plan)
 {
     const std::size_t strips = mayHaveBands(plan) ? Strips::kMost : 1;

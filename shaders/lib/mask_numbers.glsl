@@ -5,6 +5,17 @@
 #ifndef GNOMON_MASK_NUMBERS_GLSL
 #define GNOMON_MASK_NUMBERS_GLSL
 
+// DO(place, member of GpuScreen).
+#define GNOMON_SCREEN_NUMBERS(DO)                                                                                      \
+    DO(0, eye_x)                                                                                                       \
+    DO(1, eye_y)                                                                                                       \
+    DO(2, eye_z)                                                                                                       \
+    DO(3, eye_w)                                                                                                       \
+    DO(4, fade)                                                                                                        \
+    DO(5, size)
+const int kDrawLayer = 6; // x: of the images, which is the draw's first instance
+const int kScreenNumbers = 7;
+
 // DO(place, member of GpuConstants). At most 15 places: any device has 64 components, and four are the position.
 #define GNOMON_MASK_NUMBERS(DO)                                                                                        \
     DO(0, screen.eye_x)                                                                                                \

@@ -8,6 +8,7 @@
 #include "../shared/choice_numbers.h"
 #include "../lib/mask_numbers.glsl"
 #include "../shared/gpu_structs.h"
+#include "../shared/screen_blur.h"
 #include "../shared/smooth_surface.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
@@ -46,6 +47,7 @@ layout(constant_id = 19) const bool kSlicesAlone = false; // see light_visibilit
 layout(constant_id = 20) const bool kPaired = false; // two positions of the sun
 #define GNOMON_PAIRED kPaired
 #endif
+layout(constant_id = 21) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights
 {
     uint first_light; // of the layer's; of a compact mask the layer
@@ -152,6 +154,12 @@ void main()
 #endif
     visibility = vec4(1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 centre = gl_FragCoord.xy;
+    if (kPixelsPerTexel > 1) { // the pixel that a texel stands for, as it is in itself
+        pixel = ivec2(pixelOfTexel(pixel.x, kPixelsPerTexel), pixelOfTexel(pixel.y, kPixelsPerTexel));
+        pixel = min(pixel, ivec2(numbers.screen.size.xy) - 1);
+        centre = vec2(pixel) + 0.5;
+    }
     float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
     // What is not drawn stays lit. Nor is the shader compiled twice by lavapipe, where no pixel is known to be drawn.
     if (depth == numbers.screen.fade.z) {
@@ -175,7 +183,7 @@ void main()
     SmoothSurface s = kHasSmooth ? smoothDecode(GNOMON_SCREEN_TEXEL(smooth_surfaces, pixel).rgb, p, n) : flatSurface(n);
     do {
         GnomonTileLight one = nextLight(left);
-        vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), gl_FragCoord.xy, h.w);
+        vec4 v = lightVisibility(one.light, p, n, s, vec3(1.0), centre, h.w);
         if (kConfidence && lookup_confidence >= 0.0) {
             v += packSeen(0.0, lookup_confidence);
         }

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // One triangle that covers the screen. WITH_NUMBERS: with what lib/mask_numbers.glsl lists; GNOMON_ONE_VIEW: and with its
-// one view, or one of each position of the sun.
-#ifdef WITH_NUMBERS
+// one view, or one of each position of the sun. WITH_SCREEN: with those of the screen alone.
+#if defined(WITH_NUMBERS) || defined(WITH_SCREEN)
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/mask_numbers.glsl"
 #include "../shared/gpu_structs.h"
@@ -10,6 +10,11 @@ layout(set = 0, binding = 0, std140) uniform Constants
 {
     GpuConstants constants;
 };
+#endif
+#ifdef WITH_SCREEN
+layout(location = 0) flat out vec4 numbers[kScreenNumbers];
+#endif
+#ifdef WITH_NUMBERS
 layout(set = 0, binding = 2, std430) restrict readonly buffer Lights
 {
     GpuLight lights[];
@@ -31,6 +36,11 @@ void main()
 {
     vec2 p = vec2(float((gl_VertexIndex << 1) & 2), float(gl_VertexIndex & 2));
     gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
+#ifdef WITH_SCREEN
+#define WRITE_SCREEN(PLACE, MEMBER) numbers[PLACE] = constants.screen.MEMBER;
+    GNOMON_SCREEN_NUMBERS(WRITE_SCREEN)
+    numbers[kDrawLayer] = vec4(float(gl_InstanceIndex));
+#endif
 #ifdef WITH_NUMBERS
 #define WRITE(PLACE, MEMBER) numbers[PLACE] = constants.MEMBER;
     GNOMON_MASK_NUMBERS(WRITE)

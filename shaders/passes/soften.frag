@@ -51,7 +51,7 @@ void main()
     }
     ivec2 pixel = pixelsOf(texel, kScale);
     ivec2 middle = push.how.x == 1 ? pixel : texel;
-    float depth = texelFetch(depths, pixel, 0).r;
+    float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
     if (depth == gnomon.screen.fade.z) { // the background
         visibility = sourceTexel(middle);
         return;

@@ -5,6 +5,7 @@
 // Based on: J. Kopf, M. Cohen, D. Lischinski, M. Uyttendaele, "Joint Bilateral Upsampling", SIGGRAPH 2007.
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/soften_surface.glsl"
+#include "../shared/mask_upsample.h"
 
 layout(location = 0) out vec4 visibility;
 
@@ -20,21 +21,18 @@ void main()
         visibility = sourceAt((vec2(pixel) + 0.5) / float(kScale));
         return;
     }
-    float depth = texelFetch(depths, pixel, 0).r;
+    float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
     if (depth == gnomon.screen.fade.z) {
         discard;
     }
     Surface surface = surfaceAt(pixel, depth);
-    vec2 place = (vec2(pixel) - float(kScale / 2)) / float(kScale);
+    vec2 place = vec2(texelOfPixel(pixel.x, kScale), texelOfPixel(pixel.y, kScale));
     vec2 cell = floor(place);
-    vec2 part = place - cell;
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
-        ivec2 corner = ivec2(i & 1, i >> 1);
-        ivec2 texel = clamp(ivec2(cell) + corner, ivec2(0), push.sizes.xy - 1);
-        vec2 near = mix(1.0 - part, part, vec2(corner));
-        float weight = near.x * near.y * shareOf(surface, pixelsOf(texel, kScale));
+        ivec2 texel = clamp(ivec2(cell) + ivec2(i & 1, i >> 1), ivec2(0), push.sizes.xy - 1);
+        float weight = cornerShare(place - cell, i) * shareOf(surface, pixelsOf(texel, kScale));
         sum += weight * sourceTexel(texel);
         weights += weight;
     }

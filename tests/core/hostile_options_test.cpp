@@ -129,6 +129,7 @@ TEST(HostileOptions, ValuesThatNoChoiceHasAreRefused)
     EXPECT_TRUE(refused({.pcf = {.kernel = PcfKernel{77}}}));
     EXPECT_TRUE(refused({.screen_blur = {.kernel = ScreenKernel{77}}}));
     EXPECT_TRUE(refused({.screen_blur = {.size = ScreenSize{77}}}));
+    EXPECT_TRUE(refused({.mask_size = MaskSize{77}}));
     EXPECT_TRUE(refused({.faces = CasterFaces{77}}));
     EXPECT_TRUE(refused({.cull = CasterCull{77}}));
     EXPECT_TRUE(refused({.steps = {.wait = StepWait{77}}}));

@@ -112,6 +112,21 @@ TEST(Options, FinsAreAFilterThatReadsAsPcfDoes)
     }
 }
 
+TEST(Options, HalfAMaskIsRefusedWhereFramesConverge)
+{
+    ShadowOptions half{.technique = kPlainTechnique, .mask_size = MaskSize::half};
+    for (const Soften soften : {Soften::none, Soften::smoothies, Soften::blur}) {
+        half.technique.soften = soften;
+        EXPECT_TRUE(resolve(half)) << nameOf(soften);
+        EXPECT_TRUE(resolve(half)->halvesMask());
+    }
+    half.technique.soften = Soften::converge;
+    EXPECT_NE(resolve(half).refusal.find("mask-size"), std::string::npos);
+    half.mask_size = MaskSize::full;
+    ASSERT_TRUE(resolve(half));
+    EXPECT_FALSE(resolve(half)->halvesMask());
+}
+
 TEST(Options, WhatWasPublishedOfTheBlurIsRefusedWhereItMeansNothing)
 {
     ShadowOptions blur{.technique = kPlainTechnique};

@@ -141,6 +141,7 @@ TEST(Volumes, RefuseWhatIsSaidOfMaps)
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.budget_texels = 1U << 20U; }), "");
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.draw_budget_texels = 1U << 20U; }), "");
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.keep_still = KeepStill::always; }), "");
+    EXPECT_NE(refusedWith([](ShadowOptions& o) { o.mask_size = MaskSize::half; }), "");
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.faces = CasterFaces::back; }), "");
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.translucent = Translucent::colour; }), "");
     EXPECT_NE(refusedWith([](ShadowOptions& o) { o.technique.partition = Partition::cascades; }), "");

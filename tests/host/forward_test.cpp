@@ -228,6 +228,7 @@ TEST_F(Forward, IsRefusedToWhatWorksOnTheMask)
     refused([](RenderOptions& o) { o.shadow.technique.soften = Soften::blur; });
     refused([](RenderOptions& o) { o.shadow.technique.soften = Soften::converge; });
     refused([](RenderOptions& o) { o.shadow.technique.motion = Motion::step_alternate; });
+    refused([](RenderOptions& o) { o.shadow.mask_size = MaskSize::half; });
     refused([](RenderOptions& o) { o.compact_mask.channels = 4; });
     refused([](RenderOptions& o) { o.shadow.technique.filter = Filter::volumes; });
     FrameRenderer renderer(on_gpu_, options_);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
+#include <vector>
 
 namespace gnomon::lab {
 namespace {
@@ -87,6 +89,23 @@ TEST(LeastByPass, OfMapsOfDepthsAreTheirTexels)
     options.samples = 4;
     EXPECT_EQ(leastByPass(plan, 1000, options).mask->bytes, 4U * 1000U * (4U + 4U));
     EXPECT_FALSE(leastByPass(Plan(), 1000, options).mask);
+}
+
+TEST(LeastByPass, OfHalfAMaskGoesThroughAQuarterOfIt)
+{
+    Plan plan = planOf(256);
+    plan.lights[0].view_count = 1;
+    const std::uint64_t whole = leastByPass(plan, 1000, {}).mask->bytes;
+    const auto withSize = [&](MaskSize size) {
+        ShadowOptions options{.technique = kPlainTechnique};
+        options.mask_size = size;
+        plan.options = std::make_shared<const std::vector<ResolvedOptions>>(1, resolvedOrThrow(options));
+        return leastByPass(plan, 1000, {}).mask->bytes;
+    };
+    EXPECT_EQ(withSize(MaskSize::full), whole);
+    EXPECT_EQ(withSize(MaskSize::half), whole + 2U * 250U); // written, and read again
+    plan.lights.resize(2);
+    EXPECT_EQ(withSize(MaskSize::half), 1000U * (4U + 4U) + 2U * 250U * 4U);
 }
 
 /// 8 + (1 + 4 + 5/3) b bytes a texel, less the levels' sums of which the last texel ends them.

@@ -2,9 +2,16 @@
 #include "plan_by_hand.h"
 
 #include <gnomon/pack/frame_passes.h>
+#include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/soften_draws.h>
 
+#include <mask_upsample.h>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace gnomon::test {
 namespace {
@@ -52,6 +59,49 @@ TEST(SoftenDraws, LightsOfOtherOptionsKeepTheirChannels)
     EXPECT_EQ(draws[1].channels, 0b0100U);
     EXPECT_FALSE(draws[0].whole || draws[1].whole);
     EXPECT_EQ(draws[1].blur.strength_px, 2.0F);
+}
+
+TEST(HalfMaskDraws, TexelsAreThoseThatPixelsTakeFrom)
+{
+    const auto cellsOf = [](std::uint32_t begin, std::uint32_t end, std::uint32_t size) { // [first, end)
+        std::pair<std::uint32_t, std::uint32_t> cells{size, 0};
+        const auto last = static_cast<int>(size + 1) / 2 - 1;
+        for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+            const int cell = static_cast<int>(std::floor(shared::texelOfPixel(static_cast<int>(pixel), 2)));
+            for (const int texel : {cell, cell + 1}) {
+                const auto there = static_cast<std::uint32_t>(std::clamp(texel, 0, last));
+                cells = {std::min(cells.first, there), std::max(cells.second, there + 1)};
+            }
+        }
+        return cells;
+    };
+    for (const std::uint32_t size : {1U, 2U, 7U, 8U}) {
+        for (std::uint32_t begin = 0; begin < size; ++begin) {
+            for (std::uint32_t end = begin + 1; end <= size; ++end) {
+                const pack::ScreenBounds found = pack::halfTexels({begin, 0, end, 5}, {size, 5});
+                EXPECT_EQ(std::pair(found.x0, found.x1), cellsOf(begin, end, size))
+                    << begin << " " << end << " " << size;
+                EXPECT_EQ(std::pair(found.y0, found.y1), std::pair(0U, 3U));
+            }
+        }
+    }
+}
+
+TEST(HalfMaskDraws, AreSpreadAfterTheMaskAndBeforeTheBlur)
+{
+    ShadowOptions half = blurredBy(1.0F);
+    half.mask_size = MaskSize::half;
+    PlanByHand by_hand({half, filteredBy(Filter::hard)});
+    by_hand.add(1, 1);
+    std::vector<pack::FramePass> passes;
+    pack::listFramePasses(by_hand.plan, passes);
+    EXPECT_FALSE(pack::has(passes, pack::FramePassKind::spread));
+    by_hand.add(0, 1);
+    pack::listFramePasses(by_hand.plan, passes);
+    ASSERT_GE(passes.size(), 3U);
+    EXPECT_EQ(passes[passes.size() - 3].kind, pack::FramePassKind::mask);
+    EXPECT_EQ(passes[passes.size() - 2].kind, pack::FramePassKind::spread);
+    EXPECT_EQ(passes.back().kind, pack::FramePassKind::blur);
 }
 
 TEST(SoftenDraws, LightsWithoutAMapDoNotCount)

@@ -138,8 +138,8 @@ TEST(CompactMask, JoinsLightsOfSeveralFilters)
 
 TEST(CompactMask, RefusesWhatNeedsAChannelForEachLight)
 {
-    for (const char* const options :
-         {"filter=pcf translucent=colour", "filter=pcf soften=converge", "filter=pcf soften=blur"}) {
+    for (const char* const options : {"filter=pcf translucent=colour", "filter=pcf soften=converge",
+                                      "filter=pcf soften=blur", "filter=pcf mask-size=half"}) {
         Lights lights({optionsFrom(options)});
         const Frame frame = lights.scene.frameOf(lights.lights);
         Drawing compact(gpu(), lights.scene.mesh(), {4, 16});

@@ -92,11 +92,28 @@ TEST(KeptMask, IsKeptWithWhatComesAfterIt)
         Kept kept({optionsOf(Filter::pcf, Partition::single, soften)});
         kept.settle();
     }
+    ShadowOptions half = optionsOf(Filter::pcf);
+    half.mask_size = MaskSize::half;
+    Kept({half}).settle();
     Kept cascades({optionsOf(Filter::pcf, Partition::cascades), optionsOf(Filter::hard)});
     for (Light& light : cascades.lights) {
         light.options = light.type == LightType::directional ? 0 : 1;
     }
     cascades.settle();
+}
+
+TEST(KeptMask, IsDrawnWhereItsSizeChanges)
+{
+    ShadowOptions half = optionsOf(Filter::pcf);
+    half.mask_size = MaskSize::half;
+    Kept kept({optionsOf(Filter::pcf)});
+    kept.settle();
+    Planner other(half);
+    std::swap(kept.planner, other);
+    EXPECT_FALSE(kept.frame());
+    kept.settle();
+    std::swap(kept.planner, other);
+    EXPECT_FALSE(kept.frame());
 }
 
 TEST(KeptMask, GoesOnWithAnyNumberOfFramesInFlight)

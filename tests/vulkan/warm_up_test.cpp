@@ -116,6 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
         WarmCase{"evsm_step_alternate", "filter=evsm motion=step-alternate map-size=64"},
         WarmCase{"pcf_colour", "filter=pcf translucent=colour map-size=64"},
         WarmCase{"pcf_colour_converge", "filter=pcf translucent=colour soften=converge map-size=64"},
+        WarmCase{"pcf_half", "filter=pcf mask-size=half partition=cascades map-size=64"},
+        WarmCase{"pcf_colour_half", "filter=pcf mask-size=half translucent=colour map-size=64"},
         WarmCase{"hard_blur", "filter=hard soften=blur map-size=64"},
         WarmCase{"pcf_colour_blur_half", "filter=pcf translucent=colour soften=blur soften.size=half map-size=64"},
         WarmCase{"pcf_colour_step_alternate", "filter=pcf translucent=colour motion=step-alternate map-size=64"}),

@@ -45,6 +45,12 @@ void MaskPassRecorder::checkCompact(const Plan& plan) const
             refuseUse(kTried, "frames converge light by light, and a channel has another light in the next frame",
                       kInstead);
         }
+        if (pack::halvesMask(plan, light)) {
+            refuseUse(kTried,
+                      "of a mask of half the size pixels take from those beside, whose tile has other lights in its "
+                      "channels (mask-size=half)",
+                      kInstead);
+        }
         if (pack::softens(plan, light)) {
             refuseUse(kTried,
                       "a blur of the mask takes from pixels beside, whose tile has other lights in its channels",

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
 #include <cstring>
 
 namespace gnomon::vulkan {
@@ -23,7 +22,34 @@ constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_B
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 
-// To be drawn to. What it held is not needed.
+enum Binding : std::uint32_t {
+    kConstants,
+    kMaps,
+    kLights,
+    kViews,
+    kLayers,
+    kDepth,
+    kNormal,
+    kObjectId,
+    kFewViews,
+    kBlocks,
+    kSmooth,
+    kTints,
+    kTiles,
+    kObjects,
+    kBindingCount
+};
+constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+} // namespace
+
 void toAttachment(const Device& device, VkCommandBuffer commands, const Image& image)
 {
     ImageBarrier barrier;
@@ -51,35 +77,6 @@ void toReadable(const Device& device, VkCommandBuffer commands, const Image& ima
     recordBarrier(device, commands, barrier);
 }
 
-enum Binding : std::uint32_t {
-    kConstants,
-    kMaps,
-    kLights,
-    kViews,
-    kLayers,
-    kDepth,
-    kNormal,
-    kObjectId,
-    kFewViews,
-    kBlocks,
-    kSmooth,
-    kTints,
-    kTiles,
-    kObjects,
-    kBindingCount
-};
-constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-
-} // namespace
-
 MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& options)
     : device_(device), slot_count_(options.frames_in_flight), cache_(options.pipeline_cache),
       compact_(checkedRule(options.compact)), pipelines_(device, options), slots_(options.frames_in_flight),
@@ -90,8 +87,8 @@ MaskPassRecorder::MaskPassRecorder(Device& device, const ShadowRendererOptions& 
 
 void MaskPassRecorder::makeLayouts()
 {
-    sets_ = DescriptorSets(device_, kTypes, kStages);
-    layout_ = makePipelineLayout(device_, sets_.layout(), kStages, sizeof(MaskPush));
+    sets_ = DescriptorSets(device_, kTypes, kMaskStages);
+    layout_ = makePipelineLayout(device_, sets_.layout(), kMaskStages, sizeof(MaskPush));
     // Depths must not be averaged, and filtering them is not a feature that formats of depth need have.
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
     linear_ = makeSampler(device_, VK_FILTER_LINEAR);
@@ -190,6 +187,7 @@ bool MaskPassRecorder::prepare(const Plan& plan, VkExtent2D screen, const MapCla
         makePipelines(plan, *shape_);
     }
     prepareHistories(plan);
+    prepareSpread(plan);
     prepareSoften(plan);
     prepareVolumes(plan);
     return !fits;
@@ -270,60 +268,6 @@ void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuV
     }
 }
 
-void MaskPassRecorder::recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot,
-                                  const pack::MaskDraw& draw)
-{
-    const pack::ScreenBounds& pixels = draw.pixels;
-    const VkRect2D scissor{{static_cast<std::int32_t>(pixels.x0), static_cast<std::int32_t>(pixels.y0)},
-                           {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0}};
-    device_.vk.CmdSetScissor(commands, 0, 1, &scissor);
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(plan, draw, *shape_));
-    device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1,
-                                     &slot.sets[draw.options], 0, nullptr);
-    const MaskPush push{draw.first_light, draw.channels};
-    device_.vk.CmdPushConstants(commands, layout_.get(), kStages, 0, sizeof push, &push);
-    device_.vk.CmdDraw(commands, 3, 1, 0, 0);
-}
-
-void MaskPassRecorder::recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
-                                   std::uint32_t layer)
-{
-    char label[32];
-    std::snprintf(label, sizeof label, "mask layer %u", layer);
-    device_.beginLabel(commands, label);
-    const VkExtent2D extent = target.info().extent;
-    VkRenderingAttachmentInfo colour{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    colour.imageView = target.layer(layer);
-    colour.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // what no light has drawn is lit
-    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    colour.clearValue.color = {{1.0F, 1.0F, 1.0F, 1.0F}};
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea.extent = extent;
-    info.layerCount = 1;
-    info.colorAttachmentCount = 1;
-    info.pColorAttachments = &colour;
-    device_.vk.CmdBeginRendering(commands, &info);
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(extent.width), static_cast<float>(extent.height),
-                              0.0F, 1.0F};
-    device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
-    for (const pack::MaskDraw& draw : now_.draws) {
-        if (draw.layer == layer) {
-            recordDraw(commands, plan, slot, draw);
-        }
-    }
-    device_.vk.CmdEndRendering(commands);
-    device_.endLabel(commands);
-}
-
-void MaskPassRecorder::recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target)
-{
-    toAttachment(device_, commands, target);
-    for (std::uint32_t layer = 0; layer < target.info().layers; ++layer) {
-        recordLayer(commands, plan, slot, target, layer);
-    }
-}
-
 /// Beside what the lights with maps have drawn.
 void MaskPassRecorder::recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                                      const MaskInputs& inputs, const Image& target)
@@ -358,6 +302,9 @@ void MaskPassRecorder::record(VkCommandBuffer commands, std::uint32_t slot_index
     const Image& joined = converges ? converge_->target() : mask_;
     const Image& drawn = takes_turns ? alternate_->target() : joined;
     recordLayers(commands, plan, slot, drawn);
+    if (std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return pack::halvesMask(plan, light); })) {
+        recordHalved(commands, slot_index, plan, inputs, drawn);
+    }
     recordVolumes(commands, slot_index, frame, plan, inputs, drawn);
     toReadable(device_, commands, drawn);
     if (takes_turns) {

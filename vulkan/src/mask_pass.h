@@ -8,6 +8,7 @@
 #include "map_class.h"
 #include "mask_pipelines.h"
 #include "mask_source.h"
+#include "mask_spread.h"
 #include "soften_pass.h"
 #include "volume_pass.h"
 
@@ -18,7 +19,10 @@
 
 namespace gnomon::vulkan {
 
-/// Push constants of mask.frag.
+/// What reads the sets and the push constants of the pass that draws the mask.
+inline constexpr VkShaderStageFlags kMaskStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+/// Push constants of mask.frag, of which mask.vert reads the first.
 struct MaskPush {
     std::uint32_t first_light; // of a compact mask the layer
     std::uint32_t channels;    // of a compact mask the options
@@ -34,6 +38,9 @@ using MapClasses = std::vector<std::unique_ptr<MapClass>>;
 void placeTints(const Plan& plan, const MapClasses& maps, std::span<shared::GpuView> views);
 /// Of the mask itself, by maskChannelCount().
 [[nodiscard]] VkFormat maskFormat(std::uint32_t channels);
+/// Of all layers, whoever has read them. To be drawn to: what they held is not needed.
+void toAttachment(const Device& device, VkCommandBuffer commands, const Image& image);
+void toReadable(const Device& device, VkCommandBuffer commands, const Image& image);
 /// Does what is drawn go to ConvergePass::target(), and not to another pass before it?
 [[nodiscard]] bool drawsToConverge(const Plan& plan);
 /// Do frames that converge count by FilterTraits::weighs_frames?
@@ -62,6 +69,8 @@ public:
     void recordSoften(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs);
     /// Did prepare() make what recordSoften() needs for this plan?
     [[nodiscard]] bool holdsSoften(const Plan& plan) const { return soften_ && soften_->holds(mask_.info(), plan); }
+    /// Did it make what record() needs for lights that pack::halvesMask()?
+    [[nodiscard]] bool holdsSpread(const Plan& plan) const { return spread_ && spread_->holds(drawnInfo(plan)); }
     [[nodiscard]] const Image& mask() const { return mask_; }
     /// Was the last prepare() for a plan with shadow volumes?
     [[nodiscard]] bool countsVolumes() const { return counts_volumes_; }
@@ -106,10 +115,19 @@ private:
     void makeConverge();
     void makeSoften();
     void prepareSoften(const Plan& plan);
+    void makeSpread();
+    void prepareSpread(const Plan& plan);
+    void warmUpSpread(const ResolvedOptions& options, const WarmUp& what);
+    /// Of the image that lights are drawn to, before frames are joined.
+    [[nodiscard]] ImageInfo drawnInfo(const Plan& plan) const;
     void makeVolumes();
     void prepareVolumes(const Plan& plan);
     void prepareHistories(const Plan& plan);
+    /// Are there draws of this layer that are to be drawn as this?
+    [[nodiscard]] bool hasDraws(const Plan& plan, std::uint32_t layer, DrawnAs as) const;
     void recordLayers(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target);
+    void recordHalved(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, const MaskInputs& inputs,
+                      const Image& target);
     void recordVolumes(VkCommandBuffer commands, std::uint32_t slot, const Frame& frame, const Plan& plan,
                        const MaskInputs& inputs, const Image& target);
     void makePipelines(const Plan& plan, MaskShape shape);
@@ -117,12 +135,14 @@ private:
     // In every frame, and not only where a handle is another one: a view that was made after its predecessor was
     // destroyed may have the same handle.
     void writeSet(const Slot& slot, std::uint32_t options, const MaskInputs& inputs, const MapClass& maps);
-    [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape);
+    [[nodiscard]] VkPipeline pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape, DrawnAs as);
     void makeStandInReadable(VkCommandBuffer commands);
     void fill(Slot& slot, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps);
     void recordLayer(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const Image& target,
-                     std::uint32_t layer);
-    void recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const pack::MaskDraw& draw);
+                     std::uint32_t layer, DrawnAs as);
+    void recordDraws(VkCommandBuffer commands, const Plan& plan, const Slot& slot, std::uint32_t layer, DrawnAs as);
+    void recordDraw(VkCommandBuffer commands, const Plan& plan, const Slot& slot, const pack::MaskDraw& draw,
+                    DrawnAs as);
 
     Device& device_;
     std::uint32_t slot_count_;
@@ -149,6 +169,7 @@ private:
     std::optional<AlternatePass> alternate_;    // made when a plan first needs it
     std::optional<ConvergePass> converge_;      // likewise
     std::optional<SoftenPass> soften_;          // likewise
+    std::optional<MaskSpread> spread_;          // likewise
     std::optional<VolumePassRecorder> volumes_; // likewise
     bool counts_volumes_ = false;
     std::optional<MaskShape> shape_; // of the inputs, as far as it is known

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mask_pipelines.h"
 
+#include "mask_spread.h"
 #include "pipelines.h"
 #include "specialisation.h"
 
@@ -67,6 +68,14 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
     return key;
 }
 
+MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as)
+{
+    key.as = as;
+    key.constants.pixels_per_texel = as == DrawnAs::half ? 2 : 1;
+    key.shares = key.shares || as == DrawnAs::half; // draws overlap by what is read between texels
+    return key;
+}
+
 MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& options)
     : device_(device), cache_(options.pipeline_cache), shows_rays_(options.shows_rays),
       vertex_(makeShader(device, spirv::mask_numbers_vert))
@@ -110,6 +119,11 @@ Pipeline MaskPipelines::make(const MaskPipelineKey& key, VkPipelineLayout layout
     state.colour_format = key.format;
     state.takes_away = key.constants.takes_away == VK_TRUE;
     state.keeps_least = key.shares && !state.takes_away; // what a draw has not to do with it writes as 1
+    const VkPipelineDepthStencilStateCreateInfo where_left = MaskSpread::whereLeft();
+    if (key.as == DrawnAs::left) {
+        state.depth_format = MaskSpread::kMarkFormat;
+        state.depth_stencil = &where_left;
+    }
     state.cache = cache_;
     state.name = "mask";
     return makeGraphicsPipeline(device_, state);

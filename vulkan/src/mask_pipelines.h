@@ -25,10 +25,18 @@ struct MaskConstants {
     VkBool32 takes_away = VK_FALSE;  // of a compact mask, a draw that shares: what lights do not give
     VkBool32 paraboloid = VK_FALSE;  // views may be View::paraboloid
     VkBool32 has_ids = VK_FALSE;
-    VkBool32 slices_alone = VK_FALSE; // by MaskPipelineKey::told_apart
-    VkBool32 paired = VK_FALSE;       // pack::MaskDraw::paired; of modules for one view alone
+    VkBool32 slices_alone = VK_FALSE;   // by MaskPipelineKey::told_apart
+    VkBool32 paired = VK_FALSE;         // pack::MaskDraw::paired; of modules for one view alone
+    std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
 
     bool operator==(const MaskConstants&) const = default;
+};
+
+/// What of a draw of the mask is drawn, and where to.
+enum class DrawnAs : std::uint8_t {
+    whole, // all pixels, to the mask
+    half,  // one pixel of each 2 x 2, to MaskSpread::half()
+    left   // to the mask the pixels that MaskSpread left
 };
 
 struct MaskPipelineKey {
@@ -38,11 +46,15 @@ struct MaskPipelineKey {
     bool orthographic = false;             // all views of the draw's lights
     pack::ToldApart told_apart = pack::ToldApart::tests;
     bool shares = false; // pack::MaskDraw::shares: channels of other draws stay as they are
+    DrawnAs as = DrawnAs::whole;
 
     bool operator==(const MaskPipelineKey&) const = default;
 };
 /// Of a draw of such options; format, device and what concerns the draw are left to be filled in.
 [[nodiscard]] MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape);
+
+/// Of draws that part the mask so; `key` for DrawnAs::whole.
+[[nodiscard]] MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as);
 
 class MaskPipelines {
 public:

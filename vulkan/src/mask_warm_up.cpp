@@ -5,6 +5,8 @@
 #include <gnomon/pack/frame_passes.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace gnomon::vulkan {
 namespace {
@@ -18,6 +20,13 @@ bool isColoured(const ResolvedOptions& options)
 std::uint32_t channelsAlone(const ResolvedOptions& options)
 {
     return isColoured(options) ? 4 : 1;
+}
+
+std::span<const DrawnAs> waysToDraw(const ResolvedOptions& options)
+{
+    static constexpr std::array kWhole{DrawnAs::whole};
+    static constexpr std::array kHalved{DrawnAs::half, DrawnAs::left};
+    return options.halvesMask() ? std::span<const DrawnAs>(kHalved) : std::span<const DrawnAs>(kWhole);
 }
 
 } // namespace
@@ -37,13 +46,19 @@ bool weighsFrames(const ResolvedOptions& options)
     return options.technique().soften == Soften::converge && options.traits().weighs_frames;
 }
 
-VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape)
+ImageInfo MaskPassRecorder::drawnInfo(const Plan& plan) const
+{
+    ImageInfo info = mask_.info();
+    info.format = drawsToConverge(plan) ? ConvergePass::targetFormat(info.format) : info.format;
+    return info;
+}
+
+VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& draw, MaskShape shape, DrawnAs as)
 {
     const ResolvedOptions& options = (*plan.options)[draw.options];
     MaskPipelineKey key = maskPipelineKey(options, shape);
-    key.format = mask_.info().format;
+    key.format = drawnInfo(plan).format;
     if (drawsToConverge(plan)) {
-        key.format = ConvergePass::targetFormat(key.format);
         key.constants.confidence = weighsFrames(options) ? VK_TRUE : VK_FALSE;
     }
     key.orthographic = draw.orthographic;
@@ -55,7 +70,7 @@ VkPipeline MaskPassRecorder::pipeline(const Plan& plan, const pack::MaskDraw& dr
     key.constants.coloured = draw.coloured ? VK_TRUE : VK_FALSE;
     key.constants.tile_channels = compact_.channels;
     key.constants.takes_away = isCompact() && draw.shares ? VK_TRUE : VK_FALSE;
-    return pipelines_.get(key, layout_.get());
+    return pipelines_.get(drawnAs(key, as), layout_.get());
 }
 
 void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
@@ -67,7 +82,9 @@ void MaskPassRecorder::makePipelines(const Plan& plan, MaskShape shape)
         pack::listMaskDraws(plan, size_px, now_.draws);
     }
     for (const pack::MaskDraw& draw : now_.draws) {
-        (void)pipeline(plan, draw, shape);
+        for (const DrawnAs as : waysToDraw((*plan.options)[draw.options])) {
+            (void)pipeline(plan, draw, shape, as);
+        }
     }
 }
 
@@ -92,6 +109,13 @@ void MaskPassRecorder::makeSoften()
     }
 }
 
+void MaskPassRecorder::makeSpread()
+{
+    if (!spread_) {
+        spread_.emplace(device_, slot_count_, cache_);
+    }
+}
+
 void MaskPassRecorder::makeVolumes()
 {
     if (!volumes_) {
@@ -105,9 +129,7 @@ void MaskPassRecorder::prepareVolumes(const Plan& plan)
     counts_volumes_ = VolumePassRecorder::draws(plan);
     if (counts_volumes_) {
         makeVolumes();
-        const VkFormat format = mask_.info().format;
-        volumes_->prepare(plan, mask_.info().extent,
-                          drawsToConverge(plan) ? ConvergePass::targetFormat(format) : format,
+        volumes_->prepare(plan, mask_.info().extent, drawnInfo(plan).format,
                           shape_.value_or(MaskShape{true, true, true}));
     }
 }
@@ -122,8 +144,10 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     const auto make = [&] {
         for (const bool orthographic : {true, false}) {
             key.orthographic = orthographic;
-            if (orthographic || what.perspective) {
-                (void)pipelines_.get(key, layout_.get());
+            for (const DrawnAs as : waysToDraw(options)) {
+                if (orthographic || what.perspective) {
+                    (void)pipelines_.get(drawnAs(key, as), layout_.get());
+                }
             }
         }
     };
@@ -204,6 +228,9 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
             alternate_->warmUp(ConvergePass::targetFormat(maskFormat(4)));
         }
     }
+    if (options.halvesMask() && !isCompact()) {
+        warmUpSpread(options, what);
+    }
     if (options.technique().soften == Soften::blur && !isCompact()) {
         makeSoften();
         soften_->warmUp(maskFormat(channelsAlone(options)), options.screen_blur(), what.inputs.normals, false);
@@ -217,6 +244,22 @@ void MaskPassRecorder::warmUp(const ResolvedOptions& options, const WarmUp& what
         if (what.several_lights) {
             converge_->warmUp(maskFormat(4));
         }
+    }
+}
+
+void MaskPassRecorder::warmUpSpread(const ResolvedOptions& options, const WarmUp& what)
+{
+    makeSpread();
+    const auto make = [&](std::uint32_t channels) {
+        const VkFormat format = maskFormat(channels);
+        spread_->warmUp(format, what.inputs.normals);
+        if (what.several_options) { // beside a light that joins frames
+            spread_->warmUp(ConvergePass::targetFormat(format), what.inputs.normals);
+        }
+    };
+    make(channelsAlone(options));
+    if (what.several_lights) {
+        make(4);
     }
 }
 
@@ -237,6 +280,19 @@ void MaskPassRecorder::prepareHistories(const Plan& plan)
         converge_->prepare(mask_.info(), plan.lights.size());
         if (alternate_) {
             alternate_->warmUp(converge_->target().info().format);
+        }
+    }
+}
+
+/// Likewise, and by the format that this plan's lights are drawn in.
+void MaskPassRecorder::prepareSpread(const Plan& plan)
+{
+    if (std::ranges::any_of(*plan.options, [](const ResolvedOptions& one) { return one.halvesMask(); })) {
+        makeSpread();
+        const ImageInfo drawn = drawnInfo(plan);
+        spread_->prepare(drawn);
+        if (shape_) {
+            spread_->warmUp(drawn.format, shape_->normals);
         }
     }
 }

@@ -181,6 +181,11 @@ void ShadowRenderer::recordMask(VkCommandBuffer commands, std::uint32_t slot, co
     if (softens && !impl_->parts->mask.holdsSoften(plan)) {
         refuseUse(kTried, "prepare() made no images for this plan's blur", "call prepare() with it first");
     }
+    const bool halves =
+        std::ranges::any_of(plan.lights, [&](const LightPlan& light) { return pack::halvesMask(plan, light); });
+    if (halves && !impl_->parts->mask.holdsSpread(plan)) {
+        refuseUse(kTried, "prepare() made no image of half the mask's size", "call prepare() with this plan first");
+    }
     impl_->device.enter(slot, Retirement::Work::mask);
     bool kept = false;
     impl_->whole([&](RendererParts& parts) {

@@ -29,6 +29,7 @@ struct Constants {
     VkBool32 edge_aware;
     VkBool32 has_normals;
     std::int32_t kernel;
+    VkBool32 in_software;
 };
 
 // Their push constants.
@@ -166,8 +167,9 @@ VkPipeline SoftenPass::pipeline(const SoftenPipelineKey& key)
     const ShaderModule vertex = makeShader(device_, spirv::mask_vert);
     const ShaderModule fragment =
         key.spreads ? makeShader(device_, spirv::soften_spread_frag) : makeShader(device_, spirv::soften_frag);
-    const Specialisation constants(
-        Constants{key.scale, key.edge_aware ? VK_TRUE : VK_FALSE, key.normals ? VK_TRUE : VK_FALSE, key.kernel});
+    const Specialisation constants(Constants{key.scale, key.edge_aware ? VK_TRUE : VK_FALSE,
+                                             key.normals ? VK_TRUE : VK_FALSE, key.kernel,
+                                             device_.software() ? VK_TRUE : VK_FALSE});
     const TwoStages stages = stagesOf(vertex, fragment, constants.info());
     GraphicsState state;
     state.stages = stages;

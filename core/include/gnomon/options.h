@@ -179,6 +179,14 @@ struct VolumeOptions {
     bool operator==(const VolumeOptions&) const = default;
 };
 
+/// Of the images that filters read maps into, before the mask itself.
+enum class MaskSize : std::uint8_t {
+    full, // the mask's own: every pixel reads maps
+    half, // one pixel of each 2 x 2 does. Another takes from those around it that show its surface; where there are
+          // none, or they differ, it reads maps itself. What is thinner than two pixels may be missed
+};
+[[nodiscard]] std::string_view nameOf(MaskSize value);
+
 /// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
     fast,     // one map; filter pcf
@@ -240,6 +248,7 @@ struct ShadowOptions {
     float lighten = 0.0F;
     LightenAs lighten_as = LightenAs::remap; // add: refused with soften converge, which averages frames afterwards
     MomentOptions moments;                   // filters vsm, lvsm, esm, evsm, msm; of hard and pcf the metric alone
+    MaskSize mask_size = MaskSize::full;     // half: refused with filter volumes and with soften converge
     ScreenBlurOptions screen_blur;           // soften blur
     VolumeOptions volumes;                   // filter volumes
 
@@ -270,6 +279,8 @@ public:
     [[nodiscard]] std::uint32_t largest_side() const { return largest_side_; }
     /// Of a map with this many texels on a side: at most a quarter of them.
     [[nodiscard]] double borderOf(std::uint32_t side) const { return std::min(border_texels_, 0.25 * side); }
+    /// One pixel of each 2 x 2 reads maps, and the others take from these where they can: MaskSize::half.
+    [[nodiscard]] bool halvesMask() const { return asked_.mask_size == MaskSize::half; }
     /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. End 0:
     /// nothing fades.
     [[nodiscard]] double fadeBegin_m() const { return asked_.max_distance_m * (1.0 - asked_.fade); }

@@ -81,6 +81,10 @@ std::string_view nameOf(ScreenTaps value)
 {
     return nameIn(std::array<std::string_view, 2>{"symmetric", "published"}, value);
 }
+std::string_view nameOf(MaskSize value)
+{
+    return nameIn(std::array<std::string_view, 2>{"full", "half"}, value);
+}
 std::string_view nameOf(KeepStill value)
 {
     return nameIn(std::array<std::string_view, 3>{"auto", "never", "always"}, value);

@@ -89,6 +89,9 @@ std::optional<std::string> volumesRefusal(const ShadowOptions& options)
     if (options.cull != CasterCull::none) {
         return "caster-cull: filter volumes counts all faces of a closed caster; leave it out";
     }
+    if (options.mask_size != MaskSize::full) {
+        return "mask-size half: filter volumes counts at every pixel, and reads no maps that could be read less often";
+    }
     if (options.translucent == Translucent::colour) {
         return "translucent colour: filter volumes counts what blocks light, and tints nothing; choose grey or none";
     }
@@ -210,6 +213,11 @@ std::optional<std::string> refusalOfOptions(const ShadowOptions& options)
     }
     if (options.technique.soften == Soften::converge && options.keep_still == KeepStill::always) {
         return "keep-still always: soften converge moves its maps in each frame, so nothing of them can be kept";
+    }
+    if (options.technique.soften == Soften::converge && options.mask_size != MaskSize::full) {
+        return "mask-size half: soften converge averages what each pixel itself has seen in many frames, and most "
+               "would "
+               "have seen nothing; take mask-size full";
     }
     if (auto reason = lightenRefusal(options)) {
         return reason;

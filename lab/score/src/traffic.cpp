@@ -70,6 +70,13 @@ PassLeast leastOfFilter(const Plan& plan, const TrafficOptions& options)
     return least;
 }
 
+bool halvesMask(const Plan& plan)
+{
+    return plan.options != nullptr && std::ranges::any_of(plan.lights, [&](const LightPlan& light) {
+               return light.outcome.hasMap() && (*plan.options)[light.options].halvesMask();
+           });
+}
+
 } // namespace
 
 std::uint64_t texelsRendered(const View& view, bool redraws_all)
@@ -139,7 +146,8 @@ LeastByPass leastByPass(const Plan& plan, std::uint64_t pixels, const TrafficOpt
     }
     if (!plan.lights.empty()) {
         const std::uint64_t mask_pixels = pixels * options.samples;
-        least.mask = PassLeast{mask_pixels, mask_pixels * (kDepthBytes + maskBytes(plan))};
+        const std::uint64_t through_half = halvesMask(plan) ? 2 * ((mask_pixels + 3) / 4) * maskBytes(plan) : 0;
+        least.mask = PassLeast{mask_pixels, mask_pixels * (kDepthBytes + maskBytes(plan)) + through_half};
     }
     return least;
 }

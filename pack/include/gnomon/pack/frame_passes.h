@@ -12,7 +12,8 @@ namespace gnomon::pack {
 enum class FramePassKind : std::uint8_t {
     bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
     maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
-    mask,    // listMaskDraws()
+    mask,    // listMaskDraws(), those of lights that halvesMask() to an image of half the size
+    spread,  // of these lights: from that image over the mask, and what it leaves drawn as listMaskDraws() says
     volumes, // listVolumeDraws(): into the mask, the lights of filter volumes
     history, // join the mask with that of the frame before: lights whose positions take turns (SunSteps::alternate)
     converge, // join it with the mean of all frames before (LightPlan::sample)
@@ -32,6 +33,8 @@ void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
 [[nodiscard]] bool hasLights(const Plan& plan, std::uint32_t options);
 /// Does the light's plan join this frame's visibility with that of the frame before?
 [[nodiscard]] bool takesTurns(const LightPlan& light);
+/// Is the light read at one pixel of each 2 x 2 (MaskSize::half)?
+[[nodiscard]] bool halvesMask(const Plan& plan, const LightPlan& light);
 /// Is its visibility a mean over frames?
 [[nodiscard]] bool joinsFrames(const LightPlan& light);
 

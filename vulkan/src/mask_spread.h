@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// mask-size=half: the image of half the mask's size, and how it is spread over the mask. Where it says nothing the mask
+// pass draws itself: `marks` has 0 where the mask is done, and a draw at depth 0 passes where it is not.
+#pragma once
+
+#include "descriptors.h"
+
+#include <vector>
+
+namespace gnomon::vulkan {
+
+/// What the pass reads besides its own image.
+struct SpreadInputs {
+    VkImageView depth = VK_NULL_HANDLE;
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageView normal = VK_NULL_HANDLE; // VK_NULL_HANDLE: none
+    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
+};
+
+class MaskSpread {
+public:
+    static constexpr VkFormat kMarkFormat = VK_FORMAT_D16_UNORM; // any device draws to it
+    /// Of draws of what the pass leaves.
+    [[nodiscard]] static VkPipelineDepthStencilStateCreateInfo whereLeft();
+
+    MaskSpread(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
+
+    /// Makes the pipeline for masks of this format.
+    void warmUp(VkFormat format, bool normals) { (void)pipeline({format, normals}); }
+    /// Makes the images for a mask like this one, if those that are there do not fit.
+    void prepare(const ImageInfo& mask);
+    /// Are they there?
+    [[nodiscard]] bool holds(const ImageInfo& mask) const;
+    /// Of half the size, rounded up, and of the mask's layers. Whoever draws to it clears it to 1.
+    [[nodiscard]] const Image& half() const { return half_; }
+
+    /// Before the layers of a frame: `target` was drawn to and will be again, half() may be read.
+    void begin(VkCommandBuffer commands, std::uint32_t slot, const SpreadInputs& inputs, const Image& target);
+    /// Begins the drawing of a layer of the target and spreads half() over `area` of it. `keeps`: what is there;
+    /// else it is cleared to 1. Draws of what is left may follow, and then vkCmdEndRendering.
+    void spread(VkCommandBuffer commands, const Image& target, std::uint32_t layer, const VkRect2D& area, bool keeps);
+
+private:
+    struct Key {
+        VkFormat format = VK_FORMAT_UNDEFINED; // of what is drawn to
+        bool normals = true;
+
+        bool operator==(const Key&) const = default;
+    };
+    struct Made {
+        Key key;
+        Pipeline pipeline;
+    };
+
+    [[nodiscard]] VkPipeline pipeline(const Key& key);
+
+    Device& device_;
+    VkPipelineCache cache_;
+    Sampler nearest_;
+    DescriptorSets sets_;
+    PipelineLayout layout_;
+    std::vector<VkDescriptorSet> slots_;
+    std::vector<Made> pipelines_;
+    Image half_;
+    Image marks_;                          // of the mask's size, one layer, for one after the other
+    VkDescriptorSet set_ = VK_NULL_HANDLE; // of the frame that is being recorded
+    bool normals_ = false;                 // likewise
+};
+
+} // namespace gnomon::vulkan
