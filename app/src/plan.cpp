@@ -162,6 +162,9 @@ struct PlanRun {
         : shot(makeShot(settings)), layers(settings, shot), planned(shot, settings)
     {
         std::for_each(shot.notices.begin(), shot.notices.end(), notice);
+        if (settings.shadow.draw_budget_ms > 0.0) {
+            notice("draw-budget.ms bounds nothing here: what drawing takes is measured where maps are drawn");
+        }
         planned.planAll(layers);
         if (const std::optional<std::string> waits = waitNote(planned.waits())) {
             notice(*waits);

@@ -54,6 +54,9 @@ FrustumPlanner::Lie FrustumPlanner::lieOf(const FrustumInput& input)
     const RegionInput around{
         lie.space, input.slice, camera, *input.frame.objects, input.receivers, recipe.drawsReceivers()};
     lie.outcome = region_.gatherReceivers(around);
+    if (lie.outcome.kind == OutcomeKind::ok && input.ground != nullptr) {
+        input.ground->note(region_, lie.space);
+    }
     if (lie.outcome.kind == OutcomeKind::ok && recipe.resolved.integratesLight()) {
         lie.outcome = widenForLight(input, around, lie);
     }

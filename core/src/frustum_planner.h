@@ -3,6 +3,7 @@
 #pragma once
 
 #include "auto/warp_search.h"
+#include "cascade_turns.h"
 #include "depth_range.h"
 #include "recipe.h"
 #include "region.h"
@@ -26,6 +27,7 @@ struct FrustumInput {
     Aabb scene_ws{};                      // with fit scene: what its map is made around
     std::span<const WorldLayer> layers{}; // with layers of the world
     const Sight* sight = nullptr;         // by which a warp is held against none; null: it is as its fit says
+    ViewGround* ground = nullptr;         // null, or where to say what the view was planned for
 };
 
 struct Prediction {

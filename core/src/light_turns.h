@@ -2,6 +2,7 @@
 // What a planner keeps of lights that take turns to be drawn (ShadowOptions::draw_budget_texels).
 #pragma once
 
+#include "cascade_turns.h"
 #include "store/draw_turns.h"
 #include "store/light_rows.h"
 #include "store/map_store.h"
@@ -19,11 +20,16 @@ namespace gnomon {
 struct ViewMap {
     const MapPlace* place = nullptr; // null: the view is of the plan before, with nothing to draw
     bool read = true;                // in this frame
+    bool own_turn = false;           // it is a cascade that takes turns by itself
+    bool may_wait = false;           // and the view that it had shows what it has to
+    bool waits = false;              // its turn has not come
 };
 
 /// A light in one frame.
 struct LightTurn {
     bool bounded = false;     // its options have a bound, and it may have maps
+    bool by_cascade = false;  // its cascades take turns each by itself
+    bool is_same = false;     // it is asked for as in the plan before, which it was in
     bool keeps_views = false; // those of the plan before can stand for it
     /// It waits, and that was known before its views were planned: it would have been divided otherwise.
     bool kept_back = false;
@@ -52,7 +58,11 @@ struct LightTurns {
     std::vector<std::uint32_t> casters;
     std::uint64_t objects = 0;     // ObjectSet::identity()
     std::vector<LightTurn> lights; // of the frame
+    // By MapId::index, of cascades that take turns by themselves: what a map was planned for, and what it would be now.
+    std::vector<ViewGround> grounds;
+    std::vector<ViewGround> next_grounds;
     // Scratch.
+    Region seen; // of a cascade, without room
     DrawTurns order;
     std::vector<DrawTurn> claims;
     std::vector<View> next_views;

@@ -179,6 +179,7 @@ void writePages(JsonWriter& json, const MapPages& pages)
     json.value("given_texels", pages.given_texels);
     json.value("drawn_texels", pages.drawn_texels);
     json.value("waiting_lights", pages.waiting_lights);
+    json.value("waiting_maps", pages.waiting_maps);
     json.value("longest_wait", pages.longest_wait);
     json.closeLine('}');
 }
@@ -232,6 +233,7 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     json.value("part", nameOf(view.part));
     json.value("sun", nameOf(view.sun));
     json.flag("redraw", view.redraw);
+    json.value("waited", view.waited);
     writeKept(json, view);
     json.flag("orthographic", view.orthographic);
     json.flag("parallel", view.parallel);

@@ -65,8 +65,7 @@ Planner::Impl::Impl(std::span<const ShadowOptions> options, Outcome why_unusable
         resolved->push_back(setups.emplace_back(one).recipe.resolved);
     }
     addPages(store);
-    takes_turns =
-        std::ranges::any_of(setups, [](const Setup& one) { return one.recipe.options.draw_budget_texels > 0; });
+    takes_turns = std::ranges::any_of(setups, [](const Setup& one) { return one.recipe.takesTurns(); });
     plan.options = std::move(resolved);
 }
 
@@ -216,6 +215,7 @@ void Planner::Impl::begin(const Frame& frame)
     view_maps.clear();
     for (Setup& setup : setups) {
         setup.looked = false;
+        setup.wide.looked = false;
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a planner keeps, and its steps: those of all lights together are in planner.cpp, how they share what room there
-// is in planner_room.cpp, whose turn it is to be drawn in planner_turns.cpp, and those of one light in
-// planner_light.cpp.
+// is in planner_room.cpp, whose turn it is to be drawn in planner_turns.cpp, cascades that take turns by themselves in
+// planner_cascades.cpp, and those of one light in planner_light.cpp.
 #pragma once
 
 #include "auto/auto_choice.h"
@@ -37,6 +37,13 @@ struct Setup {
     bool sighted = false; // `sight` is of this frame: where the recipe predicts, or lights share what room there is
     Sight sight;
     std::vector<WorldLayer> layers; // with layers of the world: this frame's
+    /// Where cascades take turns by themselves: the frame with room around its picture, and what is seen so.
+    struct Wide {
+        bool looked = false; // in this frame
+        Frame frame;
+        CameraView camera;
+        std::vector<std::uint32_t> receivers;
+    } wide;
 };
 
 /// One position that a light shines from.
@@ -130,11 +137,21 @@ struct Planner::Impl {
     void reportRoom();
     void foreseeTurns(const Frame& frame);
     void foreseeTurns(const Frame& frame, std::uint32_t options);
-    [[nodiscard]] bool canKeepViews(const Frame& frame, std::uint32_t index) const;
+    [[nodiscard]] bool canKeepViews(std::uint32_t index) const;
     [[nodiscard]] std::uint64_t texelsWanted(const Light& light, std::uint32_t index) const;
     void keepRoomOfTurns();
     [[nodiscard]] bool isKeptBack(std::uint32_t index) const;
     [[nodiscard]] std::uint64_t texelsDue(const Frame& frame, std::uint32_t index);
+    [[nodiscard]] std::uint64_t texelsDueOf(const Frame& frame, std::uint32_t view);
+    [[nodiscard]] bool isAsBefore(const Frame& frame, std::uint32_t index) const;
+    [[nodiscard]] bool turnsByCascade(const Light& light) const;
+    static void lookWide(const Frame& frame, Setup& setup);
+    [[nodiscard]] const View* viewBefore(std::uint32_t light, const MapId& map) const;
+    [[nodiscard]] bool hasOwnTurn(const Stand& stand, const Slice& slice) const;
+    Outcome planWideSlice(const Frame& frame, const Stand& stand, Setup& setup, const PlannedSlice& slice);
+    void claimByCascade(const Frame& frame, std::uint32_t index);
+    void noteGrounds();
+    [[nodiscard]] static std::uint64_t drawBudget(const Frame& frame, const ShadowOptions& options);
     void takeTurns(const Frame& frame);
     void takeTurns(const Frame& frame, std::uint32_t options);
     void putViewsBack(const Frame& frame);
@@ -152,7 +169,7 @@ struct Planner::Impl {
     void planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best);
     void listSlices(const Stand& stand, const Setup& setup);
     const PartitionTraits& partitionOf(const Setup& setup, const Stand& stand);
-    Outcome planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice);
+    Outcome planSlice(const Frame& frame, const Stand& stand, Setup& setup, const PlannedSlice& slice);
     void addView(const Stand& stand, const MapPlace& place, const View& planned);
     void planVolumes(const Frame& frame, std::uint32_t index);
     Outcome listVolumes(const Frame& frame, std::uint32_t index);

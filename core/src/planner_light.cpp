@@ -193,7 +193,7 @@ Outcome Planner::Impl::planStands(const Frame& frame, std::uint32_t index, std::
 /// A slice without receivers or casters needs no map; the light has one when any slice does.
 void Planner::Impl::planStand(const Frame& frame, const Stand& stand, std::optional<Outcome>& best)
 {
-    const Setup& setup = setups[stand.at.options];
+    Setup& setup = setups[stand.at.options];
     listSlices(stand, setup);
     if (planned_slices.empty() && !best) {
         best = {OutcomeKind::no_receiver, "nothing that the camera sees is in the light's reach"};
@@ -236,8 +236,11 @@ const PartitionTraits& Planner::Impl::partitionOf(const Setup& setup, const Stan
     return setup.recipe.predicts() ? *chooser.decisionOf(setup.recipe, stand.light).partition : *setup.recipe.partition;
 }
 
-Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, const Setup& setup, const PlannedSlice& slice)
+Outcome Planner::Impl::planSlice(const Frame& frame, const Stand& stand, Setup& setup, const PlannedSlice& slice)
 {
+    if (hasOwnTurn(stand, slice.slice)) {
+        return planWideSlice(frame, stand, setup, slice);
+    }
     const Recipe& recipe = setup.recipe;
     View planned;
     planned.light = stand.light;

@@ -153,7 +153,9 @@ void Planner::Impl::reportRoom()
         plan.pages[i].wanted_texels = wished_texels[i];
     }
     for (const View& view : plan.views) {
-        plan.pages[plan.lights[view.light].options].drawn_texels += texelsToDraw(view);
+        MapPages& pages = plan.pages[plan.lights[view.light].options];
+        pages.drawn_texels += texelsToDraw(view);
+        pages.waiting_maps += view.waited > 0 ? 1 : 0;
     }
     for (std::uint32_t light = 0; light < plan.lights.size(); ++light) {
         MapPages& pages = plan.pages[plan.lights[light].options];

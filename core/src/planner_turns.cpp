@@ -19,6 +19,7 @@ View asDrawn(const View& before, std::uint32_t light)
     view.kept_presumes = view.kept_makes;
     view.redraw = false;
     view.redraw_kept = false;
+    view.waited = before.waited + 1;
     view.dirty = {};
     return view;
 }
@@ -47,7 +48,7 @@ void Planner::Impl::foreseeTurns(const Frame& frame)
     }
     turns.follow(frame.lights);
     for (std::uint32_t options = 0; options < setups.size(); ++options) {
-        if (setups[options].looked && setups[options].recipe.options.draw_budget_texels > 0) {
+        if (setups[options].looked && setups[options].recipe.takesTurns()) {
             foreseeTurns(frame, options);
         }
     }
@@ -66,14 +67,16 @@ void Planner::Impl::foreseeTurns(const Frame& frame, std::uint32_t options)
         const KnownLight& known = turns.knownOf(index);
         turn.bounded = true;
         turn.share = light_shares.shareOf(index);
-        turn.keeps_views = canKeepViews(frame, index);
+        turn.is_same = isAsBefore(frame, index);
+        turn.by_cascade = turnsByCascade(frame.lights[index]);
+        turn.keeps_views = !turn.by_cascade && canKeepViews(index);
         const bool differs = turn.keeps_views && setup.recipe.grows() && multi.differs(index);
         // What most lights had to be drawn for in the frame before, they have in this one.
         turn.texels = turn.keeps_views && !differs ? known.texels : texelsWanted(frame.lights[index], index);
         turn.kept_back = differs;
         turns.claims.push_back({index, turn.share, turn.texels, known.waited, turn.keeps_views, false});
     }
-    turns.order.take(turns.claims, setup.recipe.options.draw_budget_texels, setup.recipe.options.longest_wait);
+    turns.order.take(turns.claims, drawBudget(frame, setup.recipe.options), setup.recipe.options.longest_wait);
     for (const DrawTurn& claim : turns.claims) {
         LightTurn& turn = turns.lights[claim.light];
         if (!turn.kept_back) {
@@ -89,21 +92,25 @@ void Planner::Impl::foreseeTurns(const Frame& frame, std::uint32_t options)
     }
 }
 
-/// Could a light's views of the plan before stand for those of this one? Not where it had none, so that none is without
-/// a shadow that it should have; nor where what they show is another thing than what is asked for now.
-bool Planner::Impl::canKeepViews(const Frame& frame, std::uint32_t index) const
+/// Could views of a light of the plan before stand for those of this one? Not where it had none, so that none is
+/// without a shadow that it should have; nor where what they show is another thing than what is asked for now.
+bool Planner::Impl::isAsBefore(const Frame& frame, std::uint32_t index) const
 {
     const Light& light = frame.lights[index];
     const KnownLight& known = turns.knownOf(index);
     const Setup& setup = setups[light.options];
     const bool same = known.type == light.type && known.options == light.options && known.map_size == light.map_size;
-    if (frame.cut || frame.objects->identity() != turns.objects || known.view_count == 0 || !same ||
-        setup.recipe.converges() || setup.recipe.steps(light) || setup.camera.outcome.kind != OutcomeKind::ok ||
-        setup.receivers.empty()) {
-        return false;
-    }
-    return std::ranges::all_of(turns.viewsOf(index),
-                               [&](const View& view) { return view.gpu_cascade == kNoIndex && store.holds(view); });
+    return !frame.cut && frame.objects->identity() == turns.objects && known.view_count > 0 && same &&
+           !setup.recipe.converges() && !setup.recipe.steps(light) && setup.camera.outcome.kind == OutcomeKind::ok &&
+           !setup.receivers.empty();
+}
+
+/// All of them, with what their maps hold?
+bool Planner::Impl::canKeepViews(std::uint32_t index) const
+{
+    return turns.lights[index].is_same && std::ranges::all_of(turns.viewsOf(index), [&](const View& view) {
+               return view.gpu_cascade == kNoIndex && store.holds(view);
+           });
 }
 
 /// Of all the maps that a light wants.
@@ -147,14 +154,19 @@ std::uint64_t Planner::Impl::texelsDue(const Frame& frame, std::uint32_t index)
     const LightPlan& planned = plan.lights[index];
     std::uint64_t texels = 0;
     for (std::uint32_t i = planned.first_view; i < planned.first_view + planned.view_count; ++i) {
-        const View& view = plan.views[i];
-        texels += view.gpu_cascade != kNoIndex
-                      ? std::uint64_t{view.tile.width} * view.tile.height
-                      : store.wouldDraw(view, *view_maps[i].place,
-                                        std::span(plan.casters).subspan(view.first_caster, view.caster_count),
-                                        *frame.objects);
+        texels += texelsDueOf(frame, i);
     }
     return texels;
+}
+
+std::uint64_t Planner::Impl::texelsDueOf(const Frame& frame, std::uint32_t index)
+{
+    const View& view = plan.views[index];
+    if (view.gpu_cascade != kNoIndex) {
+        return std::uint64_t{view.tile.width} * view.tile.height;
+    }
+    return store.wouldDraw(view, *view_maps[index].place,
+                           std::span(plan.casters).subspan(view.first_caster, view.caster_count), *frame.objects);
 }
 
 void Planner::Impl::takeTurns(const Frame& frame)
@@ -165,9 +177,10 @@ void Planner::Impl::takeTurns(const Frame& frame)
     for (std::uint32_t options = 0; options < setups.size(); ++options) {
         takeTurns(frame, options);
     }
-    if (std::ranges::any_of(turns.lights, &LightTurn::waits)) {
+    if (std::ranges::any_of(turns.lights, &LightTurn::waits) || std::ranges::any_of(view_maps, &ViewMap::waits)) {
         putViewsBack(frame);
     }
+    noteGrounds();
     noteTurns(frame);
 }
 
@@ -176,15 +189,24 @@ void Planner::Impl::takeTurns(const Frame& frame, std::uint32_t options)
     turns.claims.clear();
     for (std::uint32_t index = 0; index < turns.lights.size(); ++index) {
         LightTurn& turn = turns.lights[index];
-        if (turn.bounded && !turn.waits && plan.lights[index].options == options) {
+        if (!turn.bounded || turn.waits || plan.lights[index].options != options) {
+            continue;
+        }
+        if (turn.by_cascade) {
+            claimByCascade(frame, index);
+        } else {
             turn.texels = texelsDue(frame, index);
             turns.claims.push_back(
                 {index, turn.share, turn.texels, turns.knownOf(index).waited, turn.keeps_views, false});
         }
     }
     const Recipe& recipe = setups[options].recipe;
-    turns.order.take(turns.claims, recipe.options.draw_budget_texels, recipe.options.longest_wait);
+    turns.order.take(turns.claims, drawBudget(frame, recipe.options), recipe.options.longest_wait);
     for (const DrawTurn& claim : turns.claims) {
+        if (claim.view != kNoIndex) {
+            view_maps[claim.view].waits = !claim.drawn;
+            continue;
+        }
         turns.lights[claim.light].waits = !claim.drawn;
         if (!claim.drawn && recipe.grows()) {
             multi.restoreMemory(claim.light);
@@ -192,7 +214,7 @@ void Planner::Impl::takeTurns(const Frame& frame, std::uint32_t options)
     }
 }
 
-/// Gives the lights that wait the views that they had.
+/// Gives the lights and cascades that wait the views that they had.
 void Planner::Impl::putViewsBack(const Frame& frame)
 {
     turns.next_views.clear();
@@ -226,7 +248,14 @@ void Planner::Impl::putViewsBack(const Frame& frame)
             }
         } else {
             for (std::uint32_t i = first; i < first + planned.view_count; ++i) {
-                add(plan.views[i], plan.casters, view_maps[i]);
+                if (!view_maps[i].waits) {
+                    add(plan.views[i], plan.casters, view_maps[i]);
+                    continue;
+                }
+                View kept = asDrawn(*viewBefore(index, plan.views[i].map), index);
+                kept.slice = plan.views[i].slice;
+                planned.waited = std::max(planned.waited, kept.waited);
+                add(kept, turns.casters, {});
             }
         }
         planned.view_count = static_cast<std::uint32_t>(turns.next_views.size()) - planned.first_view;

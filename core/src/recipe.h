@@ -47,6 +47,10 @@ struct Recipe {
     [[nodiscard]] bool drawsReceivers() const { return filter->filterable || filter->ids; }
     /// Filter volumes has none: its lights want none, and have casters instead (planner_volumes.cpp).
     [[nodiscard]] bool hasMaps() const { return resolved.hasMaps(); }
+    /// What a frame draws is bounded.
+    [[nodiscard]] bool takesTurns() const { return boundsDrawing(options); }
+    /// A light's cascades take turns each by itself.
+    [[nodiscard]] bool turnsByCascade() const { return gnomon::turnsByCascade(options); }
     /// Its mask is a mean over frames.
     [[nodiscard]] bool converges() const { return options.technique.soften == Soften::converge; }
     [[nodiscard]] bool steady() const { return (motion != nullptr && motion->steady) || holdsScene(); }

@@ -82,6 +82,9 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     }
     record(present);
     now().commands->submit();
+    for (std::size_t i = 0; maps == Maps::planned && plan != nullptr && i < plan->pages.size(); ++i) {
+        now().drawn_texels += plan->pages[i].drawn_texels;
+    }
     if (deform_now) {
         scene.deformed_at_s = state.time_s;
     }
@@ -122,8 +125,28 @@ void FrameRenderer::Impl::beginSlot()
     if (next_index >= slots.size()) {
         scene.finishUpload(); // which came before the frame that has been waited for
     }
+    learnRate();
+    now().drawn_texels = 0;
     now().screen = screen;
     now().shadows = shadows;
+}
+
+/// What the slot's frame, which has been waited for, took for its maps.
+void FrameRenderer::Impl::learnRate()
+{
+    Shadows* const drawn_by = now().shadows.get();
+    if (drawn_by == nullptr || now().drawn_texels == 0 || !(drawn_by->planner.options().draw_budget_ms > 0.0)) {
+        return;
+    }
+    double ms = 0.0;
+    for (const vulkan::PassRecord& pass : profiler.results(slot)) {
+        const std::string_view name = pass.name;
+        ms += name == "shadow maps" || name == "shadow filter" || name == "maps of tints" ? pass.milliseconds : 0.0;
+    }
+    if (drawn_by->warm) {
+        drawn_by->draw_rate.take(now().drawn_texels, ms);
+    }
+    drawn_by->warm = true;
 }
 
 void FrameRenderer::Impl::finish()
@@ -236,6 +259,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
         if (!options.reuse_maps) {
             shadows->planner.reset();
         }
+        frame.draw_ms_per_texel = shadows->draw_rate.msPerTexel();
         plan = shadows->plan = &shadows->planner.plan(frame);
     }
     (void)shadows->renderer.prepare(*plan, forward.on ? VkExtent2D{} : screen->targets.drawn);

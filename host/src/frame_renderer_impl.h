@@ -30,6 +30,7 @@ struct FrameRenderer::Impl {
         Buffer deformed;        // vertices
         Buffer instead_staging; // masks of someone else's
         std::unique_ptr<Commands> commands;
+        std::uint64_t drawn_texels = 0; // of maps, by its frame; 0: it was not drawn
     };
     using Clock = std::chrono::steady_clock;
 
@@ -101,6 +102,7 @@ struct FrameRenderer::Impl {
                       const std::vector<ImageF>* masks_instead, Maps maps);
     void forgetBroken();
     void beginSlot();
+    void learnRate();
     void finish();
     void update(const scene::State& state);
     void look(const scene::State& state, const Eye& eye, const std::vector<ShadedLight>& lights, Maps maps);

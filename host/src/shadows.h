@@ -9,6 +9,7 @@
 
 #include "host/frame_renderer.h"
 
+#include <gnomon/draw_rate.h>
 #include <gnomon/vulkan/fin_drawer.h>
 
 #include <optional>
@@ -35,6 +36,8 @@ struct Shadows {
     std::optional<vulkan::VolumeDrawer> volumes; // of filter volumes
     std::optional<vulkan::FinDrawer> fins;       // of filter smoothies
     const Plan* plan = nullptr;                  // the last one
+    DrawRate draw_rate;                          // with ShadowOptions::draw_budget_ms
+    bool warm = false;                           // a frame was measured, whose time was that of compiling, too
 
 private:
     Plan kept_;

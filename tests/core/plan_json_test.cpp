@@ -35,6 +35,7 @@ Plan tinyPlan()
     plan.pages[0].given_texels = 1024 * 1024;
     plan.pages[0].drawn_texels = 512 * 1024;
     plan.pages[0].waiting_lights = 1;
+    plan.pages[0].waiting_maps = 3;
     plan.pages[0].longest_wait = 5;
     plan.lights[0].halved = 2;
     plan.lights[0].waited = 5;
@@ -61,6 +62,7 @@ Plan tinyPlan()
     view.kept_layer = 1;
     view.dirty = {3, 4, 5, 6};
     view.map = {3, 2};
+    view.waited = 2;
     plan.views = {view};
     return plan;
 }
@@ -69,7 +71,7 @@ constexpr const char* kGolden = R"({
   "frame": 7,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576, "drawn_texels": 524288, "waiting_lights": 1, "longest_wait": 5}
+    {"width": 1024, "height": 1024, "layers": 1, "kept_layers": 2, "wanted_texels": 16777216, "given_texels": 1048576, "drawn_texels": 524288, "waiting_lights": 1, "waiting_maps": 3, "longest_wait": 5}
   ],
   "mask_layers": 1,
   "fade": {"begin_m": 0, "end_m": 0},
@@ -85,6 +87,7 @@ constexpr const char* kGolden = R"({
       "part": "second",
       "sun": "later",
       "redraw": true,
+      "waited": 2,
       "kept": {"map": null, "layer": 1, "redraw": false, "still_count": 1, "dirty": {"x": 3, "y": 4, "width": 5, "height": 6}},
       "orthographic": true,
       "parallel": true,
@@ -143,7 +146,7 @@ TEST(PlanJson, EmptyPlan)
   "frame": 0,
   "technique": {"partition": "auto", "fit": "auto", "filter": "raymarch", "soften": "none", "motion": "free"},
   "pages": [
-    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0, "drawn_texels": 0, "waiting_lights": 0, "longest_wait": 0}
+    {"width": 0, "height": 0, "layers": 0, "kept_layers": 0, "wanted_texels": 0, "given_texels": 0, "drawn_texels": 0, "waiting_lights": 0, "waiting_maps": 0, "longest_wait": 0}
   ],
   "mask_layers": 0,
   "fade": {"begin_m": 0, "end_m": 0},

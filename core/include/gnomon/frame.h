@@ -92,6 +92,10 @@ struct Frame {
     std::span<const WorldLayer> layers;
     /// The camera was cut: the picture goes on from no other. What is remembered of earlier pictures is not used.
     bool cut = false;
+    /// What drawing a texel of a map takes on this device, milliseconds, as far as the host knows (DrawRate,
+    /// gnomon/draw_rate.h). What ShadowOptions::draw_budget_ms goes by, and nothing else does. What is not a finite
+    /// number above 0: not known.
+    double draw_ms_per_texel = 0.0;
 };
 
 } // namespace gnomon

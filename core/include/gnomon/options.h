@@ -38,6 +38,11 @@ struct CascadeOptions {
     std::array<double, kMaxCascades - 1> ends_m{};
     double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
     CascadePass pass = CascadePass::automatic;
+    /// With a bound on what a frame draws (ShadowOptions::draw_budget_texels, draw_budget_ms) and Partition::cascades:
+    /// how much wider all maps but a light's first are made than what is seen of their slices, on each side: share of
+    /// the slice's width and depth, 0 .. 0.5. Then each of them takes turns by itself (View::waited). A map of 1 + 2
+    /// room times the width has texels as much larger. 0: a light's maps take turns together.
+    double room = 0.0;
 
     [[nodiscard]] bool explicitEnds() const
     {
@@ -233,8 +238,12 @@ struct ShadowOptions {
     /// each with all its maps, at least one of them. The others keep the views that they had (LightPlan::waited). A
     /// light that has no maps to keep does not wait, whatever the bound is.
     std::uint64_t draw_budget_texels = 0;
-    /// With draw_budget_texels: frames for which a light waits at most, 1 .. 64. Then it is drawn whatever the bound
-    /// is.
+    /// The same bound in milliseconds of the device's time, 0 .. 10000; 0: none. The planner has no clock: it goes by
+    /// Frame::draw_ms_per_texel, which the host measures (DrawRate). As long as that is not known, this bounds nothing.
+    /// Of both bounds the tighter one counts.
+    double draw_budget_ms = 0.0;
+    /// With a bound on what is drawn: frames for which a light, or a cascade by itself, waits at most, 1 .. 64. Then it
+    /// is drawn whatever the bound is.
     std::uint32_t longest_wait = 8;
     PcfOptions pcf; // filters pcf, smoothies
     SmoothiesOptions smoothies;
@@ -338,6 +347,10 @@ struct Resolution {
 /// The filter that is used: the one asked for, or what automatic stands for: pcf where soften or partition cannot have
 /// raymarch.
 [[nodiscard]] Filter filterOf(const ShadowOptions& options);
+/// What a frame draws is bounded, in texels or milliseconds: maps take turns.
+[[nodiscard]] bool boundsDrawing(const ShadowOptions& options);
+/// A light's cascades take turns each by itself (CascadeOptions::room).
+[[nodiscard]] bool turnsByCascade(const ShadowOptions& options);
 /// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses
 /// a format, budgets, caster faces, a kept map or colours that are asked for all the same.
 [[nodiscard]] bool hasMaps(const ShadowOptions& options);

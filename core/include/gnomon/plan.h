@@ -246,6 +246,8 @@ struct View {
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot, point: the light's position.
     glm::dvec3 light_place_ws{0.0};
+    std::uint32_t waited =
+        0; // LightPlan::waited; of a cascade by itself (CascadeOptions::room) `slice` is as it is now
     /// Filters id and depth-id: names the ids that its casters are drawn with. A map that was drawn with others is out
     /// of date. 0: no ids.
     std::uint64_t ids_key = 0;
@@ -328,7 +330,7 @@ struct LightPlan {
     std::uint32_t halved = 0;
     /// For how many frames its maps have been out of date, this one included: its turn has not come
     /// (ShadowOptions::draw_budget_texels). Its views are those that it had before, with nothing to draw: the place is
-    /// in shadow as it was, and what these maps do not show is lit. 0: its maps are what they should be.
+    /// in shadow as it was, and what these maps do not show is lit. Of single cascades the longest. 0: nobody waits.
     std::uint32_t waited = 0;
     /// Filters id and depth-id: where in Plan::object_ids those of this light begin. kNoIndex: it has none.
     std::uint32_t first_object_id = kNoIndex;
@@ -353,10 +355,11 @@ struct MapPages {
     /// Texels of all its lights' maps, in sight or not: as they want them, and as they have them.
     std::uint64_t wanted_texels = 0;
     std::uint64_t given_texels = 0;
-    /// Texels of its lights' maps that this plan draws (texelsToDraw()), how many of its lights wait, and the longest
-    /// LightPlan::waited.
+    /// Texels of its lights' maps that this plan draws (texelsToDraw()), how many of its lights wait, with how many
+    /// maps, and the longest LightPlan::waited.
     std::uint64_t drawn_texels = 0;
     std::uint32_t waiting_lights = 0;
+    std::uint32_t waiting_maps = 0;
     std::uint32_t longest_wait = 0;
 };
 

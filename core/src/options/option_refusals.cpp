@@ -53,7 +53,7 @@ std::optional<std::string> idsRefusal(const ShadowOptions& options)
     if (!filterTraits(filterOf(options))->ids) {
         return std::nullopt;
     }
-    if (options.draw_budget_texels > 0) {
+    if (boundsDrawing(options)) {
         return "draw-budget: ids are handed out anew in each frame, and a light that waits has those of an older one";
     }
     if (options.cascades.pass == CascadePass::layered) {
@@ -77,7 +77,7 @@ std::optional<std::string> volumesRefusal(const ShadowOptions& options)
     if (options.format) {
         return "map-format: filter volumes counts faces and has no maps; leave it out";
     }
-    if (options.budget_texels != 0 || options.draw_budget_texels != 0) {
+    if (options.budget_texels != 0 || boundsDrawing(options)) {
         return "budget, draw-budget: filter volumes has no maps that could share texels or wait; leave both out";
     }
     if (options.keep_still == KeepStill::always) {
@@ -170,6 +170,21 @@ std::optional<std::string> budgetRefusal(const ShadowOptions& options)
                                            : "one map of map-size has " + std::to_string(map));
 }
 
+/// Maps that are of one frame, or have a time of their own, do not wait, so room would cost texels for nothing.
+std::optional<std::string> roomRefusal(const ShadowOptions& options)
+{
+    if (!(options.cascades.room > 0.0)) {
+        return std::nullopt;
+    }
+    if (options.technique.soften == Soften::converge) {
+        return "cascades.room: soften converge draws all maps in each frame, so no cascade waits; leave it out";
+    }
+    if (options.technique.motion != Motion::free && options.technique.motion != Motion::snap) {
+        return "cascades.room: maps of a sun that moves in steps do not wait; leave it out";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> smoothiesRefusal(const ShadowOptions& options)
 {
     const MapFormat format = formatOf(options);
@@ -232,6 +247,9 @@ std::optional<std::string> refusalOfOptions(const ShadowOptions& options)
         return reason;
     }
     if (auto reason = idsRefusal(options)) {
+        return reason;
+    }
+    if (auto reason = roomRefusal(options)) {
         return reason;
     }
     if (auto reason = smoothiesRefusal(options)) {

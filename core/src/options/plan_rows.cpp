@@ -72,7 +72,11 @@ bool holdsMulti(const ShadowOptions& o)
 }
 bool takesTurns(const ShadowOptions& o)
 {
-    return o.draw_budget_texels > 0;
+    return boundsDrawing(o);
+}
+bool hasTurnsOfCascades(const ShadowOptions& o)
+{
+    return boundsDrawing(o) && o.technique.partition == Partition::cascades;
 }
 bool hasBlends(const ShadowOptions& o)
 {
@@ -93,12 +97,14 @@ void addPlanRows(std::vector<OptionRow>& table)
         {.key = "cascades.ends", .type = numbers, .form = "M/M/...", .unit = "m", .min = 0, .max = kFarthestPlace_m, .count = kMaxCascades - 1, .doc = "where all cascades but the last end, ascending, as 10/40: one more than these", .used = hasCascades, .used_when = kCascades, .get = getEnds, .set = setEnds},
         {.key = "cascades.blend", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "or octave of multi, over which one fades into the next", .used = hasBlends, .used_when = "partition cascades, sdsm, multi or auto", GNOMON_MEMBER(cascades.blend)},
         {.key = "cascades.pass", .type = choice, .form = "PASS", .choices = namesOf<CascadePass>, .doc = "maps drawn each in a pass, or in one with layers; auto: each", .used = canDrawTogether, .used_when = "filter hard or pcf and partition cascades, sdsm or auto", GNOMON_MEMBER(cascades.pass)},
+        {.key = "cascades.room", .type = real, .form = "V", .unit = "of a cascade", .min = 0, .max = 0.5, .doc = "that maps of all cascades but the first show on each side beyond what is seen, so that each waits for a turn of its own; 0: a light's maps wait together", .used = hasTurnsOfCascades, .used_when = "partition cascades and draw-budget or draw-budget.ms above 0", GNOMON_MEMBER(cascades.room)},
         {.key = "multi.texels-per-pixel", .type = real, .form = "Q", .min = 0.125, .max = 8, .doc = "what multi gives each part of the picture, as long as a light's texels last", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.texels_per_pixel)},
         {.key = "multi.most-times", .type = real, .form = "X", .min = 0, .max = 1024, .doc = "how many times as many texels a pixel one place may need as another in a frustum of multi; 0: divide where that saves texels", .used = isMulti, .used_when = "partition multi", GNOMON_MEMBER(multi.most_times)},
         {.key = "multi.fade", .type = integer, .form = "N", .unit = "frames", .min = 0, .max = 64, .doc = "over which frustums of multi fade over into others, where motion snap has to change them", .used = holdsMulti, .used_when = "partition multi and motion snap", GNOMON_MEMBER(multi.fade_frames)},
         {.key = "budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "that the maps of all lights may have together; those that the picture owes least to get smaller ones; 0: no limit but memory", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(budget_texels)},
         {.key = "draw-budget", .type = integer, .form = "N", .unit = "texels", .min = 0, .max = 34359738368, .doc = "of maps that may be drawn in one frame; lights whose maps are out of date take turns; 0: no bound", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(draw_budget_texels)},
-        {.key = "draw-budget.wait", .type = integer, .form = "N", .unit = "frames", .min = 1, .max = 64, .doc = "after which a light is drawn whatever the draw-budget is", .used = takesTurns, .used_when = "draw-budget above 0", GNOMON_MEMBER(longest_wait)},
+        {.key = "draw-budget.ms", .type = real, .form = "MS", .unit = "ms", .min = 0, .max = 10000, .doc = "the same bound in the device's time, by what drawing took in frames before; of both the tighter one counts; 0: no bound", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(draw_budget_ms)},
+        {.key = "draw-budget.wait", .type = integer, .form = "N", .unit = "frames", .min = 1, .max = 64, .doc = "after which a light or cascade is drawn whatever the draw-budget is", .used = takesTurns, .used_when = "draw-budget or draw-budget.ms above 0", GNOMON_MEMBER(longest_wait)},
         {.key = "border", .type = real, .form = "T", .unit = "texels", .min = 0, .max = 64, .doc = "room around the fitted map; else what the kernel needs", .used = hasMaps, .used_when = "every filter but volumes", GNOMON_MEMBER(border_texels)},
         // clang-format on
     };

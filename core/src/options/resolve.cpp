@@ -105,6 +105,16 @@ float reachTexels(const ShadowOptions& options)
     return width > 0 ? static_cast<float>(width + 1) * 0.5F : options.pcf.radius_texels + 1.0F;
 }
 
+bool boundsDrawing(const ShadowOptions& options)
+{
+    return options.draw_budget_texels > 0 || options.draw_budget_ms > 0.0;
+}
+
+bool turnsByCascade(const ShadowOptions& options)
+{
+    return boundsDrawing(options) && options.technique.partition == Partition::cascades && options.cascades.room > 0.0;
+}
+
 bool fitsOnGpu(const ShadowOptions& options)
 {
     const Technique& technique = options.technique;

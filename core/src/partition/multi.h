@@ -80,7 +80,7 @@ private:
         HeldFrustums held;                       // with motion snap
         std::vector<GrownFrustum> last;          // of a light that takes turns: what divide() came to
     };
-    [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.options.draw_budget_texels > 0; }
+    [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }
     struct Range {
         std::size_t first = 0;
         std::size_t count = 0;
