@@ -10,6 +10,7 @@
 #include <gnomon/plan_views.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace gnomon::pack {
@@ -216,6 +217,7 @@ void listStrip(const Plan& plan, std::uint32_t layer, const Strip& strip, const 
     for (std::uint32_t options = 0; options < plan.options->size(); ++options) {
         MaskDraw draw = drawOf(plan, layer, strip, options);
         draw.first_light = first_light;
+        assert(draw.few_views == 0 || first_light == 0); // few views are of the first of all lights
         const std::uint32_t channels = draw.channels;
         drawn += channels != 0 ? 1 : 0;
         for (const ReachCell& cell : cells) {
@@ -295,13 +297,11 @@ void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std
 
 ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px)
 {
-    const auto first = [](std::uint32_t begin) {
-        return begin > 0 ? (begin - 1) / 2 : 0;
+    // The pixel of texel t is 2 t + 1, or the last one.
+    const auto end = [](std::uint32_t pixel, std::uint32_t size) {
+        return pixel >= size ? (size + 1) / 2 : pixel / 2;
     };
-    const auto end = [](std::uint32_t last, std::uint32_t size) {
-        return std::min(last / 2 + 1, (size + 1) / 2);
-    };
-    return {first(pixels.x0), first(pixels.y0), end(pixels.x1, size_px.x), end(pixels.y1, size_px.y)};
+    return {pixels.x0 / 2, pixels.y0 / 2, end(pixels.x1, size_px.x), end(pixels.y1, size_px.y)};
 }
 
 std::size_t mostMaskDraws(const Plan& plan)

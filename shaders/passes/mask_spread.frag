@@ -11,7 +11,9 @@ layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D normals;
 layout(set = 0, binding = 3) uniform sampler2DArray source;
 layout(constant_id = 0) const bool kHasNormals = true;
+layout(set = 0, binding = 4) uniform usampler2D object_ids;
 layout(constant_id = 1) const bool kInSoftware = false; // screen_surface.glsl
+layout(constant_id = 2) const bool kHasIds = false;     // else object_ids is a stand-in
 layout(location = 0) flat in vec4 numbers_in[kScreenNumbers];
 GpuScreen screen;
 #define GNOMON_SURFACE_SCREEN screen
@@ -29,6 +31,12 @@ vec4 sourceTexel(ivec2 texel, vec2 size)
                        : texelFetch(source, ivec3(texel, int(layer)), 0);
 }
 
+// What has the id 0 receives nothing.
+bool receives(ivec2 pixel)
+{
+    return !kHasIds || GNOMON_SCREEN_TEXEL(object_ids, pixel).r != 0u;
+}
+
 void main()
 {
 #define READ(PLACE, MEMBER) screen.MEMBER = numbers_in[PLACE];
@@ -36,8 +44,8 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     visibility = vec4(1.0);
     float depth = GNOMON_SCREEN_TEXEL(depths, pixel).r;
-    if (depth == screen.fade.z) {
-        return; // what is not drawn is lit, and done
+    if (depth == screen.fade.z || !receives(pixel)) {
+        return; // lit, and done
     }
     Surface surface = surfaceAt(pixel, depth);
     vec2 size = floor((screen.size.xy + 1.0) / float(kScale));
@@ -51,7 +59,7 @@ void main()
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(ivec2(cell) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size) - 1);
         ivec2 there = min(ivec2(pixelOfTexel(texel.x, kScale), pixelOfTexel(texel.y, kScale)), last_pixel);
-        float weight = cornerShare(place - cell, i) * shareOf(surface, there);
+        float weight = cornerShare(place - cell, i) * shareOf(surface, there) * (receives(there) ? 1.0 : 0.0);
         vec4 value = sourceTexel(texel, size);
         sum += weight * value;
         weights += weight;

@@ -232,7 +232,7 @@ TEST(PathProgram, BenchTimesTheFrames)
 TEST(PathProgram, SaysThatLightsWait)
 {
     const Place place;
-    const std::string said = "until their turn comes: up to 1 of a frame, for ";
+    const std::string said = "until their turn comes: up to 1 light and 1 map in a frame, for ";
     const std::vector<std::vector<std::string>> runs{
         {"plan", "planes"}, {"render", "planes", "-o", "a.png"}, {"bench", "planes", "--json=-"}};
     for (std::vector<std::string> run : runs) {

@@ -5,7 +5,7 @@
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/soften_draws.h>
 
-#include <mask_upsample.h>
+#include <screen_blur.h>
 
 #include <gtest/gtest.h>
 
@@ -61,26 +61,20 @@ TEST(SoftenDraws, LightsOfOtherOptionsKeepTheirChannels)
     EXPECT_EQ(draws[1].blur.strength_px, 2.0F);
 }
 
-TEST(HalfMaskDraws, TexelsAreThoseThatPixelsTakeFrom)
+TEST(HalfMaskDraws, TexelsAreThoseWhosePixelsTheyHave)
 {
-    const auto cellsOf = [](std::uint32_t begin, std::uint32_t end, std::uint32_t size) { // [first, end)
-        std::pair<std::uint32_t, std::uint32_t> cells{size, 0};
-        const auto last = static_cast<int>(size + 1) / 2 - 1;
-        for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-            const int cell = static_cast<int>(std::floor(shared::texelOfPixel(static_cast<int>(pixel), 2)));
-            for (const int texel : {cell, cell + 1}) {
-                const auto there = static_cast<std::uint32_t>(std::clamp(texel, 0, last));
-                cells = {std::min(cells.first, there), std::max(cells.second, there + 1)};
-            }
-        }
-        return cells;
+    const auto isOf = [](std::uint32_t texel, std::uint32_t begin, std::uint32_t end, std::uint32_t size) {
+        const int pixel = std::min(shared::pixelOfTexel(static_cast<int>(texel), 2), static_cast<int>(size) - 1);
+        return pixel >= static_cast<int>(begin) && pixel < static_cast<int>(end);
     };
     for (const std::uint32_t size : {1U, 2U, 7U, 8U}) {
         for (std::uint32_t begin = 0; begin < size; ++begin) {
             for (std::uint32_t end = begin + 1; end <= size; ++end) {
                 const pack::ScreenBounds found = pack::halfTexels({begin, 0, end, 5}, {size, 5});
-                EXPECT_EQ(std::pair(found.x0, found.x1), cellsOf(begin, end, size))
-                    << begin << " " << end << " " << size;
+                for (std::uint32_t texel = 0; texel < (size + 1) / 2; ++texel) {
+                    EXPECT_EQ(texel >= found.x0 && texel < found.x1, isOf(texel, begin, end, size))
+                        << texel << " of " << begin << " " << end << " " << size;
+                }
                 EXPECT_EQ(std::pair(found.y0, found.y1), std::pair(0U, 3U));
             }
         }

@@ -110,6 +110,7 @@ void ChangingHost::move(const FrameSetup& setup)
                                : makeSun({std::cos(angle), -1.0, std::sin(angle)}));
         lights_.back().key = i;
         lights_.back().options = i % setup.options;
+        lights_.back().casts_shadow = i < setup.cast;
     }
 }
 

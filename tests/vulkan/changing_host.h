@@ -18,6 +18,7 @@ namespace gnomon::test {
 /// What a frame is drawn for.
 struct FrameSetup {
     std::uint32_t lights = 1; // each third a spot, the others suns; they take the planner's options in turn
+    std::uint32_t cast = ~0U; // so many of them; those after cast no shadow
     std::uint32_t options = 1;
     VkExtent2D screen{64, 40};
     vulkan::MaskShape inputs;

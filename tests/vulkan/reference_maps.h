@@ -58,13 +58,13 @@ Blocks blocksOf(const CpuMap& map)
         const std::size_t texels = std::size_t{1} << level;
         std::vector<int>& made = blocks.levels.emplace_back(side * side);
         for (std::size_t i = 0; i < made.size(); ++i) {
-            glm::dvec2 range(1.0, 0.0);
             for (std::size_t t = 0; t < texels * texels; ++t) {
                 const double depth =
                     texelAt(map, 0, double(i % side * texels + t % texels), double(i / side * texels + t / texels)).x;
-                range = glm::dvec2(std::min(range.x, depth), std::max(range.y, depth));
+                // Texels that nobody drew hold anything, be it no number.
+                const int block = shared::blockOf(depth, depth);
+                made[i] = t == 0 ? block : shared::joinedBlocks(made[i], block);
             }
-            made[i] = shared::blockOf(range.x, range.y);
         }
     }
     return blocks;

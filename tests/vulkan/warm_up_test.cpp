@@ -58,6 +58,29 @@ TEST_P(WarmUp, leavesNoPipelineToMake)
     }
 }
 
+// The last ones stop casting, and start again.
+TEST_P(WarmUp, leavesNoPipelineToMakeBesideLightsWithoutMaps)
+{
+    const std::vector<ShadowOptions> options{optionsFrom(GetParam().options)};
+    const ResolvedOptions resolved = resolvedOrThrow(options[0]);
+    for (const LightType first : {LightType::directional, LightType::spot}) {
+        ChangingHost warm({.mask_shape = vulkan::MaskShape{.normals = true}});
+        warm.renderer.warmUp(resolved, {.inputs = {.normals = true}});
+        warm.drawer.warmUp(resolved, true);
+        warm.first_light = first;
+        Planner planner(options);
+        FrameSetup setup{.lights = 3};
+        setup.inputs.normals = true;
+        std::uint64_t pipelines = 0;
+        for (int i = 0; i < 8; ++i) {
+            setup.cast = i < 4 ? 1 : 3;
+            pipelines += warm.frame(planner, setup).pipelines + warm.prepared_now;
+        }
+        EXPECT_EQ(pipelines, 0U);
+        warm.expectNoMistakes(GetParam().options);
+    }
+}
+
 // Also where both have maps of one kind.
 TEST_P(WarmUp, ofTwoOptionsLeavesNoPipelineToMakeForBoth)
 {

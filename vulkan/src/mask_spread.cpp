@@ -14,10 +14,11 @@
 namespace gnomon::vulkan {
 namespace {
 
-enum Binding : std::uint32_t { kConstants, kDepth, kNormal, kSource, kBindingCount };
+enum Binding : std::uint32_t { kConstants, kDepth, kNormal, kSource, kObjectId, kBindingCount };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 constexpr VkPipelineStageFlags2 kTests =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
@@ -26,6 +27,7 @@ constexpr VkPipelineStageFlags2 kTests =
 struct Constants {
     VkBool32 has_normals;
     VkBool32 in_software;
+    VkBool32 has_ids;
 };
 
 ImageInfo halfOf(const ImageInfo& mask)
@@ -68,8 +70,8 @@ VkPipeline MaskSpread::pipeline(const Key& key)
     }
     const ShaderModule vertex = makeShader(device_, spirv::mask_screen_vert);
     const ShaderModule fragment = makeShader(device_, spirv::mask_spread_frag);
-    const Specialisation specialisation(
-        Constants{key.normals ? VK_TRUE : VK_FALSE, device_.software() ? VK_TRUE : VK_FALSE});
+    const Specialisation specialisation(Constants{
+        key.normals ? VK_TRUE : VK_FALSE, device_.software() ? VK_TRUE : VK_FALSE, key.ids ? VK_TRUE : VK_FALSE});
     const TwoStages stages = stagesOf(vertex, fragment, specialisation.info());
     VkPipelineDepthStencilStateCreateInfo marks{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     marks.depthTestEnable = VK_TRUE; // without it nothing is written
@@ -100,17 +102,20 @@ void MaskSpread::prepare(const ImageInfo& mask)
     if (holds(mask)) {
         return;
     }
+    Image half(device_, halfOf(mask));
+    Image marks(device_, {kMarkFormat, mask.extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                          VK_IMAGE_ASPECT_DEPTH_BIT, "half mask"});
     device_.retire(std::move(half_));
     device_.retire(std::move(marks_));
-    half_ = Image(device_, halfOf(mask));
-    marks_ = Image(device_, {kMarkFormat, mask.extent, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                             VK_IMAGE_ASPECT_DEPTH_BIT, "half mask"});
+    half_ = std::move(half);
+    marks_ = std::move(marks);
 }
 
 void MaskSpread::begin(VkCommandBuffer commands, std::uint32_t slot, const SpreadInputs& inputs, const Image& target)
 {
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     normals_ = inputs.normal != VK_NULL_HANDLE;
+    ids_ = inputs.object_id != VK_NULL_HANDLE;
     set_ = slots_[slot];
     const VkSampler sampler = nearest_.get();
     const std::array<DescriptorSets::Write, kBindingCount> writes{
@@ -118,7 +123,8 @@ void MaskSpread::begin(VkCommandBuffer commands, std::uint32_t slot, const Sprea
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         DescriptorSets::image(kNormal, sampler, normals_ ? inputs.normal : inputs.depth,
                               normals_ ? kRead : inputs.depth_layout),
-        DescriptorSets::image(kSource, sampler, half_.view(), kRead)};
+        DescriptorSets::image(kSource, sampler, half_.view(), kRead),
+        DescriptorSets::image(kObjectId, sampler, ids_ ? inputs.object_id : inputs.no_numbers, kRead)};
     sets_.write(set_, writes);
     ImageBarrier drawn_to;
     drawn_to.image = target.image();
@@ -164,7 +170,8 @@ void MaskSpread::spread(VkCommandBuffer commands, const Image& target, std::uint
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(full.width), static_cast<float>(full.height), 0.0F, 1.0F};
     device_.vk.CmdSetViewport(commands, 0, 1, &viewport);
     device_.vk.CmdSetScissor(commands, 0, 1, &area);
-    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline({target.info().format, normals_}));
+    device_.vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               pipeline({target.info().format, normals_, ids_}));
     device_.vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0, nullptr);
     device_.vk.CmdDraw(commands, 3, 1, 0, layer); // its first instance is the shader's layer
 }

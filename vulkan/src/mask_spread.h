@@ -5,6 +5,8 @@
 
 #include "descriptors.h"
 
+#include <gnomon/vulkan/shadow_renderer.h>
+
 #include <vector>
 
 namespace gnomon::vulkan {
@@ -13,8 +15,10 @@ namespace gnomon::vulkan {
 struct SpreadInputs {
     VkImageView depth = VK_NULL_HANDLE;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImageView normal = VK_NULL_HANDLE; // VK_NULL_HANDLE: none
-    VkBuffer constants = VK_NULL_HANDLE; // begins with a GpuConstants
+    VkImageView normal = VK_NULL_HANDLE;     // VK_NULL_HANDLE: none
+    VkImageView object_id = VK_NULL_HANDLE;  // likewise
+    VkImageView no_numbers = VK_NULL_HANDLE; // stands in for it
+    VkBuffer constants = VK_NULL_HANDLE;     // begins with a GpuConstants
 };
 
 class MaskSpread {
@@ -26,7 +30,7 @@ public:
     MaskSpread(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache);
 
     /// Makes the pipeline for masks of this format.
-    void warmUp(VkFormat format, bool normals) { (void)pipeline({format, normals}); }
+    void warmUp(VkFormat format, const MaskShape& inputs) { (void)pipeline({format, inputs.normals, inputs.ids}); }
     /// Makes the images for a mask like this one, if those that are there do not fit.
     void prepare(const ImageInfo& mask);
     /// Are they there?
@@ -44,6 +48,7 @@ private:
     struct Key {
         VkFormat format = VK_FORMAT_UNDEFINED; // of what is drawn to
         bool normals = true;
+        bool ids = false;
 
         bool operator==(const Key&) const = default;
     };
@@ -65,6 +70,7 @@ private:
     Image marks_;                          // of the mask's size, one layer, for one after the other
     VkDescriptorSet set_ = VK_NULL_HANDLE; // of the frame that is being recorded
     bool normals_ = false;                 // likewise
+    bool ids_ = false;                     // likewise
 };
 
 } // namespace gnomon::vulkan

@@ -169,25 +169,32 @@ void MaskPassRecorder::warmUpDraws(const ResolvedOptions& options, const WarmUp&
     const std::uint32_t few = pack::fewViews(options);
     const Partition partition = options.technique().partition;
     const bool side_by_side = partition == Partition::cube || partition == Partition::paraboloid;
-    key.constants.technique.few_views = few;
-    make();
-    if (few > 1 && !side_by_side) {
-        key.told_apart = ToldApart::slices;
+    // Of a light that alone has maps, be it the only one or beside lights without any.
+    const auto makeAlone = [&] {
+        key.told_apart = ToldApart::tests;
+        key.constants.technique.few_views = few;
         make();
-    }
-    if (few > 0) { // a spot has one map
-        key.constants.technique.few_views = 1;
-        for (const ToldApart how : {ToldApart::tests, ToldApart::alone}) {
-            key.told_apart = how;
+        if (few > 1 && !side_by_side) {
+            key.told_apart = ToldApart::slices;
             make();
         }
-    } else { // a sun in steps may have one for each of its positions
+        key.constants.technique.few_views = few > 0 ? 1 : 0; // a spot has one map
+        if (few > 0) {
+            key.told_apart = ToldApart::tests;
+            make();
+        }
         key.told_apart = ToldApart::alone;
-        for (const VkBool32 paired : {VK_FALSE, VK_TRUE}) {
-            key.constants.paired = paired;
+        make();
+        if (few == 0) { // a sun in steps may have one for each of its positions
+            key.constants.paired = VK_TRUE;
             make();
+            key.constants.paired = VK_FALSE;
         }
-        key.constants.paired = VK_FALSE;
+    };
+    makeAlone();
+    if (what.several_lights && !isColoured(options)) {
+        key.format = formatOf(4);
+        makeAlone();
     }
     key.told_apart = ToldApart::tests;
     key.constants.technique.few_views = 0;
@@ -252,9 +259,9 @@ void MaskPassRecorder::warmUpSpread(const ResolvedOptions& options, const WarmUp
     makeSpread();
     const auto make = [&](std::uint32_t channels) {
         const VkFormat format = maskFormat(channels);
-        spread_->warmUp(format, what.inputs.normals);
+        spread_->warmUp(format, what.inputs);
         if (what.several_options) { // beside a light that joins frames
-            spread_->warmUp(ConvergePass::targetFormat(format), what.inputs.normals);
+            spread_->warmUp(ConvergePass::targetFormat(format), what.inputs);
         }
     };
     make(channelsAlone(options));
@@ -292,7 +299,7 @@ void MaskPassRecorder::prepareSpread(const Plan& plan)
         const ImageInfo drawn = drawnInfo(plan);
         spread_->prepare(drawn);
         if (shape_) {
-            spread_->warmUp(drawn.format, shape_->normals);
+            spread_->warmUp(drawn.format, *shape_);
         }
     }
 }

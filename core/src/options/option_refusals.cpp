@@ -78,7 +78,8 @@ std::optional<std::string> volumesRefusal(const ShadowOptions& options)
         return "map-format: filter volumes counts faces and has no maps; leave it out";
     }
     if (options.budget_texels != 0 || boundsDrawing(options)) {
-        return "budget, draw-budget: filter volumes has no maps that could share texels or wait; leave both out";
+        return "budget, draw-budget, draw-budget.ms: filter volumes has no maps that could share texels or wait; leave "
+               "them out";
     }
     if (options.keep_still == KeepStill::always) {
         return "keep-still always: filter volumes has no maps that could be kept";
@@ -90,7 +91,8 @@ std::optional<std::string> volumesRefusal(const ShadowOptions& options)
         return "caster-cull: filter volumes counts all faces of a closed caster; leave it out";
     }
     if (options.mask_size != MaskSize::full) {
-        return "mask-size half: filter volumes counts at every pixel, and reads no maps that could be read less often";
+        return "mask-size half: filter volumes counts at every pixel, and reads no maps that could be read less often; "
+               "take mask-size full";
     }
     if (options.translucent == Translucent::colour) {
         return "translucent colour: filter volumes counts what blocks light, and tints nothing; choose grey or none";
@@ -231,8 +233,7 @@ std::optional<std::string> refusalOfOptions(const ShadowOptions& options)
     }
     if (options.technique.soften == Soften::converge && options.mask_size != MaskSize::full) {
         return "mask-size half: soften converge averages what each pixel itself has seen in many frames, and most "
-               "would "
-               "have seen nothing; take mask-size full";
+               "would have seen nothing; take mask-size full";
     }
     if (auto reason = lightenRefusal(options)) {
         return reason;

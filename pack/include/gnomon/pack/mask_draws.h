@@ -53,8 +53,8 @@ void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& 
 /// frame's objects, and everything where it has none. What such a draw needs, its options, kinds of views and shares,
 /// is what a draw of the other list needs.
 void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
-/// Of an image of half the size the texels that these pixels take from, by shaders/shared/mask_upsample.h: what is
-/// drawn to it of such a draw.
+/// Of an image of half the size the texels whose pixels these are, by shaders/shared/mask_upsample.h: what is drawn to
+/// it of such a draw. Draws side by side have no texel in common. Empty where there is none.
 [[nodiscard]] ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px);
 /// How many draws there are at most for a plan like this one, wherever its lights reach and however its suns stand.
 [[nodiscard]] std::size_t mostMaskDraws(const Plan& plan);
