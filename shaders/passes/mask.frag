@@ -43,7 +43,8 @@ layout(constant_id = 18) const bool kHasIds = false;   // else object_ids is a s
 #ifndef GNOMON_ONE_VIEW
 layout(constant_id = 19) const bool kSlicesAlone = false; // see light_visibility.glsl
 #define GNOMON_SLICES_ALONE kSlicesAlone
-#else
+#elif GNOMON_FILTER == GNOMON_FILTER_HARD || GNOMON_FILTER == GNOMON_FILTER_PCF // of others it would be bytes for little
+#define GNOMON_PAIRS
 layout(constant_id = 20) const bool kPaired = false; // two positions of the sun
 #define GNOMON_PAIRED kPaired
 #endif
@@ -61,10 +62,14 @@ GpuConstants numbers;
 #define GNOMON_NEAREST_MAPS kInSoftware // filterable maps have a linear sampler, and no mapTexel() reads them
 #ifdef GNOMON_ONE_VIEW
 GpuView one_view;
-GpuView later_view; // of the later position
 #define GNOMON_FEW_LIGHT first_light // of the draw's strip
+#ifdef GNOMON_PAIRS
+GpuView later_view; // of the later position
 #define GNOMON_ONE_VIEW_OF(I) (!kPaired || (I) == 0u ? one_view : later_view)
 #define GNOMON_ONE_VIEW_STEPS numbers_in[kStepsPlace]
+#else
+#define GNOMON_ONE_VIEW_OF(I) one_view
+#endif
 #endif
 #define GNOMON_BLOCKS_BINDING 9
 #define GNOMON_TINTS kTints
@@ -148,9 +153,11 @@ void main()
 #ifdef GNOMON_ONE_VIEW
 #define READ_VIEW(PLACE, MEMBER) one_view.MEMBER = numbers_in[PLACE];
     GNOMON_VIEW_NUMBERS(READ_VIEW)
+#ifdef GNOMON_PAIRS
 #define READ_LATER(PLACE, MEMBER) later_view.MEMBER = numbers_in[PLACE + kLaterNumbers];
     GNOMON_VIEW_NUMBERS(READ_LATER)
     later_view.w = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
 #endif
     visibility = vec4(1.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -91,9 +91,11 @@ MaskPipelines::MaskPipelines(Device& device, const ShadowRendererOptions& option
 VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
-        key.told_apart = vertex_one_ ? pack::ToldApart::alone : pack::ToldApart::tests;
-        key.orthographic = key.orthographic && !vertex_one_;
-        key.constants.paired = vertex_one_ ? key.constants.paired : VK_FALSE;
+        const bool pairs = key.filter == Filter::hard || key.filter == Filter::pcf; // mask.frag
+        const bool has_module = vertex_one_ && (pairs || key.constants.paired == VK_FALSE);
+        key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
+        key.orthographic = key.orthographic && !has_module;
+        key.constants.paired = has_module ? key.constants.paired : VK_FALSE;
     }
     const auto found = std::ranges::find(made_, key, &Made::key);
     if (found != made_.end()) {
