@@ -82,8 +82,10 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
     }
     record(present);
     now().commands->submit();
-    for (std::size_t i = 0; maps == Maps::planned && plan != nullptr && i < plan->pages.size(); ++i) {
-        now().drawn_texels += plan->pages[i].drawn_texels;
+    if (maps == Maps::planned && plan != nullptr) {
+        for (const MapPages& pages : plan->pages) {
+            now().drawn_texels += pages.drawn_texels;
+        }
     }
     if (deform_now) {
         scene.deformed_at_s = state.time_s;

@@ -72,7 +72,6 @@ MaskPipelineKey drawnAs(MaskPipelineKey key, DrawnAs as)
 {
     key.as = as;
     key.constants.pixels_per_texel = as == DrawnAs::half ? 2 : 1;
-    key.shares = key.shares || as == DrawnAs::half; // draws overlap by what is read between texels
     return key;
 }
 

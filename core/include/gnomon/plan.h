@@ -246,8 +246,10 @@ struct View {
     /// Where depths are measured from. Directional: the centre of what is seen, backed out against the light until
     /// everything that can cast is in front (Marinescu 2011, eq. 6); spot, point: the light's position.
     glm::dvec3 light_place_ws{0.0};
-    std::uint32_t waited =
-        0; // LightPlan::waited; of a cascade by itself (CascadeOptions::room) `slice` is as it is now
+    /// For how many frames its map has been out of date, this one included, as LightPlan::waited has it. Then matrices,
+    /// casters and tile are those that it had. Of a cascade that waits by itself (CascadeOptions::room) `slice` is this
+    /// frame's. 0: its map is what it should be.
+    std::uint32_t waited = 0;
     /// Filters id and depth-id: names the ids that its casters are drawn with. A map that was drawn with others is out
     /// of date. 0: no ids.
     std::uint64_t ids_key = 0;
