@@ -150,8 +150,11 @@ inline constexpr std::uint32_t kList = 8;
 inline constexpr std::uint32_t kCompare = 16;
 inline constexpr std::uint32_t kMetrics = 32;
 inline constexpr std::uint32_t kClaims = 64;
-inline constexpr std::uint32_t kDraw = kRender | kBench | kCompare;           // all that draw
-inline constexpr std::uint32_t kFrames = kRender | kPlan | kBench | kCompare; // all that take a scene
+inline constexpr std::uint32_t kView = 128;
+inline constexpr std::uint32_t kPictures = kRender | kBench | kView; // all that draw pictures
+inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that draw
+inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene
+inline constexpr std::uint32_t kMoving = kFrames & ~kView;           // all that take --frames
 
 struct Setting {
     std::string_view key;

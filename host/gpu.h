@@ -22,6 +22,10 @@ struct GpuOptions {
     /// ErrorKind::device_lost). Drivers that watch their GPU give up after some ten seconds by themselves. For a
     /// software rasteriser only the time counts in which this process does nothing. Above 0.
     double patience_s = 120.0;
+    /// Instance extensions by which a window is drawn in, and whether a queue family can do so; forWindow() of
+    /// host/window/interface.h fills them in. Empty: no window is.
+    std::vector<const char*> surface_extensions;
+    bool (*presents)(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family) = nullptr;
 };
 
 class Gpu {

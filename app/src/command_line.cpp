@@ -16,15 +16,6 @@
 namespace gnomon::app {
 namespace {
 
-/// What the program's contract names and this version does not have. Refused by name, never ignored.
-struct Missing {
-    std::string_view name;
-    std::string_view sentence;
-};
-constexpr std::array kMissingSubcommands{
-    Missing{"view", "the window is not in this version"},
-};
-
 const Subcommand& findSubcommand(const std::string& name)
 {
     std::vector<std::string_view> names;
@@ -32,11 +23,6 @@ const Subcommand& findSubcommand(const std::string& name)
         names.push_back(subcommand.name);
         if (subcommand.name == name) {
             return subcommand;
-        }
-    }
-    for (const Missing& missing : kMissingSubcommands) {
-        if (missing.name == name) {
-            throw UsageError(fmt::format("{}: {}; it has {}", name, missing.sentence, listed(names)));
         }
     }
     throw UsageError(

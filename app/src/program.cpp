@@ -20,6 +20,8 @@ namespace {
 constexpr std::array kSubcommands{
     Subcommand{"render", kRender, "[SCENE] [options]",
                "Draws a picture, or one light's visibility mask, to PNG or EXR.", runRender},
+    Subcommand{"view", kView, "[SCENE] [options]", "Shows a scene in a window, where everything can be changed.",
+               runView},
     Subcommand{"compare", kCompare, "[SCENE] [options]", "Holds techniques against ray-traced truth, and times them.",
                runCompare},
     Subcommand{"metrics", kMetrics, "TEST TRUTH [options]", "Says how far one image is from another, PNG or EXR.",

@@ -102,7 +102,7 @@ Json settingJson(const Setting& setting)
     Json commands = Json::array();
     constexpr std::pair<std::uint32_t, std::string_view> kNames[] = {
         {kRender, "render"}, {kCompare, "compare"}, {kMetrics, "metrics"}, {kPlan, "plan"},
-        {kBench, "bench"},   {kList, "list"},       {kClaims, "claims"}};
+        {kBench, "bench"},   {kList, "list"},       {kClaims, "claims"},   {kView, "view"}};
     for (const auto& [bit, name] : kNames) {
         if ((setting.subcommands & bit) != 0) {
             commands.push_back(name);

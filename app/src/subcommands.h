@@ -15,6 +15,7 @@ int runPlan(const Settings& settings);
 int runBench(const Settings& settings);
 int runList(const Settings& settings);
 int runClaims(const Settings& settings);
+int runView(const Settings& settings);
 
 /// To the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);

@@ -2,6 +2,7 @@
 #include "app/visual.h"
 
 #include "contestants.h"
+#include "host/window/interface.h"
 #include "interrupt.h"
 #include "streams.h"
 
@@ -35,10 +36,14 @@ void noteLevels(const Settings& technique)
 
 } // namespace
 
-std::unique_ptr<host::Gpu> openGpu(const Settings& settings)
+std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window)
 {
-    auto gpu = std::make_unique<host::Gpu>(
-        host::GpuOptions{.gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted});
+    host::GpuOptions options{
+        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted};
+    if (window != nullptr) {
+        options = host::forWindow(options, *window);
+    }
+    auto gpu = std::make_unique<host::Gpu>(options);
     const VkPhysicalDeviceLimits& limits = gpu->properties().limits;
     const std::uint32_t max_side =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});

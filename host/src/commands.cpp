@@ -48,7 +48,7 @@ VkCommandBuffer Commands::begin()
     return commands_;
 }
 
-void Commands::submit()
+void Commands::submit(std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals)
 {
     check(vkEndCommandBuffer(commands_), "ending a command buffer");
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -56,6 +56,10 @@ void Commands::submit()
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
+    info.waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits.size());
+    info.pWaitSemaphoreInfos = waits.data();
+    info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size());
+    info.pSignalSemaphoreInfos = signals.data();
     VkFence fence = fence_.get();
     check(vkResetFences(gpu_.view().device, 1, &fence), "resetting a fence");
     check(vkQueueSubmit2(gpu_.queue(), 1, &info, fence), "handing work to the GPU");

@@ -4,6 +4,8 @@
 
 #include "memory.h"
 
+#include <span>
+
 namespace gnomon::host {
 
 /// One command buffer and its fence; reused for ever. Waits when it is destroyed.
@@ -17,8 +19,8 @@ public:
 
     /// Precondition: what was submitted has been waited for.
     VkCommandBuffer begin();
-    /// Throws Error (lost device).
-    void submit();
+    /// Once all of `waits` are signalled; `signals` are when it is done. Throws Error (lost device).
+    void submit(std::span<const VkSemaphoreSubmitInfo> waits = {}, std::span<const VkSemaphoreSubmitInfo> signals = {});
     /// Until the GPU has finished what was submitted; at once when nothing was. Throws as waitFor().
     void wait();
     /// The same for destructors: see settle() in wait.h.

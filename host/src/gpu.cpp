@@ -42,6 +42,16 @@ bool hasExtension(const char* layer, const char* name)
                        [name](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
+bool hasDeviceExtension(VkPhysicalDevice device, const char* name)
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), kTried);
+    std::vector<VkExtensionProperties> all(count);
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data()), kTried);
+    return std::any_of(all.begin(), all.end(),
+                       [name](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
 bool hasLayer(const char* name)
 {
     std::uint32_t count = 0;
@@ -75,7 +85,7 @@ VkPhysicalDeviceProperties propertiesOf(VkPhysicalDevice device)
 }
 
 // Why a device cannot be used; empty when it can.
-std::string refusalOf(VkInstance instance, VkPhysicalDevice device)
+std::string refusalOf(VkInstance instance, VkPhysicalDevice device, const GpuOptions& options)
 {
     const VkPhysicalDeviceProperties properties = propertiesOf(device);
     if (properties.apiVersion < VK_API_VERSION_1_3) {
@@ -91,7 +101,13 @@ std::string refusalOf(VkInstance instance, VkPhysicalDevice device)
     if (missing[0] != '\0') {
         return std::string("it lacks ") + missing.data();
     }
-    return graphicsFamily(device).has_value() ? "" : "it has no queue for graphics, compute and timestamps";
+    const auto family = graphicsFamily(device);
+    if (!family.has_value()) {
+        return "it has no queue for graphics, compute and timestamps";
+    }
+    const bool shows = options.presents == nullptr || (hasDeviceExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+                                                       options.presents(instance, device, *family));
+    return shows ? "" : "it cannot draw in windows";
 }
 
 bool isSoftware(const VkPhysicalDeviceProperties& properties)
@@ -108,8 +124,9 @@ bool wanted(const std::string& gpu, const VkPhysicalDeviceProperties& properties
                              : lower(properties.deviceName).find(lower(gpu)) != std::string::npos;
 }
 
-VkPhysicalDevice pickDevice(VkInstance instance, const std::string& gpu)
+VkPhysicalDevice pickDevice(VkInstance instance, const GpuOptions& options)
 {
+    const std::string& gpu = options.gpu;
     std::uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(instance, &count, nullptr), kTried);
     std::vector<VkPhysicalDevice> devices(count);
@@ -122,7 +139,7 @@ VkPhysicalDevice pickDevice(VkInstance instance, const std::string& gpu)
     for (VkPhysicalDevice device : devices) {
         const VkPhysicalDeviceProperties properties = propertiesOf(device);
         std::string why =
-            wanted(gpu, properties) ? refusalOf(instance, device) : "its name does not hold \"" + gpu + "\"";
+            wanted(gpu, properties) ? refusalOf(instance, device, options) : "its name does not hold \"" + gpu + "\"";
         if (why.empty()) {
             // The first real GPU wins over any software rasteriser before it.
             if (best == VK_NULL_HANDLE || (isSoftware(propertiesOf(best)) && !isSoftware(properties))) {
@@ -158,9 +175,9 @@ struct Gpu::Impl {
 
     ~Impl();
     void storeCache() const noexcept;
-    void makeInstance(bool validate);
+    void makeInstance(const GpuOptions& options);
     void makeMessenger();
-    void makeDevice();
+    void makeDevice(const GpuOptions& options);
     static VKAPI_ATTR VkBool32 VKAPI_CALL hear(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                VkDebugUtilsMessageTypeFlagsEXT types,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
@@ -175,8 +192,9 @@ VkBool32 Gpu::Impl::hear(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMes
     return VK_FALSE;
 }
 
-void Gpu::Impl::makeInstance(bool validate)
+void Gpu::Impl::makeInstance(const GpuOptions& options)
 {
+    const bool validate = options.validate;
     if (validate && !hasLayer(kValidationLayer)) {
         throw Error("switching on Vulkan validation", std::string(kValidationLayer) + " is not installed",
                     "install vulkan-validationlayers");
@@ -184,7 +202,7 @@ void Gpu::Impl::makeInstance(bool validate)
     VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     app.pApplicationName = "gnomon";
     app.apiVersion = VK_API_VERSION_1_3;
-    std::vector<const char*> extensions;
+    std::vector<const char*> extensions = options.surface_extensions;
     view.debug_labels = hasExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
                         (validate && hasExtension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (view.debug_labels) {
@@ -229,7 +247,7 @@ void Gpu::Impl::makeMessenger()
     check(create(view.instance, &info, nullptr, &messenger), "listening to Vulkan validation");
 }
 
-void Gpu::Impl::makeDevice()
+void Gpu::Impl::makeDevice(const GpuOptions& options)
 {
     family = *graphicsFamily(view.physical_device);
     const float priority = 1.0F;
@@ -244,6 +262,9 @@ void Gpu::Impl::makeDevice()
         &vulkan::requiredFeatures({.layered = view.layered, .clip_planes = true, .depth_bounds = view.depth_bounds});
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
+    const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    info.enabledExtensionCount = options.presents != nullptr ? 1 : 0;
+    info.ppEnabledExtensionNames = &swapchain;
     const char* const opening = "opening the Vulkan device";
     vkGetPhysicalDeviceProperties(view.physical_device, &properties);
     if (isSoftware(properties)) {
@@ -289,12 +310,12 @@ Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
 {
     impl_->while_waiting = options.while_waiting;
     impl_->patience_s = options.patience_s;
-    impl_->makeInstance(options.validate);
+    impl_->makeInstance(options);
     if (options.validate) {
         impl_->makeMessenger();
     }
-    impl_->view.physical_device = pickDevice(impl_->view.instance, options.gpu);
-    impl_->makeDevice();
+    impl_->view.physical_device = pickDevice(impl_->view.instance, options);
+    impl_->makeDevice(options);
     impl_->cache_file = pipelineCacheFile(impl_->properties);
     impl_->cache = loadPipelineCache(impl_->view.device, impl_->cache_file);
 }

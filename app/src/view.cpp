@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon view`: a scene in a window.
+#include "streams.h"
+#include "subcommands.h"
+#include "view/view_window.h"
+
+#include <gnomon/error.h>
+
+#include <chrono>
+#include <memory>
+
+namespace gnomon::app {
+
+int runView(const Settings& settings)
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::seconds kSoon{10}; // a device that is lost again so soon will be lost once more
+    Settings last = settings;
+    auto window = std::make_unique<view::ViewWindow>(last);
+    Clock::time_point begun = Clock::now();
+    for (;;) {
+        try {
+            if (!window->turn()) {
+                return 0;
+            }
+        } catch (const Error& error) {
+            if (error.kind() != ErrorKind::device_lost || Clock::now() - begun < kSoon) {
+                throw;
+            }
+            notice(std::string(error.what()) + "; the window is opened anew");
+            last = window->viewer().settings();
+            last.subcommand = kView;
+            window.reset();
+            window = std::make_unique<view::ViewWindow>(last);
+            window->viewer().say({"the GPU was lost, and everything was made anew", true});
+            begun = Clock::now();
+        }
+    }
+}
+
+} // namespace gnomon::app

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/edits.h"
+
+#include "setting_values.h"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::app::view {
+namespace {
+
+/// Settings with the same texts, but for one that is left out; in the table's order, as presets have them.
+Settings without(const Settings& settings, std::string_view left_out)
+{
+    Settings made = defaultSettings();
+    made.subcommand = settings.subcommand;
+    made.scene = settings.scene;
+    for (const Setting& setting : settingTable()) {
+        const auto value = settings.values.find(setting.key);
+        const bool is_noted_only = (setting.key == "map-format" && !settings.shadow.format) ||
+                                   (setting.key == "border" && !settings.shadow.border_texels);
+        if (value == settings.values.end() || setting.key == left_out || is_noted_only || value->second.empty()) {
+            continue;
+        }
+        const auto usual = made.values.find(setting.key);
+        if (usual == made.values.end() || usual->second != value->second) {
+            applySetting(made, setting, value->second);
+        }
+    }
+    return made;
+}
+
+void apply(Settings& settings, std::string_view key, const std::string& text)
+{
+    if (text.empty()) {
+        settings = without(settings, key);
+        return;
+    }
+    replaceCamera(settings, key);
+    applySetting(settings, key, text);
+    if (key == "filter" && settings.shadow.format && refusal(filterOf(settings.shadow), formatOf(settings.shadow))) {
+        settings = without(settings, "map-format"); // it was another filter's
+    }
+}
+
+} // namespace
+
+Edited edited(const Settings& settings, const Changes& changes)
+{
+    Settings next = settings;
+    try {
+        for (const auto& [key, text] : changes) {
+            apply(next, key, text);
+        }
+        completeTechnique(next);
+        validateSettings(next);
+    } catch (const UsageError& error) {
+        return {std::nullopt, error.what()};
+    }
+    return {std::move(next), ""};
+}
+
+Edited withTechnique(const Settings& settings, std::string_view text)
+{
+    Settings plain = settings;
+    try {
+        for (const Setting& setting : settingTable()) {
+            if (setting.group == SettingGroup::technique && plain.values.contains(setting.key)) {
+                plain.values.erase(std::string(setting.key));
+            }
+        }
+        Settings next = parseTechnique(without(plain, ""), text);
+        validateSettings(next);
+        return {std::move(next), ""};
+    } catch (const UsageError& error) {
+        return {std::nullopt, error.what()};
+    }
+}
+
+Settings asRender(Settings settings)
+{
+    settings.subcommand = kRender;
+    settings.given.clear(); // what a refused option is called by; here nothing was typed
+    return settings;
+}
+
+std::string textOf(const glm::dvec3& vector)
+{
+    return fmt::format("{},{},{}", vector.x, vector.y, vector.z);
+}
+
+Changes changesTo(const host::Eye& eye)
+{
+    return {{"eye", textOf(eye.position_ws)},
+            {"target", textOf(eye.target_ws)},
+            {"up", textOf(eye.up_ws)},
+            {"fov", fmt::format("{}", glm::degrees(eye.fov_y_rad))}};
+}
+
+namespace {
+
+bool differs(const Settings& a, const Settings& b, std::string_view key)
+{
+    const auto in_a = a.values.find(key);
+    const auto in_b = b.values.find(key);
+    const std::string_view text_a = in_a != a.values.end() ? std::string_view(in_a->second) : std::string_view();
+    const std::string_view text_b = in_b != b.values.end() ? std::string_view(in_b->second) : std::string_view();
+    return text_a != text_b;
+}
+
+} // namespace
+
+bool changesScene(const Settings& from, const Settings& to)
+{
+    constexpr std::array<std::string_view, 4> kOfScene{"ground", "override-material", "seed", "limit"};
+    return from.scene != to.scene || std::any_of(kOfScene.begin(), kOfScene.end(), [&](std::string_view key) {
+               return differs(from, to, key);
+           });
+}
+
+bool changesRenderer(const Settings& from, const Settings& to)
+{
+    const auto groups = settingTable();
+    return std::any_of(groups.begin(), groups.end(), [&](const Setting& setting) {
+        const bool is_of_renderer = setting.group == SettingGroup::technique || setting.group == SettingGroup::picture ||
+                                    setting.key == "debug" || setting.key == "truth-pixels";
+        return is_of_renderer && setting.key != "size" && differs(from, to, setting.key);
+    });
+}
+
+} // namespace gnomon::app::view

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/view_window.h"
+
+#include "app/visual.h"
+#include "interrupt.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::app::view {
+namespace {
+
+// A widget needs a few turns to follow what was done; after them the window waits for more.
+constexpr int kQuietTurns = 4;
+constexpr double kNap_s = 0.1;
+
+/// Before there are letters to measure by.
+constexpr std::uint32_t kPanel_px = 390;
+
+glm::uvec2 windowSize(const Settings& settings)
+{
+    constexpr std::uint32_t kMost = 16384;
+    return {std::min(settings.size_px.x, kMost) + kPanel_px, std::min(settings.size_px.y, kMost)};
+}
+
+} // namespace
+
+ViewWindow::ViewWindow(const Settings& settings)
+    : window_({.title = "gnomon", .size = windowSize(settings)}), gpu_(openGpu(settings, &window_)),
+      interface_(std::make_unique<host::Interface>(window_, *gpu_)), validates_(settings.validate)
+{
+    viewer_ = std::make_unique<Viewer>(*gpu_, settings);
+    for (const std::string& text : viewer_->shot().notices) {
+        viewer_->say({text, false});
+    }
+    typed_.technique_beside = viewer_->techniqueBeside();
+}
+
+ViewWindow::~ViewWindow() = default;
+
+glm::ivec2 ViewWindow::pictureAt() const
+{
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    return {static_cast<int>(std::lround(area_.least.x * static_cast<double>(scale.x))),
+            static_cast<int>(std::lround(area_.least.y * static_cast<double>(scale.y)))};
+}
+
+/// The picture fills what the panel leaves.
+void ViewWindow::fitPicture()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    const float left = shown_.panel ? std::min(panelWidth(), io.DisplaySize.x - 1.0F) : 0.0F;
+    area_.least = {std::floor(left), 0.0};
+    area_.size = {std::max(io.DisplaySize.x - std::floor(left), 1.0F), std::max(io.DisplaySize.y, 1.0F)};
+    const double part = shown_.half_size ? 0.5 : 1.0;
+    const glm::dvec2 size_px = area_.size * glm::dvec2(io.DisplayFramebufferScale.x, io.DisplayFramebufferScale.y) * part;
+    const glm::uvec2 wanted(std::max(1.0, std::floor(size_px.x)), std::max(1.0, std::floor(size_px.y)));
+    if (wanted != viewer_->settings().size_px) {
+        viewer_->change({{"size", fmt::format("{}x{}", wanted.x, wanted.y)}});
+    }
+}
+
+void ViewWindow::panel()
+{
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::SetNextWindowSize({static_cast<float>(area_.least.x), io.DisplaySize.y});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
+    if (ImGui::Begin("panel", nullptr, kFlags)) {
+        constexpr float kLabels = 0.45F; // of the width
+        ImGui::PushItemWidth(-ImGui::GetContentRegionAvail().x * kLabels);
+        PanelState state{shown_, typed_, widgets_, [this](const std::string& text) { window_.toClipboard(text); }};
+        techniquePanel(*viewer_, state);
+        comparePanel(*viewer_, state);
+        scenePanel(*viewer_, state);
+        lightPanel(*viewer_, state);
+        picturePanel(*viewer_, state);
+        timesPanel(*viewer_, state);
+        filesPanel(*viewer_, state);
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+}
+
+/// The last word about what was done, over the picture's lower edge.
+void ViewWindow::status() const
+{
+    const Message& message = viewer_->message();
+    const std::string text = message.text.empty()
+                                 ? "drag: orbit   shift+drag: pan   right drag: look   wheel: nearer   W A S D Q E: fly   "
+                                   "F: frame all   T: truth   P: play   H: panel"
+                                 : message.text;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float margin = ImGui::GetFontSize() * 0.5F;
+    const float width = static_cast<float>(area_.size.x) - 4.0F * margin;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+    const ImVec2 least{static_cast<float>(area_.least.x) + margin,
+                       static_cast<float>(area_.least.y + area_.size.y) - size.y - 3.0F * margin};
+    list.AddRectFilled(least, {least.x + size.x + 2.0F * margin, least.y + size.y + 2.0F * margin}, IM_COL32(0, 0, 0, 150),
+                       4.0F);
+    list.AddText(nullptr, 0.0F, {least.x + margin, least.y + margin},
+                 message.is_refusal ? IM_COL32(255, 170, 120, 255) : IM_COL32(230, 230, 230, 255), text.c_str(), nullptr,
+                 width);
+}
+
+void ViewWindow::build(double elapsed_s)
+{
+    widgets_.begin();
+    fitPicture();
+    if (shown_.panel) {
+        panel();
+    }
+    pointer_.turn(*viewer_, shown_, area_, elapsed_s);
+    status();
+}
+
+void ViewWindow::retitle()
+{
+    std::string title = fmt::format("gnomon: {}, {}", viewer_->settings().scene, describeTechnique(viewer_->settings()));
+    if (viewer_->rmse()) {
+        title += fmt::format(", rmse {:.4f} ({} rays{})", *viewer_->rmse(), viewer_->truthRays(),
+                             viewer_->isTruthDone() ? "" : " so far");
+    }
+    if (title != title_) {
+        window_.setTitle(title);
+        title_ = std::move(title);
+    }
+}
+
+std::vector<host::PicturePlace> ViewWindow::places() const
+{
+    std::vector<host::PicturePlace> places;
+    const host::Canvas& canvas = viewer_->canvas();
+    if (canvas.isEmpty()) {
+        return places;
+    }
+    const glm::ivec2 at = pictureAt();
+    const glm::ivec2 room = glm::ivec2(interface_->size_px()) - at;
+    const int enlarged = shown_.half_size ? 2 : 1;
+    // A debug view's picture has a size of its own; it is shown from its top left, as far as there is room.
+    const glm::ivec2 whole = glm::min(glm::ivec2(canvas.size_px()), room / enlarged);
+    const host::Canvas* const beside = viewer_->held() == Held::split ? viewer_->canvasBeside() : nullptr;
+    const int cut = beside == nullptr ? whole.x : static_cast<int>(std::lround(static_cast<float>(whole.x) * shown_.divider));
+    places.push_back({&canvas, {0, 0}, {cut, whole.y}, at, glm::ivec2(cut, whole.y) * enlarged});
+    if (beside != nullptr) {
+        const glm::ivec2 rest = glm::min(glm::ivec2(beside->size_px()), whole) - glm::ivec2(cut, 0);
+        places.push_back({beside, {cut, 0}, rest, at + glm::ivec2(cut * enlarged, 0), rest * enlarged});
+    }
+    return places;
+}
+
+/// Up to where widgets can be made; false where there is nothing to draw in.
+bool ViewWindow::prepare()
+{
+    const bool waits = quiet_turns_ > kQuietTurns && !viewer_->isBusy();
+    window_.listen(waits ? kNap_s : 0.0);
+    requireNotInterrupted();
+    for (const std::string& file : window_.takeDropped()) {
+        viewer_->open(file);
+        typed_.scene = file;
+    }
+    if (!interface_->begin()) {
+        window_.listen(kNap_s); // minimised
+        return false;
+    }
+    const Clock::time_point now = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    constexpr double kLongest_s = 0.25; // after a pause nothing leaps
+    build(std::min(elapsed_s, kLongest_s));
+    const bool drew = viewer_->update(std::chrono::duration<double>(now - start_).count());
+    quiet_turns_ = drew || window_.takeExposed() || ImGui::IsAnyItemActive() ? 0 : quiet_turns_ + 1;
+    retitle();
+    return true;
+}
+
+bool ViewWindow::turn()
+{
+    if (prepare()) {
+        interface_->end(places());
+        turn_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - last_).count();
+        if (validates_) {
+            requireSilence(*gpu_);
+        }
+    }
+    return !window_.isClosing();
+}
+
+Image8 ViewWindow::turnAndRead()
+{
+    Image8 shown;
+    if (prepare()) {
+        shown = interface_->endAndRead(places());
+    }
+    return shown;
+}
+
+} // namespace gnomon::app::view

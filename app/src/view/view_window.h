@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon view`, from the window to the pixels in it, one turn at a time.
+#pragma once
+
+#include "app/settings.h"
+#include "host/window/interface.h"
+#include "view/panels.h"
+#include "view/pointer.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace gnomon::app::view {
+
+class ViewWindow {
+public:
+    /// Opens the window, so that the picture has --size, and loads the scene. Throws UsageError and Error.
+    explicit ViewWindow(const Settings& settings);
+    ~ViewWindow();
+    ViewWindow(const ViewWindow&) = delete;
+    ViewWindow& operator=(const ViewWindow&) = delete;
+
+    /// Hears what was done, changes what that changes, draws and shows. False: the window was closed. Throws Error;
+    /// of the kind device_lost, and then there is nothing more to do with this window.
+    bool turn();
+    /// The same, and what the window shows then; empty where it shows nothing.
+    [[nodiscard]] Image8 turnAndRead();
+
+    [[nodiscard]] Viewer& viewer() { return *viewer_; }
+    [[nodiscard]] host::Window& window() { return window_; }
+    [[nodiscard]] Widgets& widgets() { return widgets_; }
+    [[nodiscard]] Shown& shown() { return shown_; }
+    [[nodiscard]] const Pointer& pointer() const { return pointer_; }
+    /// Where the picture is, in pixels of the window.
+    [[nodiscard]] glm::ivec2 pictureAt() const;
+    /// Of the last turn, all of it but waiting for the screen.
+    [[nodiscard]] double turn_ms() const { return turn_ms_; }
+
+private:
+    bool prepare();
+    void build(double elapsed_s);
+    void panel();
+    void status() const;
+    void fitPicture();
+    void retitle();
+    [[nodiscard]] std::vector<host::PicturePlace> places() const;
+
+    using Clock = std::chrono::steady_clock;
+
+    // In this order: the window goes last.
+    host::Window window_;
+    std::unique_ptr<host::Gpu> gpu_;
+    std::unique_ptr<host::Interface> interface_;
+    std::unique_ptr<Viewer> viewer_;
+    Shown shown_;
+    Typed typed_;
+    Widgets widgets_;
+    Pointer pointer_;
+    PictureArea area_;
+    std::string title_;
+    bool validates_ = false;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_ = start_;
+    double turn_ms_ = 0.0;
+    int quiet_turns_ = 0; // in which nothing was drawn
+};
+
+} // namespace gnomon::app::view

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/viewer.h"
+
+#include "app/preset.h"
+#include "repeat.h"
+#include "result_json.h"
+
+#include "files/files.h"
+#include "image/image_io.h"
+
+#include <gnomon/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::app::view {
+namespace {
+
+constexpr std::string_view kConverge = "converge";
+
+/// A window asks for one picture; what others ask for beside it does not come along.
+Settings withoutTruth(Settings settings)
+{
+    settings.truth.reset();
+    settings.values.erase("truth");
+    return settings;
+}
+
+} // namespace
+
+Viewer::Viewer(host::Gpu& gpu, const Settings& settings) : gpu_(gpu), settings_(withoutTruth(asRender(settings)))
+{
+    makeScenery(settings_);
+    if (settings.truth) {
+        beside_ = Beside::truth;
+        truth_kind_ = *settings.truth;
+        makeBeside();
+    }
+}
+
+/// Precondition: nothing is drawn of an earlier one. A camera that was fitted to the picture's shape becomes one that
+/// stays where it is when the window's shape changes.
+void Viewer::makeScenery(const Settings& next)
+{
+    scenery_ = std::make_unique<Scenery>(gpu_, next);
+    truth_ = std::make_unique<BackgroundTruth>(scenery_->shot.scene);
+    settings_ = next;
+    if (scenery_->shot.camera == "fitted") {
+        if (Edited fixed = edited(settings_, changesTo(scenery_->shot.eye)); fixed.settings) {
+            settings_ = std::move(*fixed.settings);
+            scenery_->move(settings_);
+        }
+    }
+    drawing_ = std::make_unique<Drawing>(gpu_, *scenery_, settings_);
+    changed_ = true;
+}
+
+void Viewer::dropScenery()
+{
+    truth_.reset();
+    drawing_beside_.reset();
+    drawing_.reset();
+    scenery_.reset();
+}
+
+bool Viewer::refuse(const std::string& why)
+{
+    message_ = {why, true};
+    return false;
+}
+
+Settings Viewer::settingsBeside() const
+{
+    if (beside_ == Beside::truth) {
+        Settings settings = settings_;
+        settings.truth = truth_kind_;
+        settings.debug = "none";
+        return settings;
+    }
+    const Edited other = withTechnique(settings_, technique_beside_);
+    return other.settings.value_or(settings_);
+}
+
+void Viewer::makeBeside()
+{
+    drawing_beside_.reset();
+    truth_->stop();
+    truth_shown_ = false;
+    rmse_.reset();
+    truth_rays_ = 0;
+    if (beside_ != Beside::nothing) {
+        drawing_beside_ = std::make_unique<Drawing>(gpu_, *scenery_, settingsBeside());
+    }
+    changed_ = true;
+}
+
+/// What the settings ask for of the world: may throw after it has begun.
+void Viewer::adopt(const Settings& next)
+{
+    if (changesScene(settings_, next)) {
+        dropScenery();
+        makeScenery(next);
+        makeBeside();
+        return;
+    }
+    scenery_->move(next);
+    settings_ = next;
+    drawing_->take(settings_);
+    if (drawing_beside_ && beside_ == Beside::technique) {
+        drawing_beside_->take(settingsBeside());
+    } else if (drawing_beside_) {
+        makeBeside();
+    }
+}
+
+bool Viewer::take(const Settings& next)
+{
+    const Settings before = settings_;
+    try {
+        adopt(next);
+    } catch (const UsageError& error) {
+        return goBack(before, error.what());
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::device_lost) {
+            throw;
+        }
+        return goBack(before, error.what());
+    }
+    changed_ = true;
+    return true;
+}
+
+/// After a change that could not be: all as it was. Throws where that cannot be either.
+bool Viewer::goBack(const Settings& before, const std::string& why)
+{
+    const bool whole = scenery_ && drawing_ && !changesScene(settings_, before);
+    if (whole) {
+        scenery_->move(before);
+        settings_ = before;
+        drawing_->take(settings_);
+    } else {
+        dropScenery();
+        makeScenery(before);
+    }
+    makeBeside();
+    return refuse(why);
+}
+
+bool Viewer::change(const Changes& changes)
+{
+    Edited next = edited(settings_, changes);
+    if (!next.settings) {
+        return refuse(next.refusal);
+    }
+    const bool counts = changes.size() == 1 && changes.front().first == kConverge;
+    if (!counts && next.settings->converge != 1) { // it begins again
+        applySetting(*next.settings, kConverge, "1");
+    }
+    return take(*next.settings);
+}
+
+bool Viewer::open(const std::string& scene)
+{
+    Settings next = settings_;
+    next.scene = scene;
+    next.scene_hash.clear();
+    Edited plain = edited(next, {{"camera", ""}, {"eye", ""}, {"target", ""}, {"up", ""}, {"fov", ""}, {"sun", ""}, {"spot", ""},
+                                 {"point", ""}, {"time", ""}, {"animation", ""}, {"light", ""}});
+    if (!plain.settings) {
+        return refuse(plain.refusal);
+    }
+    plain.settings->scene = scene;
+    if (!take(*plain.settings)) {
+        return false;
+    }
+    message_ = {fmt::format("{}: {} objects, camera {}", scene, shot().state.objects.size(), shot().camera), false};
+    return true;
+}
+
+bool Viewer::loadPreset(const std::string& name_or_file)
+{
+    Settings next = defaultSettings();
+    next.subcommand = kRender;
+    next.scene = settings_.scene;
+    try {
+        applySetting(next, "size", settings_.values.at("size"));
+        applyPreset(next, name_or_file, kRender);
+        next = withoutTruth(next);
+        applySetting(next, "size", settings_.values.at("size")); // the window's
+        completeTechnique(next);
+        validateSettings(next);
+    } catch (const std::exception& error) {
+        return refuse(error.what());
+    }
+    if (!take(next)) {
+        return false;
+    }
+    message_ = {fmt::format("preset {}", name_or_file), false};
+    return true;
+}
+
+bool Viewer::savePreset(const std::filesystem::path& file)
+{
+    Json json;
+    json["scene"] = settings_.scene;
+    const Json all = settingsJson(settings_, kRender);
+    for (const auto& [key, value] : all.items()) {
+        const Setting* const setting = findSetting(key);
+        const bool is_noted_only = (key == "map-format" && !settings_.shadow.format) ||
+                                   (key == "border" && !settings_.shadow.border_texels);
+        if (isUsed(*setting, settings_) && !is_noted_only) {
+            json[key] = value;
+        }
+    }
+    try {
+        writeFile(file, jsonText(json));
+    } catch (const Error& error) {
+        return refuse(error.what());
+    }
+    message_ = {fmt::format("wrote {}", file.string()), false};
+    return true;
+}
+
+bool Viewer::saveScreenshot(const std::filesystem::path& file)
+{
+    try {
+        writePng(file, picture());
+    } catch (const Error& error) {
+        return refuse(error.what());
+    }
+    message_ = {fmt::format("wrote {}", file.string()), false};
+    return true;
+}
+
+bool Viewer::holdAgainst(Beside beside)
+{
+    const Beside before = beside_;
+    beside_ = beside;
+    try {
+        makeBeside();
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::device_lost) {
+            throw;
+        }
+        beside_ = before == beside ? Beside::nothing : before;
+        makeBeside();
+        return refuse(error.what());
+    }
+    return true;
+}
+
+bool Viewer::setTechniqueBeside(const std::string& technique)
+{
+    const Edited other = withTechnique(settings_, technique);
+    if (!other.settings) {
+        return refuse(other.refusal);
+    }
+    technique_beside_ = technique;
+    return beside_ != Beside::technique || holdAgainst(beside_);
+}
+
+void Viewer::setHeld(Held held)
+{
+    changed_ = changed_ || held_ != held;
+    held_ = held;
+}
+
+void Viewer::setTruthKind(truth::Kind kind)
+{
+    if (kind != truth_kind_) {
+        truth_kind_ = kind;
+        if (beside_ == Beside::truth) {
+            makeBeside();
+        }
+    }
+}
+
+std::string Viewer::command(std::uint32_t subcommand) const
+{
+    std::vector<std::string> words = argumentsOf(settings_, subcommand);
+    words.insert(words.begin(), "gnomon");
+    if (subcommand == kRender) {
+        words.emplace_back("-o");
+        words.emplace_back("picture.png");
+    }
+    return shellText(words);
+}
+
+const host::Canvas& Viewer::canvas() const
+{
+    const bool is_difference = held_ == Held::difference && canvasBeside() != nullptr && difference_;
+    return is_difference ? *difference_ : drawing_->canvas();
+}
+
+const host::Canvas* Viewer::canvasBeside() const
+{
+    const bool is_there = drawing_beside_ && !drawing_beside_->canvas().isEmpty() &&
+                          (beside_ != Beside::truth || truth_shown_);
+    return is_there ? &drawing_beside_->canvas() : nullptr;
+}
+
+const host::FrameTimes* Viewer::timesBeside() const
+{
+    return drawing_beside_ && beside_ == Beside::technique ? &drawing_beside_->times() : nullptr;
+}
+
+} // namespace gnomon::app::view

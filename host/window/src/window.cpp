@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/window/window.h"
+
+#include <gnomon/error.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace gnomon::host {
+namespace {
+
+constexpr const char* kTried = "opening a window";
+
+std::string lastError()
+{
+    const char* text = nullptr;
+    (void)glfwGetError(&text);
+    return text != nullptr ? text : "no reason is given";
+}
+
+/// GLFW, for as long as there is a window.
+struct Desktop {
+    Desktop()
+    {
+        if (glfwInit() != GLFW_TRUE) {
+            throw Error(kTried, "there is no window system (" + lastError() + ")",
+                        "run it on a desktop, or draw to a file with `gnomon render`");
+        }
+    }
+    ~Desktop() { glfwTerminate(); }
+    Desktop(const Desktop&) = delete;
+    Desktop& operator=(const Desktop&) = delete;
+};
+
+} // namespace
+
+struct Window::Impl {
+    Desktop desktop;
+    GLFWwindow* window = nullptr;
+    std::vector<std::string> dropped;
+    bool exposed = true;
+
+    static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
+    ~Impl()
+    {
+        if (window != nullptr) {
+            glfwDestroyWindow(window);
+        }
+    }
+};
+
+Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
+{
+    if (glfwVulkanSupported() != GLFW_TRUE) {
+        throw Error(kTried, "Vulkan cannot draw in windows here",
+                    "install the desktop's Vulkan driver, or draw to a file with `gnomon render`");
+    }
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    impl_->window = glfwCreateWindow(static_cast<int>(options.size.x), static_cast<int>(options.size.y),
+                                     options.title.c_str(), nullptr, nullptr);
+    if (impl_->window == nullptr) {
+        throw Error(kTried, lastError());
+    }
+    glfwSetWindowUserPointer(impl_->window, impl_.get());
+    glfwSetDropCallback(impl_->window, [](GLFWwindow* window, int count, const char** paths) {
+        std::vector<std::string>& dropped = Impl::of(window).dropped;
+        dropped.insert(dropped.end(), paths, paths + count);
+    });
+    glfwSetWindowRefreshCallback(impl_->window, [](GLFWwindow* window) { Impl::of(window).exposed = true; });
+    glfwSetFramebufferSizeCallback(impl_->window, [](GLFWwindow* window, int, int) { Impl::of(window).exposed = true; });
+}
+
+Window::~Window() = default;
+
+std::vector<const char*> Window::instanceExtensions() const
+{
+    std::uint32_t count = 0;
+    const char** const names = glfwGetRequiredInstanceExtensions(&count);
+    return {names, names + count};
+}
+
+bool Window::canShow(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family)
+{
+    return glfwGetPhysicalDevicePresentationSupport(instance, device, queue_family) == GLFW_TRUE;
+}
+
+VkSurfaceKHR Window::makeSurface(VkInstance instance) const
+{
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (glfwCreateWindowSurface(instance, impl_->window, nullptr, &surface) != VK_SUCCESS) {
+        throw Error(kTried, "Vulkan cannot draw in it (" + lastError() + ")");
+    }
+    return surface;
+}
+
+void Window::listen(double seconds)
+{
+    if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+}
+
+bool Window::isClosing() const
+{
+    return glfwWindowShouldClose(impl_->window) == GLFW_TRUE;
+}
+
+glm::uvec2 Window::size_px() const
+{
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(impl_->window, &width, &height);
+    const bool is_minimised = glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED) == GLFW_TRUE;
+    return is_minimised ? glm::uvec2(0) : glm::uvec2(std::max(width, 0), std::max(height, 0));
+}
+
+double Window::contentScale() const
+{
+    float x = 1.0F;
+    float y = 1.0F;
+    glfwGetWindowContentScale(impl_->window, &x, &y);
+    constexpr float kLeast = 0.5F; // what a desktop without a notion of it says may be anything
+    constexpr float kMost = 4.0F;
+    return x >= kLeast && x <= kMost ? static_cast<double>(x) : 1.0;
+}
+
+void Window::setTitle(const std::string& title)
+{
+    glfwSetWindowTitle(impl_->window, title.c_str());
+}
+
+void Window::resize(glm::uvec2 size)
+{
+    assert(size.x > 0 && size.y > 0);
+    glfwSetWindowSize(impl_->window, static_cast<int>(size.x), static_cast<int>(size.y));
+}
+
+std::vector<std::string> Window::takeDropped()
+{
+    return std::exchange(impl_->dropped, {});
+}
+
+bool Window::takeExposed()
+{
+    return std::exchange(impl_->exposed, false);
+}
+
+void Window::toClipboard(const std::string& text)
+{
+    glfwSetClipboardString(impl_->window, text.c_str());
+}
+
+std::string Window::clipboard() const
+{
+    const char* const text = glfwGetClipboardString(impl_->window);
+    return text != nullptr ? text : "";
+}
+
+GLFWwindow* Window::handle() const
+{
+    return impl_->window;
+}
+
+} // namespace gnomon::host
