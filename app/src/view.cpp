@@ -20,6 +20,7 @@ int runView(const Settings& settings)
     Clock::time_point begun = Clock::now();
     for (;;) {
         try {
+            window->nap();
             if (!window->turn()) {
                 return 0;
             }

@@ -31,9 +31,9 @@ public:
 
     /// What rays have found so far.
     struct Level {
-        std::uint32_t rays = 0;        // per pixel and light
-        bool is_last = false;          // it is what `render --truth` draws with
-        std::vector<ImageF> masks;     // one for each light
+        std::uint32_t rays = 0;              // per pixel and light
+        bool is_last = false;                // it is what `render --truth` draws with
+        std::vector<ImageF> masks;           // one for each light
         std::optional<truth::Traced> judged; // of the light that is judged; nothing where it casts no shadow
     };
     /// The newest one, once.

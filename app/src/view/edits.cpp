@@ -116,17 +116,17 @@ bool differs(const Settings& a, const Settings& b, std::string_view key)
 bool changesScene(const Settings& from, const Settings& to)
 {
     constexpr std::array<std::string_view, 4> kOfScene{"ground", "override-material", "seed", "limit"};
-    return from.scene != to.scene || std::any_of(kOfScene.begin(), kOfScene.end(), [&](std::string_view key) {
-               return differs(from, to, key);
-           });
+    return from.scene != to.scene ||
+           std::any_of(kOfScene.begin(), kOfScene.end(), [&](std::string_view key) { return differs(from, to, key); });
 }
 
 bool changesRenderer(const Settings& from, const Settings& to)
 {
     const auto groups = settingTable();
     return std::any_of(groups.begin(), groups.end(), [&](const Setting& setting) {
-        const bool is_of_renderer = setting.group == SettingGroup::technique || setting.group == SettingGroup::picture ||
-                                    setting.key == "debug" || setting.key == "truth-pixels";
+        const bool is_of_renderer = setting.group == SettingGroup::technique ||
+                                    setting.group == SettingGroup::picture || setting.key == "debug" ||
+                                    setting.key == "truth-pixels";
         return is_of_renderer && setting.key != "size" && differs(from, to, setting.key);
     });
 }

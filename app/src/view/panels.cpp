@@ -133,7 +133,8 @@ void comparePanel(Viewer& viewer, PanelState& state)
         if (viewer.truthRays() == 0) {
             ImGui::TextDisabled("traced once the picture rests");
         } else {
-            ImGui::TextUnformatted(fmt::format("{} rays per pixel{}", viewer.truthRays(), viewer.isTruthDone() ? "" : " ...").c_str());
+            ImGui::TextUnformatted(
+                fmt::format("{} rays per pixel{}", viewer.truthRays(), viewer.isTruthDone() ? "" : " ...").c_str());
         }
         if (viewer.rmse()) {
             ImGui::TextUnformatted(fmt::format("rmse {:.4f}", *viewer.rmse()).c_str());
@@ -159,9 +160,8 @@ void scenePanel(Viewer& viewer, PanelState& state)
     for (const scene::World& world : scene::worlds()) {
         worlds.emplace_back(world.name);
     }
-    const int world = widgets.pick("world", viewer.settings().scene, worlds, nullptr, [](std::size_t i) {
-        return std::string(scene::worlds()[i].summary);
-    });
+    const int world = widgets.pick("world", viewer.settings().scene, worlds, nullptr,
+                                   [](std::size_t i) { return std::string(scene::worlds()[i].summary); });
     if (world >= 0) {
         viewer.open(worlds[static_cast<std::size_t>(world)]);
     }
@@ -171,7 +171,11 @@ void scenePanel(Viewer& viewer, PanelState& state)
     const std::vector<std::string> cameras = namesOfCameras(viewer.shot());
     const int camera = widgets.pick("camera", viewer.shot().camera, cameras);
     if (camera >= 0) {
-        viewer.change({{"fov", ""}, {"eye", ""}, {"target", ""}, {"up", ""}, {"camera", cameras[static_cast<std::size_t>(camera)]}});
+        viewer.change({{"fov", ""},
+                       {"eye", ""},
+                       {"target", ""},
+                       {"up", ""},
+                       {"camera", cameras[static_cast<std::size_t>(camera)]}});
     }
     if (widgets.button("Frame all")) {
         const Settings& settings = viewer.settings();
@@ -184,9 +188,8 @@ void scenePanel(Viewer& viewer, PanelState& state)
         viewer.play(plays);
     }
     explain("Lets the scene's time pass");
-    rowsOf(viewer, widgets, SettingGroup::time, [](const Setting& setting) {
-        return setting.key != "time" && setting.key != "animation";
-    });
+    rowsOf(viewer, widgets, SettingGroup::time,
+           [](const Setting& setting) { return setting.key != "time" && setting.key != "animation"; });
     for (const std::string_view key : {"fov", "ground", "override-material"}) {
         widgets.setting(viewer, *findSetting(key));
     }
@@ -208,10 +211,11 @@ void lightPanel(Viewer& viewer, PanelState& state)
     if (light >= 0) {
         viewer.change({{"light", lights[static_cast<std::size_t>(light)]}});
     }
-    const auto sun = std::find_if(viewer.shot().lights.begin(), viewer.shot().lights.end(), [](const host::ShadedLight& one) {
-        return one.caster.type == LightType::directional;
-    });
-    SunAngles angles = anglesOf(sun != viewer.shot().lights.end() ? sun->caster.direction_ws : glm::dvec3(0.65, -0.75, -0.12));
+    const auto sun =
+        std::find_if(viewer.shot().lights.begin(), viewer.shot().lights.end(),
+                     [](const host::ShadedLight& one) { return one.caster.type == LightType::directional; });
+    SunAngles angles =
+        anglesOf(sun != viewer.shot().lights.end() ? sun->caster.direction_ws : glm::dvec3(0.65, -0.75, -0.12));
     const bool turned = widgets.slider("sun from (degrees)", angles.azimuth_deg, 0.0F, 360.0F);
     explain("From which side it shines: 0 from -z, 90 from +x. Moving it replaces the scene's lights with one sun");
     const bool raised = widgets.slider("sun's height (degrees)", angles.height_deg, 1.0F, 90.0F);
@@ -253,9 +257,8 @@ void filesPanel(Viewer& viewer, PanelState& state)
     for (const Preset& preset : presets()) {
         names.emplace_back(preset.name);
     }
-    const int preset = widgets.pick("preset", "", names, nullptr, [](std::size_t i) {
-        return std::string(presets()[i].summary);
-    });
+    const int preset =
+        widgets.pick("preset", "", names, nullptr, [](std::size_t i) { return std::string(presets()[i].summary); });
     if (preset >= 0) {
         viewer.loadPreset(names[static_cast<std::size_t>(preset)]);
     }

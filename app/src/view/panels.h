@@ -12,8 +12,8 @@ namespace gnomon::app::view {
 /// What the panel shares with the picture.
 struct Shown {
     bool panel = true;
-    bool sun = true;      // the handle
-    float divider = 0.5F; // of the picture's width, where the second picture begins
+    bool sun = true;        // the handle
+    float divider = 0.5F;   // of the picture's width, where the second picture begins
     bool half_size = false; // pixels are drawn twice as large on each side
 };
 

@@ -22,8 +22,8 @@ std::vector<PassTime> passesOf(const host::FrameTimes& times)
 {
     std::vector<PassTime> passes;
     for (const vulkan::PassRecord& record : times.passes) {
-        const auto known = std::find_if(passes.begin(), passes.end(),
-                                        [&](const PassTime& one) { return one.name == record.name; });
+        const auto known =
+            std::find_if(passes.begin(), passes.end(), [&](const PassTime& one) { return one.name == record.name; });
         if (known != passes.end()) {
             known->ms += record.milliseconds;
         } else {

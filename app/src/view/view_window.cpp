@@ -56,7 +56,8 @@ void ViewWindow::fitPicture()
     area_.least = {std::floor(left), 0.0};
     area_.size = {std::max(io.DisplaySize.x - std::floor(left), 1.0F), std::max(io.DisplaySize.y, 1.0F)};
     const double part = shown_.half_size ? 0.5 : 1.0;
-    const glm::dvec2 size_px = area_.size * glm::dvec2(io.DisplayFramebufferScale.x, io.DisplayFramebufferScale.y) * part;
+    const glm::dvec2 size_px =
+        area_.size * glm::dvec2(io.DisplayFramebufferScale.x, io.DisplayFramebufferScale.y) * part;
     const glm::uvec2 wanted(std::max(1.0, std::floor(size_px.x)), std::max(1.0, std::floor(size_px.y)));
     if (wanted != viewer_->settings().size_px) {
         viewer_->change({{"size", fmt::format("{}x{}", wanted.x, wanted.y)}});
@@ -68,12 +69,15 @@ void ViewWindow::panel()
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize({static_cast<float>(area_.least.x), io.DisplaySize.y});
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                        ImGuiWindowFlags_NoSavedSettings;
     if (ImGui::Begin("panel", nullptr, kFlags)) {
         constexpr float kLabels = 0.45F; // of the width
         ImGui::PushItemWidth(-ImGui::GetContentRegionAvail().x * kLabels);
-        PanelState state{shown_, typed_, widgets_, [this](const std::string& text) { window_.toClipboard(text); }};
+        PanelState state{shown_, typed_, widgets_, [this](const std::string& text) {
+                             window_.toClipboard(text);
+                         }};
         techniquePanel(*viewer_, state);
         comparePanel(*viewer_, state);
         scenePanel(*viewer_, state);
@@ -90,21 +94,21 @@ void ViewWindow::panel()
 void ViewWindow::status() const
 {
     const Message& message = viewer_->message();
-    const std::string text = message.text.empty()
-                                 ? "drag: orbit   shift+drag: pan   right drag: look   wheel: nearer   W A S D Q E: fly   "
-                                   "F: frame all   T: truth   P: play   H: panel"
-                                 : message.text;
+    const std::string text =
+        message.text.empty() ? "drag: orbit   shift+drag: pan   right drag: look   wheel: nearer   W A S D Q E: fly   "
+                               "F: frame all   T: truth   P: play   H: panel"
+                             : message.text;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float margin = ImGui::GetFontSize() * 0.5F;
     const float width = static_cast<float>(area_.size.x) - 4.0F * margin;
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
     const ImVec2 least{static_cast<float>(area_.least.x) + margin,
                        static_cast<float>(area_.least.y + area_.size.y) - size.y - 3.0F * margin};
-    list.AddRectFilled(least, {least.x + size.x + 2.0F * margin, least.y + size.y + 2.0F * margin}, IM_COL32(0, 0, 0, 150),
-                       4.0F);
+    list.AddRectFilled(least, {least.x + size.x + 2.0F * margin, least.y + size.y + 2.0F * margin},
+                       IM_COL32(0, 0, 0, 150), 4.0F);
     list.AddText(nullptr, 0.0F, {least.x + margin, least.y + margin},
-                 message.is_refusal ? IM_COL32(255, 170, 120, 255) : IM_COL32(230, 230, 230, 255), text.c_str(), nullptr,
-                 width);
+                 message.is_refusal ? IM_COL32(255, 170, 120, 255) : IM_COL32(230, 230, 230, 255), text.c_str(),
+                 nullptr, width);
 }
 
 void ViewWindow::build(double elapsed_s)
@@ -120,7 +124,8 @@ void ViewWindow::build(double elapsed_s)
 
 void ViewWindow::retitle()
 {
-    std::string title = fmt::format("gnomon: {}, {}", viewer_->settings().scene, describeTechnique(viewer_->settings()));
+    std::string title =
+        fmt::format("gnomon: {}, {}", viewer_->settings().scene, describeTechnique(viewer_->settings()));
     if (viewer_->rmse()) {
         title += fmt::format(", rmse {:.4f} ({} rays{})", *viewer_->rmse(), viewer_->truthRays(),
                              viewer_->isTruthDone() ? "" : " so far");
@@ -144,7 +149,8 @@ std::vector<host::PicturePlace> ViewWindow::places() const
     // A debug view's picture has a size of its own; it is shown from its top left, as far as there is room.
     const glm::ivec2 whole = glm::min(glm::ivec2(canvas.size_px()), room / enlarged);
     const host::Canvas* const beside = viewer_->held() == Held::split ? viewer_->canvasBeside() : nullptr;
-    const int cut = beside == nullptr ? whole.x : static_cast<int>(std::lround(static_cast<float>(whole.x) * shown_.divider));
+    const int cut =
+        beside == nullptr ? whole.x : static_cast<int>(std::lround(static_cast<float>(whole.x) * shown_.divider));
     places.push_back({&canvas, {0, 0}, {cut, whole.y}, at, glm::ivec2(cut, whole.y) * enlarged});
     if (beside != nullptr) {
         const glm::ivec2 rest = glm::min(glm::ivec2(beside->size_px()), whole) - glm::ivec2(cut, 0);
@@ -153,18 +159,24 @@ std::vector<host::PicturePlace> ViewWindow::places() const
     return places;
 }
 
+void ViewWindow::nap()
+{
+    if (quiet_turns_ > kQuietTurns && !viewer_->isBusy()) {
+        window_.listen(kNap_s);
+    }
+}
+
 /// Up to where widgets can be made; false where there is nothing to draw in.
 bool ViewWindow::prepare()
 {
-    const bool waits = quiet_turns_ > kQuietTurns && !viewer_->isBusy();
-    window_.listen(waits ? kNap_s : 0.0);
+    window_.listen();
     requireNotInterrupted();
     for (const std::string& file : window_.takeDropped()) {
         viewer_->open(file);
         typed_.scene = file;
     }
-    if (!interface_->begin()) {
-        window_.listen(kNap_s); // minimised
+    if (!interface_->begin()) { // minimised
+        quiet_turns_ = kQuietTurns + 1;
         return false;
     }
     const Clock::time_point now = Clock::now();

@@ -21,6 +21,8 @@ public:
     ViewWindow(const ViewWindow&) = delete;
     ViewWindow& operator=(const ViewWindow&) = delete;
 
+    /// Waits for something to be done, for a moment, where nothing else is due.
+    void nap();
     /// Hears what was done, changes what that changes, draws and shows. False: the window was closed. Throws Error;
     /// of the kind device_lost, and then there is nothing more to do with this window.
     bool turn();
@@ -31,9 +33,11 @@ public:
     [[nodiscard]] host::Window& window() { return window_; }
     [[nodiscard]] Widgets& widgets() { return widgets_; }
     [[nodiscard]] Shown& shown() { return shown_; }
+    [[nodiscard]] Typed& typed() { return typed_; }
     [[nodiscard]] const Pointer& pointer() const { return pointer_; }
     /// Where the picture is, in pixels of the window.
     [[nodiscard]] glm::ivec2 pictureAt() const;
+    [[nodiscard]] glm::uvec2 size_px() const { return interface_->size_px(); }
     /// Of the last turn, all of it but waiting for the screen.
     [[nodiscard]] double turn_ms() const { return turn_ms_; }
 

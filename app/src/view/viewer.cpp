@@ -166,8 +166,17 @@ bool Viewer::open(const std::string& scene)
     Settings next = settings_;
     next.scene = scene;
     next.scene_hash.clear();
-    Edited plain = edited(next, {{"camera", ""}, {"eye", ""}, {"target", ""}, {"up", ""}, {"fov", ""}, {"sun", ""}, {"spot", ""},
-                                 {"point", ""}, {"time", ""}, {"animation", ""}, {"light", ""}});
+    Edited plain = edited(next, {{"camera", ""},
+                                 {"eye", ""},
+                                 {"target", ""},
+                                 {"up", ""},
+                                 {"fov", ""},
+                                 {"sun", ""},
+                                 {"spot", ""},
+                                 {"point", ""},
+                                 {"time", ""},
+                                 {"animation", ""},
+                                 {"light", ""}});
     if (!plain.settings) {
         return refuse(plain.refusal);
     }
@@ -208,8 +217,8 @@ bool Viewer::savePreset(const std::filesystem::path& file)
     const Json all = settingsJson(settings_, kRender);
     for (const auto& [key, value] : all.items()) {
         const Setting* const setting = findSetting(key);
-        const bool is_noted_only = (key == "map-format" && !settings_.shadow.format) ||
-                                   (key == "border" && !settings_.shadow.border_texels);
+        const bool is_noted_only =
+            (key == "map-format" && !settings_.shadow.format) || (key == "border" && !settings_.shadow.border_texels);
         if (isUsed(*setting, settings_) && !is_noted_only) {
             json[key] = value;
         }
@@ -296,8 +305,8 @@ const host::Canvas& Viewer::canvas() const
 
 const host::Canvas* Viewer::canvasBeside() const
 {
-    const bool is_there = drawing_beside_ && !drawing_beside_->canvas().isEmpty() &&
-                          (beside_ != Beside::truth || truth_shown_);
+    const bool is_there =
+        drawing_beside_ && !drawing_beside_->canvas().isEmpty() && (beside_ != Beside::truth || truth_shown_);
     return is_there ? &drawing_beside_->canvas() : nullptr;
 }
 

@@ -129,16 +129,16 @@ private:
     truth::Kind truth_kind_ = truth::Kind::area;
     std::unique_ptr<Drawing> drawing_beside_;
     std::unique_ptr<BackgroundTruth> truth_;
-    bool truth_wanted_ = false;   // of what is shown now, and not begun
+    bool truth_wanted_ = false; // of what is shown now, and not begun
     bool truth_shown_ = false;
     bool truth_done_ = false;
     std::uint32_t truth_rays_ = 0;
     std::optional<double> rmse_;
     std::optional<host::Canvas> difference_;
     bool plays_ = false;
-    double last_s_ = 0.0;      // update()
-    double changed_s_ = 0.0;   // the last change, at an update()
-    bool changed_ = true;      // since the last picture
+    double last_s_ = 0.0;    // update()
+    double changed_s_ = 0.0; // the last change, at an update()
+    bool changed_ = true;    // since the last picture
     Pacing pacing_;
     Message message_;
 };

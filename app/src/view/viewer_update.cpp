@@ -16,9 +16,9 @@
 namespace gnomon::app::view {
 namespace {
 
-constexpr double kRest_s = 0.12;              // after which a picture that nobody moves is drawn as `render` draws it
-constexpr std::uint32_t kMostAveraged = 1024; // frames at rest of soften converge
-constexpr double kTick_s = 0.001;             // the scene's time goes in whole ones, so that it can be written down
+constexpr double kRest_s = 0.12;             // after which a picture that nobody moves is drawn as `render` draws it
+constexpr std::uint32_t kMostAveraged = 256; // frames at rest of soften converge, and more change nothing that is seen
+constexpr double kTick_s = 0.001;            // the scene's time goes in whole ones, so that it can be written down
 
 bool converges(const Settings& settings)
 {
@@ -43,7 +43,7 @@ bool Viewer::isAtRest() const
 {
     const bool averages = converges(settings_) && settings_.converge < kMostAveraged;
     const bool beside_rests = !drawing_beside_ || beside_ == Beside::truth ? beside_ != Beside::truth || truth_done_
-                                                                          : drawing_beside_->isStill();
+                                                                           : drawing_beside_->isStill();
     return !changed_ && drawing_->isStill() && beside_rests && !averages;
 }
 

@@ -156,7 +156,9 @@ void Widgets::choice(Viewer& viewer, const Setting& setting)
     const Settings& settings = viewer.settings();
     const int picked = pick(
         key.c_str(), settings.values.at(key), names,
-        [&](std::size_t i) { return edited(settings, {{setting.key, names[i]}}).refusal; },
+        [&](std::size_t i) {
+            return edited(settings, {{setting.key, names[i]}}).refusal;
+        },
         [&](std::size_t i) {
             const ChoiceValue* const row = findChoice(setting.key, names[i]);
             return row == nullptr ? std::string("Gnomon chooses by what each would err")
@@ -173,8 +175,9 @@ void Widgets::number(Viewer& viewer, const Setting& setting, const std::string& 
     const bool is_edited = edited_key_ == setting.key;
     double value = is_edited ? edited_number_ : toNumber(now).value_or(0.0);
     const bool whole = setting.type == SettingType::integer;
-    const ImGuiSliderFlags flags =
-        setting.min >= 0.0 && setting.max > 100.0 * std::max(setting.min, 1e-3) && !whole ? ImGuiSliderFlags_Logarithmic : 0;
+    const ImGuiSliderFlags flags = setting.min >= 0.0 && setting.max > 100.0 * std::max(setting.min, 1e-3) && !whole
+                                       ? ImGuiSliderFlags_Logarithmic
+                                       : 0;
     if (ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &setting.min, &setting.max,
                             whole ? "%.0f" : "%.4g", flags)) {
         edited_key_ = setting.key;
@@ -187,7 +190,8 @@ void Widgets::number(Viewer& viewer, const Setting& setting, const std::string& 
     const bool follows = setting.group == SettingGroup::light || setting.group == SettingGroup::time ||
                          setting.group == SettingGroup::camera;
     if (edited_key_ == setting.key && (ends || follows)) {
-        const double rounded = whole ? std::round(edited_number_ / setting.multiple_of) * setting.multiple_of : edited_number_;
+        const double rounded =
+            whole ? std::round(edited_number_ / setting.multiple_of) * setting.multiple_of : edited_number_;
         const std::string text = whole ? fmt::format("{:.0f}", rounded) : fmt::format("{:.4g}", rounded);
         if (text != now) {
             viewer.change({{setting.key, text}});
@@ -203,7 +207,8 @@ void Widgets::textSetting(Viewer& viewer, const Setting& setting, const std::str
     const std::string label = labelOf(setting);
     const bool is_edited = edited_key_ == setting.key;
     std::string value = is_edited ? edited_text_ : now;
-    const std::string hint = setting.default_text.empty() ? std::string(setting.form) : std::string(setting.default_text);
+    const std::string hint =
+        setting.default_text.empty() ? std::string(setting.form) : std::string(setting.default_text);
     const bool entered =
         ImGui::InputTextWithHint(label.c_str(), hint.c_str(), &value, ImGuiInputTextFlags_EnterReturnsTrue);
     const bool ended = entered || ImGui::IsItemDeactivated();
@@ -244,8 +249,9 @@ void Widgets::setting(Viewer& viewer, const Setting& setting)
         for (const std::string_view name : setting.choices()) {
             names.emplace_back(name);
         }
-        const int picked = pick(key.c_str(), now, names,
-                                [&](std::size_t i) { return edited(viewer.settings(), {{setting.key, names[i]}}).refusal; });
+        const int picked = pick(key.c_str(), now, names, [&](std::size_t i) {
+            return edited(viewer.settings(), {{setting.key, names[i]}}).refusal;
+        });
         explain(aboutOf(setting));
         if (picked >= 0) {
             viewer.change({{setting.key, names[static_cast<std::size_t>(picked)]}});

@@ -152,8 +152,8 @@ void recordCanvas(VkCommandBuffer commands, const Canvas& canvas, const PictureP
     blit.dstOffsets[0] = {place.to_px.x, place.to_px.y, 0};
     blit.dstOffsets[1] = {to_end.x, to_end.y, 1};
     const bool shrinks = place.to_size_px.x < place.from_size_px.x || place.to_size_px.y < place.from_size_px.y;
-    vkCmdBlitImage(commands, CanvasAccess::image(canvas).handle, kCopySource.layout, target, kCopyTarget.layout, 1, &blit,
-                   shrinks ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+    vkCmdBlitImage(commands, CanvasAccess::image(canvas).handle, kCopySource.layout, target, kCopyTarget.layout, 1,
+                   &blit, shrinks ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
 }
 
 } // namespace gnomon::host

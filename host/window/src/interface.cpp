@@ -198,8 +198,7 @@ bool Interface::Impl::end(std::span<const PicturePlace> pictures, bool reads)
 {
     ImGui::Render();
     const bool shown = chain.show(
-        pictures,
-        [](VkCommandBuffer commands) { ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands); },
+        pictures, [](VkCommandBuffer commands) { ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands); },
         reads ? &texels : nullptr);
     if (reads) {
         chain.wait();

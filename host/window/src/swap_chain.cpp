@@ -37,8 +37,9 @@ SwapChain::SwapChain(Window& window, Gpu& gpu, const DebugNames& names)
     : window_(window), gpu_(gpu), surface_(window, gpu), commands_(gpu, names, "window")
 {
     VkBool32 can_show = VK_FALSE;
-    check(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.view().physical_device, gpu.queueFamily(), surface_.handle, &can_show),
-          kTried);
+    check(
+        vkGetPhysicalDeviceSurfaceSupportKHR(gpu.view().physical_device, gpu.queueFamily(), surface_.handle, &can_show),
+        kTried);
     if (can_show == VK_FALSE) {
         throw Error(kTried, std::string(gpu.properties().deviceName) + " cannot draw in it", "name another GPU");
     }
@@ -175,7 +176,8 @@ void SwapChain::makeImages()
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_.handle;
     constexpr std::uint32_t kWished = 3; // one shown, one waiting, one drawn
-    info.minImageCount = std::max(can.minImageCount, can.maxImageCount > 0 ? std::min(kWished, can.maxImageCount) : kWished);
+    info.minImageCount =
+        std::max(can.minImageCount, can.maxImageCount > 0 ? std::min(kWished, can.maxImageCount) : kWished);
     info.imageFormat = format_.format;
     info.imageColorSpace = format_.colorSpace;
     info.imageExtent = extent_;

@@ -60,7 +60,8 @@ private:
     void makeImages();
     void dropImages();
     void recordPictures(VkCommandBuffer commands, VkImage target, std::span<const PicturePlace> pictures) const;
-    void recordPass(VkCommandBuffer commands, const Shown& image, const std::function<void(VkCommandBuffer)>& draw) const;
+    void recordPass(VkCommandBuffer commands, const Shown& image,
+                    const std::function<void(VkCommandBuffer)>& draw) const;
     void submit(const Shown& image);
     [[nodiscard]] bool present(const Shown& image);
     [[nodiscard]] Shown makeShown(VkImage image) const;

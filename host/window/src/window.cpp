@@ -72,7 +72,8 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
         dropped.insert(dropped.end(), paths, paths + count);
     });
     glfwSetWindowRefreshCallback(impl_->window, [](GLFWwindow* window) { Impl::of(window).exposed = true; });
-    glfwSetFramebufferSizeCallback(impl_->window, [](GLFWwindow* window, int, int) { Impl::of(window).exposed = true; });
+    glfwSetFramebufferSizeCallback(impl_->window,
+                                   [](GLFWwindow* window, int, int) { Impl::of(window).exposed = true; });
 }
 
 Window::~Window() = default;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A desktop of our own, without a screen, and a hand on it.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace gnomon::test {
+
+/// Starts Xvfb and makes it this process's DISPLAY. One at a time.
+class Desktop {
+public:
+    /// Null where Xvfb is not installed.
+    [[nodiscard]] static std::unique_ptr<Desktop> open();
+    ~Desktop();
+    Desktop(const Desktop&) = delete;
+    Desktop& operator=(const Desktop&) = delete;
+
+    // What a hand does, heard by the program as from any mouse and keyboard. Pixels of the screen.
+    void point(const glm::dvec2& at);
+    void press(int button); // 1 left, 2 middle, 3 right, 4 and 5 the wheel
+    void release(int button);
+    /// A key by its X11 name: "Return", "w".
+    void key(std::string_view name, bool down);
+    /// The window under the pointer hears the keys.
+    void focus(unsigned long window);
+
+private:
+    Desktop() = default;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::test
