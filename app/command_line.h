@@ -24,6 +24,7 @@ struct Command {
     Kind kind = Kind::run;
     const Subcommand* subcommand = nullptr; // null: the program itself
     Settings settings;
+    std::vector<std::string> notices; // options that have no effect, a sentence each, for people
 };
 /// `arguments` without the program's name. Throws UsageError; Error when a preset's file cannot be read.
 [[nodiscard]] Command parseCommandLine(std::span<const std::string> arguments);

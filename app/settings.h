@@ -104,14 +104,18 @@ struct Settings {
     std::uint64_t seed = 0;
     std::string gpu;
     bool validate = false;
+    bool strict = false; // an option that has no effect is refused
     scene::Limits limits;
     // results
     std::string output;
     bool mask = false;
     std::string debug; // render: what the picture shows instead, see debug_views.h; "none"
     std::string light;
-    std::string json; // empty: not asked for; "-": stdout
+    std::string json;      // empty: not asked for; "-": stdout
+    std::string technique; // the text of --technique; its parts are settings like others
     std::vector<std::string> techniques;
+    /// "FILE:LINE" of those techniques that --techniques @FILE gave.
+    std::map<std::string, std::string, std::less<>> technique_places;
     std::uint32_t repetitions = 0;
     std::uint32_t warmup = 0;
     std::string draw;    // plan: the SVG file that shows a light's maps; empty: none
@@ -122,12 +126,14 @@ struct Settings {
     std::string test_image; // metrics: the two files
     std::string truth_image;
     std::vector<std::string> claims; // claims: their names; empty: all
+    std::string topic;               // list: what is asked about, empty: an overview; completion: the shell
+    std::vector<std::string> typed;  // completion: the words of the line that is to be completed, after "--"
     bool quick = false;              // claims: only those that take seconds
     bool markdown = false;           // claims: the tables of docs/claims.md
 
     /// The text of every setting that has a value, by key; defaults included.
     std::map<std::string, std::string, std::less<>> values;
-    /// Keys that the command line itself gave (not defaults, not presets).
+    /// Keys that the command line itself gave (not defaults, not presets); false: as a part of --technique.
     std::map<std::string, bool, std::less<>> given;
     /// Keys that the command line or a preset named: not left at their defaults.
     std::set<std::string, std::less<>> named;
@@ -151,6 +157,8 @@ inline constexpr std::uint32_t kCompare = 16;
 inline constexpr std::uint32_t kMetrics = 32;
 inline constexpr std::uint32_t kClaims = 64;
 inline constexpr std::uint32_t kView = 128;
+inline constexpr std::uint32_t kCompletion = 256;
+inline constexpr std::uint32_t kMan = 512;
 inline constexpr std::uint32_t kPictures = kRender | kBench | kView; // all that draw pictures
 inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that draw
 inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene
@@ -196,6 +204,8 @@ struct Setting {
 void applySetting(Settings& settings, const Setting& setting, std::string_view text);
 /// The same by key; an unknown key's UsageError suggests the nearest.
 void applySetting(Settings& settings, std::string_view key, std::string_view text);
+/// Throws UsageError for a key that no setting has, with the nearest.
+[[noreturn]] void refuseKey(std::string_view key);
 /// Forgets the place of the camera that was set the other way: what is said last holds. `latest` is --camera, --eye or
 /// --target; other keys change nothing.
 void replaceCamera(Settings& settings, std::string_view latest);
@@ -207,14 +217,20 @@ void requireOnePlacement(const Settings& settings, std::string_view key, std::st
                          std::string_view partner);
 /// So that a list given later does not add to a preset's.
 void forgetTechniques(Settings& settings);
-/// Checks what takes more than one setting to see, and settings that would have no effect. Throws UsageError.
+/// Checks what takes more than one setting to see. Throws UsageError for what contradicts itself or cannot be had.
 void validateSettings(const Settings& settings);
+/// What the command line gave and what changes nothing beside the rest, in the order of the table: a sentence each.
+/// What takes the scene to see is makeShot()'s to tell. Throws UsageError for the first one with --strict, and where
+/// contestants() does. Precondition: validateSettings() passed.
+[[nodiscard]] std::vector<std::string> optionsWithoutEffect(const Settings& settings);
+/// Adds the sentence to those that people are told, each once; with --strict throws it as UsageError.
+void tellNoEffect(const Settings& settings, std::vector<std::string>& told, std::string sentence);
 /// Notes in `values` what follows from other settings (map format, border). Throws UsageError when the library refuses
 /// the options.
 void completeTechnique(Settings& settings);
 
 /// "pcf+pcf.kernel=5x5+map-size=1024": values of the choices and KEY=VALUE of technique settings joined by +. Applies
-/// them to a copy of `base`. Throws UsageError.
+/// them to a copy of `base`; parts without effect change nothing. Throws UsageError.
 [[nodiscard]] Settings parseTechnique(const Settings& base, std::string_view text);
 /// The shortest text that parseTechnique() turns into these settings.
 [[nodiscard]] std::string describeTechnique(const Settings& settings);

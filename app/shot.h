@@ -39,9 +39,10 @@ void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
 /// The light that --light names, by its own name or its node's, else the first. Throws UsageError for one that is not
 /// there.
 [[nodiscard]] std::size_t lightIndex(const Shot& shot, const Settings& settings);
-/// Throws UsageError when --sun-angle or --light-size is given and none of these lights has such a size. makeShot()
-/// asks it of all of a shot's lights.
-void requireSizedLights(const Settings& settings, std::span<const host::ShadedLight> lights);
+/// Adds to Shot::notices that --sun-angle, --light-size or a setting of spot lights is given and none of `lights`, some
+/// of the shot's, has such a size. Throws UsageError with --strict, and for what is swept: there would be nothing to
+/// see. makeShot() asks it of all of a shot's lights.
+void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<const host::ShadedLight> lights);
 
 [[nodiscard]] host::RenderOptions renderOptions(const Settings& settings);
 /// The frame that the library plans, over objects filled from the state (host::fillObjectSet).

@@ -5,6 +5,9 @@
 #include "claims/claim.h"
 #include "contestants.h"
 #include "files/files.h"
+#include "list.h"
+#include "technique_file.h"
+#include "technique_text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -59,9 +62,8 @@ std::string_view aliasOf(std::string_view key)
 
 /// The command line's options in the order given, CLI11 doing the splitting.
 struct Parsed {
-    std::vector<std::string> scenes;
-    std::vector<std::string> images;
-    std::vector<std::string> claims;
+    std::vector<std::string> words; // neither options nor their values: scene, images, names
+    std::vector<std::string> typed; // completion: what is after "--"
     std::vector<std::string> sets;
     std::vector<std::string> presets;
     std::deque<std::pair<const Setting*, std::vector<std::string>>> options;
@@ -75,6 +77,11 @@ void addValues(CLI::App& cli, const std::string& name, std::vector<std::string>&
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
+}
+
+bool takesWords(const Subcommand& subcommand)
+{
+    return (subcommand.bit & (kFrames | kMetrics | kClaims | kList | kCompletion)) != 0;
 }
 
 void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
@@ -92,15 +99,11 @@ void addOptions(CLI::App& cli, const Subcommand& subcommand, Parsed& parsed)
         }
     }
     if ((subcommand.bit & kFrames) != 0) {
-        cli.add_option("scene", parsed.scenes)->expected(-1);
         addValues(cli, "--set", parsed.sets);
         addValues(cli, "--preset", parsed.presets);
     }
-    if (subcommand.bit == kMetrics) {
-        cli.add_option("images", parsed.images)->expected(-1);
-    }
-    if (subcommand.bit == kClaims) {
-        cli.add_option("names", parsed.claims)->expected(-1);
+    if (takesWords(subcommand)) {
+        cli.add_option("words", parsed.words)->expected(-1);
     }
     cli.add_flag("-h,--help", parsed.help);
     cli.allow_extras();
@@ -114,6 +117,9 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
     }
     if (subcommand.bit == kClaims) {
         return !word.starts_with("-") && claimsNamed(word).empty();
+    }
+    if (subcommand.bit == kList) {
+        return !word.starts_with("-") && !isListed(word);
     }
     const auto worlds = scene::worlds();
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&
@@ -150,6 +156,7 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
                                          arguments[i + 1],
                                          subcommand.bit == kMetrics  ? "image"
                                          : subcommand.bit == kClaims ? "claim"
+                                         : subcommand.bit == kList   ? "name that list has"
                                                                      : "scene"));
         } else {
             json = "-";
@@ -161,12 +168,10 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
 /// What comes after "--" is no option, whatever it looks like.
 void takeWords(std::span<const std::string> words, const Subcommand& subcommand, Parsed& parsed)
 {
-    if ((subcommand.bit & kFrames) != 0) {
-        parsed.scenes.insert(parsed.scenes.end(), words.begin(), words.end());
-    } else if (subcommand.bit == kMetrics) {
-        parsed.images.insert(parsed.images.end(), words.begin(), words.end());
-    } else if (subcommand.bit == kClaims) {
-        parsed.claims.insert(parsed.claims.end(), words.begin(), words.end());
+    if (subcommand.bit == kCompletion) {
+        parsed.typed.assign(words.begin(), words.end());
+    } else if (takesWords(subcommand)) {
+        parsed.words.insert(parsed.words.end(), words.begin(), words.end());
     } else if (!words.empty()) {
         throw UsageError(fmt::format("{} takes no argument \"{}\"", subcommand.name, words.front()));
     }
@@ -206,22 +211,54 @@ Parsed parse(std::span<const std::string> arguments, const Subcommand& subcomman
     if (end != arguments.end()) {
         takeWords(arguments.subspan(count + 1), subcommand, parsed);
     }
-    if (parsed.scenes.size() > 1) {
-        throw UsageError(
-            fmt::format("\"{}\" is one argument too many: the scene is \"{}\"", parsed.scenes[1], parsed.scenes[0]));
-    }
     return parsed;
 }
 
-void applyImages(Settings& settings, const Parsed& parsed)
+void applyImages(Settings& settings, const std::vector<std::string>& images)
 {
-    if (parsed.images.size() != 2) {
-        throw UsageError(
-            fmt::format("metrics takes two images, the test and the truth; {} given",
-                        parsed.images.size() == 1 ? "one is" : fmt::format("{} are", parsed.images.size())));
+    if (images.size() != 2) {
+        throw UsageError(fmt::format("metrics takes two images, the test and the truth; {} given",
+                                     images.size() == 1 ? "one is" : fmt::format("{} are", images.size())));
     }
-    settings.test_image = parsed.images[0];
-    settings.truth_image = parsed.images[1];
+    settings.test_image = images[0];
+    settings.truth_image = images[1];
+}
+
+/// The words that are no options. A scene of a preset gives way.
+void applyWords(Settings& settings, const Parsed& parsed, const Subcommand& subcommand)
+{
+    if (subcommand.bit == kMetrics) {
+        applyImages(settings, parsed.words);
+        return;
+    }
+    if (subcommand.bit == kClaims) {
+        settings.claims = parsed.words;
+        return;
+    }
+    const bool is_scene = (subcommand.bit & kFrames) != 0;
+    if (parsed.words.size() > 1) {
+        throw UsageError(fmt::format("\"{}\" is one argument too many: the {} is \"{}\"", parsed.words[1],
+                                     is_scene                        ? "scene"
+                                     : subcommand.bit == kCompletion ? "shell"
+                                                                     : "name",
+                                     parsed.words[0]));
+    }
+    if (!parsed.words.empty()) {
+        (is_scene ? settings.scene : settings.topic) = parsed.words.front();
+    }
+    settings.typed = parsed.typed;
+}
+
+/// --technique: given parts are as good as options of their own, but that they are told as parts.
+void noteParts(Settings& settings, std::string_view text)
+{
+    if (settings.given.contains("technique")) {
+        throw UsageError("--technique is given twice");
+    }
+    settings.technique = text;
+    for (const TechniquePart& part : techniqueParts(text)) {
+        settings.given.emplace(part.key, false);
+    }
 }
 
 void applyGiven(Settings& settings, const Setting& setting, std::string_view text, const Subcommand& subcommand)
@@ -235,7 +272,7 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
     if (!both_ways) {
         replaceCamera(settings, setting.key);
     }
-    if (setting.key == "techniques" && !settings.given.contains(setting.key)) {
+    if ((setting.key == "techniques" || setting.key == "technique") && !settings.given.contains("techniques")) {
         forgetTechniques(settings);
     }
     for (const std::string_view other : placementPartners(setting.key)) {
@@ -243,7 +280,14 @@ void applyGiven(Settings& settings, const Setting& setting, std::string_view tex
             requireOnePlacement(settings, setting.key, text, other);
         }
     }
-    applySetting(settings, setting, text);
+    if (setting.key == "techniques" && text.starts_with('@')) {
+        applyTechniqueFile(settings, text.substr(1));
+    } else {
+        applySetting(settings, setting, text);
+    }
+    if (setting.key == "technique") {
+        noteParts(settings, text);
+    }
     settings.given[std::string(setting.key)] = true;
     settings.named.emplace(setting.key);
 }
@@ -253,9 +297,7 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
     for (const std::string& preset : parsed.presets) {
         applyPreset(settings, preset, subcommand.bit);
     }
-    if (!parsed.scenes.empty()) {
-        settings.scene = parsed.scenes.front();
-    }
+    applyWords(settings, parsed, subcommand);
     for (const auto& [setting, values] : parsed.options) {
         // Of two files the first would stay empty, without a word.
         if (values.size() > 1 && setting->group == SettingGroup::result && !setting->repeatable &&
@@ -273,7 +315,7 @@ void applyAll(Settings& settings, const Parsed& parsed, const Subcommand& subcom
         }
         const std::string key = text.substr(0, equals);
         if (findSetting(key) == nullptr) {
-            applySetting(settings, key, ""); // throws with a suggestion
+            refuseKey(key);
         }
         applyGiven(settings, *findSetting(key), std::string_view(text).substr(equals + 1), subcommand);
     }
@@ -319,10 +361,7 @@ Command parseCommandLine(std::span<const std::string> arguments)
     command.settings.subcommand = command.subcommand->bit;
     if (command.subcommand->bit == kCompare) {
         applySetting(command.settings, "truth", "area");
-    } else if (command.subcommand->bit == kMetrics) {
-        applyImages(command.settings, parsed);
     }
-    command.settings.claims = parsed.claims;
     applyAll(command.settings, parsed, *command.subcommand);
     if (json) {
         applyGiven(command.settings, *findSetting("json"), *json, *command.subcommand);
@@ -330,7 +369,11 @@ Command parseCommandLine(std::span<const std::string> arguments)
     if ((command.subcommand->bit & kFrames) != 0 && !hasManyTechniques(command.settings)) {
         completeTechnique(command.settings);
     }
+    if (!command.settings.technique.empty()) {
+        requireTechnique(command.settings, command.settings.technique);
+    }
     validateSettings(command.settings);
+    command.notices = optionsWithoutEffect(command.settings);
     return command;
 }
 

@@ -30,16 +30,6 @@
 namespace gnomon::app {
 namespace {
 
-/// What a sweep has no use for is refused, not ignored.
-void validateSweep(const Settings& settings)
-{
-    for (const char* key : {"equal-error", "repetitions", "warmup"}) {
-        if (settings.sweep && settings.given.contains(key)) {
-            throw UsageError(fmt::format("--{} has no effect with --sweep, which measures no time", key));
-        }
-    }
-}
-
 /// A light that every technique refuses leaves nothing to compare.
 void requireCaster(const host::ShadedLight& light, const std::vector<Settings>& techniques)
 {
@@ -244,7 +234,6 @@ Settings firstOf(const std::optional<SweepPlan>& sweep, const Settings& settings
 
 Json findByComparing(const Settings& settings)
 {
-    validateSweep(settings);
     const std::vector<Settings> techniques = contestants(settings);
     std::optional<SweepPlan> sweep;
     if (settings.sweep) {
@@ -260,7 +249,7 @@ Json findByComparing(const Settings& settings)
     Shot shot = makeShot(firstOf(sweep, settings));
     const host::ShadedLight light = shot.lights[lightIndex(shot, settings)];
     requireJudgedSun(shot, settings);
-    requireSizedLights(firstOf(sweep, settings), {&light, 1});
+    noteSizesWithoutEffect(shot, firstOf(sweep, settings), {&light, 1});
     requireCaster(light, techniques);
     const auto gpu = openGpu(settings);
     requireMapsFit(*gpu, techniques, sweep);

@@ -40,7 +40,7 @@ std::unique_ptr<const JudgedShot> judgeShot(const Settings& settings)
 {
     auto made = std::make_unique<JudgedShot>();
     made->shot = makeShot(settings);
-    requireSizedLights(settings, {&made->shot.lights[lightIndex(made->shot, settings)], 1});
+    noteSizesWithoutEffect(made->shot, settings, {&made->shot.lights[lightIndex(made->shot, settings)], 1});
     made->judged = judge(made->shot, settings);
     return made;
 }

@@ -39,7 +39,7 @@ struct JudgedShot {
     Shot shot;
     Judged judged;
 };
-/// Throws as makeShot(), requireSizedLights() and judge() do. In place, for `judged` looks at `shot`.
+/// Throws as makeShot(), noteSizesWithoutEffect() and judge() do. In place, for `judged` looks at `shot`.
 [[nodiscard]] std::unique_ptr<const JudgedShot> judgeShot(const Settings& settings);
 
 } // namespace gnomon::app

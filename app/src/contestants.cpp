@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace gnomon::app {
 namespace {
@@ -55,8 +56,9 @@ std::vector<std::string> allOf(const Settings& settings)
 
 bool namesOneTechnique(const Settings& settings)
 {
-    return std::any_of(settings.named.begin(), settings.named.end(),
-                       [](const std::string& key) { return key == "filter" || key.starts_with("pcf."); });
+    return std::any_of(settings.named.begin(), settings.named.end(), [](const std::string& key) {
+        return key == "technique" || key == "filter" || key.starts_with("pcf.");
+    });
 }
 
 bool hasManyTechniques(const Settings& settings)
@@ -82,14 +84,21 @@ std::vector<Settings> contestants(const Settings& settings)
     if (settings.techniques.empty() && namesOneTechnique(settings)) {
         return {settings};
     }
-    const std::vector<std::string> texts = techniqueList(settings);
     std::vector<Settings> made;
-    for (const std::string& text : texts) {
-        made.push_back(parseTechnique(settings, text));
-        for (std::size_t i = 0; i + 1 < made.size(); ++i) {
-            if (describeTechnique(made[i]) == describeTechnique(made.back())) {
-                throw UsageError(fmt::format("--techniques: {} and {} are the same technique", texts[i], text));
+    std::map<std::string, std::string> texts; // by what it comes to
+    for (const std::string& text : techniqueList(settings)) {
+        try {
+            made.push_back(parseTechnique(settings, text));
+            const auto [same, is_new] = texts.emplace(describeTechnique(made.back()), text);
+            if (!is_new) {
+                throw UsageError(fmt::format("--techniques: {} and {} are the same technique", same->second, text));
             }
+        } catch (const UsageError& error) {
+            const auto place = settings.technique_places.find(text);
+            if (place == settings.technique_places.end()) {
+                throw;
+            }
+            throw UsageError(fmt::format("{}: {}", place->second, error.what()));
         }
     }
     return made;

@@ -214,7 +214,7 @@ void requireDebugView(const Settings& settings)
         throw UsageError(fmt::format("--debug {} makes a picture of 8 bits; write it as .png", view->name));
     }
     if (!view->used(settings)) {
-        throw UsageError(fmt::format("--debug {} has an effect only with {}", view->name, view->used_when));
+        throw UsageError(fmt::format("--debug {} needs {}", view->name, view->used_when));
     }
 }
 

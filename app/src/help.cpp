@@ -27,7 +27,7 @@ std::string programHelp()
     }
     text += fmt::format("\nSCENE is a .gltf or .glb file or a built-in world:\n{}; without one it is rts.\n",
                         listed(worlds));
-    return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` every value and setting there is,\n"
+    return text + "\n`gnomon SUBCOMMAND --help` shows its options, `gnomon list` the choices of a technique and more,\n"
                   "`gnomon --version` the version. Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 }
 
@@ -39,6 +39,11 @@ struct Pair {
     std::string_view right; // with both defaults
 };
 constexpr Pair kPairs[] = {
+    {"eye", "target", "--eye x,y,z --target x,y,z", "where the camera is, and what it looks at"},
+    {"technique", "techniques", "--technique T --techniques LIST",
+     "one: pcf+sdsm+map-size=1024; or several: hard,pcf; all; @FILE"},
+    {"validate", "strict", "--validate --strict",
+     "a message of Vulkan's validation, or an option without effect, fails"},
     {"frames", "fps", "--frames A-B --fps N", "frames A to B, N a second ({1}); frame F is at --time plus F / N"},
     {"repetitions", "warmup", "--repetitions N --warmup N",
      "timed frames of each technique ({0}), those before them ({1})"},
@@ -48,9 +53,12 @@ constexpr Pair kPairs[] = {
     {"truth", "samples", "--truth KIND --samples N", "hard: a ray to the light's centre; area: N over all of it ({1})"},
 };
 
-std::string optionLine(const Setting& setting)
+std::string optionLine(const Setting& setting, const Subcommand& subcommand)
 {
     for (const Pair& pair : kPairs) {
+        if ((findSetting(pair.first)->subcommands & findSetting(pair.second)->subcommands & subcommand.bit) == 0) {
+            continue;
+        }
         if (setting.key == pair.first) {
             return line(std::string(pair.left), fmt::format(fmt::runtime(pair.right), setting.default_text,
                                                             findSetting(pair.second)->default_text));
@@ -97,10 +105,10 @@ std::string helpText(const Subcommand* subcommand)
             text += line(choices, "one value each");
             choices.clear();
         }
-        text += optionLine(setting);
+        text += optionLine(setting, *subcommand);
     }
     if ((subcommand->bit & kFrames) != 0) {
-        text += line("--set KEY=VALUE", "any other setting; `gnomon list` shows them");
+        text += line("--set KEY=VALUE", "any other setting; `gnomon list settings` shows them");
         text += line("--preset NAME|FILE", "a JSON file of settings, or a built-in one");
     }
     return text + line("-h, --help", "this text; defaults are in brackets");

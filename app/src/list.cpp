@@ -1,230 +1,252 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon list`: every value of every choice, every rule that refuses, every setting, preset and world.
-#include "app/preset.h"
+// `gnomon list`: the choices and what they refuse on a few screens; with a name, all there is to say of it.
+#include "list.h"
+
+#include "app/command_line.h"
 #include "claims/claim_report.h"
+#include "list_details.h"
+#include "list_json.h"
+#include "list_rules.h"
 #include "result_json.h"
 #include "streams.h"
 #include "subcommands.h"
+#include "wrap_text.h"
 
 #include <gnomon/choice_rules.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace gnomon::app {
 namespace {
 
-constexpr std::string_view kTechniqueGrammar =
-    "A technique is values of the choices and KEY=VALUE of technique settings, joined by + in any order; what is left "
-    "out has its "
-    "default: hard, pcf+pcf.kernel=5x5+map-size=1024. Lists of techniques have commas between.";
+constexpr std::array<std::string_view, 6> kChoices{"light", "partition", "fit", "filter", "soften", "motion"};
 
-/// What does not go together, and why.
-struct Refused {
-    std::string technique;
-    std::string reason;
-};
-
-std::vector<Filter> allFilters()
+std::string allChoicesText()
 {
-    std::vector<Filter> filters;
-    for (const ChoiceValue& row : choiceValues()) {
-        const auto filter = static_cast<Filter>(row.value);
-        if (row.choice == "filter" && filterTraits(filter) != nullptr) {
-            filters.push_back(filter);
-        }
-    }
-    return filters;
-}
-
-/// The formats that a filter refuses, and why.
-struct RefusedFormats {
-    std::string filters;
-    std::string formats;
-    std::string reason;
-};
-
-RefusedFormats formatsRefusedBy(Filter filter)
-{
-    RefusedFormats row{std::string(nameOf(filter)), {}, {}};
-    const bool stores = filterTraits(filter)->has_maps;
-    for (auto format = MapFormat{}; format <= MapFormat::rg8; format = MapFormat(std::uint8_t(format) + 1)) {
-        if (const auto reason = refusal(filter, stores ? format : MapFormat::d16)) {
-            row.formats += fmt::format("{}{}", row.formats.empty() ? "" : "|", nameOf(format));
-            row.reason = *reason;
-        }
-    }
-    return row;
-}
-
-/// One row for all filters that refuse the same formats for the same reason.
-void addRefusedFormats(std::vector<Refused>& refused)
-{
-    std::vector<RefusedFormats> rows;
-    for (const Filter filter : allFilters()) {
-        RefusedFormats row = formatsRefusedBy(filter);
-        const auto same = std::find_if(rows.begin(), rows.end(), [&row](const RefusedFormats& other) {
-            return other.formats == row.formats && other.reason == row.reason;
-        });
-        if (same == rows.end()) {
-            rows.push_back(std::move(row));
-        } else {
-            same->filters += "|" + row.filters;
-        }
-    }
-    for (RefusedFormats& row : rows) {
-        refused.push_back({fmt::format("{}+map-format={}", row.filters, row.formats), std::move(row.reason)});
-    }
-}
-
-/// What a filter's options may not be with a format that it can use: each at the end of its range.
-void addRefusedMoments(std::vector<Refused>& refused)
-{
-    constexpr std::string_view kOptions[] = {"depth-remap=1", "esm.exponent=10000", "evsm.positive=10000",
-                                             "evsm.negative=10000"};
-    const Settings defaults = defaultSettings();
-    for (const Filter filter : allFilters()) {
-        for (const std::string_view option : kOptions) {
-            for (const MapFormat format : filterTraits(filter)->formats) {
-                if (!filterTraits(filter)->has_maps) {
-                    continue;
-                }
-                const std::string text = fmt::format("{}+map-format={}", nameOf(filter), nameOf(format));
-                Settings settings = parseTechnique(defaults, text);
-                const std::size_t equals = option.find('=');
-                const Setting& setting = *findSetting(option.substr(0, equals));
-                applySetting(settings, setting, option.substr(equals + 1));
-                if (!isUsed(setting, settings)) {
-                    continue;
-                }
-                if (const auto reason = refusal(settings.shadow.technique.filter, format, settings.shadow.moments)) {
-                    refused.push_back({fmt::format("{}+{}", text, option), *reason});
-                }
+    std::string text;
+    for (const std::string_view choice : kChoices) {
+        const Setting* const setting = choice == "light" ? nullptr : findSetting(choice);
+        text += setting == nullptr ? fmt::format("{}: what casts\n", choice)
+                                   : fmt::format("{}: {} ({})\n", choice, setting->doc, setting->default_text);
+        for (const ChoiceValue& row : choiceValues()) {
+            if (row.choice == choice) {
+                text += entryText(row.name, row.summary, 18);
             }
         }
     }
+    return text;
 }
 
-std::vector<Refused> allRefused()
+std::string storageText()
 {
-    std::vector<Refused> refused;
-    for (const ChoiceRule& rule : choiceRules()) {
-        refused.push_back({std::string(rule.refuses), std::string(rule.reason)});
-    }
-    addRefusedFormats(refused);
-    addRefusedMoments(refused);
-    return refused;
-}
-
-std::string settingLine(const Setting& setting)
-{
-    std::string facts;
-    const auto add = [&](const std::string& fact) {
-        facts += (facts.empty() ? "" : ", ") + fact;
-    };
-    if (!setting.unit.empty()) {
-        add(std::string(setting.unit));
-    }
-    if (!setting.default_text.empty()) {
-        add(fmt::format("default {}", setting.default_text));
-    }
-    if (setting.min < setting.max) {
-        add(fmt::format("{} to {}", setting.min, setting.max));
-    }
-    if (setting.choices != nullptr) {
-        std::string names;
-        for (const auto name : setting.choices()) {
-            names += (names.empty() ? "" : " ") + std::string(name);
+    std::string text;
+    for (const StoredAs& row : storageOfFilters()) {
+        std::vector<std::string_view> formats;
+        for (const MapFormat format : row.formats) {
+            formats.push_back(nameOf(format));
         }
-        add("one of " + names);
+        text += entryText(joined(row.filters, " "), formats.empty() ? "no map, so no format" : joined(formats), 28);
     }
-    if (!setting.used_when.empty()) {
-        add(fmt::format("with {}", setting.used_when));
-    }
-    return fmt::format("  {:<20} {}{}\n", setting.key, setting.doc, facts.empty() ? "" : " [" + facts + "]");
+    return text;
 }
 
-std::string textList()
+std::string settingsText()
 {
-    std::string text = "Choices (sources are in --json):\n";
-    std::string_view choice;
-    for (const ChoiceValue& row : choiceValues()) {
-        if (row.choice != choice) {
-            choice = row.choice;
-            text += fmt::format("{}\n", choice);
-        }
-        text += fmt::format("  {:<17} {}\n", row.name, row.summary);
-    }
-    text += "\nWhat does not go together:\n";
-    for (const Refused& row : allRefused()) {
-        text += fmt::format("  {}: {}\n", row.technique, row.reason);
-    }
-    text += "\nSettings (options of their own as --KEY; all by --set KEY=VALUE and, but for outputs, in presets):\n";
+    std::string text =
+        "Settings (options of their own as --KEY; all by --set KEY=VALUE and, but for outputs, in presets):\n";
     for (const Setting& setting : settingTable()) {
         text += settingLine(setting);
     }
-    text += "\nPresets:\n";
+    return text;
+}
+
+std::string presetsText()
+{
+    std::string text = "Presets, for --preset:\n";
     for (const Preset& preset : presets()) {
-        text += fmt::format("  {:<20} {}\n", preset.name, preset.summary);
+        text += entryText(preset.name, preset.summary, 18);
     }
-    text += "\nClaims of the source documents, which `gnomon claims` tries:\n";
+    return text;
+}
+
+std::string claimsListText()
+{
+    std::string text = "Claims of the source documents, which `gnomon claims` tries:\n";
     for (const ClaimDocument& document : claimDocuments()) {
         for (const Claim& claim : document.claims) {
-            text += fmt::format("  {:<26} {}\n", claim.id, claim.claim);
+            text += entryText(claim.id, claim.claim, 29);
         }
     }
-    text += "\nBuilt-in worlds:\n";
-    for (const scene::World& world : scene::worlds()) {
-        text += fmt::format("  {:<20} {}\n", world.name, world.summary);
-    }
-    return text + fmt::format("\n{}\n", kTechniqueGrammar);
+    return text;
 }
 
-Json choiceList()
+std::string worldsText()
 {
-    Json choices = Json::array();
+    std::string text = "Built-in worlds, in the place of a scene's file:\n";
+    for (const scene::World& world : scene::worlds()) {
+        text += entryText(world.name, world.summary, 12);
+    }
+    return text;
+}
+
+struct Section {
+    std::string_view name;
+    std::string_view summary;
+    std::string (*text)();
+};
+constexpr std::array kSections{
+    Section{"choices", "the six choices with their values", allChoicesText},
+    Section{"rules", "what does not go together, and why", rulesText},
+    Section{"settings", "every setting with unit, default and range", settingsText},
+    Section{"presets", "settings of published techniques, and plain ones", presetsText},
+    Section{"worlds", "built-in worlds", worldsText},
+    Section{"claims", "what the source documents claim", claimsListText},
+};
+
+std::string namesLine(std::string_view what, const std::vector<std::string_view>& names)
+{
+    return entryText(what, joined(names), 14);
+}
+
+template <class Range>
+std::vector<std::string_view> namesIn(const Range& range)
+{
+    std::vector<std::string_view> names;
+    for (const auto& one : range) {
+        names.push_back(one.name);
+    }
+    return names;
+}
+
+/// A few screens.
+std::string overviewText()
+{
+    std::string text =
+        wrapped("", kTechniqueGrammar, 0) + "\n" + allChoicesText() + "\nRefused, before anything is drawn:\n";
+    for (const ChoiceRule& rule : choiceRules()) {
+        text += wrapped("  ", rule.reason, 4);
+    }
+    text += "\nMap formats, the usual one first; a filter refuses all others (`gnomon list rules` says why):\n" +
+            storageText();
+    text += "\n" + wrapped("",
+                           "One name in full: `gnomon list msm` has a value's settings, rules and source; so have "
+                           "`list pcf.kernel` a setting, `list rts` a world, `list 2011-bloom` a claim. All of a kind:",
+                           0);
+    text += entryText("gnomon list", joined(namesIn(kSections), "|"), 14);
+    text += namesLine("presets", namesIn(presets()));
+    text += namesLine("worlds", namesIn(scene::worlds()));
+    text += namesLine("subcommands", namesIn(subcommands()));
+    return text + "`gnomon SUBCOMMAND --help` has a subcommand's options; --json has all of this for scripts.\n";
+}
+
+const Section* findSection(std::string_view name)
+{
+    const auto* const found = std::ranges::find(kSections, name, &Section::name);
+    return found == kSections.end() ? nullptr : found;
+}
+
+[[noreturn]] void refuseTopic(std::string_view name)
+{
+    for (const Subcommand& subcommand : subcommands()) {
+        if (subcommand.name == name) {
+            throw UsageError(fmt::format("list: {0} is a subcommand; see `gnomon {0} --help`", name));
+        }
+    }
+    std::vector<std::string_view> names;
+    for (const ListedName& listed_name : listedNames()) {
+        names.push_back(listed_name.name);
+    }
+    throw UsageError(fmt::format("list has nothing called \"{}\"{}; `gnomon list` shows what there is", name,
+                                 suggestion(name, names)));
+}
+
+/// Everything of that name: `blur` is a value and a setting.
+std::string topicText(std::string_view name)
+{
+    std::vector<std::string> texts;
+    if (const Section* section = findSection(name)) {
+        return section->text();
+    }
+    if (std::ranges::find(kChoices, name) != kChoices.end()) {
+        texts.push_back(choiceText(name));
+    }
     for (const ChoiceValue& row : choiceValues()) {
-        if (choices.empty() || choices.back()["choice"] != row.choice) {
-            choices.push_back({{"choice", row.choice}, {"values", Json::array()}});
+        if (row.name == name) {
+            texts.push_back(valueText(row));
         }
-        choices.back()["values"].push_back({{"name", row.name}, {"summary", row.summary}, {"source", row.source}});
     }
-    return choices;
-}
-
-Json jsonList()
-{
-    Json json{{"version", GNOMON_VERSION}, {"choices", choiceList()}, {"technique_grammar", kTechniqueGrammar}};
-    json["refused"] = Json::array();
-    for (const Refused& row : allRefused()) {
-        json["refused"].push_back({{"technique", row.technique}, {"reason", row.reason}});
+    if (const Setting* setting = findSetting(name)) {
+        texts.push_back(settingText(*setting));
     }
-    json["settings"] = Json::array();
-    for (const Setting& setting : settingTable()) {
-        json["settings"].push_back(settingJson(setting));
-    }
-    json["presets"] = Json::array();
     for (const Preset& preset : presets()) {
-        json["presets"].push_back(
-            {{"name", preset.name}, {"summary", preset.summary}, {"settings", Json::parse(preset.json)}});
+        if (preset.name == name) {
+            texts.push_back(presetText(preset));
+        }
     }
-    json["worlds"] = Json::array();
     for (const scene::World& world : scene::worlds()) {
-        json["worlds"].push_back({{"name", world.name}, {"summary", world.summary}});
+        if (world.name == name) {
+            texts.push_back(worldText(world));
+        }
     }
-    json["claims"] = recordedClaimsJson();
-    return json;
+    for (const Claim* claim : claimsNamed(name)) {
+        texts.push_back(claimText(*claim));
+    }
+    return fmt::format("{}", fmt::join(texts, "\n"));
 }
 
 } // namespace
 
+std::vector<ListedName> listedNames()
+{
+    std::vector<ListedName> names;
+    const auto add = [&names](std::string_view name, std::string_view summary) {
+        if (std::ranges::find(names, name, &ListedName::name) == names.end()) {
+            names.push_back({name, summary});
+        }
+    };
+    for (const Section& section : kSections) {
+        add(section.name, section.summary);
+    }
+    for (const ChoiceValue& row : choiceValues()) {
+        add(row.choice, "a choice");
+        add(row.name, row.summary);
+    }
+    for (const Setting& setting : settingTable()) {
+        add(setting.key, setting.doc);
+    }
+    for (const Preset& preset : presets()) {
+        add(preset.name, preset.summary);
+    }
+    for (const scene::World& world : scene::worlds()) {
+        add(world.name, world.summary);
+    }
+    for (const ClaimDocument& document : claimDocuments()) {
+        add(document.year, document.source);
+        for (const Claim& claim : document.claims) {
+            add(claim.id, claim.claim);
+        }
+    }
+    return names;
+}
+
+bool isListed(std::string_view name)
+{
+    const std::vector<ListedName> names = listedNames();
+    return std::ranges::find(names, name, &ListedName::name) != names.end();
+}
+
 int runList(const Settings& settings)
 {
-    if (settings.json.empty()) {
-        writeStdout(textList());
+    if (!settings.topic.empty() && !isListed(settings.topic)) {
+        refuseTopic(settings.topic);
+    }
+    if (!settings.json.empty()) {
+        writeResult(settings.json, jsonText(listJson(settings.topic)));
     } else {
-        writeResult(settings.json, jsonText(jsonList()));
+        writeStdout(settings.topic.empty() ? overviewText() : topicText(settings.topic));
     }
     return 0;
 }

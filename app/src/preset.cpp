@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/preset.h"
 
+#include "technique_text.h"
+
 #include "scene/json.h"
 
 #include "files/files.h"
@@ -157,13 +159,14 @@ void applyEntry(Settings& settings, const std::string& key, const Json& value, s
     }
     if (setting != nullptr &&
         setting->command_line_only) { // who runs a preset would not see what it overwrites or reads
-        throw UsageError(fmt::format("{} names a file of this run alone; give it on the command line", key));
+        throw UsageError(fmt::format("{} {} of this run alone; give it on the command line", key,
+                                     setting->type == SettingType::flag ? "is" : "names a file"));
     }
     if (setting != nullptr && (setting->subcommands & subcommand) == 0) {
         return;
     }
     settings.named.insert(key);
-    if (key == "techniques") {
+    if (key == "techniques" || key == "technique") {
         forgetTechniques(settings);
     }
     if (setting != nullptr && setting->repeatable && value.is_array()) {
@@ -190,6 +193,39 @@ private:
     const std::string& name_;
 };
 
+/// One key of the preset, with what the others have to do with it.
+void applyKey(Settings& settings, const std::string& name, const Json& json, const std::string& key,
+              std::uint32_t subcommand)
+{
+    try {
+        for (const std::string_view other : placementPartners(key)) {
+            if (key != "lvsm.placement" && json.contains(other)) {
+                const auto& said = json[std::string(other)];
+                requireOnePlacement(settings, other, said.is_string() ? typed(said) : "", key);
+            }
+        }
+        applyEntry(settings, key, json.at(key), subcommand);
+        if (key == "map-format") {
+            settings.format_preset = name;
+        }
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("preset {}: {}", name, error.what()));
+    }
+}
+
+/// Its other keys have been applied, and none may say otherwise.
+void requireTechniqueOf(const Settings& settings, const std::string& name, const Json& json)
+{
+    try {
+        if (json.contains("techniques") && !settings.techniques.empty()) {
+            throw UsageError("technique and techniques both say what is held against what");
+        }
+        requireTechnique(settings, json["technique"].get<std::string>());
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("preset {}: {}", name, error.what()));
+    }
+}
+
 void applyJson(Settings& settings, const std::string& name, std::string_view text, std::uint32_t subcommand)
 {
     // Ordered, because bias ends what bias.constant said before it.
@@ -208,21 +244,18 @@ void applyJson(Settings& settings, const std::string& name, std::string_view tex
     if (json.contains("camera") != (json.contains("eye") || json.contains("target"))) {
         replaceCamera(settings, json.contains("camera") ? "camera" : "eye");
     }
+    // First, so that what other keys say otherwise is seen.
+    const std::string technique = "technique";
+    if (json.contains(technique)) {
+        applyKey(settings, name, json, technique, subcommand);
+    }
     for (const auto& [key, value] : json.items()) {
-        try {
-            for (const std::string_view other : placementPartners(key)) {
-                if (key != "lvsm.placement" && json.contains(other)) {
-                    const auto& said = json[std::string(other)];
-                    requireOnePlacement(settings, other, said.is_string() ? typed(said) : "", key);
-                }
-            }
-            applyEntry(settings, key, value, subcommand);
-            if (key == "map-format") {
-                settings.format_preset = name;
-            }
-        } catch (const UsageError& error) {
-            throw UsageError(fmt::format("preset {}: {}", name, error.what()));
+        if (key != technique) {
+            applyKey(settings, name, json, key, subcommand);
         }
+    }
+    if (json.contains(technique) && (subcommand & kFrames) != 0) {
+        requireTechniqueOf(settings, name, json);
     }
 }
 

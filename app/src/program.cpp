@@ -30,9 +30,13 @@ constexpr std::array kSubcommands{
                "Prints a frame's plan as JSON, or draws it; found layers need a GPU.", runPlan},
     Subcommand{"bench", kBench, "[SCENE] [options]", "Times every stage of techniques against the unshadowed frame.",
                runBench},
-    Subcommand{"list", kList, "[options]", "Prints every choice and setting, and what is refused and why.", runList},
+    Subcommand{"list", kList, "[NAME] [options]",
+               "Prints the choices and what is refused and why, or one NAME in full.", runList},
     Subcommand{"claims", kClaims, "[NAME|YEAR...] [options]",
                "Tries what the source documents claim; list has the claims.", runClaims},
+    Subcommand{"completion", kCompletion, "bash|zsh|fish", "Prints the shell's completion of gnomon's command lines.",
+               runCompletion},
+    Subcommand{"man", kMan, "", "Prints the manual page, for man to show.", runMan},
 };
 
 int complain(std::string_view line, int status)
@@ -53,6 +57,9 @@ int dispatch(std::span<const std::string> arguments)
         return 0;
     case Command::Kind::run:
         break;
+    }
+    for (const std::string& sentence : command.notices) {
+        notice(sentence);
     }
     return command.subcommand->run(command.settings);
 }

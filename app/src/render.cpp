@@ -197,7 +197,7 @@ std::string drawTruth(Shot& shot, const Settings& settings, RenderTarget& target
 /// The ray tracer's mask as it is; nothing is drawn, so no GPU is asked for.
 std::string writeTruth(Shot& shot, const Settings& settings, RenderTarget& target, std::size_t light)
 {
-    requireSizedLights(settings, {&shot.lights[light], 1});
+    noteSizesWithoutEffect(shot, settings, {&shot.lights[light], 1});
     TruthMasks truth(shot, settings);
     forEachFrame(shot, settings, [&](std::uint32_t index, bool first) {
         if (first) {

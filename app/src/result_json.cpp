@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result_json.h"
 
+#include "app/command_line.h"
 #include "setting_values.h"
 #include "streams.h"
 #include "subcommands.h"
@@ -100,12 +101,9 @@ Json settingJson(const Setting& setting)
     }
     json["option"] = setting.own_option;
     Json commands = Json::array();
-    constexpr std::pair<std::uint32_t, std::string_view> kNames[] = {
-        {kRender, "render"}, {kCompare, "compare"}, {kMetrics, "metrics"}, {kPlan, "plan"},
-        {kBench, "bench"},   {kList, "list"},       {kClaims, "claims"},   {kView, "view"}};
-    for (const auto& [bit, name] : kNames) {
-        if ((setting.subcommands & bit) != 0) {
-            commands.push_back(name);
+    for (const Subcommand& subcommand : subcommands()) {
+        if ((setting.subcommands & subcommand.bit) != 0) {
+            commands.push_back(subcommand.name);
         }
     }
     json["subcommands"] = commands;

@@ -29,6 +29,9 @@ void applyTechniques(Settings& s, const Value& v)
             throw UsageError(
                 fmt::format("--techniques: \"{}\" has a comma with no technique before or after it", v.text));
         }
+        if (piece.front() == '@') { // the command line's to read, see technique_file.h
+            throw UsageError(fmt::format("--techniques: {} stands alone, and on the command line only", piece));
+        }
         if (std::find(s.techniques.begin(), s.techniques.end(), piece) != s.techniques.end()) {
             throw UsageError(fmt::format("--techniques: {} is listed twice", piece));
         }
@@ -258,6 +261,8 @@ const std::vector<Setting>& rows()
          .subcommands = kFrames | kClaims, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.gpu = v.text; }},
         {.key = "validate", .group = Group::run, .type = flag, .default_text = "0", .doc = "Vulkan validation; a message makes the run fail",
          .subcommands = kFrames | kClaims, .used = draws, .used_when = "something to draw", .apply = [](Settings& s, const Value& v) { s.validate = v.flag; }},
+        {.key = "strict", .group = Group::run, .type = flag, .default_text = "0", .doc = "refuse options without effect, which are told else",
+         .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.strict = v.flag; }},
         {.key = "limit", .group = Group::run, .type = text, .form = "NAME=N", .doc = "raise a limit of the scene reader, as its message says", .repeatable = true,
          .apply = applyLimit},
 
@@ -271,7 +276,7 @@ const std::vector<Setting>& rows()
          .used = judgesALight, .used_when = "--mask, a --debug of one light or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",
          .subcommands = kPlan, .command_line_only = true, .apply = applyDraw},
-        {.key = "techniques", .group = Group::result, .type = text, .form = "LIST", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all",
+        {.key = "techniques", .group = Group::result, .type = text, .form = "LIST|@FILE", .doc = "which ones: hard,pcf+pcf.kernel=5x5,... or all; @FILE: a line each",
          .subcommands = kBench | kCompare, .repeatable = true, .separator = ",", .apply = applyTechniques},
         {.key = "repetitions", .group = Group::result, .type = integer, .form = "N", .default_text = "11", .min = 1, .max = 100000,
          .doc = "timed frames of each technique", .subcommands = kBench | kCompare,

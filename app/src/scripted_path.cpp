@@ -169,11 +169,6 @@ void validatePath(const Settings& settings)
     if (settings.equal_error) {
         throw UsageError("--equal-error is of a single frame, not of a --path");
     }
-    for (const char* key : {"repetitions", "warmup"}) {
-        if (measures && settings.given.contains(key)) {
-            throw UsageError(fmt::format("--{} has no effect with --path, which draws each frame once", key));
-        }
-    }
 }
 
 std::optional<ScriptedPath> openPath(const Settings& settings)

@@ -122,6 +122,16 @@ const Setting* findSetting(std::string_view key)
     return nullptr;
 }
 
+void refuseKey(std::string_view key)
+{
+    std::vector<std::string_view> keys;
+    for (const Setting& row : settingTable()) {
+        keys.push_back(row.key);
+    }
+    throw UsageError(
+        fmt::format("there is no setting \"{}\"{}; `gnomon list settings` shows them all", key, suggestion(key, keys)));
+}
+
 Settings defaultSettings()
 {
     Settings settings;
@@ -137,6 +147,9 @@ void applySetting(Settings& settings, const Setting& setting, std::string_view t
 {
     const SettingValue parsed = parseValue(setting, text);
     applyValue(settings, setting, parsed);
+    if (setting.key == "technique") { // kept as its parts, so that there is one way to write it down
+        return;
+    }
     noteTakenBack(settings, setting);
     std::string& value = settings.values[std::string(setting.key)];
     const std::string said = textOf(setting, parsed, text);
@@ -164,12 +177,7 @@ void applySetting(Settings& settings, std::string_view key, std::string_view tex
 {
     const Setting* setting = findSetting(key);
     if (setting == nullptr) {
-        std::vector<std::string_view> keys;
-        for (const Setting& row : settingTable()) {
-            keys.push_back(row.key);
-        }
-        throw UsageError(
-            fmt::format("there is no setting \"{}\"{}; `gnomon list` shows them all", key, suggestion(key, keys)));
+        refuseKey(key);
     }
     applySetting(settings, *setting, text);
 }
@@ -218,6 +226,7 @@ void requireOnePlacement(const Settings& settings, std::string_view key, std::st
 void forgetTechniques(Settings& settings)
 {
     settings.techniques.clear();
+    settings.technique_places.clear();
     settings.values.erase("techniques");
 }
 
@@ -228,27 +237,18 @@ void validateSettings(const Settings& settings)
         throw UsageError(fmt::format("--frames: {}-{} runs backwards", settings.frames->first, settings.frames->last));
     }
     validatePath(settings);
-    if (settings.mask && settings.given.contains("aa") && settings.anti_aliasing == host::AntiAliasing::fxaa) {
-        throw UsageError("--aa: fxaa has an effect only on a picture, not with --mask");
-    }
     if (settings.sweep && settings.given.contains(settings.sweep->key)) {
         throw UsageError(fmt::format("{} and --sweep both say what {} is; give one",
                                      spelled(*findSetting(settings.sweep->key)), settings.sweep->key));
     }
-    const std::vector<Settings> techniques =
-        hasManyTechniques(settings) ? contestants(settings) : std::vector{settings};
-    for (const auto& [key, given] : settings.given) {
-        const Setting* setting = findSetting(key);
-        if (settings.subcommand == kRender && settings.truth && setting != nullptr &&
-            setting->group == SettingGroup::technique) {
-            throw UsageError(
-                fmt::format("{} has no effect with --truth, which draws no shadow map", spelled(*setting)));
-        }
-        if (given && setting != nullptr &&
-            std::none_of(techniques.begin(), techniques.end(),
-                         [&](const Settings& technique) { return isUsed(*setting, technique); })) {
-            throw UsageError(fmt::format("{} has an effect only with {}", spelled(*setting), setting->used_when));
-        }
+    if (settings.sweep && settings.equal_error) {
+        throw UsageError("--equal-error is of times, which a --sweep does not measure");
+    }
+    if (!settings.technique.empty() && settings.given.contains("techniques")) {
+        throw UsageError("--technique and --techniques both say what is held against what; give one");
+    }
+    if (hasManyTechniques(settings)) {
+        (void)contestants(settings); // throws for what is no technique
     }
 }
 

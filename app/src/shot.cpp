@@ -307,7 +307,7 @@ Shot makeShot(const Settings& settings)
         followPath(shot, settings, first);
     }
     requireInRange(shot, settings);
-    requireSizedLights(settings, shot.lights);
+    noteSizesWithoutEffect(shot, settings, shot.lights);
     noteWhatSurprises(shot, settings);
     requireClosedCasters(shot, settings);
     noteFinless(shot, settings);

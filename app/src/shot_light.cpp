@@ -35,22 +35,33 @@ std::size_t lightIndex(const Shot& shot, const Settings& settings)
                                  suggestion(settings.light, names), listed(names)));
 }
 
-void requireSizedLights(const Settings& settings, std::span<const host::ShadedLight> lights)
+void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<const host::ShadedLight> lights)
 {
-    const auto sun = std::count_if(lights.begin(), lights.end(), [](const host::ShadedLight& light) {
-        return light.caster.type == LightType::directional;
-    });
-    if (settings.given.contains("sun-angle") && sun == 0) {
-        throw UsageError("--sun-angle has an effect only on a directional light, and there is none");
+    const auto tell = [&](std::string_view key, std::string_view which) {
+        if (!settings.given.contains(key)) {
+            return;
+        }
+        std::string sentence =
+            fmt::format("{} has an effect only on a {}, and there is none", spelled(*findSetting(key)), which);
+        if (settings.sweep && settings.sweep->key == key) {
+            throw UsageError(sentence);
+        }
+        tellNoEffect(settings, shot.notices, std::move(sentence));
+    };
+    const auto has = [lights](LightType type) {
+        return std::ranges::any_of(lights,
+                                   [type](const host::ShadedLight& light) { return light.caster.type == type; });
+    };
+    const bool has_spot = has(LightType::spot);
+    if (!has(LightType::directional)) {
+        tell("sun-angle", "directional light");
     }
-    if (settings.given.contains("light-size") && sun == static_cast<std::ptrdiff_t>(lights.size())) {
-        throw UsageError("--light-size has an effect only on a spot or point light, and there is none");
+    if (!has_spot && !has(LightType::point)) {
+        tell("light-size", "spot or point light");
     }
-    const bool spots = std::any_of(lights.begin(), lights.end(),
-                                   [](const host::ShadedLight& light) { return light.caster.type == LightType::spot; });
-    for (const char* const key : {"spot.cone", "spot.near", "spot.range"}) {
-        if (settings.given.contains(key) && !spots) {
-            throw UsageError(fmt::format("{} has an effect only on a spot light, and there is none", key));
+    for (const std::string_view key : {"spot.cone", "spot.near", "spot.range"}) {
+        if (!has_spot) {
+            tell(key, "spot light");
         }
     }
 }

@@ -16,6 +16,8 @@ int runBench(const Settings& settings);
 int runList(const Settings& settings);
 int runClaims(const Settings& settings);
 int runView(const Settings& settings);
+int runCompletion(const Settings& settings);
+int runMan(const Settings& settings);
 
 /// To the file, or to stdout for "-" and "".
 void writeResult(const std::string& file, std::string_view text);

@@ -3,6 +3,7 @@
 // program. The library says their keys, ranges, units and defaults; here stands only what the program adds to them.
 #include "setting_rows.h"
 #include "setting_values.h"
+#include "technique_text.h"
 
 #include <gnomon/choices.h>
 #include <gnomon/option_table.h>
@@ -106,6 +107,24 @@ Setting biasSetting()
     return setting;
 }
 
+/// Several settings in one word, as `compare` prints them.
+Setting techniqueSetting()
+{
+    Setting setting;
+    setting.key = "technique";
+    setting.group = SettingGroup::technique;
+    setting.form = "TECHNIQUE";
+    setting.doc = "values of the choices and KEY=VALUE: pcf+sdsm+map-size=1024";
+    setting.apply = [](Settings& s, const SettingValue& v) {
+        applyTechnique(s, v.text);
+        for (const TechniquePart& part : techniqueParts(v.text)) {
+            s.named.emplace(part.key);
+        }
+        s.named.emplace("technique");
+    };
+    return setting;
+}
+
 } // namespace
 
 void addTechniqueRows(std::vector<Setting>& table)
@@ -117,6 +136,7 @@ void addTechniqueRows(std::vector<Setting>& table)
         }
         return texts;
     }();
+    table.push_back(techniqueSetting());
     for (std::size_t i = 0; i < optionTable().size(); ++i) {
         const OptionRow& row = optionTable()[i];
         if (row.key == "bias.constant") { // the first of its parts

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A technique in one word, "hard+map-size=1024": how it is read and how it is written down.
-#include "app/settings.h"
+#include "technique_text.h"
 
 #include "setting_values.h"
 
@@ -54,6 +54,35 @@ std::vector<std::string_view> piecesOf(std::string_view text)
     return pieces;
 }
 
+/// One piece as a setting and its value.
+TechniquePart partOf(std::string_view text, std::string_view piece)
+{
+    if (const std::size_t equals = piece.find('='); equals != std::string_view::npos) {
+        const std::string_view key = piece.substr(0, equals);
+        const Setting* setting = findSetting(key);
+        if (setting == nullptr) {
+            refuseKey(key);
+        }
+        if (setting->group != SettingGroup::technique || key == "technique") {
+            throw UsageError(fmt::format("technique \"{}\": {} is no part of a technique; give it as {}", text, key,
+                                         spelled(*setting)));
+        }
+        return {key, piece.substr(equals + 1)};
+    }
+    if (const ChoiceValue* row = findTechniqueValue(piece)) {
+        return {row->choice, row->name};
+    }
+    std::vector<std::string_view> names;
+    for (const ChoiceValue& known : choiceValues()) {
+        if (known.choice != "light") {
+            names.push_back(known.name);
+        }
+    }
+    throw UsageError(fmt::format("technique \"{}\": there is no \"{}\"{}; a technique is values of the choices and "
+                                 "KEY=VALUE joined by +, see `gnomon list`",
+                                 text, piece, suggestion(piece, names)));
+}
+
 bool isChoice(std::string_view key)
 {
     const auto values = choiceValues();
@@ -100,41 +129,25 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
 
 } // namespace
 
-Settings parseTechnique(const Settings& base, std::string_view text)
+std::vector<TechniquePart> techniqueParts(std::string_view text)
 {
-    Settings settings = base;
-    std::vector<std::string_view> seen;
+    std::vector<TechniquePart> parts;
     for (const std::string_view piece : piecesOf(text)) {
-        std::string_view key;
-        std::string_view value;
-        if (const std::size_t equals = piece.find('='); equals != std::string_view::npos) {
-            key = piece.substr(0, equals);
-            value = piece.substr(equals + 1);
-            const Setting* setting = findSetting(key);
-            if (setting != nullptr && setting->group != SettingGroup::technique) {
-                throw UsageError(fmt::format("technique \"{}\": {} is no part of a technique; give it as {}", text, key,
-                                             spelled(*setting)));
+        const TechniquePart part = partOf(text, piece);
+        for (const TechniquePart& other : parts) {
+            if (other.key == part.key) {
+                throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, part.key));
             }
-        } else {
-            const ChoiceValue* row = findTechniqueValue(piece);
-            if (row == nullptr) {
-                std::vector<std::string_view> names;
-                for (const ChoiceValue& known : choiceValues()) {
-                    if (known.choice != "light") {
-                        names.push_back(known.name);
-                    }
-                }
-                throw UsageError(
-                    fmt::format("technique \"{}\": there is no \"{}\"{}; a technique is values of the choices and "
-                                "KEY=VALUE joined by +, see `gnomon list`",
-                                text, piece, suggestion(piece, names)));
-            }
-            key = row->choice;
-            value = row->name;
         }
-        if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-            throw UsageError(fmt::format("technique \"{}\" gives {} twice", text, key));
-        }
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+void applyTechnique(Settings& settings, std::string_view text)
+{
+    std::vector<std::string_view> seen;
+    for (const auto& [key, value] : techniqueParts(text)) {
         for (const std::string_view other : placementPartners(key)) {
             if (std::find(seen.begin(), seen.end(), other) != seen.end()) {
                 requireOnePlacement(settings, key, value, other);
@@ -143,14 +156,47 @@ Settings parseTechnique(const Settings& base, std::string_view text)
         seen.push_back(key);
         applySetting(settings, key, value);
     }
-    completeTechnique(settings);
-    for (const std::string_view key : seen) {
-        const Setting* setting = findSetting(key);
-        if (!isUsed(*setting, settings)) {
-            throw UsageError(
-                fmt::format("technique \"{}\": {} has an effect only with {}", text, key, setting->used_when));
+}
+
+void requireTechnique(const Settings& settings, std::string_view text)
+{
+    Settings alone = defaultSettings();
+    applyTechnique(alone, text);
+    const auto differs = [&](std::string_view key) {
+        const auto wanted = alone.values.find(key);
+        const auto found = settings.values.find(key);
+        return wanted != alone.values.end() && (found == settings.values.end() || found->second != wanted->second);
+    };
+    for (const auto& [key, value] : techniqueParts(text)) {
+        const bool has_parts = key == "bias";
+        const bool contradicted = differs(key) || (has_parts && std::ranges::any_of(alone.values, [&](const auto& row) {
+                                                       return row.first.starts_with("bias.") && differs(row.first);
+                                                   }));
+        if (contradicted) {
+            throw UsageError(fmt::format("technique \"{}\" says {}={}, and another option says otherwise; give one",
+                                         text, key, value));
         }
     }
+}
+
+std::vector<std::string> partsWithoutEffect(const Settings& technique, std::string_view text)
+{
+    std::vector<std::string> sentences;
+    for (const auto& [key, value] : techniqueParts(text)) {
+        const Setting& setting = *findSetting(key);
+        if (!isUsed(setting, technique)) {
+            sentences.push_back(
+                fmt::format("technique \"{}\": {} has an effect only with {}", text, key, setting.used_when));
+        }
+    }
+    return sentences;
+}
+
+Settings parseTechnique(const Settings& base, std::string_view text)
+{
+    Settings settings = base;
+    applyTechnique(settings, text);
+    completeTechnique(settings);
     return settings;
 }
 

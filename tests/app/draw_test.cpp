@@ -63,7 +63,7 @@ TEST(PlanDraw, IsRefusedWhereItMakesNoSense)
         EXPECT_TRUE(folder.names().empty());
     };
     refuses({"plan", "planes", "--draw", "maps.png"}, "does not end in .svg");
-    refuses({"plan", "planes", "--light", "sun"}, "--light has an effect only with");
+    refuses({"plan", "planes", "--light", "sun", "--strict"}, "--light has an effect only with");
     refuses({"plan", "planes", "--draw", "a.svg", "--light", "moon"}, "moon");
     refuses({"render", "planes", "--draw", "maps.svg"}, "--draw is not an option of render");
 }
@@ -161,7 +161,8 @@ TEST(DebugViews, LightCountHasTheLightsThatReachAPixel)
     EXPECT_GT(differentPixels(all, sun), 1000U);
     EXPECT_GT(differentPixels(sun, lamp), 1000U) << "beyond a lamp's range there is none";
     EXPECT_LT(differentPixels(sun, lamp), std::size_t{kWidth} * kHeight - 100) << "below it there is one";
-    const test::Ran ran = inFolder(folder, {"render", "planes", "--debug", "light-count", "--light", "sun"});
+    const test::Ran ran =
+        inFolder(folder, {"render", "planes", "--debug", "light-count", "--light", "sun", "--strict"});
     EXPECT_EQ(ran.status, 2);
     EXPECT_NE(ran.err.find("--light has an effect only with"), std::string::npos) << ran.err;
 }

@@ -244,7 +244,8 @@ TEST(Contestants, ShareTheOptionsThatAnyOfThemUses)
     EXPECT_EQ(app::contestants(settingsOf({"compare", "--map-format", "r32f"})).size(), 11U); // all that can be that
     EXPECT_EQ(namesOf(app::contestants(settingsOf({"compare", "--filter", "vsm", "--set", "msaa=1"}))),
               (Names{"vsm+msaa=1"}));
-    EXPECT_THROW((void)settingsOf({"compare", "--techniques", "hard,pcf", "--set", "blur.sigma=2"}), app::UsageError);
+    EXPECT_THROW((void)settingsOf({"compare", "--techniques", "hard,pcf", "--set", "blur.sigma=2", "--strict"}),
+                 app::UsageError);
 }
 
 TEST(CommandLine, ASceneMayFollowAnyOption)

@@ -5,6 +5,7 @@
 #include "app/command_line.h"
 #include "app/preset.h"
 #include "app/shot.h"
+#include "technique_text.h"
 #include "contestants.h"
 #include "result_json.h"
 
@@ -131,7 +132,9 @@ TEST(Settings, AutoInATechniqueIsThatOfEveryChoiceThatHasIt)
     EXPECT_EQ(warp.shadow.technique.partition, Partition::single);
     EXPECT_EQ(warp.shadow.technique.fit, Fit::automatic);
     EXPECT_THROW((void)app::parseTechnique(base, "pcf+auto+lispsm"), app::UsageError) << "the fit twice";
-    EXPECT_THROW((void)app::parseTechnique(base, "pcf+single+quality=best"), app::UsageError) << "with an auto only";
+    EXPECT_EQ(
+        app::partsWithoutEffect(app::parseTechnique(base, "hard+single+uniform+quality=best"), "quality=best").size(),
+        1U);
 }
 
 // The filter that nobody names looks at the light's size; those of a list count instead of it.

@@ -31,7 +31,7 @@ const std::vector<Subject> kSubjects{
      {"bench", "planes", "--size", "8x8", "--map-size", "16", "--repetitions", "1", "--warmup", "0", "--filter",
       "hard"},
      {"bench", "--size", "0x0"}},
-    {"list", {"list"}, {"list", "rts"}},
+    {"list", {"list"}, {"list", "mms"}},
     {"claims", {"claims", "2011-range"}, {"claims", "2011-rang"}},
     {"help", {"render", "--help"}, {"rendr"}},
 };

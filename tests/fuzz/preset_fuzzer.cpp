@@ -16,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             gnomon::app::Settings settings;
             gnomon::app::applyPresetText(settings, "fuzzed", {reinterpret_cast<const char*>(data), size}, subcommand);
             gnomon::app::validateSettings(settings);
+            (void)gnomon::app::optionsWithoutEffect(settings);
         } catch (const gnomon::app::UsageError&) { // what is wrong with the text
         } catch (const gnomon::Error&) {           // what is wrong with a file that it names
         }

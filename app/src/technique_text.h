@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A technique in one word, "hard+map-size=1024", by its parts.
+#pragma once
+
+#include "app/settings.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::app {
+
+/// A setting of a technique and what it is set to. Both live as long as the text and the program.
+struct TechniquePart {
+    std::string_view key;
+    std::string_view value;
+};
+/// In the order of the text. Throws UsageError for what is no part of a technique, and for what is there twice.
+[[nodiscard]] std::vector<TechniquePart> techniqueParts(std::string_view text);
+
+/// Applies the parts and nothing else. Throws UsageError.
+void applyTechnique(Settings& settings, std::string_view text);
+
+/// Throws UsageError when a part no longer holds: another option said otherwise.
+void requireTechnique(const Settings& settings, std::string_view text);
+
+/// The parts that change nothing in `technique`, which has them and the rest: a sentence each.
+[[nodiscard]] std::vector<std::string> partsWithoutEffect(const Settings& technique, std::string_view text);
+
+} // namespace gnomon::app

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon list`: an overview of a few screens, and all of one thing by its name.
+#include "folder.h"
+#include "process.h"
+
+#include "doc_pages.h"
+#include "list.h"
+#include "list_details.h"
+#include "list_json.h"
+#include "list_rules.h"
+
+#include <gnomon/choice_rules.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+test::Ran list(const std::vector<std::string>& more)
+{
+    const test::Folder folder;
+    std::vector<std::string> arguments{"list"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::gnomon(arguments, {.folder = folder.path()});
+}
+
+bool has(const std::string& text, std::string_view part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+const ChoiceValue& valueOf(std::string_view choice, std::string_view name)
+{
+    return *findChoice(choice, name);
+}
+
+TEST(List, FitsAFewScreensAndNamesAllChoicesAndRules)
+{
+    const test::Ran ran = list({});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    std::istringstream in(ran.out);
+    int lines = 0;
+    for (std::string line; std::getline(in, line); ++lines) {
+        EXPECT_LE(line.size(), 100U) << line;
+    }
+    EXPECT_LE(lines, 120);
+    for (const ChoiceValue& row : choiceValues()) {
+        EXPECT_TRUE(has(ran.out, row.summary)) << row.name;
+    }
+    for (const ChoiceRule& rule : choiceRules()) { // broken into lines
+        EXPECT_TRUE(has(ran.out, rule.reason.substr(0, 40))) << rule.refuses;
+    }
+    for (const char* name : {"startopia-2006", "spotlit", "completion", "settings"}) {
+        EXPECT_TRUE(has(ran.out, name)) << name;
+    }
+}
+
+TEST(List, HasEveryNameOnAtMostAHundredColumns)
+{
+    std::string section;
+    for (const char* name : {"choices", "rules", "settings", "presets", "worlds", "claims"}) {
+        section += list({name}).out;
+    }
+    for (const app::ListedName& name : app::listedNames()) {
+        EXPECT_TRUE(app::isListed(name.name));
+        EXPECT_FALSE(name.summary.empty()) << name.name;
+    }
+    // What one long list had before is in its parts.
+    for (const app::Setting& setting : app::settingTable()) {
+        EXPECT_TRUE(has(section, "\n  " + std::string(setting.key) + " ")) << setting.key;
+    }
+    for (const app::Refused& row : app::allRefused()) {
+        EXPECT_TRUE(has(section, row.technique.substr(0, 30))) << row.technique;
+    }
+    std::istringstream in(section);
+    for (std::string line; std::getline(in, line);) {
+        EXPECT_LE(line.size(), 100U) << line;
+    }
+}
+
+TEST(List, OfAValueHasSettingsRulesSourceAndPage)
+{
+    const std::string text = list({"msm"}).out;
+    for (const char* part : {"msm, a value of filter: four moments", "C. Peters, R. Klein, Moment Shadow Mapping, 2015",
+                             "docs/techniques/msm.md", "msm.solver", "bleeding.linstep", "rgba16 unless",
+                             "partition paraboloid with every filter but", "half floats round them"}) {
+        EXPECT_TRUE(has(text, part)) << part;
+    }
+    EXPECT_FALSE(has(text, "lvsm.layers"));
+    EXPECT_FALSE(has(text, "light point with")) << "no rule of msm's";
+    EXPECT_TRUE(has(list({"sdsm"}).out, "it needs motion free") || has(list({"sdsm"}).out, "needs"));
+    const std::string smoothies = list({"smoothies"}).out;
+    EXPECT_TRUE(has(smoothies, "a value of filter") && has(smoothies, "a value of soften"));
+    const std::string blur = list({"blur"}).out;
+    EXPECT_TRUE(has(blur, "a value of soften") && has(blur, "blur, a setting"));
+}
+
+TEST(List, KnowsWhichSettingsAreAValuesOwn)
+{
+    const auto keys = [](const ChoiceValue& value) {
+        std::vector<std::string_view> found;
+        for (const app::Setting* setting : app::settingsOf(value)) {
+            found.push_back(setting->key);
+        }
+        return found;
+    };
+    const auto contains = [](const std::vector<std::string_view>& all, std::string_view key) {
+        return std::ranges::find(all, key) != all.end();
+    };
+    EXPECT_TRUE(contains(keys(valueOf("filter", "pcf")), "pcf.taps")) << "with another kernel than the default";
+    EXPECT_TRUE(contains(keys(valueOf("partition", "multi")), "multi.fade")) << "with another motion";
+    EXPECT_TRUE(contains(keys(valueOf("soften", "smoothies")), "smoothies.reach"));
+    EXPECT_TRUE(contains(keys(valueOf("light", "spot")), "spot.cone"));
+    EXPECT_FALSE(contains(keys(valueOf("filter", "pcf")), "map-size")) << "of nearly all";
+    EXPECT_FALSE(contains(keys(valueOf("soften", "blur")), "blur.sigma")) << "of the map's blur";
+    EXPECT_TRUE(keys(valueOf("fit", "uniform")).empty());
+}
+
+TEST(List, KnowsWhichRulesAreAValuesOwn)
+{
+    const auto rules = [](const ChoiceValue& value) {
+        return app::refusedOf(value).size();
+    };
+    EXPECT_EQ(rules(valueOf("motion", "free")), 0U);
+    EXPECT_EQ(rules(valueOf("partition", "auto")), 0U);
+    EXPECT_GE(rules(valueOf("partition", "paraboloid")), 6U);
+    EXPECT_EQ(rules(valueOf("light", "spot")), 3U) << "cube, paraboloid and fit scene";
+    std::size_t all = 0;
+    for (const ChoiceRule& rule : choiceRules()) {
+        all += std::ranges::any_of(choiceValues(), [&rule](const ChoiceValue& value) {
+            return std::ranges::any_of(app::refusedOf(value),
+                                       [&rule](const app::Refused& row) { return row.technique == rule.refuses; });
+        });
+    }
+    EXPECT_EQ(all, choiceRules().size()) << "every rule is some value's";
+}
+
+TEST(List, OfASettingAPresetAWorldAndAClaim)
+{
+    const std::string setting = list({"draw-budget.ms"}).out;
+    for (const char* part : {"write", "range", "ms", "docs/techniques/atlas.md", "render, compare, plan, bench"}) {
+        EXPECT_TRUE(has(setting, part)) << part << setting;
+    }
+    EXPECT_TRUE(has(list({"esm-2008"}).out, "\"esm.exponent\": 80"));
+    const std::string world = list({"planes"}).out;
+    EXPECT_TRUE(has(world, "top") && has(world, "sun, spot")) << world;
+    const std::string claim = list({"2011-bloom"}).out;
+    EXPECT_TRUE(has(claim, "A. Marinescu") && has(claim, "verdict")) << claim;
+    EXPECT_TRUE(has(list({"2011"}).out, "2011-bloom, a claim"));
+}
+
+TEST(List, JsonOfANameIsItsPartOfTheWhole)
+{
+    const app::Json whole = app::listJson("");
+    const app::Json part = app::listJson("msm");
+    EXPECT_EQ(part["name"], "msm");
+    ASSERT_EQ(part["choices"].size(), 1U);
+    EXPECT_EQ(part["choices"][0]["values"][0]["page"], "docs/techniques/msm.md");
+    EXPECT_FALSE(part.contains("presets"));
+    for (const auto& setting : part["settings"]) {
+        EXPECT_NE(std::find(whole["settings"].begin(), whole["settings"].end(), setting), whole["settings"].end());
+    }
+    EXPECT_EQ(app::listJson("settings")["settings"], whole["settings"]);
+    EXPECT_EQ(app::listJson("rules")["refused"], whole["refused"]);
+    EXPECT_EQ(app::listJson("2011-bloom")["claims"].size(), 1U);
+    EXPECT_EQ(app::listJson("filter")["choices"][0]["values"].size(), 14U);
+}
+
+TEST(List, PagesAreThere)
+{
+    const std::filesystem::path root = GNOMON_SOURCE_DIR;
+    const auto isThere = [&root](const std::string& page) {
+        return std::filesystem::exists(root / page);
+    };
+    for (const ChoiceValue& row : choiceValues()) {
+        EXPECT_TRUE(isThere(app::pageOf(row))) << row.name << " " << app::pageOf(row);
+    }
+    for (const app::Setting& setting : app::settingTable()) {
+        EXPECT_TRUE(isThere(app::pageOf(setting))) << setting.key << " " << app::pageOf(setting);
+    }
+    for (const app::Preset& preset : app::presets()) {
+        EXPECT_TRUE(isThere(app::pageOfPreset(preset.name))) << preset.name;
+        const bool has_one = isThere("docs/techniques/" + std::string(preset.name) + ".md");
+        EXPECT_EQ(has_one, app::pageOfPreset(preset.name).starts_with("docs/techniques")) << preset.name;
+    }
+}
+
+} // namespace
+} // namespace gnomon
