@@ -5,9 +5,9 @@
 #include "app/command_line.h"
 #include "app/preset.h"
 #include "app/shot.h"
-#include "technique_text.h"
 #include "contestants.h"
 #include "result_json.h"
+#include "technique_text.h"
 
 #include <gtest/gtest.h>
 
