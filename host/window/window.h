@@ -45,6 +45,9 @@ public:
     void resize(glm::uvec2 size);
     /// Files dropped on it since the last call.
     [[nodiscard]] std::vector<std::string> takeDropped();
+    /// Letters that were pressed since the last call, A to Z, also those that were let go of in between: a picture that
+    /// takes long loses none.
+    [[nodiscard]] std::string takeLetters();
     /// Is something drawn over its last picture, or has its size changed? Forgets it.
     [[nodiscard]] bool takeExposed();
     void toClipboard(const std::string& text);

@@ -54,6 +54,22 @@ glm::dvec3 directionOf(const SunAngles& angles)
     return -glm::dvec3(std::cos(height) * std::sin(azimuth), std::sin(height), -std::cos(height) * std::cos(azimuth));
 }
 
+/// Is there a light that the setting of this key shapes? Those that place lights need none.
+bool hasLightFor(const Shot& shot, std::string_view key)
+{
+    const auto has = [&shot](auto&& is_one) {
+        return std::any_of(shot.lights.begin(), shot.lights.end(),
+                           [&](const host::ShadedLight& light) { return is_one(light.caster.type); });
+    };
+    if (key.starts_with("spot.")) {
+        return has([](LightType type) { return type == LightType::spot; });
+    }
+    if (key == "sun-angle") {
+        return has([](LightType type) { return type == LightType::directional; });
+    }
+    return key != "light-size" || has([](LightType type) { return type != LightType::directional; });
+}
+
 std::vector<std::string> namesOfLights(const Shot& shot)
 {
     std::vector<std::string> names;
@@ -93,7 +109,7 @@ void techniquePanel(Viewer& viewer, PanelState& state)
     for (const std::string_view key : kChoices) {
         widgets.choice(viewer, *findSetting(key));
     }
-    if (ImGui::TreeNode("Options that count here")) {
+    if (widgets.tree("Options that count here")) {
         rowsOf(viewer, widgets, SettingGroup::technique, [](const Setting& setting) { return isChoice(setting.key); });
         ImGui::TreePop();
     }
@@ -178,9 +194,7 @@ void scenePanel(Viewer& viewer, PanelState& state)
                        {"camera", cameras[static_cast<std::size_t>(camera)]}});
     }
     if (widgets.button("Frame all")) {
-        const Settings& settings = viewer.settings();
-        const double aspect = static_cast<double>(settings.size_px.x) / static_cast<double>(settings.size_px.y);
-        viewer.look(framedEye(viewer.shot().state.bounds_ws, viewer.shot().eye.fov_y_rad, aspect));
+        viewer.frameAll();
     }
     ImGui::SameLine();
     bool plays = viewer.plays();
@@ -188,10 +202,12 @@ void scenePanel(Viewer& viewer, PanelState& state)
         viewer.play(plays);
     }
     explain("Lets the scene's time pass");
-    rowsOf(viewer, widgets, SettingGroup::time,
-           [](const Setting& setting) { return setting.key != "time" && setting.key != "animation"; });
-    for (const std::string_view key : {"fov", "ground", "override-material"}) {
-        widgets.setting(viewer, *findSetting(key));
+    widgets.setting(viewer, *findSetting("time"));
+    if (widgets.tree("More of the scene")) {
+        for (const std::string_view key : {"animation", "fov", "ground", "override-material"}) {
+            widgets.setting(viewer, *findSetting(key));
+        }
+        ImGui::TreePop();
     }
     ImGui::Spacing();
 }
@@ -228,7 +244,12 @@ void lightPanel(Viewer& viewer, PanelState& state)
         }
     }
     widgets.checkbox("handle of the sun in the picture", state.shown.sun);
-    rowsOf(viewer, widgets, SettingGroup::light, [](const Setting& setting) { return setting.key == "sun"; });
+    if (widgets.tree("More of lights")) {
+        rowsOf(viewer, widgets, SettingGroup::light, [&](const Setting& setting) {
+            return setting.key == "sun" || !hasLightFor(viewer.shot(), setting.key);
+        });
+        ImGui::TreePop();
+    }
     ImGui::Spacing();
 }
 

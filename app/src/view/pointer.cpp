@@ -36,15 +36,6 @@ bool isDown(char letter)
 #endif
 }
 
-bool isPressed(char letter)
-{
-#if IMGUI_VERSION_NUM >= 18700
-    return ImGui::IsKeyPressed(static_cast<ImGuiKey>(ImGuiKey_A + (letter - 'A')), false);
-#else
-    return ImGui::IsKeyPressed(letter, false);
-#endif
-}
-
 bool isInside(const PictureArea& area, const glm::dvec2& at)
 {
     const glm::dvec2 in = at - area.least;
@@ -100,7 +91,7 @@ Pointer::Grip Pointer::gripAt(const Viewer& viewer, const Shown& shown, const Pi
     return has_divider && std::abs(at.x - divider) < kReach / 2.0 ? Grip::divider : Grip::camera;
 }
 
-void Pointer::moveCamera(Viewer& viewer, const PictureArea& area) const
+void Pointer::moveCamera(Viewer& viewer, const PictureArea& area)
 {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 by = moved();
@@ -132,7 +123,7 @@ void Pointer::drag(Viewer& viewer, Shown& shown, const PictureArea& area)
     }
 }
 
-void Pointer::fly(Viewer& viewer, double elapsed_s) const
+void Pointer::fly(Viewer& viewer, double elapsed_s)
 {
     glm::dvec3 way(0.0);
     constexpr std::array<std::pair<char, glm::ivec3>, 6> kWays{{{'D', {1, 0, 0}},
@@ -153,24 +144,21 @@ void Pointer::fly(Viewer& viewer, double elapsed_s) const
     viewer.look(flown(eye, glm::normalize(way) * speed * elapsed_s));
 }
 
-void Pointer::keys(Viewer& viewer, Shown& shown) const
+void Pointer::keys(Viewer& viewer, Shown& shown, std::string_view letters)
 {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) {
+    if (ImGui::GetIO().WantTextInput) {
         return;
     }
-    if (isPressed('H')) {
-        shown.panel = !shown.panel;
-    }
-    if (isPressed('P')) {
-        viewer.play(!viewer.plays());
-    }
-    if (isPressed('T')) {
-        viewer.holdAgainst(viewer.beside() == Beside::truth ? Beside::nothing : Beside::truth);
-    }
-    if (isPressed('F')) {
-        const glm::dvec2 size(viewer.settings().size_px);
-        viewer.look(framedEye(viewer.shot().state.bounds_ws, viewer.shot().eye.fov_y_rad, size.x / size.y));
+    for (const char letter : letters) {
+        if (letter == 'H') {
+            shown.panel = !shown.panel;
+        } else if (letter == 'P') {
+            viewer.play(!viewer.plays());
+        } else if (letter == 'T') {
+            viewer.holdAgainst(viewer.beside() == Beside::truth ? Beside::nothing : Beside::truth);
+        } else if (letter == 'F') {
+            viewer.frameAll();
+        }
     }
 }
 
@@ -196,7 +184,7 @@ void Pointer::drawHandles(const Viewer& viewer, const Shown& shown, const Pictur
     }
 }
 
-void Pointer::turn(Viewer& viewer, Shown& shown, const PictureArea& area, double elapsed_s)
+void Pointer::turn(Viewer& viewer, Shown& shown, const PictureArea& area, std::string_view letters, double elapsed_s)
 {
     const ImGuiIO& io = ImGui::GetIO();
     placeSun(viewer, shown, area);
@@ -220,7 +208,7 @@ void Pointer::turn(Viewer& viewer, Shown& shown, const PictureArea& area, double
     if (!io.WantTextInput && !io.KeyCtrl) {
         fly(viewer, elapsed_s);
     }
-    keys(viewer, shown);
+    keys(viewer, shown, letters);
     placeSun(viewer, shown, area);
     drawHandles(viewer, shown, area);
 }

@@ -16,9 +16,9 @@ struct PictureArea {
 
 class Pointer {
 public:
-    /// What was done since the last turn, as changes of the viewer; draws handles over the picture. `elapsed_s`: since
-    /// then. Between Interface::begin() and end().
-    void turn(Viewer& viewer, Shown& shown, const PictureArea& area, double elapsed_s);
+    /// What was done since the last turn, as changes of the viewer; draws handles over the picture. `letters`: keys
+    /// that were pressed; `elapsed_s`: since then. Between Interface::begin() and end().
+    void turn(Viewer& viewer, Shown& shown, const PictureArea& area, std::string_view letters, double elapsed_s);
     /// Where the sun's handle is, in the desktop's units; nothing where there is none.
     [[nodiscard]] const std::optional<glm::dvec2>& sunAt() const { return sun_at_; }
 
@@ -28,9 +28,9 @@ private:
     void placeSun(const Viewer& viewer, const Shown& shown, const PictureArea& area);
     [[nodiscard]] Grip gripAt(const Viewer& viewer, const Shown& shown, const PictureArea& area) const;
     void drag(Viewer& viewer, Shown& shown, const PictureArea& area);
-    void moveCamera(Viewer& viewer, const PictureArea& area) const;
-    void fly(Viewer& viewer, double elapsed_s) const;
-    void keys(Viewer& viewer, Shown& shown) const;
+    static void moveCamera(Viewer& viewer, const PictureArea& area);
+    static void fly(Viewer& viewer, double elapsed_s);
+    static void keys(Viewer& viewer, Shown& shown, std::string_view letters);
     void drawHandles(const Viewer& viewer, const Shown& shown, const PictureArea& area) const;
 
     Grip grip_ = Grip::none;

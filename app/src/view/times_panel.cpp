@@ -72,8 +72,9 @@ void timesPanel(Viewer& viewer, PanelState& state)
     const float most = *std::max_element(pacing.ms.begin(), pacing.ms.end());
     const std::string title = fmt::format("{:.1f} ms", viewer.times().frame_ms);
     constexpr float kHeight = 3.5F; // lines
-    ImGui::PlotLines("##frames", pacing.ms.data(), static_cast<int>(pacing.ms.size()), static_cast<int>(pacing.next),
-                     title.c_str(), 0.0F, std::max(most, 1.0F), {-1.0F, ImGui::GetTextLineHeight() * kHeight});
+    ImGui::PlotHistogram("##frames", pacing.ms.data(), static_cast<int>(pacing.ms.size()),
+                         static_cast<int>(pacing.next), title.c_str(), 0.0F, std::max(most, 1.0F),
+                         {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight() * kHeight});
     explain("Milliseconds of the last frames, the newest at the right");
     table("times", viewer.times());
     if (const host::FrameTimes* const beside = viewer.timesBeside()) {

@@ -80,10 +80,10 @@ void ViewWindow::panel()
                          }};
         techniquePanel(*viewer_, state);
         comparePanel(*viewer_, state);
+        timesPanel(*viewer_, state);
         scenePanel(*viewer_, state);
         lightPanel(*viewer_, state);
         picturePanel(*viewer_, state);
-        timesPanel(*viewer_, state);
         filesPanel(*viewer_, state);
         ImGui::PopItemWidth();
     }
@@ -118,7 +118,7 @@ void ViewWindow::build(double elapsed_s)
     if (shown_.panel) {
         panel();
     }
-    pointer_.turn(*viewer_, shown_, area_, elapsed_s);
+    pointer_.turn(*viewer_, shown_, area_, window_.takeLetters(), elapsed_s);
     status();
 }
 

@@ -161,6 +161,12 @@ bool Viewer::change(const Changes& changes)
     return take(*next.settings);
 }
 
+bool Viewer::frameAll()
+{
+    const glm::dvec2 size(settings_.size_px);
+    return look(framedEye(shot().state.bounds_ws, shot().eye.fov_y_rad, size.x / size.y));
+}
+
 bool Viewer::open(const std::string& scene)
 {
     Settings next = settings_;

@@ -55,6 +55,8 @@ public:
     // Changes. False: it cannot be, and message() says why; all is as before.
     bool change(const Changes& changes);
     bool look(const host::Eye& eye) { return change(changesTo(eye)); }
+    /// From where all of the scene is in the picture.
+    bool frameAll();
     /// A file or the name of a built-in world; camera, lights and time are its own from then on.
     bool open(const std::string& scene);
     /// A built-in preset's name or a file.

@@ -118,6 +118,13 @@ bool Widgets::header(const char* label, bool open)
     return is_open;
 }
 
+bool Widgets::tree(const char* label)
+{
+    const bool is_open = ImGui::TreeNode(label);
+    note(label);
+    return is_open;
+}
+
 int Widgets::pick(const char* label, const std::string& shown, const std::vector<std::string>& names,
                   const std::function<std::string(std::size_t)>& refusal,
                   const std::function<std::string(std::size_t)>& about)

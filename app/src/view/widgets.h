@@ -30,6 +30,8 @@ public:
     bool radio(const char* label, int& value, int mine);
     bool slider(const char* label, float& value, float least, float most);
     bool header(const char* label, bool open);
+    /// Closed at first. While it is open, ImGui::TreePop() ends it.
+    bool tree(const char* label);
     /// One of several names; the index that was chosen, or -1.
     int pick(const char* label, const std::string& shown, const std::vector<std::string>& names,
              const std::function<std::string(std::size_t)>& refusal = nullptr,

@@ -42,6 +42,7 @@ struct Window::Impl {
     Desktop desktop;
     GLFWwindow* window = nullptr;
     std::vector<std::string> dropped;
+    std::string letters;
     bool exposed = true;
 
     static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
@@ -70,6 +71,12 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
     glfwSetDropCallback(impl_->window, [](GLFWwindow* window, int count, const char** paths) {
         std::vector<std::string>& dropped = Impl::of(window).dropped;
         dropped.insert(dropped.end(), paths, paths + count);
+    });
+    glfwSetKeyCallback(impl_->window, [](GLFWwindow* window, int key, int, int action, int mods) {
+        const bool is_plain = (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
+        if (action == GLFW_PRESS && is_plain && key >= GLFW_KEY_A && key <= GLFW_KEY_Z) {
+            Impl::of(window).letters += static_cast<char>('A' + (key - GLFW_KEY_A));
+        }
     });
     glfwSetWindowRefreshCallback(impl_->window, [](GLFWwindow* window) { Impl::of(window).exposed = true; });
     glfwSetFramebufferSizeCallback(impl_->window,
@@ -146,6 +153,11 @@ void Window::resize(glm::uvec2 size)
 std::vector<std::string> Window::takeDropped()
 {
     return std::exchange(impl_->dropped, {});
+}
+
+std::string Window::takeLetters()
+{
+    return std::exchange(impl_->letters, {});
 }
 
 bool Window::takeExposed()
