@@ -35,7 +35,8 @@ FOREIGN_KINDS = [
     (r"^gnomon_\w*spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
     (r"^vulkan/", "vulkan-api"),
     (r"^glm/", "glm"),
-    (r"^(GLFW/|SDL|X11/|xcb/|wayland|imgui)", "window"),
+    (r"^imgui\w*\.h$", "imgui"),
+    (r"^(GLFW/|SDL|X11/|xcb/|wayland)", "window"),
     (r"^(GL/|GLES|EGL/|d3d|Metal/|volk\.h)", "graphics"),
     (r"^png(conf)?\.h$", "png"),
     (r"^(jpeglib|jerror)\.h$", "jpeg"),
@@ -54,8 +55,7 @@ FOREIGN_KINDS = [
 
 STD = {"std", "std-file", "system"}
 PUBLIC = {"core-geometry", "core-public", "pack-public", "vulkan-public"}
-ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt",
-                        "window"}
+ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "host", "truth", "lab", "metrics", "score", "json", "fmt"}
 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
 # Tests may include everything, private headers too.
@@ -73,13 +73,16 @@ RULES = [
      "a scene knows core's geometry.h, world_range.h and error.h only"),
     ("truth/", STD | {"glm", "core-geometry", "files", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
     ("host/shaders/", {"shared", "shader-lib"}, "the host's shaders include the library's, as an engine would"),
-    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "spirv", "window"},
-     "the host knows the library by its public headers"),
+    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "spirv"},
+     "the host knows the library by its public headers, and no window"),
+    ("host/window/", STD | PUBLIC | {"glm", "vulkan-api", "files", "image", "host", "private", "window", "imgui"},
+     "windows are the host's, and show images"),
     ("lab/metrics", {"std", "image"}, "metrics know images only"),
     ("lab/score/", {"std", "glm", "core-geometry", "core-public", "scene", "image", "truth", "metrics"},
      "scores are had without our host, by whoever has plain images"),
     ("lab/", ABOVE | {"gd"}, "the lab knows public headers"),
-    ("app/", ABOVE | {"cli", "text", "shared"}, "the program knows public headers"),
+    ("app/", ABOVE | {"app", "cli", "text", "shared"}, "the program knows public headers, and widgets in app/src/view alone"),
+    ("app/src/view/", ABOVE | {"app", "imgui"}, "the window's panels are of Dear ImGui"),
     ("examples/", STD | PUBLIC | {"glm", "vulkan-api", "spirv", "shared", "shader-lib"},
      "an example is an engine: it has the library's public headers and nothing else of ours"),
 ]

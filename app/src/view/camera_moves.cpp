@@ -50,8 +50,8 @@ glm::dvec3 turned(const Axes& axes, const glm::dvec3& up, const glm::dvec2& turn
 
 host::Eye orbited(const host::Eye& eye, const glm::dvec2& turn)
 {
-    // The scene turns with the hand, so the eye goes round the other way.
-    const glm::dvec3 forward = turned(axesOf(eye), glm::normalize(eye.up_ws), -turn);
+    // The side of the scene that is seen goes with the hand, so the eye goes round the other way.
+    const glm::dvec3 forward = turned(axesOf(eye), glm::normalize(eye.up_ws), turn);
     host::Eye moved = eye;
     moved.position_ws = eye.target_ws - forward * glm::length(eye.target_ws - eye.position_ws);
     return moved;
