@@ -35,7 +35,7 @@ _gnomon() {
         return
     fi
     for item in "${found[@]}"; do
-        [[ -n $item ]] && printf -v item %q "$item"
+        [[ $item == *[!-A-Za-z0-9_=+,.:/@]* ]] && printf -v item %q "$item"
         COMPREPLY+=("$item")
     done
 }

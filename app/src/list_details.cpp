@@ -205,7 +205,7 @@ std::vector<const Setting*> settingsOf(const ChoiceValue& value)
     for (const Setting& setting : settingTable()) {
         const auto count = std::ranges::count_if(
             others, [&setting](const std::set<std::string_view>& keys) { return keys.contains(setting.key); });
-        const bool is_own = used.contains(setting.key) && 2 * static_cast<std::size_t>(count) <= others.size();
+        const bool is_own = used.contains(setting.key) && 3 * static_cast<std::size_t>(count) <= 2 * others.size();
         // Some need a value of another choice besides. What is named for a setting of the value's name is the
         // setting's.
         const bool is_named_for =
@@ -237,7 +237,7 @@ std::string choiceText(std::string_view choice)
 
 std::string valueText(const ChoiceValue& value)
 {
-    std::string text = fmt::format("{}, a value of {}: {}\n", value.name, value.choice, value.summary);
+    std::string text = wrapped(fmt::format("{}, a value of {}: ", value.name, value.choice), value.summary, 2);
     text += fact("write", howToWrite(value));
     text += fact("stored as", formatsOf(value));
     text += fact("source", value.source);
@@ -273,7 +273,7 @@ std::string settingText(const Setting& setting)
 
 std::string presetText(const Preset& preset)
 {
-    return fmt::format("{}, a preset: {}\n", preset.name, preset.summary) +
+    return wrapped(fmt::format("{}, a preset: ", preset.name), preset.summary, 2) +
            fact("write", fmt::format("--preset {}", preset.name)) + fact("page", pageOfPreset(preset.name)) +
            fmt::format("{}\n", preset.json);
 }

@@ -15,8 +15,8 @@
 
 namespace gnomon::app {
 
-/// Settings that mean something with this value and not with most others of its choice, by themselves or once another
-/// setting is other than its default.
+/// Settings that mean something with this value and with at most two thirds of its choice's, by themselves or once
+/// another setting is other than its default.
 [[nodiscard]] std::vector<const Setting*> settingsOf(const ChoiceValue& value);
 
 // Text of at most 100 columns, each.

@@ -12,8 +12,13 @@ std::string wrapped(std::string_view first, std::string_view text, std::size_t h
     bool starts = true;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find(' '), text.size());
-        const std::string_view word = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
+        std::string_view word = text.substr(0, end);
+        // A list that is longer than a line, as d16|d32f|r32f.
+        const std::size_t room = kColumns - hanging;
+        const std::size_t bar = word.size() > room ? word.rfind('|', room - 1) : std::string_view::npos;
+        word = word.substr(0, bar == std::string_view::npos ? word.size() : bar + 1);
+        const bool is_whole = word.size() == end;
+        text.remove_prefix(is_whole ? std::min(end + 1, text.size()) : word.size());
         if (!starts && column + 1 + word.size() > kColumns) {
             lines += fmt::format("\n{:{}}", "", hanging);
             column = hanging;

@@ -74,8 +74,9 @@ TEST(Converge, saysWhereItHasNoEffect)
         arguments.insert(arguments.end(), more.begin(), more.end());
         return test::gnomon(arguments, {.folder = folder.path()});
     };
-    EXPECT_EQ(ran({}).status, 2);
-    EXPECT_EQ(ran({"--soften", "converge", "--frames", "0-3"}).status, 2);
+    EXPECT_EQ(ran({"--strict"}).status, 2);
+    EXPECT_NE(ran({}).err.find("--converge has an effect only with soften converge"), std::string::npos);
+    EXPECT_EQ(ran({"--soften", "converge", "--frames", "0-3", "--strict"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge", "--motion", "snap"}).status, 2);
     EXPECT_EQ(ran({"--soften", "converge"}).status, 0);
     const test::Ran alone = test::gnomon({"render", "planes", "--size", "32x18", "-o", "a.png", "--soften", "converge"},

@@ -69,6 +69,9 @@ TEST(List, HasEveryNameOnAtMostAHundredColumns)
         EXPECT_TRUE(app::isListed(name.name));
         EXPECT_FALSE(name.summary.empty()) << name.name;
     }
+    for (const ChoiceValue& row : choiceValues()) {
+        section += list({std::string(row.name)}).out;
+    }
     // What one long list had before is in its parts.
     for (const app::Setting& setting : app::settingTable()) {
         EXPECT_TRUE(has(section, "\n  " + std::string(setting.key) + " ")) << setting.key;
@@ -115,6 +118,7 @@ TEST(List, KnowsWhichSettingsAreAValuesOwn)
     EXPECT_TRUE(contains(keys(valueOf("partition", "multi")), "multi.fade")) << "with another motion";
     EXPECT_TRUE(contains(keys(valueOf("soften", "smoothies")), "smoothies.reach"));
     EXPECT_TRUE(contains(keys(valueOf("light", "spot")), "spot.cone"));
+    EXPECT_TRUE(contains(keys(valueOf("motion", "step-band")), "step.angle"));
     EXPECT_FALSE(contains(keys(valueOf("filter", "pcf")), "map-size")) << "of nearly all";
     EXPECT_FALSE(contains(keys(valueOf("soften", "blur")), "blur.sigma")) << "of the map's blur";
     EXPECT_TRUE(keys(valueOf("fit", "uniform")).empty());

@@ -47,7 +47,6 @@ const std::vector<Idle> kIdle{
     {"FadeWithoutAnEnd", {"render", "--set", "fade=0.2"}, "only with max-distance above 0"},
     {"BlurNotAsked", {"render", "--set", "soften.kernel=box"}, "only with soften blur"},
     {"BlurOnACompactMask", {"render", "planes", "--soften", "blur", "--set", "compact-mask=8"}, "soften=none"},
-    {"HalfMaskOfVolumes", {"render", "planes", "--filter", "volumes", "--set", "mask-size=half"}, "volumes"},
     {"HalfMaskOnACompactMask",
      {"render", "planes", "--set", "compact-mask=8", "--set", "mask-size=half"},
      "mask-size=full"},
