@@ -28,6 +28,9 @@ const Subcommand& findSubcommand(const std::string& name)
             return subcommand;
         }
     }
+    if (isListed(name)) {
+        throw UsageError(fmt::format("{0} is no subcommand; `gnomon list {0}` tells about it", name));
+    }
     throw UsageError(
         fmt::format("there is no subcommand \"{}\"{}; it is one of {}", name, suggestion(name, names), listed(names)));
 }

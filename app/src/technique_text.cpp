@@ -132,6 +132,9 @@ bool goesWithoutSaying(const Settings& settings, const Setting& setting, const s
 std::vector<TechniquePart> techniqueParts(std::string_view text)
 {
     std::vector<TechniquePart> parts;
+    if (text.find(',') != std::string_view::npos && text.find("bias=") == std::string_view::npos) {
+        throw UsageError(fmt::format("technique \"{}\": it is one, without commas; --techniques takes several", text));
+    }
     for (const std::string_view piece : piecesOf(text)) {
         const TechniquePart part = partOf(text, piece);
         for (const TechniquePart& other : parts) {

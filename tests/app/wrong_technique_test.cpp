@@ -149,6 +149,7 @@ const std::vector<Wrong> kWrongTechniques{
      "says bias=constant=0.1"},
     {"TechniqueAndAList", {"compare", "--technique", "pcf", "--techniques", "hard"}, 2, "--technique and --techniques"},
     {"TechniqueGivenTwice", {"render", "--technique", "pcf", "--technique", "hard"}, 2, "--technique is given twice"},
+    {"TechniqueIsAList", {"bench", "--technique", "hard,pcf"}, 2, "--techniques takes several"},
     {"TechniqueUnknown", {"plan", "--technique", "pcv"}, 2, "did you mean \"pcf\""},
     {"TechniqueInATechnique", {"plan", "--technique", "technique=pcf"}, 2, "no part of a technique"},
     {"TechniqueThatIsRefused", {"bench", "--technique", "sdsm+snap"}, 2, "it needs motion free"},

@@ -12,6 +12,7 @@ using test::Wrong;
 
 const std::vector<Wrong> kWrong{
     {"UnknownSubcommand", {"rendr"}, 2, "did you mean \"render\""},
+    {"ValueAsASubcommand", {"help", "msm"}, 2, "`gnomon list msm` tells about it"},
     {"ViewIsNotHere", {"view"}, 2, "not in this version"},
     {"OptionBeforeSubcommand", {"--size", "10x10", "render"}, 2, "a subcommand comes first"},
     {"UnknownOption", {"render", "--fliter", "hard"}, 2, "did you mean \"--filter\""},
