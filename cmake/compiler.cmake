@@ -1,8 +1,8 @@
 # Warnings, sanitizers and the compiler cache, for every target of the project.
-find_program(CCACHE ccache)
-if(CCACHE)
+find_program(GNOMON_CCACHE ccache)
+if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     # It goes by the includes that the compiler names, in place of preprocessing each source that it has not.
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true ${CCACHE})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true ${GNOMON_CCACHE})
 endif()
 
 add_library(gnomon_options INTERFACE)
@@ -37,7 +37,7 @@ if(GNOMON_FUZZ)
     add_link_options(-fsanitize=address,undefined)
 endif()
 
-# gnomon_library(NAME SOURCES...): a static library with the project's options.
+# gnomon_library(NAME SOURCES...): a part of the program: a static library with the project's options.
 function(gnomon_library name)
     add_library(${name} STATIC ${ARGN})
     target_link_libraries(${name} PRIVATE gnomon_options)

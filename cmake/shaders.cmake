@@ -1,6 +1,6 @@
-# Shaders: GLSL compiled to SPIR-V with glslc (Vulkan 1.3), validated, and embedded in C++.
-find_program(GLSLC glslc REQUIRED)
-find_program(SPIRV_VAL spirv-val REQUIRED)
+# Shaders: GLSL compiled to SPIR-V with glslc (Vulkan 1.3), validated, and embedded in C++. Installed beside gnomon's targets,
+# for hosts whose shaders include gnomon's.
+include_guard(GLOBAL)
 
 # gnomon_shader_variants(LIST SOURCE AXIS...): adds to LIST an entry for each variant of SOURCE: for every way to take one
 # choice of each axis. An axis is its choices with | between them, a choice is "NAME:DEFINE,DEFINE"; an empty one adds
@@ -38,71 +38,98 @@ function(gnomon_shader_variants list source)
     set(${list} "${${list}}" PARENT_SCOPE)
 endfunction()
 
-# gnomon_shaders(TARGET ENTRIES...): makes an object library that embeds each entry as `const std::span<const
-# std::uint32_t> gnomon::spirv::NAME` (with dots as underscores), declared in the generated header "TARGET.h", which also
-# has all of them in `gnomon::spirv::all_of_TARGET`. An entry is a source, or one of gnomon_shader_variants(). Debug
-# builds keep the source's lines and names in the SPIR-V, but for those with sanitizers, which look at C++ alone.
+# gnomon_shaders(TARGET [NAMESPACE NAME] ENTRIES...): makes an object library that embeds each entry as `const std::span<const
+# std::uint32_t> NAME::ENTRY` (with dots as underscores), declared in the generated header "TARGET.h", which also has all of
+# them in `NAME::all_of_TARGET`. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
+# Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
+# with sanitizers, which look at C++ alone.
 # GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are. It has to be built already, from the same
 # sources, in Release or with sanitizers.
 function(gnomon_shaders target)
-    set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
-    set(keep_names)
-    if(NOT GNOMON_SANITIZE)
-        set(keep_names $<$<CONFIG:Debug>:-g>)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAMESPACE" "")
+    if(NOT arg_NAMESPACE)
+        set(arg_NAMESPACE ${target})
     endif()
-    file(RELATIVE_PATH place ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
-    set(embed ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake)
+    _gnomon_shader_tools()
+    set(dir ${CMAKE_CURRENT_BINARY_DIR}/${target})
     file(MAKE_DIRECTORY ${dir})
-    set(header "#pragma once\n#include <cstdint>\n#include <span>\nnamespace gnomon::spirv {\n")
+    set(begin "namespace ${arg_NAMESPACE} {\n")
+    set(header "#pragma once\n#include <cstdint>\n#include <span>\n${begin}")
     set(words)
     set(spans)
     set(incs)
     set(ids)
-    foreach(entry ${ARGN})
+    foreach(entry IN LISTS arg_UNPARSED_ARGUMENTS)
         set(defines)
         if(entry MATCHES "^([^:]+):([^:]+):(.*)$")
             set(name ${CMAKE_MATCH_1})
             set(source ${CMAKE_MATCH_2})
             string(REPLACE "," ";" defines "${CMAKE_MATCH_3}")
-            list(TRANSFORM defines PREPEND "-D")
         else()
             set(source ${entry})
             get_filename_component(name ${source} NAME)
         endif()
-        get_filename_component(source ${source} ABSOLUTE)
         string(MAKE_C_IDENTIFIER ${name} id)
         list(APPEND ids ${id})
         string(APPEND header "extern const std::span<const std::uint32_t> ${id};\n")
         string(APPEND words "constexpr std::uint32_t words_${id}[] =\n#include \"${name}.inc\"\n;\n")
         string(APPEND spans "const std::span<const std::uint32_t> ${id}{words_${id}};\n")
         list(APPEND incs ${dir}/${name}.inc)
-        if(GNOMON_SPIRV_FROM)
-            set(made ${GNOMON_SPIRV_FROM}/${place}/${target}/${name})
-            add_custom_command(
-                OUTPUT ${dir}/${name}.inc
-                COMMAND ${CMAKE_COMMAND} -E copy ${made}.spv ${dir}/${name}.spv
-                COMMAND ${CMAKE_COMMAND} -E copy ${made}.inc ${dir}/${name}.inc
-                DEPENDS ${made}.inc VERBATIM COMMENT "copying ${name}")
-            continue()
-        endif()
-        add_custom_command(
-            OUTPUT ${dir}/${name}.inc
-            COMMAND ${GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines}
-                    -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/shaders/include
-                    -MD -MF ${dir}/${name}.d -MT ${dir}/${name}.inc
-                    -o ${dir}/${name}.spv ${source}
-            COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${dir}/${name}.spv
-            COMMAND ${CMAKE_COMMAND} -DSPIRV=${dir}/${name}.spv -DINC=${dir}/${name}.inc -P ${embed}
-            DEPENDS ${source} ${embed} DEPFILE ${dir}/${name}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
+        _gnomon_compile_shader(${target} ${name} ${source} ${defines})
     endforeach()
     list(JOIN ids ", &" all)
     list(LENGTH ids count)
     string(APPEND header "inline constexpr const std::span<const std::uint32_t>* all_of_${target}[${count}] = {&${all}};\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.h CONTENT "${header}}\n" @ONLY)
     # One source for all: a compiler takes longer to start than to read a module's words.
-    set(cpp "#include \"${target}.h\"\nnamespace gnomon::spirv {\nnamespace {\n${words}}\n${spans}}\n")
+    set(cpp "#include \"${target}.h\"\n${begin}namespace {\n${words}}\n${spans}}\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.cpp CONTENT "${cpp}" @ONLY)
     set_source_files_properties(${dir}/${target}.cpp PROPERTIES OBJECT_DEPENDS "${incs}")
     add_library(${target} OBJECT ${dir}/${target}.cpp)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_include_directories(${target} PUBLIC ${dir})
+endfunction()
+
+# They are looked for where the first shader is: who compiles none needs none.
+function(_gnomon_shader_tools)
+    find_program(GNOMON_GLSLC glslc HINTS $ENV{VULKAN_SDK}/bin)
+    find_program(GNOMON_SPIRV_VAL spirv-val HINTS $ENV{VULKAN_SDK}/bin)
+    foreach(tool GLSLC SPIRV_VAL)
+        if(NOT GNOMON_${tool})
+            message(FATAL_ERROR "gnomon_shaders: compiling shaders needs glslc and spirv-val, and one of them was not found; "
+                                "install them (Debian: glslc, spirv-tools), or set GNOMON_${tool}")
+        endif()
+    endforeach()
+endfunction()
+
+# _gnomon_compile_shader(TARGET NAME SOURCE DEFINES...): the rule that makes TARGET/NAME.inc, the words of the module.
+function(_gnomon_compile_shader target name source)
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}/${name})
+    if(GNOMON_SPIRV_FROM)
+        file(RELATIVE_PATH place ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
+        set(made ${GNOMON_SPIRV_FROM}/${place}/${target}/${name})
+        add_custom_command(
+            OUTPUT ${out}.inc
+            COMMAND ${CMAKE_COMMAND} -E copy ${made}.spv ${out}.spv
+            COMMAND ${CMAKE_COMMAND} -E copy ${made}.inc ${out}.inc
+            DEPENDS ${made}.inc VERBATIM COMMENT "copying ${name}")
+        return()
+    endif()
+    get_filename_component(source ${source} ABSOLUTE)
+    set(embed ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/embed_spirv.cmake)
+    set(keep_names)
+    if(NOT GNOMON_SANITIZE)
+        set(keep_names $<$<CONFIG:Debug>:-g>)
+    endif()
+    set(defines ${ARGN})
+    list(TRANSFORM defines PREPEND "-D")
+    set(includes $<TARGET_PROPERTY:gnomon::shaders,INTERFACE_INCLUDE_DIRECTORIES>)
+    add_custom_command(
+        OUTPUT ${out}.inc
+        COMMAND ${GNOMON_GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines} "-I$<JOIN:${includes},;-I>"
+                -MD -MF ${out}.d -MT ${out}.inc -o ${out}.spv ${source}
+        COMMAND ${GNOMON_SPIRV_VAL} --target-env vulkan1.3 ${out}.spv
+        COMMAND ${CMAKE_COMMAND} -DSPIRV=${out}.spv -DINC=${out}.inc -P ${embed}
+        DEPENDS ${source} ${embed} DEPFILE ${out}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
 endfunction()

@@ -24,23 +24,23 @@ from pathlib import Path
 from sources import project_files, project_root
 
 # Folder -> include folders. A public header gets those that its users have; only private ones see src/.
-PUBLIC = ["core/include", "pack/include", "shaders/shared", "vulkan/include", "."]
+PUBLIC = ["core/include", "pack/include", "shaders/include", "vulkan/include", "."]
 FOLDERS = [
-    ("shaders/shared/", ["shaders/shared"]),
-    ("core/include/", ["core/include", "shaders/shared"]),
-    ("core/src/", ["core/include", "shaders/shared", "core/src"]),
-    ("pack/include/", ["pack/include", "core/include", "shaders/shared"]),
-    ("pack/src/", ["pack/include", "core/include", "shaders/shared", "pack/src"]),
-    ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/shared"]),
-    ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/shared", "vulkan/src", "shaders"]),
+    ("shaders/include/gnomon/shared/", ["shaders/include"]),
+    ("core/include/", ["core/include", "shaders/include"]),
+    ("core/src/", ["core/include", "shaders/include", "core/src"]),
+    ("pack/include/", ["pack/include", "core/include", "shaders/include"]),
+    ("pack/src/", ["pack/include", "core/include", "shaders/include", "pack/src"]),
+    ("vulkan/include/", ["vulkan/include", "pack/include", "core/include", "shaders/include"]),
+    ("vulkan/src/", ["vulkan/include", "pack/include", "core/include", "shaders/include", "vulkan/src"]),
     ("files/", [".", "core/include", "files/src"]),
     ("image/", [".", "core/include", "image/src"]),
     ("scene/src/", [".", "core/include", "scene/src"]),
     ("scene/", [".", "core/include"]),
     ("truth/", [".", "core/include", "truth/src"]),
-    ("host/src/", [*PUBLIC, "host/src", "shaders"]),
+    ("host/src/", [*PUBLIC, "host/src"]),
     ("host/", PUBLIC),
-    ("lab/score/", ["core/include", "shaders/shared", ".", "lab/score/src"]),
+    ("lab/score/", ["core/include", "shaders/include", ".", "lab/score/src"]),
     ("lab/", [*PUBLIC, "lab/src"]),
     ("app/", [*PUBLIC, "app/src"]),
 ]

@@ -16,7 +16,7 @@ from sources import project_files, project_root
 
 # What a header of the project is, by where it lies; the first match counts.
 PROJECT_KINDS = [
-    (r"^shaders/shared/", "shared"),
+    (r"^shaders/include/gnomon/shared/", "shared"),
     (r"^shaders/", "shader-lib"),
     (r"^core/include/gnomon/(error|geometry|world_range)\.h$", "core-geometry"),
     (r"^core/include/", "core-public"),
@@ -31,8 +31,7 @@ PROJECT_KINDS = [
 ]
 # What any other header is, by its name.
 FOREIGN_KINDS = [
-    (r"^gnomon/\w+\.glsl$", "shader-lib"),
-    (r"^gnomon_\w*spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
+    (r"^\w+_spirv\.h$|\.(vert|frag|comp)\.inc$", "spirv"),
     (r"^vulkan/", "vulkan-api"),
     (r"^glm/", "glm"),
     (r"^imgui\w*\.h$", "imgui"),
@@ -60,7 +59,7 @@ ABOVE = STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "host", 
 # (folder, what it may include besides its own files, why). The longest folder that a file's path starts with rules.
 # Tests may include everything, private headers too.
 RULES = [
-    ("shaders/shared/", {"glm", "std"}, "shared headers stand alone, in GLSL and in C++"),
+    ("shaders/include/gnomon/shared/", {"glm", "std"}, "shared headers stand alone, in GLSL and in C++"),
     ("shaders/", {"shared"}, "shaders include shaders"),
     ("core/include/", {"std", "glm", "shared"}, "a public header shows nothing private; core knows no graphics, window or file"),
     ("core/", {"std", "glm", "core-geometry", "core-public", "shared"}, "core knows no graphics, window or file"),
@@ -89,7 +88,7 @@ RULES = [
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 SUFFIXES = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".geom"}
-PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "shaders", "shaders/shared", "")
+PUBLIC_FOLDERS = ("core/include", "pack/include", "vulkan/include", "shaders/include", "")
 
 
 def rule_for(path: str):

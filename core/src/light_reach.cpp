@@ -3,8 +3,8 @@
 
 #include "motion/steps.h"
 
-#include <cascade_fit.h>
 #include <glm/common.hpp>
+#include <gnomon/shared/cascade_fit.h>
 
 #include <algorithm>
 #include <cmath>

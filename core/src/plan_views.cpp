@@ -3,8 +3,8 @@
 #include <gnomon/plan_views.h>
 
 #include <glm/geometric.hpp>
-#include <paraboloid.h>
-#include <sun_steps.h>
+#include <gnomon/shared/paraboloid.h>
+#include <gnomon/shared/sun_steps.h>
 
 #include <algorithm>
 #include <cassert>

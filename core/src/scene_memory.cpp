@@ -4,7 +4,7 @@
 // relaxation). Departure: the published layers were set by hand.
 #include "scene_memory.h"
 
-#include <depth_layers.h>
+#include <gnomon/shared/depth_layers.h>
 
 #include <glm/common.hpp>
 

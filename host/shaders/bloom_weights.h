@@ -8,7 +8,7 @@
 // levels have the same share, so the sum over the chain is divided by their number.
 #ifndef GNOMON_BLOOM_WEIGHTS_H
 #define GNOMON_BLOOM_WEIGHTS_H
-#include "../../shaders/shared/portability.h"
+#include "gnomon/shared/portability.h"
 GN_BEGIN
 
 GN_CONST real kBloomCentre = real(0.5);   // of the box around the middle

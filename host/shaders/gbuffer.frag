@@ -7,7 +7,7 @@
 #include "ray.glsl"
 #include "material.glsl"
 #include "gbuffer_surface.glsl"
-#include "shared/smooth_surface.h"
+#include "gnomon/shared/smooth_surface.h"
 
 layout(location = 0) in vec4 normal;
 layout(location = 1) in vec4 uvs;

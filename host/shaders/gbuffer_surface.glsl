@@ -3,7 +3,7 @@
 // than three of the same size together.
 #ifndef HOST_GBUFFER_SURFACE_GLSL
 #define HOST_GBUFFER_SURFACE_GLSL
-#include "shared/octahedral.h"
+#include "gnomon/shared/octahedral.h"
 
 #ifdef HOST_MATERIAL_GLSL
 // `second`: roughness, or what is stored of a Phong exponent.

@@ -7,8 +7,8 @@
 #include "frame.glsl"
 #include "material_data.glsl"
 #include "scene_position.glsl"
-#include "shared/smooth_surface.h"
-#include "shared/object_ids.h"
+#include "gnomon/shared/smooth_surface.h"
+#include "gnomon/shared/object_ids.h"
 
 layout(constant_id = 2) const bool kAllTextures = false;
 

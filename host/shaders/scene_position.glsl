@@ -3,7 +3,7 @@
 #ifndef HOST_SCENE_POSITION_GLSL
 #define HOST_SCENE_POSITION_GLSL
 #ifdef CLIPPED
-#include "lib/caster.glsl"
+#include "gnomon/lib/caster.glsl"
 #endif
 
 layout(location = 0) in vec3 position;

@@ -5,7 +5,7 @@
 #include "host/present.h"
 
 #define GNOMON_REAL float
-#include "octahedral.h"
+#include "gnomon/shared/octahedral.h"
 
 #include <gnomon/error.h>
 

@@ -4,7 +4,7 @@
 #include "scene/adjacency.h"
 
 #include <glm/vec4.hpp>
-#include <shadow_volume.h>
+#include <gnomon/shared/shadow_volume.h>
 
 #include <array>
 #include <map>

@@ -4,7 +4,7 @@
 #include <gnomon/object_ids.h>
 #include <gnomon/plan_views.h>
 
-#include <object_ids.h>
+#include <gnomon/shared/object_ids.h>
 
 #include <glm/gtc/matrix_access.hpp>
 
@@ -57,7 +57,7 @@ CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object)
     caster.id = static_cast<float>(objectIdsOf(plan, view.light)[object]) / caster.ids;
     caster.depth_ws = view.metric.metric_ws;
     if (options.ids().depth == IdDepth::object) {
-        // objectDepth() of shaders/shared/object_ids.h, in double precision.
+        // objectDepth() of gnomon/shared/object_ids.h, in double precision.
         const Aabb& box = plan.object_bounds[object];
         const glm::dvec3 centre = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
         const glm::dvec3 half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));

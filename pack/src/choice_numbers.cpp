@@ -4,8 +4,8 @@
 #include <gnomon/object_ids.h>
 #include <gnomon/options.h>
 
-#include <choice_numbers.h>
-#include <object_ids.h>
+#include <gnomon/shared/choice_numbers.h>
+#include <gnomon/shared/object_ids.h>
 
 namespace gnomon::pack {
 namespace {

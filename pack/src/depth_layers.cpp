@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/depth_layers.h>
 
-#include <depth_layers.h>
+#include <gnomon/shared/depth_layers.h>
 
 #include <algorithm>
 

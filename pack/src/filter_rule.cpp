@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/filter_rule.h>
 
-#include <discs.h>
-#include <moments.h>
-#include <moments_four.h>
-#include <paired_depth.h>
-#include <pcf_weights.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/moments.h>
+#include <gnomon/shared/moments_four.h>
+#include <gnomon/shared/paired_depth.h>
+#include <gnomon/shared/pcf_weights.h>
 
 #include <algorithm>
 #include <bit>
@@ -35,7 +35,7 @@ float stepBelowOne(MapFormat format)
     }
 }
 
-/// Hides what the format's rounding does to M2 - M1^2, see shaders/shared/moments.h: as a least variance of d' (lvsm:
+/// Hides what the format's rounding does to M2 - M1^2, see gnomon/shared/moments.h: as a least variance of d' (lvsm:
 /// of a layer's own metric), for evsm as shares of what each warp stores.
 void hideRounding(const ResolvedOptions& options, shared::MomentRule& rule)
 {
@@ -94,7 +94,7 @@ float biasReachTexels(const ResolvedOptions& options)
     const auto radius = static_cast<float>(blurRadius(o));
     const float of_blur = blurOf(o) == BlurKind::gaussian ? std::min(o.blur_sigma_texels, radius) : radius * 0.57735F;
     constexpr float kOfBilinear = 0.5F;
-    constexpr float kOfRing = 3.0F; // esm also compares single reads that far off (shaders/lib/esm.glsl)
+    constexpr float kOfRing = 3.0F; // esm also compares single reads that far off (gnomon/lib/esm.glsl)
     return std::max(of_blur + kOfBilinear, options.filter() == Filter::esm ? kOfRing : 0.0F);
 }
 

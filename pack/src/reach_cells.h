@@ -4,7 +4,7 @@
 
 #include <gnomon/pack/light_lists.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <array>
 

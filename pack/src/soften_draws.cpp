@@ -3,7 +3,7 @@
 
 #include <gnomon/plan_views.h>
 
-#include <screen_blur.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <algorithm>
 

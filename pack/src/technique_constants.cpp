@@ -3,7 +3,7 @@
 
 #include <gnomon/pack/filter_rule.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 // Joins what this frame's maps of one position of the sun say with what the frame before made of the other position's.
 // Based on: P. Fortier, "Shadow maps for moving light sources", IceFall Games, 2010 (the last paragraphs: maps by turns).
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/reprojection.glsl"
-#include "../shared/gpu_structs.h"
+#include "gnomon/lib/reprojection.glsl"
+#include "gnomon/shared/gpu_structs.h"
 
 layout(set = 0, binding = 0, std140) uniform Constants
 {

@@ -3,9 +3,9 @@
 // The second direction of a blur, along y, from the scratch image into the map. A thread walks down a column of a block.
 // The tile's outermost texels hold what is lit, and so does everything outside: reads are clamped.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/blur_window.glsl"
-#include "../lib/encoders.glsl"
-#include "../lib/scratch.glsl"
+#include "gnomon/lib/blur_window.glsl"
+#include "gnomon/lib/encoders.glsl"
+#include "gnomon/lib/scratch.glsl"
 
 layout(local_size_x = kBlockTexels) in;
 

@@ -4,8 +4,8 @@
 // filtered read where they may be added. The tile's outermost texels hold what is lit, and so does everything outside.
 #extension GL_GOOGLE_include_directive : require
 #define GN_FRAGMENT
-#include "../lib/encoders.glsl"
-#include "../lib/scratch.glsl"
+#include "gnomon/lib/encoders.glsl"
+#include "gnomon/lib/scratch.glsl"
 
 layout(location = 0) out vec4 blurred;
 

@@ -3,7 +3,7 @@
 // Which blocks the second direction of a blur has to work on. It reaches less than a block far, so that what it reads
 // lies in a block and its neighbours.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/filter_pass.glsl"
+#include "gnomon/lib/filter_pass.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -4,9 +4,9 @@
 // What is not blurred yet is never written: a thread walks along a row of a block and has it in registers.
 #extension GL_GOOGLE_include_directive : require
 #define GN_FROM_DEPTHS
-#include "../lib/blur_window.glsl"
-#include "../lib/scratch.glsl"
-#include "../lib/texel_moments.glsl"
+#include "gnomon/lib/blur_window.glsl"
+#include "gnomon/lib/scratch.glsl"
+#include "gnomon/lib/texel_moments.glsl"
 
 layout(local_size_x = kBlockTexels) in;
 

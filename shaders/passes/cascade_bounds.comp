@@ -4,7 +4,7 @@
 // rest of the light.
 #extension GL_GOOGLE_include_directive : require
 #define PIXELS
-#include "../lib/cascade_pixels.glsl"
+#include "gnomon/lib/cascade_pixels.glsl"
 layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 
 shared uint found[kBoundKeys * kMostCascades];

@@ -3,8 +3,8 @@
 // Puts what was found of cascades into the mask's views, one thread a view: those that say so in their slice.w were
 // filled in for the base map.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/gpu_cascades.h"
-#include "../shared/gpu_structs.h"
+#include "gnomon/shared/gpu_cascades.h"
+#include "gnomon/shared/gpu_structs.h"
 layout(local_size_x = kCompleteGroup) in;
 layout(set = 0, binding = 0, std430) readonly buffer Fitted
 {

@@ -3,7 +3,7 @@
 // Finds the least and the greatest depth of the camera that a light's map has to serve.
 #extension GL_GOOGLE_include_directive : require
 #define PIXELS
-#include "../lib/cascade_pixels.glsl"
+#include "gnomon/lib/cascade_pixels.glsl"
 layout(local_size_x = kBoundsGroup, local_size_y = kBoundsGroup) in;
 
 shared uint found[kDepthKeys];

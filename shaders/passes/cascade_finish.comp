@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what was found of a light's cascades to how each lies on the base map. One thread a cascade.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/cascade_pixels.glsl"
+#include "gnomon/lib/cascade_pixels.glsl"
 layout(local_size_x = kMostCascades) in;
 layout(set = 0, binding = 2, std430) writeonly buffer Views
 {

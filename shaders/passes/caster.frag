@@ -5,7 +5,7 @@
 // map; MASKED: with holes where its texture's alpha is low; BEHIND: only what lies behind the
 // first surface; IDS: into a colour image that holds ids of objects.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/caster.glsl"
+#include "gnomon/lib/caster.glsl"
 
 #ifdef PER_SAMPLE
 // The rasteriser's depth is each sample's own, and so must be the one that is written instead. All inputs are read at the

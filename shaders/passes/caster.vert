@@ -9,7 +9,7 @@
 #ifdef LAYERED
 #extension GL_ARB_shader_viewport_layer_array : require
 #endif
-#include "../lib/caster.glsl"
+#include "gnomon/lib/caster.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 row_x;
@@ -25,7 +25,7 @@ layout(location = 5) in vec4 row_metric;
 #ifdef LAYERED
 layout(location = 7) in uint layer; // counted from the first view's
 #ifdef PLACED
-#include "../shared/gpu_cascades.h"
+#include "gnomon/shared/gpu_cascades.h"
 layout(set = 1, binding = 0, std430) readonly buffer Places
 {
     GpuFittedView fitted[]; // by view of the plan

@@ -3,7 +3,7 @@
 // What a blended caster writes to a map of tints: the colour that it multiplies the light behind it by, and its depth, of
 // which the nearest stays.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/caster.glsl"
+#include "gnomon/lib/caster.glsl"
 
 #ifdef PARABOLOID
 layout(location = 0) in vec4 ray; // caster.vert

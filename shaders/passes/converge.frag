@@ -1,13 +1,13 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Joins this frame's mask with the mean of the frames before it, where these saw the same surface and nothing that moved
-// can have changed its light. shared/converge.h has the sources.
+// can have changed its light. gnomon/shared/converge.h has the sources.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/reprojection.glsl"
-#include "../shared/converge.h"
-#include "../shared/gpu_converge.h"
-#include "../shared/gpu_structs.h"
-#include "../shared/octahedral.h"
+#include "gnomon/lib/reprojection.glsl"
+#include "gnomon/shared/converge.h"
+#include "gnomon/shared/gpu_converge.h"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/octahedral.h"
 
 // The camera stands and nothing moved: then a pixel is joined with itself alone, and what follows for others need not be
 // compiled. lavapipe executes both sides of every branch whose condition is not a constant.

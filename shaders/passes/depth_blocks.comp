@@ -1,11 +1,11 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Two levels of a map's blocks (shared/map_blocks.h), from its texels (FROM_MAP) or from a level of blocks. A thread
+// Two levels of a map's blocks (gnomon/shared/map_blocks.h), from its texels (FROM_MAP) or from a level of blocks. A thread
 // makes four blocks of the finer level and the one of the coarser level that they are parts of: without a word to other
 // threads, for which some devices have to wait long.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "../shared/map_blocks.h"
+#include "gnomon/shared/map_blocks.h"
 layout(local_size_x = kBlockGroup, local_size_y = kBlockGroup) in;
 #ifdef FROM_MAP
 layout(set = 0, binding = 0) uniform texture2DArray source;

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Sums up what light would bleed between pairs of casters, by the near end of a receiver's layer and the receiver's
-// depth: shared/layer_gaps.h. Whole numbers throughout, so the order in which threads come does not matter.
+// depth: gnomon/shared/layer_gaps.h. Whole numbers throughout, so the order in which threads come does not matter.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #ifdef SAMPLES
@@ -9,8 +9,8 @@
 #else
 #define SOURCE texture2D
 #endif
-#include "../shared/layer_gaps.h"
-#include "../shared/layer_placing.h"
+#include "gnomon/shared/layer_gaps.h"
+#include "gnomon/shared/layer_placing.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 0) uniform SOURCE depths;

@@ -9,8 +9,8 @@
 #else
 #define SOURCE texture2D
 #endif
-#include "../shared/depth_layers.h"
-#include "../shared/layer_placing.h"
+#include "gnomon/shared/depth_layers.h"
+#include "gnomon/shared/layer_placing.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 0) uniform SOURCE depths;

@@ -1,10 +1,10 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Parts a view's layers where the least light is expected to bleed: shared/layer_gaps.h. One group for a view.
+// Parts a view's layers where the least light is expected to bleed: gnomon/shared/layer_gaps.h. One group for a view.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/gpu_structs.h"
-#include "../shared/layer_gaps.h"
-#include "../shared/layer_placing.h"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/layer_gaps.h"
+#include "gnomon/shared/layer_placing.h"
 
 layout(local_size_x = kGapBins) in;
 layout(set = 0, binding = 1, std430) buffer Lost

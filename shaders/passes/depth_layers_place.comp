@@ -6,9 +6,9 @@
 // Departure: layers that were there before move only a share of the way, or are held until they are off, and the sum
 // over depths is one over bins.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/gpu_structs.h"
-#include "../shared/depth_layers.h"
-#include "../shared/layer_placing.h"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/depth_layers.h"
+#include "gnomon/shared/layer_placing.h"
 
 const int kThreads = 256;
 const int kBinsEach = kDepthBins / kThreads;

@@ -1,10 +1,10 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// What a fin says of a texel (shared/smoothie_fins.h), packed as smoothies are. The depth test keeps that fin which takes
+// What a fin says of a texel (gnomon/shared/smoothie_fins.h), packed as smoothies are. The depth test keeps that fin which takes
 // most light from the surface that the map shows there.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/fin_pass.glsl"
-#include "../shared/smoothie_fins.h"
+#include "gnomon/lib/fin_pass.glsl"
+#include "gnomon/shared/smoothie_fins.h"
 
 layout(set = 1, binding = 0) uniform sampler2DArray map;
 layout(location = 0) flat in vec4 ends;

@@ -1,14 +1,14 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Fins of casters' silhouettes (shared/smoothie_fins.h) into a map of smoothies. Six corners for each edge of a mesh,
+// Fins of casters' silhouettes (gnomon/shared/smoothie_fins.h) into a map of smoothies. Six corners for each edge of a mesh,
 // which come to nothing where it is no silhouette. Corners are pulled from buffers, because an edge asks for two
 // triangles; so they are where skinning has put them.
 // firstVertex: six times the mesh's first element; firstInstance: the vertex that the mesh's indices count from.
 // PLACED: the GPU has fitted the view to a part of its base map.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/caster.glsl"
-#include "../lib/fin_pass.glsl"
-#include "../shared/shadow_volume.h"
+#include "gnomon/lib/caster.glsl"
+#include "gnomon/lib/fin_pass.glsl"
+#include "gnomon/shared/shadow_volume.h"
 
 layout(set = 0, binding = 0, std430) restrict readonly buffer Elements
 {

@@ -5,14 +5,14 @@
 // (GNOMON_ORTHOGRAPHIC_ONLY), and in software for one view that serves all of its map, or one of each position of the sun
 // (GNOMON_ONE_VIEW).
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/choice_numbers.h"
-#include "../lib/mask_numbers.glsl"
-#include "../shared/gpu_structs.h"
-#include "../shared/screen_blur.h"
-#include "../shared/smooth_surface.h"
+#include "gnomon/shared/choice_numbers.h"
+#include "gnomon/lib/mask_numbers.glsl"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/screen_blur.h"
+#include "gnomon/shared/smooth_surface.h"
 
 // Not read from buffers: lavapipe executes both sides of every branch whose condition is not a constant.
-#include "../include/gnomon/technique_constants.glsl" // 0 to 7
+#include "gnomon/technique_constants.glsl" // 0 to 7
 layout(constant_id = 8) const bool kHasNormals = true;
 #ifdef GNOMON_ONE_VIEW
 #undef GNOMON_FEW_VIEWS
@@ -84,7 +84,7 @@ uint receiver_piece;
 #define GNOMON_PIECE receiver_piece
 #define GNOMON_OBJECTS_BINDING 13
 #endif
-#include "../lib/light_visibility.glsl"
+#include "gnomon/lib/light_visibility.glsl"
 
 layout(set = 0, binding = 5) uniform sampler2D depths;
 layout(set = 0, binding = 6) uniform sampler2D normals;
@@ -93,7 +93,7 @@ layout(set = 0, binding = 7) uniform usampler2D object_ids;
 layout(location = 0) out vec4 visibility;
 
 #define GNOMON_TILES_BINDING 12
-#include "../include/gnomon/compact_mask.glsl"
+#include "gnomon/compact_mask.glsl"
 
 // The lights of a draw that are left to be looked at: bits of channels, or words of a tile.
 struct Left {
@@ -144,7 +144,7 @@ GnomonTileLight nextLight(inout Left left)
 
 #define GNOMON_SURFACE_SCREEN numbers.screen
 #define GNOMON_SURFACE_SAMPLED kInSoftware
-#include "../lib/screen_surface.glsl"
+#include "gnomon/lib/screen_surface.glsl"
 
 void main()
 {

@@ -4,8 +4,8 @@
 // one view, or one of each position of the sun. WITH_SCREEN: with those of the screen alone.
 #if defined(WITH_NUMBERS) || defined(WITH_SCREEN)
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/mask_numbers.glsl"
-#include "../shared/gpu_structs.h"
+#include "gnomon/lib/mask_numbers.glsl"
+#include "gnomon/shared/gpu_structs.h"
 layout(set = 0, binding = 0, std140) uniform Constants
 {
     GpuConstants constants;

@@ -3,9 +3,9 @@
 // mask-size=half: a layer of the mask from one of half its size. A pixel that finds nothing there that holds for it is
 // left out, and by the depth that this pass draws with told from those that are done. mask.frag draws it then.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/mask_numbers.glsl"
-#include "../shared/gpu_structs.h"
-#include "../shared/mask_upsample.h"
+#include "gnomon/lib/mask_numbers.glsl"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/mask_upsample.h"
 
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform sampler2D normals;
@@ -18,7 +18,7 @@ layout(location = 0) flat in vec4 numbers_in[kScreenNumbers];
 GpuScreen screen;
 #define GNOMON_SURFACE_SCREEN screen
 #define GNOMON_SURFACE_SAMPLED kInSoftware
-#include "../lib/surface_share.glsl"
+#include "gnomon/lib/surface_share.glsl"
 
 layout(location = 0) out vec4 visibility;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One mip level of a tile from the next finer one: the average of four texels.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/filter_pass.glsl"
+#include "gnomon/lib/filter_pass.glsl"
 
 layout(local_size_x = 32) in; // a thread walks down a column
 

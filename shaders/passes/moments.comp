@@ -3,7 +3,7 @@
 // Turns drawn depths into a filterable map that is not blurred.
 #extension GL_GOOGLE_include_directive : require
 #define GN_FROM_DEPTHS
-#include "../lib/texel_moments.glsl"
+#include "gnomon/lib/texel_moments.glsl"
 
 layout(local_size_x = 32) in; // a thread walks down a column
 

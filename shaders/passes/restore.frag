@@ -4,7 +4,7 @@
 // light, whose depths are what their colours say. Rounding keeps the order of depths, and what it makes one is one in
 // the map, too: so whichever of the two is taken for nearer, the map holds the same.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/paired_depth.h"
+#include "gnomon/shared/paired_depth.h"
 
 #ifndef DEPTH_OF_COLOUR
 layout(set = 0, binding = 0) uniform sampler2DArray kept_depths;

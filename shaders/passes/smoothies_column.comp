@@ -4,7 +4,7 @@
 // surface that it holds.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "../lib/smoothies_pass.glsl"
+#include "gnomon/lib/smoothies_pass.glsl"
 layout(set = 0, binding = 0) uniform texture2DArray map;
 layout(set = 0, binding = 1, r32ui) readonly uniform uimage2DArray scratch;
 layout(set = 0, binding = 2, r32ui) writeonly uniform uimage2DArray smoothies;

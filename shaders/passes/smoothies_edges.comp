@@ -1,9 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Edges of casters in a map (shared/smoothies.h): a smoothie on each texel that has one on some side.
+// Edges of casters in a map (gnomon/shared/smoothies.h): a smoothie on each texel that has one on some side.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "../lib/smoothies_pass.glsl"
+#include "gnomon/lib/smoothies_pass.glsl"
 layout(set = 0, binding = 0) uniform texture2DArray map;
 layout(set = 0, binding = 1, r32ui) writeonly uniform uimage2DArray scratch;
 

@@ -3,7 +3,7 @@
 // The edges of smoothies_edges.comp, made wide along x: each texel gets the edge of its row that is nearest to it, of
 // two as near the one nearer to the light.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/smoothies_pass.glsl"
+#include "gnomon/lib/smoothies_pass.glsl"
 layout(set = 0, binding = 0, r32ui) uniform uimage2DArray scratch;
 
 Smoothie edgeAt(int x, int y)

@@ -1,9 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// soften=blur: one pass of the blur of a layer of the mask, four lights at a time. shared/screen_blur.h has the source.
+// soften=blur: one pass of the blur of a layer of the mask, four lights at a time. gnomon/shared/screen_blur.h has the source.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/discs.h"
-#include "../lib/soften_surface.glsl"
+#include "gnomon/shared/discs.h"
+#include "gnomon/lib/soften_surface.glsl"
 
 layout(location = 0) out vec4 visibility;
 

@@ -4,8 +4,8 @@
 // between those texels that stand for pixels of the same surface; where there are none, the mask stays as it was.
 // Based on: J. Kopf, M. Cohen, D. Lischinski, M. Uyttendaele, "Joint Bilateral Upsampling", SIGGRAPH 2007.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/soften_surface.glsl"
-#include "../shared/mask_upsample.h"
+#include "gnomon/lib/soften_surface.glsl"
+#include "gnomon/shared/mask_upsample.h"
 
 layout(location = 0) out vec4 visibility;
 

@@ -4,7 +4,7 @@
 // pulled from buffers, because a wall asks for two triangles; so they are where skinning has put them.
 // firstVertex: six times the mesh's first element; firstInstance: the vertex that the mesh's indices count from.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/shadow_volume.h"
+#include "gnomon/shared/shadow_volume.h"
 
 layout(push_constant) uniform Push
 {

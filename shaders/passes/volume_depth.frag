@@ -3,8 +3,8 @@
 // The camera's depth, into a buffer that has a stencil beside it. Where a smooth surface lies over the triangles it is
 // that surface's depth, which no volume of a convex body's own triangles reaches: so its terminator is smooth.
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/gpu_structs.h"
-#include "../shared/smooth_surface.h"
+#include "gnomon/shared/gpu_structs.h"
+#include "gnomon/shared/smooth_surface.h"
 
 layout(constant_id = 0) const bool kHasSmooth = false;
 layout(set = 0, binding = 0, std140) uniform Constants
@@ -15,7 +15,7 @@ layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 3) uniform sampler2D smooth_surfaces;
 
 #define GNOMON_SURFACE_SCREEN constants.screen
-#include "../lib/screen_surface.glsl"
+#include "gnomon/lib/screen_surface.glsl"
 
 // Of a surface seen edge-on, no farther than so many lifts along the line of sight.
 const float kLeastCosine = 0.2;

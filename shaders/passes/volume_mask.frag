@@ -3,8 +3,8 @@
 // A light's channel of the mask, where its shadow volumes have been counted: drawn once for what is outside of all of
 // them and once for what is inside of some.
 #extension GL_GOOGLE_include_directive : require
-#include "../lib/facing.glsl"
-#include "../shared/moment_rule.h"
+#include "gnomon/lib/facing.glsl"
+#include "gnomon/shared/moment_rule.h"
 
 layout(constant_id = 0) const bool kHasNormals = true;
 layout(constant_id = 1) const bool kHasSmooth = false;
@@ -26,7 +26,7 @@ layout(set = 0, binding = 4) uniform usampler2D object_ids;
 layout(location = 0) out vec4 visibility;
 
 #define GNOMON_SURFACE_SCREEN constants.screen
-#include "../lib/screen_surface.glsl"
+#include "gnomon/lib/screen_surface.glsl"
 
 void main()
 {

@@ -3,9 +3,9 @@
 #define GNOMON_REAL double
 #include "worlds.h"
 
-#include <cascade_fit.h>
 #include <gnomon/plan_views.h>
 #include <gnomon/planner.h>
+#include <gnomon/shared/cascade_fit.h>
 
 #include <gtest/gtest.h>
 

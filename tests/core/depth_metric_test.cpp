@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The text that the shaders include, in double precision.
 #define GNOMON_REAL double
-#include <depth_metric.h>
+#include <gnomon/shared/depth_metric.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #define GNOMON_REAL double
 #include "worlds.h"
 
-#include <cascade_fit.h>
 #include <gnomon/planner.h>
+#include <gnomon/shared/cascade_fit.h>
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "scene/worlds.h"
 #include "small_scene.h"
 
-#include <cascade_fit.h>
 #include <glm/gtc/matrix_access.hpp>
+#include <gnomon/shared/cascade_fit.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

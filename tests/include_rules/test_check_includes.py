@@ -12,9 +12,9 @@ from pathlib import Path
 CHECKER = sys.argv.pop(1)
 
 LEGAL = {
-    "shaders/shared/bias.h": '#include "portability.h"\n',
-    "shaders/shared/portability.h": "#include <glm/glm.hpp>\n",
-    "shaders/lib/filter.glsl": '#include "shared/bias.h"\n',
+    "shaders/include/gnomon/shared/bias.h": '#include "portability.h"\n',
+    "shaders/include/gnomon/shared/portability.h": "#include <glm/glm.hpp>\n",
+    "shaders/include/gnomon/lib/filter.glsl": '#include "../shared/bias.h"\n',
     "core/include/gnomon/geometry.h": "#include <glm/vec3.hpp>\n#include <vector>\n",
     "core/include/gnomon/error.h": "#include <string>\n",
     "core/include/gnomon/plan.h": "#include <gnomon/geometry.h>\n",
@@ -38,7 +38,7 @@ LEGAL = {
     "truth/tracer.h": '#include "scene/model.h"\n#include <gnomon/geometry.h>\n',
     "truth/src/rays.cpp": '#include "truth/tracer.h"\n#include <embree3/rtcore.h>\n#include <gnomon/error.h>\n',
     "host/renderer.h": '#include "scene/model.h"\n#include <gnomon/plan.h>\n#include <gnomon/vulkan/renderer.h>\n',
-    "host/shaders/shade.frag": '#include "lib/filter.glsl"\n',
+    "host/shaders/shade.frag": '#include "gnomon/lib/filter.glsl"\n',
     "lab/metrics.h": '#include "image/image.h"\n',
     "lab/score/score.h": '#include "lab/metrics.h"\n#include "truth/tracer.h"\n#include <gnomon/plan.h>\n',
     "lab/score/src/score.cpp": '#include "lab/score/score.h"\n#include "rays.h"\n',
@@ -51,8 +51,8 @@ LEGAL = {
 
 # (file, line to plant, what it breaks)
 ILLEGAL = [
-    ("shaders/shared/bias.h", '#include "../lib/filter.glsl"', "shared includes a shader"),
-    ("shaders/lib/filter.glsl", "#include <vector>", "a shader includes C++"),
+    ("shaders/include/gnomon/shared/bias.h", '#include "../lib/filter.glsl"', "shared includes a shader"),
+    ("shaders/include/gnomon/lib/filter.glsl", "#include <vector>", "a shader includes C++"),
     ("core/include/gnomon/plan.h", "#include <vulkan/vulkan_core.h>", "core includes graphics"),
     ("core/include/gnomon/plan.h", '#include "../../src/fit/uniform.h"', "a public header includes a private one"),
     ("core/src/fit/uniform.cpp", "#include <GLFW/glfw3.h>", "core includes a window"),
@@ -77,15 +77,15 @@ ILLEGAL = [
     ("truth/tracer.h", "#include <gnomon/bias.h>", "truth includes core's bias"),
     ("truth/tracer.h", "#include <gnomon/frame.h>", "truth includes core's frame"),
     ("truth/tracer.h", "#include <gnomon/choices.h>", "truth includes core's choices"),
-    ("truth/tracer.h", '#include "bias.h"', "truth includes shared shadow arithmetic"),
-    ("truth/tracer.h", '#include "shaders/shared/bias.h"', "truth includes shared shadow arithmetic by its whole path"),
-    ("truth/tracer.h", '#include "shaders/lib/filter.glsl"', "truth includes a filter"),
+    ("truth/tracer.h", '#include <gnomon/shared/bias.h>', "truth includes shared shadow arithmetic"),
+    ("truth/tracer.h", '#include "shaders/include/gnomon/shared/bias.h"', "truth includes shared shadow arithmetic by its whole path"),
+    ("truth/tracer.h", '#include "shaders/include/gnomon/lib/filter.glsl"', "truth includes a filter"),
     ("truth/tracer.h", '#include "core/src/fit/uniform.h"', "truth includes core's private header"),
     ("truth/tracer.h", "#include <gnomon/vulkan/renderer.h>", "truth includes the backend"),
     ("truth/tracer.h", '#include "host/renderer.h"', "truth includes host"),
     ("truth/tracer.h", '#include "lab/metrics.h"', "truth includes what measures by it"),
     ("truth/src/rays.cpp", "#include <gnomon/plan.h>", "a source of truth includes core's plan"),
-    ("truth/src/rays.cpp", '#include "shaders/shared/bias.h"', "a source of truth includes shared shadow arithmetic"),
+    ("truth/src/rays.cpp", '#include "shaders/include/gnomon/shared/bias.h"', "a source of truth includes shared shadow arithmetic"),
     ("truth/src/rays.cpp", '#include "host/renderer.h"', "a source of truth includes host"),
     ("host/renderer.h", '#include "../vulkan/src/memory.h"', "host includes the backend's private header"),
     ("host/renderer.h", '#include "core/src/fit/uniform.h"', "host includes core's private header"),
@@ -99,6 +99,7 @@ ILLEGAL = [
     ("lab/compare.h", '#include "lab/score/src/rays.h"', "the lab includes a private header of the scores"),
     ("app/src/main.cpp", '#include "vulkan/src/memory.h"', "the program includes a private header"),
     ("examples/host/main.cpp", '#include "host/renderer.h"', "an example includes our host"),
+    ("core/src/fit/uniform.cpp", '#include "shared/bias.h"', "core includes a shared header without the prefix"),
     ("core/src/fit/uniform.cpp", '#include "no/such/header.h"', "a header nobody knows"),
 ]
 

@@ -5,7 +5,7 @@
 #include <gnomon/pack/mask_draws.h>
 #include <gnomon/pack/soften_draws.h>
 
-#include <screen_blur.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <gtest/gtest.h>
 

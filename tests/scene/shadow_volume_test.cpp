@@ -3,8 +3,8 @@
 // Shadow volumes against rays: the faces that a stencil buffer would count behind a point, made by the arithmetic of
 // volume.vert, say of a point whether the mesh is between it and the light, wherever the eye is.
 #define GNOMON_REAL double
+#include "gnomon/shared/shadow_volume.h"
 #include "scene/adjacency.h"
-#include "shared/shadow_volume.h"
 
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // Averages of values and of what they are logarithms of, against their definition.
 #include "cpu_map.h"
 
+#include <gnomon/lib/average.glsl>
 #include <gtest/gtest.h>
-#include <lib/average.glsl>
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means over frames, and where they end, in double precision.
 #define GNOMON_REAL double
-#include <shared/converge.h>
+#include <gnomon/shared/converge.h>
 
 #include <gtest/gtest.h>
 

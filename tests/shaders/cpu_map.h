@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets shaders/lib compile as C++ in double precision, with maps in memory.
+// Lets gnomon/lib compile as C++ in double precision, with maps in memory.
 #pragma once
 #define GNOMON_REAL double
 #define GNOMON_SMOOTHIES
 
-#include <shared/discs.h>
-#include <shared/smoothies.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/smoothies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace gnomon::test {
 inline std::function<double(int x, int y)> map_texels;
 /// What the second channel holds of a texel, where a filter asks for that.
 inline std::function<double(int x, int y)> map_seconds;
-/// Nearest and farthest depth of a block (shared/map_blocks.h). makeBlocks() is one way to have them.
+/// Nearest and farthest depth of a block (gnomon/shared/map_blocks.h). makeBlocks() is one way to have them.
 inline std::function<glm::dvec2(int x, int y, int level)> map_block;
 /// Of map_texels from 0 to `side`, a power of two.
 inline void makeBlocks(int side)
@@ -46,7 +46,7 @@ inline void makeBlocks(int side)
         return levels.at(static_cast<std::size_t>(level)).at(static_cast<std::size_t>(y * (side >> level) + x));
     };
 }
-/// What lies beside a texel, packed (shared/smoothies.h).
+/// What lies beside a texel, packed (gnomon/shared/smoothies.h).
 inline std::function<int(int x, int y)> map_smoothie;
 /// What a filterable map answers; `texel` in texels of the finest level. MomentImage is one way to have it.
 inline std::function<glm::dvec4(glm::dvec2 texel, double level, double layer)> map_moments;
@@ -177,4 +177,4 @@ inline real2 discPoint(int i)
 }
 GN_END
 
-#include <lib/visibility.glsl>
+#include <gnomon/lib/visibility.glsl>

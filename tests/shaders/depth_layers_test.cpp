@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers of depth: metric, placement, Lloyd relaxation as the compute pass does it.
 #define GNOMON_REAL double
-#include <shared/depth_layers.h>
+#include <gnomon/shared/depth_layers.h>
 
 #include <gtest/gtest.h>
 

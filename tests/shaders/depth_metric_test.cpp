@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
-#include <lib/caster.glsl>
+#include <gnomon/lib/caster.glsl>
 
 #include <gtest/gtest.h>
 

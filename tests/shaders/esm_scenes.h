@@ -3,7 +3,7 @@
 #pragma once
 #include "cpu_map.h"
 
-#include <shared/pcf_weights.h>
+#include <gnomon/shared/pcf_weights.h>
 
 #include <string>
 

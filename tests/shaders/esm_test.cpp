@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "esm_scenes.h"
 
+#include <gnomon/lib/average.glsl>
 #include <gtest/gtest.h>
-#include <lib/average.glsl>
 
 #include <cstdio>
 #include <limits>

@@ -2,8 +2,8 @@
 // Chebyshev's bounds in exponential warps, against random distributions of depth.
 #include "cpu_map.h"
 
+#include <gnomon/lib/average.glsl>
 #include <gtest/gtest.h>
-#include <lib/average.glsl>
 
 #include <cmath>
 #include <cstdio>

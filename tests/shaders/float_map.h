@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets shaders/lib compile as C++ in the GPU's single precision, with whatever maps hold. All tests that do so include
+// Lets gnomon/lib compile as C++ in the GPU's single precision, with whatever maps hold. All tests that do so include
 // this, so that the shaders' functions are the same ones in each.
 #pragma once
 #define GNOMON_REAL float
 #define GNOMON_SMOOTHIES
 
-#include <shared/discs.h>
-#include <shared/smoothies.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/smoothies.h>
 
 #include <functional>
 
@@ -48,4 +48,4 @@ inline real2 discPoint(int i)
 }
 GN_END
 
-#include <lib/visibility.glsl>
+#include <gnomon/lib/visibility.glsl>

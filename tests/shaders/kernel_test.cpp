@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weights and point sets against their closed forms.
 #define GNOMON_REAL double
-#include <shared/discs.h>
-#include <shared/pcf_weights.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/pcf_weights.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a pair of casters is expected to bleed, by which layers are placed.
 #define GNOMON_REAL double
-#include <shared/layer_gaps.h>
-#include <shared/moments.h>
+#include <gnomon/shared/layer_gaps.h>
+#include <gnomon/shared/moments.h>
 
 #include <gtest/gtest.h>
 

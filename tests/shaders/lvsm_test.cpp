@@ -2,7 +2,7 @@
 // Layered variance shadow maps: the right layer alone is read, layers do not bleed into each other, no seam shows.
 #include "cpu_map.h"
 
-#include <lib/encoders.glsl>
+#include <gnomon/lib/encoders.glsl>
 
 #include <gtest/gtest.h>
 

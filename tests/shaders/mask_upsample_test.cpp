@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a pixel takes from a mask of half the size, in double precision.
 #define GNOMON_REAL double
-#include <shared/mask_upsample.h>
-#include <shared/screen_blur.h>
+#include <gnomon/shared/mask_upsample.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <gtest/gtest.h>
 

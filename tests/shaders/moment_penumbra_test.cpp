@@ -2,7 +2,7 @@
 // Filterable maps whose penumbrae follow from the light's size, on maps whose shadows are known in closed form.
 #include "cpu_map.h"
 
-#include <lib/encoders.glsl>
+#include <gnomon/lib/encoders.glsl>
 
 #include <gtest/gtest.h>
 

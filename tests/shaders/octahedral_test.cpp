@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
-#include <shared/octahedral.h>
+#include <gnomon/shared/octahedral.h>
 
 #include <gtest/gtest.h>
 

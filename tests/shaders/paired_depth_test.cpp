@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
-#include <shared/paired_depth.h>
+#include <gnomon/shared/paired_depth.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map of a half space: places there and back, its rows against finite differences, and what a caster leaves in it.
 #define GNOMON_REAL double
-#include <lib/caster.glsl>
-#include <shared/paraboloid.h>
+#include <gnomon/lib/caster.glsl>
+#include <gnomon/shared/paraboloid.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // How far a receiver's surface moves on the map from pixel to pixel: against a closed form, against the neighbouring
 // pixel's ray traced to the plane and projected, and where there is nothing to hold on to.
 #define GNOMON_REAL double
-#include <lib/receiver_footprint.glsl>
+#include <gnomon/lib/receiver_footprint.glsl>
 
 #include <gtest/gtest.h>
 

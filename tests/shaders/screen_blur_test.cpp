@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The weights of soften=blur in double precision, beside those that were published.
 #define GNOMON_REAL double
-#include <shared/discs.h>
-#include <shared/screen_blur.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "cpu_map.h"
 #include "single_values.h"
 
-#include <lib/average.glsl>
-#include <lib/encoders.glsl>
+#include <gnomon/lib/average.glsl>
+#include <gnomon/lib/encoders.glsl>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // light from there.
 #include "cpu_map.h"
 
-#include <lib/visibility.glsl>
+#include <gnomon/lib/visibility.glsl>
 
 #include <gtest/gtest.h>
 

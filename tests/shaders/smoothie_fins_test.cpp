@@ -2,7 +2,7 @@
 // Fins against closed forms: which edges have one, how far and how deep the edge is, and alpha over a fin.
 #include "cpu_map.h"
 
-#include <shared/smoothie_fins.h>
+#include <gnomon/shared/smoothie_fins.h>
 
 #include <gtest/gtest.h>
 

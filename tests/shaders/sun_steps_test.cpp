@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #define GNOMON_REAL double
-#include <shared/sun_steps.h>
+#include <gnomon/shared/sun_steps.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Two moments: what they bound, what rounding does to them, and what is made of the bound.
 #include "cpu_map.h"
 
-#include <lib/encoders.glsl>
+#include <gnomon/lib/encoders.glsl>
 
 #include <gtest/gtest.h>
 

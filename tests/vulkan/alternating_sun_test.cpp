@@ -4,7 +4,7 @@
 #include "stepping_suns.h"
 #include "write_pgm.h"
 
-#include <shared/sun_steps.h>
+#include <gnomon/shared/sun_steps.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #define GNOMON_REAL double
 #include "cpu_fins.h"
 
-#include <shared/smoothie_fins.h>
+#include <gnomon/shared/smoothie_fins.h>
 
 #include <glm/gtc/matrix_access.hpp>
 

@@ -2,7 +2,7 @@
 #define GNOMON_REAL double
 #include "cpu_smoothies.h"
 
-#include <shared/smoothies.h>
+#include <gnomon/shared/smoothies.h>
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 
 namespace gnomon::test {
 
-/// Of the texels of a tile, row by row, packed as shaders/shared/smoothies.h has it. `quantum`: what stored depths may
+/// Of the texels of a tile, row by row, packed as gnomon/shared/smoothies.h has it. `quantum`: what stored depths may
 /// be off by.
 [[nodiscard]] std::vector<int> smoothiesOf(const CpuMap& map, const Tile& tile, int reach, double quantum);
 

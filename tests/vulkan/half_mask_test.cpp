@@ -7,8 +7,8 @@
 
 #include <gnomon/error.h>
 
-#include <mask_upsample.h>
-#include <screen_blur.h>
+#include <gnomon/shared/mask_upsample.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <gtest/gtest.h>
 

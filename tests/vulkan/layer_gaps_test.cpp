@@ -2,7 +2,7 @@
 // Layers placed by gaps: between casters that lie over each other and what they hide, wherever most depths gather.
 #include "placed_layers.h"
 
-#include <depth_layers.h>
+#include <gnomon/shared/depth_layers.h>
 
 #include <set>
 

@@ -4,7 +4,7 @@
 #define GNOMON_REAL double
 #include "placed_layers.h"
 
-#include <depth_layers.h>
+#include <gnomon/shared/depth_layers.h>
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 
 #include "light_strip.h"
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <gtest/gtest.h>
 

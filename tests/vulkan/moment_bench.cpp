@@ -4,8 +4,8 @@
 
 #include "moment_numbers.h"
 
-#include <lib/average.glsl>
-#include <lib/encoders.glsl>
+#include <gnomon/lib/average.glsl>
+#include <gnomon/lib/encoders.glsl>
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ ShadowOptions evsm(MapFormat format, bool log_space)
     return filter;
 }
 
-// Three roundings of 3/2 steps, and the arithmetic's 1e-6 (shaders/shared/moments.h).
+// Three roundings of 3/2 steps, and the arithmetic's 1e-6 (gnomon/shared/moments.h).
 double varianceOf(double step)
 {
     return 4.5 * step + 1e-6;

@@ -5,7 +5,7 @@
 
 #include <gnomon/error.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <gtest/gtest.h>
 

@@ -12,14 +12,14 @@
 #include <gnomon/object_ids.h>
 #include <gnomon/plan_views.h>
 
-#include <shared/sun_steps.h>
+#include <gnomon/shared/sun_steps.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <iterator>
 
-#include <lib/visibility.glsl>
+#include <gnomon/lib/visibility.glsl>
 
 namespace gnomon::test {
 namespace {

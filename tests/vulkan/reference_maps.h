@@ -8,9 +8,9 @@
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan.h>
 
-#include <shared/discs.h>
-#include <shared/map_blocks.h>
-#include <shared/paired_depth.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/map_blocks.h>
+#include <gnomon/shared/paired_depth.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled alone: what it takes of shaders/shared is in single precision.
+// Compiled alone: what it takes of gnomon/shared is in single precision.
 #include "scene.h"
 
-#include <octahedral.h>
+#include <gnomon/shared/octahedral.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -7,8 +7,8 @@
 
 #include <gnomon/options.h>
 
-#include <discs.h>
-#include <screen_blur.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/screen_blur.h>
 
 #include <algorithm>
 #include <cmath>

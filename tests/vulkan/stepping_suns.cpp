@@ -2,7 +2,7 @@
 #define GNOMON_REAL double
 #include "stepping_suns.h"
 
-#include <shared/sun_steps.h>
+#include <gnomon/shared/sun_steps.h>
 
 #include <algorithm>
 #include <cmath>

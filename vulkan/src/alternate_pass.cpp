@@ -7,8 +7,8 @@
 #include <gnomon/pack/frame_passes.h>
 #include <gnomon/plan_views.h>
 
+#include <gnomon/shared/sun_steps.h>
 #include <gnomon_spirv.h>
-#include <sun_steps.h>
 
 #include <glm/geometric.hpp>
 

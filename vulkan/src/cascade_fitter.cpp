@@ -7,7 +7,7 @@
 
 #include <gnomon/pack/cascade_lights.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <glm/vec3.hpp>
 

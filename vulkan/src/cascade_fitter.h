@@ -5,7 +5,7 @@
 
 #include "descriptors.h"
 
-#include <gpu_cascades.h>
+#include <gnomon/shared/gpu_cascades.h>
 
 #include <array>
 

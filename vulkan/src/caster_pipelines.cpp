@@ -8,8 +8,8 @@
 
 #include <gnomon/error.h>
 
+#include <gnomon/shared/paired_depth.h>
 #include <gnomon_spirv.h>
-#include <paired_depth.h>
 
 #include <algorithm>
 #include <string>

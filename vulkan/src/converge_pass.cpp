@@ -8,9 +8,9 @@
 #include <gnomon/pack/frame_passes.h>
 #include <gnomon/plan_views.h>
 
-#include <converge.h>
+#include <gnomon/shared/converge.h>
+#include <gnomon/shared/gpu_structs.h>
 #include <gnomon_spirv.h>
-#include <gpu_structs.h>
 
 #include <glm/geometric.hpp>
 

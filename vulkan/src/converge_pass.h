@@ -6,7 +6,7 @@
 #include "descriptors.h"
 #include "mask_history.h"
 
-#include <gpu_converge.h>
+#include <gnomon/shared/gpu_converge.h>
 
 #include <array>
 
@@ -28,7 +28,7 @@ public:
     void warmUp(VkFormat mask_format);
     /// Makes images like the mask if those that are there are not; then nothing of the frame before is known.
     void prepare(const ImageInfo& mask, std::size_t lights);
-    /// Of target(), by the mask's: floats, which have room for what shared/converge.h packs.
+    /// Of target(), by the mask's: floats, which have room for what gnomon/shared/converge.h packs.
     [[nodiscard]] static VkFormat targetFormat(VkFormat mask_format);
     /// Over how many frames in a row, up to this one, neither the camera nor a light nor an object has moved.
     [[nodiscard]] std::uint32_t stood(const Frame& frame, const Plan& plan) const;

@@ -6,8 +6,8 @@
 
 #include <gnomon/pack/filter_rule.h>
 
+#include <gnomon/shared/map_blocks.h>
 #include <gnomon_spirv.h>
-#include <map_blocks.h>
 
 #include <algorithm>
 #include <array>

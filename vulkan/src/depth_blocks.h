@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest and the farthest depth of squares of a map's texels (shaders/shared/map_blocks.h), for filters that look
+// The nearest and the farthest depth of squares of a map's texels (gnomon/shared/map_blocks.h), for filters that look
 // far around a receiver. An image beside that of the maps, made anew wherever a map was drawn.
 #pragma once
 

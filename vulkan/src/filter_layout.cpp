@@ -9,7 +9,7 @@
 
 #include <gnomon_spirv.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <array>
 

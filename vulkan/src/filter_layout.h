@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes that make a map filterable share: one layout for all of their shaders (shaders/lib/filter_pass.glsl),
+// What the passes that make a map filterable share: one layout for all of their shaders (gnomon/lib/filter_pass.glsl),
 // compute and fragment, the pool of their descriptor sets, and how their pipelines are made.
 #pragma once
 
 #include "descriptors.h"
 
-#include <filter_pass.h>
+#include <gnomon/shared/filter_pass.h>
 
 namespace gnomon::vulkan {
 

@@ -8,8 +8,8 @@
 
 #include <gnomon/plan_views.h>
 
+#include <gnomon/shared/shadow_volume.h>
 #include <gnomon_spirv.h>
-#include <shadow_volume.h>
 
 #include <glm/gtc/matrix_access.hpp>
 

@@ -6,7 +6,7 @@
 
 #include <gnomon/pack/filter_rule.h>
 
-#include <smoothies.h>
+#include <gnomon/shared/smoothies.h>
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fins beside their maps (shaders/shared/smoothie_fins.h): an image beside that of the maps, into which the host draws
+// Fins beside their maps (gnomon/shared/smoothie_fins.h): an image beside that of the maps, into which the host draws
 // casters' silhouettes wherever a map was drawn.
 #pragma once
 

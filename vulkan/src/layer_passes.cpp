@@ -4,8 +4,8 @@
 #include "barriers.h"
 #include "pipelines.h"
 
+#include <gnomon/shared/layer_gaps.h>
 #include <gnomon_spirv.h>
-#include <layer_gaps.h>
 
 #include <array>
 

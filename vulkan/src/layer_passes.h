@@ -5,7 +5,7 @@
 
 #include "descriptors.h"
 
-#include <layer_placing.h>
+#include <gnomon/shared/layer_placing.h>
 
 namespace gnomon::vulkan {
 

@@ -6,9 +6,9 @@
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan_views.h>
 
-#include <depth_layers.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <gnomon/shared/depth_layers.h>
 
 #include <algorithm>
 #include <cassert>

@@ -4,7 +4,7 @@
 
 #include "layer_passes.h"
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <optional>
 

@@ -4,8 +4,8 @@
 #include "pipelines.h"
 #include "samplers.h"
 
+#include <gnomon/shared/paired_depth.h>
 #include <gnomon_spirv.h>
-#include <paired_depth.h>
 
 namespace gnomon::vulkan {
 namespace {

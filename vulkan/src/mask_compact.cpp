@@ -7,7 +7,7 @@
 #include <gnomon/pack/soften_draws.h>
 #include <gnomon/plan_views.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <algorithm>
 #include <cstring>

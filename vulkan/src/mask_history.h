@@ -13,7 +13,7 @@
 
 namespace gnomon::vulkan {
 
-/// Takes a point relative to this frame's eye to the frame before: shaders/lib/reprojection.glsl.
+/// Takes a point relative to this frame's eye to the frame before: gnomon/lib/reprojection.glsl.
 struct Reprojection {
     glm::vec4 x; // rows of that frame's pixel, homogeneous
     glm::vec4 y;

@@ -6,8 +6,8 @@
 #include "samplers.h"
 #include "specialisation.h"
 
+#include <gnomon/shared/gpu_structs.h>
 #include <gnomon_spirv.h>
-#include <gpu_structs.h>
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 
 namespace gnomon::vulkan {
 
-/// How a tile lies in the scratch image: cut into strips of this width, each in a layer (shaders/lib/scratch.glsl).
+/// How a tile lies in the scratch image: cut into strips of this width, each in a layer (gnomon/lib/scratch.glsl).
 struct ScratchStrips {
     std::uint32_t width = shared::kBlockTexels;
     std::uint32_t count = 1; // for each image layer of the map

@@ -6,7 +6,7 @@
 
 #include <gnomon/pack/soften_draws.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <algorithm>
 #include <memory>

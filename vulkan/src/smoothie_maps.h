@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edges of casters, made wide beside their maps (shaders/shared/smoothies.h): an image beside that of the maps, made
+// Edges of casters, made wide beside their maps (gnomon/shared/smoothies.h): an image beside that of the maps, made
 // anew wherever a map was drawn. Three passes: edges are found, and made wide along x and along y.
 #pragma once
 

@@ -7,10 +7,10 @@
 #include "samplers.h"
 #include "specialisation.h"
 
-#include <discs.h>
+#include <gnomon/shared/discs.h>
+#include <gnomon/shared/gpu_structs.h>
+#include <gnomon/shared/screen_blur.h>
 #include <gnomon_spirv.h>
-#include <gpu_structs.h>
-#include <screen_blur.h>
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include "pipelines.h"
 #include "usage.h"
 
+#include <gnomon/shared/shadow_volume.h>
 #include <gnomon_spirv.h>
-#include <shadow_volume.h>
 
 #include <algorithm>
 #include <array>

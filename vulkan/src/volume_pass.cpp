@@ -13,8 +13,8 @@
 
 #include <gnomon/plan_views.h>
 
+#include <gnomon/shared/gpu_structs.h>
 #include <gnomon_spirv.h>
-#include <gpu_structs.h>
 
 #include <algorithm>
 #include <array>

@@ -3,9 +3,9 @@
 #define GNOMON_REAL double
 #include "worked_out.h"
 
-#include <depth_metric.h>
-#include <moments.h>
-#include <paired_depth.h>
+#include <gnomon/shared/depth_metric.h>
+#include <gnomon/shared/moments.h>
+#include <gnomon/shared/paired_depth.h>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

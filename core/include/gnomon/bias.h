@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a receiver is kept from shadowing itself.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (depth aliasing); the arithmetic is in
-// shaders/shared/bias.h. The midpoint: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.
+// gnomon/shared/bias.h. The midpoint: A. Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992.
 #pragma once
+
+#include <gnomon/export.h>
 
 #include <cstdint>
 #include <string_view>
@@ -19,7 +21,7 @@ enum class CasterFaces : std::uint8_t {
     /// Of maps in a depth format that are not averaged.
     midpoint,
 };
-[[nodiscard]] std::string_view nameOf(CasterFaces value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(CasterFaces value);
 
 /// Which triangles of its casters the rasteriser leaves out of a map, as engines say it: of all of them, whatever the
 /// host says of open and thin ones, and whichever way it means. `front` is what CasterFaces::back is, but without its
@@ -31,7 +33,7 @@ enum class CasterCull : std::uint8_t {
     back,  // those that face away from the light: single sheets that are seen from behind cast nothing
     front, // those that face it: of what is closed the far side is held, and of single sheets that are lit nothing
 };
-[[nodiscard]] std::string_view nameOf(CasterCull value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(CasterCull value);
 
 /// `automatic` derives everything from the texel's footprint, the kernel's reach and the receiver's plane, so nothing
 /// needs tuning when the map's size, the fit or the kernel changes; the other fields are then ignored.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/choices.h>
+#include <gnomon/export.h>
 #include <gnomon/options.h>
 
 #include <span>
@@ -17,10 +18,10 @@ struct ChoiceRule {
     std::string_view reason;  // a sentence
 };
 /// Every rule. A combination of available values that none applies to can be had.
-[[nodiscard]] std::span<const ChoiceRule> choiceRules();
+[[nodiscard]] GNOMON_API std::span<const ChoiceRule> choiceRules();
 
 /// Why a light of this type cannot have these options, whose technique and depths go by the light, as a sentence that
 /// lives as long as the program; nothing when it can. resolve() says what else there is.
-[[nodiscard]] std::optional<std::string_view> refusal(LightType light, const ShadowOptions& options);
+[[nodiscard]] GNOMON_API std::optional<std::string_view> refusal(LightType light, const ShadowOptions& options);
 
 } // namespace gnomon

@@ -3,6 +3,8 @@
 // front with a sentence that says why. A new technique is one new value here, one line in a table, and one file.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -87,20 +89,20 @@ struct ChoiceValue {
     std::string_view source;  // author, title, year
 };
 /// All values of all choices, in the order of the enums.
-[[nodiscard]] std::span<const ChoiceValue> choiceValues();
+[[nodiscard]] GNOMON_API std::span<const ChoiceValue> choiceValues();
 /// The row of a name, or null.
-[[nodiscard]] const ChoiceValue* findChoice(std::string_view choice, std::string_view name);
+[[nodiscard]] GNOMON_API const ChoiceValue* findChoice(std::string_view choice, std::string_view name);
 /// The name of an enum's value.
-[[nodiscard]] std::string_view nameOf(LightType value);
-[[nodiscard]] std::string_view nameOf(Partition value);
-[[nodiscard]] std::string_view nameOf(Fit value);
-[[nodiscard]] std::string_view nameOf(Filter value);
-[[nodiscard]] std::string_view nameOf(Soften value);
-[[nodiscard]] std::string_view nameOf(Motion value);
-[[nodiscard]] std::string_view nameOf(PcfKernel value);
-[[nodiscard]] std::string_view nameOf(MapFormat value);
-[[nodiscard]] std::optional<PcfKernel> findPcfKernel(std::string_view name);
-[[nodiscard]] std::optional<MapFormat> findMapFormat(std::string_view name);
+[[nodiscard]] GNOMON_API std::string_view nameOf(LightType value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Partition value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Fit value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Filter value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Soften value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Motion value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(PcfKernel value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(MapFormat value);
+[[nodiscard]] GNOMON_API std::optional<PcfKernel> findPcfKernel(std::string_view name);
+[[nodiscard]] GNOMON_API std::optional<MapFormat> findMapFormat(std::string_view name);
 
 /// Facts of a filter that planning and the backend need; one row per filter but automatic.
 struct FilterTraits {
@@ -116,13 +118,13 @@ struct FilterTraits {
     bool has_maps = true;  // false: it counts faces of shadow volumes, and a light so planned has no views
 };
 /// Null for automatic, which stands for another (filterOf()).
-[[nodiscard]] const FilterTraits* filterTraits(Filter filter);
+[[nodiscard]] GNOMON_API const FilterTraits* filterTraits(Filter filter);
 
 /// Why this combination cannot be had, as a sentence that lives as long as the program; nothing when it can.
-[[nodiscard]] std::optional<std::string_view> refusal(LightType light, const Technique& technique);
+[[nodiscard]] GNOMON_API std::optional<std::string_view> refusal(LightType light, const Technique& technique);
 /// Why no light of any type can be planned so; nothing when one can.
-[[nodiscard]] std::optional<std::string_view> refusal(const Technique& technique);
+[[nodiscard]] GNOMON_API std::optional<std::string_view> refusal(const Technique& technique);
 /// Why this filter cannot use this format; nothing when it can.
-[[nodiscard]] std::optional<std::string_view> refusal(Filter filter, MapFormat format);
+[[nodiscard]] GNOMON_API std::optional<std::string_view> refusal(Filter filter, MapFormat format);
 
 } // namespace gnomon

@@ -2,6 +2,8 @@
 // What soften=converge moves from frame to frame.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -23,6 +25,6 @@ struct ConvergeSample {
 };
 /// Of frame 0 all is 0: that frame is what it would be without `converge`. A planner counts its frames from the last
 /// cut on.
-[[nodiscard]] ConvergeSample convergeSample(std::uint64_t frame);
+[[nodiscard]] GNOMON_API ConvergeSample convergeSample(std::uint64_t frame);
 
 } // namespace gnomon

@@ -3,6 +3,8 @@
 // (ShadowOptions::draw_budget_ms). The planner has no clock, so a host that has one tells it.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <cstdint>
 
 namespace gnomon {
@@ -11,7 +13,7 @@ namespace gnomon {
 /// earlier ones: by half after eight that drew as much. One hiccup moves it little: of a frame no more is believed than
 /// four times what was expected of it, and no less than a quarter. So a device that has become 16 times as slow is
 /// known as such after some ten frames.
-class DrawRate {
+class GNOMON_API DrawRate {
 public:
     /// A frame drew so many texels of maps (MapPages::drawn_texels of all of the plan's options) and its passes for
     /// them took so long. One that drew none, or whose time is not a finite number above 0, tells nothing.

@@ -3,6 +3,8 @@
 // device) or a wrong call that the called header lists. Expected outcomes are values (plan.h: Outcome).
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -21,7 +23,7 @@ enum class ErrorKind : std::uint8_t {
 };
 
 /// what() is one line: what was tried, what was found, what to do about it (where there is something to do).
-class Error : public std::runtime_error {
+class GNOMON_API Error : public std::runtime_error {
 public:
     Error(const std::string& tried, const std::string& found, const std::string& todo = {},
           ErrorKind kind = ErrorKind::other);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/choices.h>
+#include <gnomon/export.h>
 #include <gnomon/geometry.h>
 #include <gnomon/moment_options.h>
 #include <gnomon/object_set.h>
@@ -38,9 +39,9 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 /// The camera's matrix with z in [0, w], whichever it has: z / w is what the depth buffer holds.
-[[nodiscard]] glm::dmat4 clipFromWorld(const Camera& camera);
+[[nodiscard]] GNOMON_API glm::dmat4 clipFromWorld(const Camera& camera);
 /// Does `now` see what `before` saw, where it saw it? But for jitter_px and rounding. `size_px`: of both pictures.
-[[nodiscard]] bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px);
+[[nodiscard]] GNOMON_API bool sameSight(const Camera& before, const Camera& now, const glm::uvec2& size_px);
 
 /// One light that may cast. `key` tells lights apart over time: the same key in the next frame is the same light. Of
 /// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the
@@ -77,7 +78,7 @@ struct LightExtent {
 /// What Light::near_m and range_m stand for, zeros included: a range of 0 reaches the farthest corner of the scene, but
 /// at least twice the near distance, or 1 m where the scene is but the light's own place. The bounds are those of all
 /// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
-[[nodiscard]] LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
+[[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
 struct Frame {
     std::uint64_t index = 0;

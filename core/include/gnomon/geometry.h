@@ -3,6 +3,8 @@
 // A suffix names a vector's space: _ws world, _ls light, _vs view. A matrix `b_from_a` takes a to b.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -50,11 +52,11 @@ struct Aabb {
 };
 
 /// Smallest box around both; an empty argument changes nothing.
-[[nodiscard]] Aabb merge(const Aabb& a, const Aabb& b);
-[[nodiscard]] Aabb merge(const Aabb& a, const glm::vec3& point);
+[[nodiscard]] GNOMON_API Aabb merge(const Aabb& a, const Aabb& b);
+[[nodiscard]] GNOMON_API Aabb merge(const Aabb& a, const glm::vec3& point);
 /// Box around the eight transformed corners, tight for the transformed box (Arvo 1990, "Transforming
 /// axis-aligned bounding boxes"); affine transforms only.
-[[nodiscard]] Aabb transform(const glm::mat4& b_from_a, const Aabb& box_a);
+[[nodiscard]] GNOMON_API Aabb transform(const glm::mat4& b_from_a, const Aabb& box_a);
 
 /// Half-space dot(normal, p) + d >= 0 is inside. `normal` is unit length, so the value is a distance in metres.
 struct Plane {
@@ -72,15 +74,15 @@ struct Frustum {
 /// Planes of a clip volume -w <= x,y <= w, 0 <= z <= w (Gribb & Hartmann 2001, "Fast extraction of viewing
 /// frustum planes"). Works for perspective and orthographic matrices; the plane z >= 0 is called near, z <= w far (a
 /// reversed-z camera has them the other way round). A plane at infinity gets a zero normal and d = 1: all is inside it.
-[[nodiscard]] Frustum frustumFromClip(const glm::dmat4& clip_from_world);
+[[nodiscard]] GNOMON_API Frustum frustumFromClip(const glm::dmat4& clip_from_world);
 
 enum class Containment : std::uint8_t { outside, intersects, inside };
 /// Conservative: `intersects` may be said of a box just outside an edge, never `outside` of one that is not.
-[[nodiscard]] Containment classify(std::span<const Plane> planes, const Aabb& box);
+[[nodiscard]] GNOMON_API Containment classify(std::span<const Plane> planes, const Aabb& box);
 
 /// A bounded convex polyhedron, as polygons with outward counter-clockwise winding. Empty when it has no face.
 /// Used in double precision, because it is clipped many times and thin slivers decide a fit.
-class ConvexBody {
+class GNOMON_API ConvexBody {
 public:
     ConvexBody() = default;
     [[nodiscard]] static ConvexBody fromAabb(const Aabb& box);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gnomon/choices.h>
+#include <gnomon/export.h>
 
 #include <array>
 #include <cstdint>
@@ -101,34 +102,36 @@ struct MomentOptions {
     bool operator==(const MomentOptions&) const = default;
 };
 
-[[nodiscard]] std::string_view nameOf(DepthMetricKind value);
-[[nodiscard]] std::string_view nameOf(BlurKind value);
-[[nodiscard]] std::string_view nameOf(BlurPath value);
-[[nodiscard]] std::string_view nameOf(MapSampling value);
-[[nodiscard]] std::string_view nameOf(LayerPlacement value);
-[[nodiscard]] std::string_view nameOf(LayerAxis value);
-[[nodiscard]] std::string_view nameOf(MomentSolver value);
-[[nodiscard]] std::string_view nameOf(MomentPenumbra value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(DepthMetricKind value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(BlurKind value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(BlurPath value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(MapSampling value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(LayerPlacement value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(LayerAxis value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(MomentSolver value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(MomentPenumbra value);
 
 /// Does it go by what each map holds? Then layers are found on the GPU.
-[[nodiscard]] bool followsDepths(LayerPlacement placement);
+[[nodiscard]] GNOMON_API bool followsDepths(LayerPlacement placement);
 /// Are the filter's layers of depth volumes of the world?
-[[nodiscard]] bool hasWorldLayers(Filter filter, const MomentOptions& options);
+[[nodiscard]] GNOMON_API bool hasWorldLayers(Filter filter, const MomentOptions& options);
 /// Why these layers of the world cannot be had, as a sentence; nothing when they can.
-[[nodiscard]] std::optional<std::string> refusal(std::span<const WorldLayer> layers);
+[[nodiscard]] GNOMON_API std::optional<std::string> refusal(std::span<const WorldLayer> layers);
 /// Does this filter, with these options, make penumbrae as wide as the light's size asks?
-[[nodiscard]] bool followsLight(Filter filter, const MomentOptions& options);
+[[nodiscard]] GNOMON_API bool followsLight(Filter filter, const MomentOptions& options);
 /// The blur that is done: never automatic.
-[[nodiscard]] BlurKind blurOf(const MomentOptions& options);
+[[nodiscard]] GNOMON_API BlurKind blurOf(const MomentOptions& options);
 /// Texels of the kernel on each side of its middle; 0 without blur.
-[[nodiscard]] std::uint32_t blurRadius(const MomentOptions& options);
+[[nodiscard]] GNOMON_API std::uint32_t blurRadius(const MomentOptions& options);
 /// Of a filter's map: lvsm has two layers of depth to an image layer, all others one image layer a map.
-[[nodiscard]] std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options);
+[[nodiscard]] GNOMON_API std::uint32_t imageLayersPerMap(Filter filter, const MomentOptions& options);
 /// The largest exponent whose stored values a format holds: ESM stores e^c, EVSM e^2c; without bound in log space.
-[[nodiscard]] double largestExponent(Filter filter, MapFormat format, const MomentOptions& options);
+[[nodiscard]] GNOMON_API double largestExponent(Filter filter, MapFormat format, const MomentOptions& options);
 /// esm 80; evsm 40 and 5, of two channels 5; or the format's largest where that is less.
-[[nodiscard]] double defaultExponent(Filter filter, MapFormat format, const MomentOptions& options, bool negative);
+[[nodiscard]] GNOMON_API double defaultExponent(Filter filter, MapFormat format, const MomentOptions& options,
+                                                bool negative);
 /// Why these options cannot be had together, as a sentence; nothing when they can. Ranges above are checked here too.
-[[nodiscard]] std::optional<std::string> refusal(Filter filter, MapFormat format, const MomentOptions& options);
+[[nodiscard]] GNOMON_API std::optional<std::string> refusal(Filter filter, MapFormat format,
+                                                            const MomentOptions& options);
 
 } // namespace gnomon

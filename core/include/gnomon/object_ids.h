@@ -9,6 +9,7 @@
 // ids do not change as the camera moves, and that of two ids the lower is in front (IdTest::priority).
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/object_set.h>
 #include <gnomon/options.h>
@@ -22,11 +23,11 @@
 namespace gnomon {
 
 /// How many ids besides 0 a texel of this format tells apart: 255 (r8, rg8) or 65535.
-[[nodiscard]] std::uint32_t idsOf(MapFormat format);
+[[nodiscard]] GNOMON_API std::uint32_t idsOf(MapFormat format);
 
 /// Those of a light of the plan, by object index; empty where it has none. With IdOf::face it is that of an object's
 /// first piece, and those of its others follow, from 1 again after the last.
-[[nodiscard]] std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light);
+[[nodiscard]] GNOMON_API std::span<const std::uint16_t> objectIdsOf(const Plan& plan, std::uint32_t light);
 
 /// Where there are more objects than ids.
 enum class IdSharing : std::uint8_t {
@@ -35,7 +36,7 @@ enum class IdSharing : std::uint8_t {
 };
 /// far, but of depth-id with an id for each object neighbours: it compares depths where ids are the same, and asks
 /// which of two objects is in front where they are not.
-[[nodiscard]] IdSharing idSharingOf(Filter filter, IdOf of);
+[[nodiscard]] GNOMON_API IdSharing idSharingOf(Filter filter, IdOf of);
 
 struct IdHandout {
     std::uint32_t most = 65535; // ids besides 0
@@ -50,8 +51,8 @@ using IdPlace = std::pair<double, std::uint32_t>;
 /// before the ground. Of objects as far as each other the lower index is first. With IdOf::face each piece takes one,
 /// and what is appended is that of an object's first. `scratch`: whatever was in it, kept so that nothing is allocated
 /// once it and `out` are large enough.
-void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, std::vector<IdPlace>& scratch,
-                std::vector<std::uint16_t>& out);
+GNOMON_API void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout,
+                           std::vector<IdPlace>& scratch, std::vector<std::uint16_t>& out);
 
 /// Filters id and depth-id have the index of a pixel's object and its piece in one number (pixelObject()); so many
 /// objects can be told apart by it.
@@ -71,6 +72,6 @@ struct IdCollisions {
     std::uint64_t collisions = 0; // of these, with an id that both have. Best: 0. Of ids drawn by lot: pairs / ids
 };
 /// Of a light of the plan; zeros where it has no ids. Looks at all pairs of a map's casters.
-[[nodiscard]] IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light);
+[[nodiscard]] GNOMON_API IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light);
 
 } // namespace gnomon

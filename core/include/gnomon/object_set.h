@@ -4,6 +4,7 @@
 // culling); T. Ulrich, "Loose Octrees", Game Programming Gems, 2000.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/geometry.h>
 
 #include <cstdint>
@@ -57,7 +58,7 @@ inline constexpr float kFarthestBounds_m = 1e12F;
 ///
 /// A set that was moved from is empty and may be used again. add() and update() throw std::bad_alloc when memory runs
 /// out, and then have changed nothing; the others that change something take no memory.
-class ObjectSet {
+class GNOMON_API ObjectSet {
 public:
     ObjectSet();
     ~ObjectSet();
@@ -108,7 +109,7 @@ public:
     void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const;
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     [[nodiscard]] Impl& own();
     [[nodiscard]] const Impl& read() const;
 

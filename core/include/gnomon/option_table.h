@@ -4,6 +4,7 @@
 // anybody stands in options.h alone.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/options.h>
 
 #include <cstdint>
@@ -47,12 +48,12 @@ struct OptionRow {
 };
 
 /// All rows, in the order in which help shows them.
-[[nodiscard]] std::span<const OptionRow> optionTable();
+[[nodiscard]] GNOMON_API std::span<const OptionRow> optionTable();
 /// Null for an unknown key.
-[[nodiscard]] const OptionRow* findOption(std::string_view key);
+[[nodiscard]] GNOMON_API const OptionRow* findOption(std::string_view key);
 /// As one would write it, in every locale; none_text for none.
-[[nodiscard]] std::string textOf(const OptionRow& row, const OptionValue& value);
+[[nodiscard]] GNOMON_API std::string textOf(const OptionRow& row, const OptionValue& value);
 /// The first member that is outside of its range, as a sentence; nothing when all are inside.
-[[nodiscard]] std::optional<std::string> firstOutOfRange(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API std::optional<std::string> firstOutOfRange(const ShadowOptions& options);
 
 } // namespace gnomon

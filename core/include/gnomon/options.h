@@ -6,6 +6,7 @@
 
 #include <gnomon/bias.h>
 #include <gnomon/choices.h>
+#include <gnomon/export.h>
 #include <gnomon/moment_options.h>
 #include <gnomon/screen_blur_options.h>
 
@@ -25,7 +26,7 @@ enum class CascadePass : std::uint8_t {
     each,      // every map in a pass of its own
     layered,   // one pass for those that viewsTogether() puts together: what casts in a map is drawn to its layer
 };
-[[nodiscard]] std::string_view nameOf(CascadePass value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(CascadePass value);
 
 /// How Partition::cascades and sdsm divide the camera's depth.
 struct CascadeOptions {
@@ -67,14 +68,14 @@ struct MultiOptions {
 
 /// When a sun that moves in steps takes the next one.
 enum class StepBy : std::uint8_t { angle, time };
-[[nodiscard]] std::string_view nameOf(StepBy value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(StepBy value);
 
 /// What a step of Motion::step_jump waits for once it is due.
 enum class StepWait : std::uint8_t {
     none,
     camera, // for a frame in which the camera moves, or is cut: a jump is less seen where the whole picture changes
 };
-[[nodiscard]] std::string_view nameOf(StepWait value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(StepWait value);
 
 /// How the step motions divide a sun's course.
 struct StepOptions {
@@ -97,7 +98,7 @@ enum class KeepStill : std::uint8_t {
     never,
     always,
 };
-[[nodiscard]] std::string_view nameOf(KeepStill value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(KeepStill value);
 
 /// What blended casters do to light, where a host says which these are (ShadowRendererOptions::is_blended).
 enum class Translucent : std::uint8_t {
@@ -105,14 +106,14 @@ enum class Translucent : std::uint8_t {
     grey,   // each lets 1 - alpha (1 - colour) through, and the mask has the luminance of what arrives of white light
     colour, // and the mask has red, green and blue of that beside it: LightPlan::mask_coloured
 };
-[[nodiscard]] std::string_view nameOf(Translucent value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Translucent value);
 
 /// How shadows are lightened by b (ShadowOptions::lighten).
 enum class LightenAs : std::uint8_t {
     remap, // V (1 - b) + b: full shadow is b, penumbrae keep their shape
     add,   // V + b, at most 1, as A. Marinescu has it, 2011: what is lit by more than 1 - b is lit all over
 };
-[[nodiscard]] std::string_view nameOf(LightenAs value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(LightenAs value);
 
 /// The kernel of Filter::pcf.
 struct PcfOptions {
@@ -125,8 +126,8 @@ struct PcfOptions {
     bool operator==(const PcfOptions&) const = default;
 };
 /// Texels on a side of a separable kernel: 1 (bilinear), 3, 5 or 7; 0 for the discs. Of nine equal point samples
-/// shared::kBoxKernel or kProjectedKernel, which are below 0 (shaders/shared/pcf_weights.h).
-[[nodiscard]] int kernelWidth(PcfKernel kernel);
+/// shared::kBoxKernel or kProjectedKernel, which are below 0 (gnomon/shared/pcf_weights.h).
+[[nodiscard]] GNOMON_API int kernelWidth(PcfKernel kernel);
 
 /// Soften::smoothies and Filter::smoothies.
 struct SmoothiesOptions {
@@ -136,28 +137,28 @@ struct SmoothiesOptions {
     bool operator==(const SmoothiesOptions&) const = default;
 };
 
-/// Which texels filters id and depth-id ask, and what of them counts (shaders/shared/object_ids.h).
+/// Which texels filters id and depth-id ask, and what of them counts (gnomon/shared/object_ids.h).
 enum class IdTest : std::uint8_t {
     automatic, // of id `any`, of depth-id `priority`
     any,       // lit where one of the four nearest texels is: shadows shrink by a texel at the most
     priority,  // the nearest texel; but one whose object lies behind is not believed where the object has others
     nearest,   // the nearest texel alone: dark halos where it is just beside the object
 };
-[[nodiscard]] std::string_view nameOf(IdTest value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(IdTest value);
 
 /// What filter depth-id keeps beside an id.
 enum class IdDepth : std::uint8_t {
     object, // depth within the object's own range along the light
     global, // the map's depth, as other filters have it
 };
-[[nodiscard]] std::string_view nameOf(IdDepth value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(IdDepth value);
 
 /// What has an id of its own.
 enum class IdOf : std::uint8_t {
     object, // an object does not shade itself
     face,   // each of its pieces (ObjectFlags::pieces), which shade each other. The host says which piece is where
 };
-[[nodiscard]] std::string_view nameOf(IdOf value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(IdOf value);
 
 /// Filters id and depth-id.
 struct IdOptions {
@@ -176,7 +177,7 @@ enum class OpenCasters : std::uint8_t {
     refuse, // a light that such a caster may shade by gets Outcome refused
     skip,   // they cast nothing (LightPlan::left_out)
 };
-[[nodiscard]] std::string_view nameOf(OpenCasters value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(OpenCasters value);
 
 /// Filter volumes.
 struct VolumeOptions {
@@ -190,7 +191,7 @@ enum class MaskSize : std::uint8_t {
     half, // one pixel of each 2 x 2 does. Another takes from those around it that show its surface; where there are
           // none, or they differ, it reads maps itself. What is thinner than two pixels may be missed
 };
-[[nodiscard]] std::string_view nameOf(MaskSize value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(MaskSize value);
 
 /// What `automatic` may spend, of as many texels as a light's maps may have.
 enum class Quality : std::uint8_t {
@@ -199,7 +200,7 @@ enum class Quality : std::uint8_t {
     best, // one map, fitted on the GPU to what the camera sees, as sdsm has it: the host gives the camera's depth to
           // ShadowRenderer::recordBounds() before its maps. With a motion other than free: balanced. Filter raymarch
 };
-[[nodiscard]] std::string_view nameOf(Quality value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(Quality value);
 
 struct ShadowOptions {
     Technique technique;
@@ -265,7 +266,7 @@ struct ShadowOptions {
 };
 
 /// Options that were checked, with everything that follows from them. resolve() alone makes one.
-class ResolvedOptions {
+class GNOMON_API ResolvedOptions {
 public:
     /// What was asked for, with the filter that is used instead of automatic.
     [[nodiscard]] const ShadowOptions& asked() const { return asked_; }
@@ -333,37 +334,37 @@ struct Resolution {
 /// Refuses what lies outside its range, a combination that no light can have (refusal(LightType, Technique) for a
 /// directional one), a format that the filter cannot use and moments that do not go together. A light that has further
 /// rules gets its own Outcome from the planner.
-[[nodiscard]] Resolution resolve(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API Resolution resolve(const ShadowOptions& options);
 /// The same for a host whose options are its own constants. Throws Error with the sentence.
-[[nodiscard]] ResolvedOptions resolvedOrThrow(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API ResolvedOptions resolvedOrThrow(const ShadowOptions& options);
 
 /// Maps are fitted on the GPU to the camera's depth: partition sdsm, or auto of quality best with motion free.
-[[nodiscard]] bool fitsOnGpu(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool fitsOnGpu(const ShadowOptions& options);
 /// One frame takes all of the light's size, and reads a map as far from a receiver as that leads: filter pcss or
 /// raymarch, filter or soften smoothies, or moments whose penumbra is light.
-[[nodiscard]] bool integratesLight(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool integratesLight(const ShadowOptions& options);
 /// Filter or soften smoothies.
-[[nodiscard]] bool hasSmoothies(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool hasSmoothies(const ShadowOptions& options);
 /// The filter that is used: the one asked for, or what automatic stands for: pcf where soften or partition cannot have
 /// raymarch.
-[[nodiscard]] Filter filterOf(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API Filter filterOf(const ShadowOptions& options);
 /// What a frame draws is bounded, in texels or milliseconds: maps take turns.
-[[nodiscard]] bool boundsDrawing(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool boundsDrawing(const ShadowOptions& options);
 /// A light's cascades take turns each by itself (CascadeOptions::room).
-[[nodiscard]] bool turnsByCascade(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool turnsByCascade(const ShadowOptions& options);
 /// The filter reads maps. Of filter volumes, which does not, nothing counts that is said of maps, but resolve() refuses
 /// a format, budgets, caster faces, a kept map or colours that are asked for all the same.
-[[nodiscard]] bool hasMaps(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API bool hasMaps(const ShadowOptions& options);
 /// What these options store in a texel: ShadowOptions::format or else the filter's first. d32f for what is not a
 /// filter.
-[[nodiscard]] MapFormat formatOf(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API MapFormat formatOf(const ShadowOptions& options);
 /// Texels on a side of the largest map that a light with these options can have: map_size, or what max_texels and
 /// budget_texels have room for, in whole multiples of 8.
-[[nodiscard]] std::uint32_t largestSide(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API std::uint32_t largestSide(const ShadowOptions& options);
 /// How far from a receiver's place in the map a filter reads: the centres of the texels that it reads are at most so
 /// many texels away, along x and y each. What the border has room for. Of a filterable map it is of reads at the finest
 /// level: those of coarser levels, of anisotropic sampling and esm's of the receiver's neighbourhood are moved inside
 /// the tile where they would leave it, and need no room.
-[[nodiscard]] float reachTexels(const ShadowOptions& options);
+[[nodiscard]] GNOMON_API float reachTexels(const ShadowOptions& options);
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gnomon/choices.h>
+#include <gnomon/export.h>
 #include <gnomon/geometry.h>
 #include <gnomon/options.h>
 
@@ -38,7 +39,7 @@ enum class OutcomeKind : std::uint8_t {
     refused,          // the combination of choices is refused (refusal())
     atlas_full,       // no room for its maps
 };
-[[nodiscard]] std::string_view nameOf(OutcomeKind kind);
+[[nodiscard]] GNOMON_API std::string_view nameOf(OutcomeKind kind);
 
 struct Outcome {
     OutcomeKind kind = OutcomeKind::ok;
@@ -275,7 +276,7 @@ struct FittedView {
     [[nodiscard]] bool empty() const { return seen_low.x > seen_high.x; }
 };
 /// The view as it was drawn: what is known of it beforehand is its base map.
-[[nodiscard]] View viewAsFitted(const View& base, const FittedView& found);
+[[nodiscard]] GNOMON_API View viewAsFitted(const View& base, const FittedView& found);
 
 /// Where a sun that moves in steps stands for its maps, and how what they say is joined: with v and u the visibilities
 /// by the earlier and the later position, v + (u - v) * weight, where at x (0: left edge of the picture, 1: right)
@@ -398,6 +399,6 @@ struct Plan {
 inline constexpr std::size_t kMostMoved = 16;
 
 /// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).
-[[nodiscard]] std::string toJson(const Plan& plan);
+[[nodiscard]] GNOMON_API std::string toJson(const Plan& plan);
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 // where every object was, and its scratch memory; nothing else.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/options.h>
 #include <gnomon/plan.h>
@@ -15,7 +16,7 @@ namespace gnomon {
 
 /// Deterministic: the same frames and options give the same plans, bit for bit. Not thread-safe; make one per thread.
 /// One that was moved from refuses every light.
-class Planner {
+class GNOMON_API Planner {
 public:
     /// Options that resolve() refuses are no error: every light that names them gets Outcome refused with that
     /// sentence, as does a light whose own type does not go with the technique.
@@ -44,7 +45,7 @@ public:
     [[nodiscard]] const ShadowOptions& options(std::uint32_t index = 0) const;
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -3,6 +3,8 @@
 // Based on: A. S. Shastry, "Soft-Edged Shadows", 2005.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <cstdint>
 #include <string_view>
 
@@ -13,23 +15,23 @@ enum class ScreenKernel : std::uint8_t {
     box,      // likewise, all of one weight
     poisson,  // points of a disc in one pass, turned from pixel to pixel; of the same standard deviation
 };
-[[nodiscard]] std::string_view nameOf(ScreenKernel value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(ScreenKernel value);
 
 /// Of the images that the blur is worked out in, against the mask.
 enum class ScreenSize : std::uint8_t { full, half, quarter };
-[[nodiscard]] std::string_view nameOf(ScreenSize value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(ScreenSize value);
 
 enum class ScreenEdges : std::uint8_t {
     aware, // a pixel takes from pixels of its own surface alone, by depth and normal
     plain, // from all around, as published: shadow and light bleed over silhouettes
 };
-[[nodiscard]] std::string_view nameOf(ScreenEdges value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(ScreenEdges value);
 
 enum class ScreenTaps : std::uint8_t {
     symmetric, // side by side, of weights that are the same to both sides and sum to 1
     published, // the article's: at odd offsets alone, heavier to one side, of sum 1.067 a pass; clamped by the 8 bits
 };
-[[nodiscard]] std::string_view nameOf(ScreenTaps value);
+[[nodiscard]] GNOMON_API std::string_view nameOf(ScreenTaps value);
 
 struct ScreenBlurOptions {
     ScreenKernel kernel = ScreenKernel::gaussian;
@@ -46,6 +48,6 @@ struct ScreenBlurOptions {
     bool operator==(const ScreenBlurOptions&) const = default;
 };
 /// Pixels of the picture on a side of a texel of such images: 1, 2 or 4.
-[[nodiscard]] std::uint32_t pixelsPerTexel(ScreenSize size);
+[[nodiscard]] GNOMON_API std::uint32_t pixelsPerTexel(ScreenSize size);
 
 } // namespace gnomon

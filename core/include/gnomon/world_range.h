@@ -4,6 +4,7 @@
 // there are none: a plan's lights are Outcome degenerate, and program and ray tracer throw Error.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/geometry.h>
 
 #include <string_view>
@@ -20,8 +21,8 @@ inline constexpr double kSmallestShare = 1e-5;
 
 /// Why a scene with this box around it is beyond the limits: a sentence with static lifetime. Empty when it is not, for
 /// an empty box, and for a point, whose shadows have no size to lose.
-[[nodiscard]] std::string_view rangeFault(const Aabb& scene_ws);
+[[nodiscard]] GNOMON_API std::string_view rangeFault(const Aabb& scene_ws);
 /// Is a coordinate larger than kFarthestPlace_m, or not a number?
-[[nodiscard]] bool isTooFar(const glm::dvec3& place_ws);
+[[nodiscard]] GNOMON_API bool isTooFar(const glm::dvec3& place_ws);
 
 } // namespace gnomon

@@ -4,7 +4,7 @@
 #include <gnomon/converge.h>
 #include <gnomon/error.h>
 
-#include <pcf_weights.h>
+#include <gnomon/shared/pcf_weights.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #define GNOMON_REAL double
 #include "partition/partition.h"
 
-#include <cascade_fit.h>
+#include <gnomon/shared/cascade_fit.h>
 
 #include <algorithm>
 

@@ -15,7 +15,7 @@
 #ifndef GNOMON_PUBLIC_CASTER_GLSL
 #define GNOMON_PUBLIC_CASTER_GLSL
 #include "names_begin.glsl"
-#include "../../lib/caster.glsl"
+#include "lib/caster.glsl"
 
 // `p_ws` world space; `metric_ws` MapPass::metric_ws. Affine in the point, so interpolation over a triangle is exact.
 float gnomonCasterMetric(vec3 p_ws, vec4 metric_ws)

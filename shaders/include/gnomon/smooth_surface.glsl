@@ -5,7 +5,7 @@
 #ifndef GNOMON_PUBLIC_SMOOTH_SURFACE_GLSL
 #define GNOMON_PUBLIC_SMOOTH_SURFACE_GLSL
 #include "names_begin.glsl"
-#include "../../shared/smooth_surface.h"
+#include "shared/smooth_surface.h"
 
 // One output more of your vertex shader, beside the vertex's normal and its position relative to the eye, both in the
 // world's axes; normals have about the same length at all vertices of a triangle. `creased`: the normal leans far (we

@@ -20,7 +20,7 @@ layout(constant_id = GNOMON_CONSTANT_ID + 2) const bool gnomon_automatic_bias = 
 layout(constant_id = GNOMON_CONSTANT_ID + 3) const int gnomon_moment_flags = 0;    // see MomentRule
 layout(constant_id = GNOMON_CONSTANT_ID + 4) const int gnomon_moment_sampling = 0; // gnomon::MapSampling
 layout(constant_id = GNOMON_CONSTANT_ID + 5) const int gnomon_moment_layers = 2;   // of lvsm
-layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see shared/paired_depth.h
+layout(constant_id = GNOMON_CONSTANT_ID + 6) const int gnomon_depth_holding = 0;   // see gnomon/shared/paired_depth.h
 layout(constant_id = GNOMON_CONSTANT_ID + 7) const uint gnomon_few_view_count = 0; // how many views its one light has; 0: any number of lights and views
 
 #define GNOMON_KERNEL_WIDTH gnomon_kernel_width

@@ -5,7 +5,7 @@
 // Define beforehand, if the defaults do not suit:
 //   GNOMON_SET      descriptor set of the bindings below (0)
 //   GNOMON_BINDING  the first of them (0)
-//   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of shared/choice_numbers.h: the one filter that is compiled,
+//   GNOMON_FILTER   GNOMON_FILTER_PCF or another macro of gnomon/shared/choice_numbers.h: the one filter that is compiled,
 //                   which the options must have. Without it all of them are, and GpuRule says which.
 //   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
@@ -14,23 +14,23 @@
 //   GNOMON_OBJECT   filters id and depth-id, which are not there without it: the index in Frame::objects of the object
 //                   whose surface is shaded, as an expression (uint); takes an eighth binding
 //   GNOMON_PIECE    beside it, for lights with IdOf::face: the piece of that object (uint), as its casters have it; else 0
-// Bindings, from GNOMON_BINDING on (structures: shared/gpu_structs.h):
+// Bindings, from GNOMON_BINDING on (structures: gnomon/shared/gpu_structs.h):
 //   0  uniform buffer: GpuConstants
 //   1  combined image sampler, 2D array: the maps. Of a filterable filter the sampler is linear within and between mip
 //      levels, of others nearest (not every device filters depth); it clamps to the edge
 //   2  storage buffer: GpuLight, by the light's index
 //   3  storage buffer: GpuView. With Partition::sdsm the backend completes them on the GPU
 //   4  storage buffer: GpuDepthLayers. Filter lvsm; of other filters nothing reads it
-//   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (shared/map_blocks.h), in GENERAL,
+//   5  combined image sampler, 2D array of unsigned integers: the blocks of the maps (gnomon/shared/map_blocks.h), in GENERAL,
 //      sampler nearest. Filters pcss and raymarch; a shader for another filter alone does not have it. Of hard and pcf
-//      with GNOMON_SMOOTHIES it is their smoothies (shared/smoothies.h)
+//      with GNOMON_SMOOTHIES it is their smoothies (gnomon/shared/smoothies.h)
 //   6  combined image sampler, 2D array: the maps of tints, sampler nearest. With GNOMON_TINTS alone
 //   7  storage buffer: what pack::fillObjects() writes. With GNOMON_OBJECT alone
 //   8  uniform buffer: the first kFewViews of the GpuViews. With technique_constants.glsl alone
 #ifndef GNOMON_PUBLIC_VISIBILITY_GLSL
 #define GNOMON_PUBLIC_VISIBILITY_GLSL
 #include "names_begin.glsl"
-#include "../../lib/light_visibility.glsl"
+#include "lib/light_visibility.glsl"
 
 // What arrives of light `light` of the frame, 0 .. 1 of each colour, at a surface's point: `point` relative to the
 // camera's eye, metres, in the world's axes; `normal` the unit geometric normal there. `pixel`: gl_FragCoord.xy. What

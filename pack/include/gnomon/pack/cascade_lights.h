@@ -9,28 +9,29 @@
 //   1  storage: GpuCascadeKeys by light           4  sampled image: the camera's depth
 //   2  storage: GpuFittedView by view of the plan 5  sampled image: object ids (variant GNOMON_OBJECT_IDS)
 // Casters are then drawn with the base map's matrix and the view's GpuFittedView::place (casterPlaced() in
-// shaders/lib/caster.glsl). cascade_constants.comp completes the GpuViews that fillViews() wrote: 0 the fitted views, 1
+// gnomon/lib/caster.glsl). cascade_constants.comp completes the GpuViews that fillViews() wrote: 0 the fitted views, 1
 // the GpuViews.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/plan.h>
 
-#include <gpu_cascades.h>
+#include <gnomon/shared/gpu_cascades.h>
 
 #include <span>
 
 namespace gnomon::pack {
 
 /// Lights of the plan that are fitted on the GPU.
-[[nodiscard]] std::uint32_t cascadeLightCount(const Plan& plan);
+[[nodiscard]] GNOMON_API std::uint32_t cascadeLightCount(const Plan& plan);
 /// One for each of them, in the plan's order. `screen_px`: size of the depth buffer. Returns how many it wrote.
 /// Throws Error where there is no room for them.
-std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
-                                std::span<shared::GpuCascadeLight> out);
+GNOMON_API std::uint32_t fillCascadeLights(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
+                                           std::span<shared::GpuCascadeLight> out);
 /// Groups of the passes that look at pixels.
-[[nodiscard]] glm::uvec2 groupsOver(glm::uvec2 screen_px);
+[[nodiscard]] GNOMON_API glm::uvec2 groupsOver(glm::uvec2 screen_px);
 /// What was found, as the planner's side has it: viewAsFitted().
-[[nodiscard]] FittedView describeFitted(const shared::GpuFittedView& gpu);
+[[nodiscard]] GNOMON_API FittedView describeFitted(const shared::GpuFittedView& gpu);
 
 } // namespace gnomon::pack

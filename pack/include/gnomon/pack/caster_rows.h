@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes an object's own points to a map, for vertex shaders as shaders/lib/caster.glsl has them.
+// What takes an object's own points to a map, for vertex shaders as gnomon/lib/caster.glsl has them.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/plan.h>
 
 #include <glm/vec4.hpp>
@@ -26,7 +27,7 @@ struct Rows3x4 {
 }
 
 /// Of one view, to be composed with the transforms of many objects.
-class CasterRows {
+class GNOMON_API CasterRows {
 public:
     CasterRows() = default;
     explicit CasterRows(const View& view);
@@ -50,8 +51,8 @@ struct CasterId {
     float ids = 1.0F; // how many there are besides 0
 };
 /// Of an object of the plan, in a view of a light that has ids (Plan::object_ids).
-[[nodiscard]] CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object);
+[[nodiscard]] GNOMON_API CasterId casterIdOf(const Plan& plan, const View& view, std::uint32_t object);
 /// A row for the object's own points instead of the world's.
-[[nodiscard]] glm::vec4 composedRow(const glm::dvec4& row_ws, const Rows3x4& world_from_object);
+[[nodiscard]] GNOMON_API glm::vec4 composedRow(const glm::dvec4& row_ws, const Rows3x4& world_from_object);
 
 } // namespace gnomon::pack

@@ -3,6 +3,7 @@
 // gives its channels to the lights that matter most there, and lights that are left share its last one.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/pack/light_lists.h>
 #include <gnomon/plan.h>
 
@@ -25,7 +26,7 @@ struct CompactMaskRule {
     bool operator==(const CompactMaskRule&) const = default;
 };
 /// Null, or what is wrong with it.
-[[nodiscard]] const char* wrongOf(const CompactMaskRule& rule);
+[[nodiscard]] GNOMON_API const char* wrongOf(const CompactMaskRule& rule);
 
 inline constexpr std::uint32_t kNoMaskChannel = 0xFF; // of a light without a map: it reads 1
 /// A light's number has 24 bits in fillMaskTiles(), and a tile's count of lights has 16.
@@ -66,20 +67,20 @@ struct CompactMask {
 /// `size_px`: of the mask. `lists`: scratch, which keeps what it has allocated, as `out` does. Linear in entries.
 /// Numbers that are none count for nothing. Throws Error for a rule that is wrong, more than kMostTileLights lights, or
 /// a frame with others than the plan.
-void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
-                     LightLists& lists, CompactMask& out);
+GNOMON_API void listCompactMask(const Frame& frame, const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
+                                LightLists& lists, CompactMask& out);
 
 /// The draws of a compact mask: for each layer one of each of the plan's options that has lights with maps, all over
 /// the screen. In them MaskDraw::first_light is the layer and `channels` the options; of draws that share, each takes
 /// what its lights do not give from what is there, which is 1 at first. Keeps what `out` has allocated.
-void listCompactMaskDraws(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
-                          std::vector<MaskDraw>& out);
+GNOMON_API void listCompactMaskDraws(const Plan& plan, const CompactMaskRule& rule, glm::uvec2 size_px,
+                                     std::vector<MaskDraw>& out);
 
 /// How many words fillMaskTiles() writes.
-[[nodiscard]] std::size_t maskTileWords(const CompactMask& mask);
+[[nodiscard]] GNOMON_API std::size_t maskTileWords(const CompactMask& mask);
 /// As shaders/include/gnomon/compact_mask.glsl reads it: the side and the tiles along x; for each tile the word of its
 /// first light, and how many have channels | how many there are << 16; for each light its number | channel << 24, and
 /// its weight. Throws Error where there is no room for that.
-void fillMaskTiles(const CompactMask& mask, std::span<glm::uvec2> words);
+GNOMON_API void fillMaskTiles(const CompactMask& mask, std::span<glm::uvec2> words);
 
 } // namespace gnomon::pack

@@ -3,10 +3,11 @@
 // Based on: A. Lauritzen, M. McCool, "Layered Variance Shadow Maps", Graphics Interface 2008.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/moment_options.h>
 #include <gnomon/plan.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <vector>
 
@@ -20,20 +21,20 @@ struct DepthLayer {
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };
 /// The layers of every view where they depend neither on what is drawn nor on the view (uniform, by hand); else empty.
-[[nodiscard]] std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
-[[nodiscard]] std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
-                                                     const MomentOptions& options);
+[[nodiscard]] GNOMON_API std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
+[[nodiscard]] GNOMON_API std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
+                                                                const MomentOptions& options);
 
 /// LayerPlacement::world: the layers of View::layers, which change with the view's depths. As long as its map is not
 /// drawn again, they do not.
-[[nodiscard]] shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& options);
+[[nodiscard]] GNOMON_API shared::GpuDepthLayers worldDepthLayers(const View& view, const MomentOptions& options);
 
 /// What a buffer of layers is filled with. Where they depend on what is drawn, it is where they start.
-[[nodiscard]] shared::GpuDepthLayers firstDepthLayers(const MomentOptions& options);
+[[nodiscard]] GNOMON_API shared::GpuDepthLayers firstDepthLayers(const MomentOptions& options);
 /// Where in the buffer the layers of the plan's view `view` are. A map keeps its place as long as it has its name,
 /// whether or not a plan has a view for it.
-[[nodiscard]] std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view);
+[[nodiscard]] GNOMON_API std::uint32_t depthLayersSlot(const Plan& plan, std::uint32_t view);
 /// How many places such a plan needs: 1 at least.
-[[nodiscard]] std::uint32_t depthLayersCount(const Plan& plan);
+[[nodiscard]] GNOMON_API std::uint32_t depthLayersCount(const Plan& plan);
 
 } // namespace gnomon::pack

@@ -2,13 +2,14 @@
 // From a light's options to the numbers that its maps are made and read by. What options leave open is filled in here.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/options.h>
 #include <gnomon/plan.h>
 
-#include <filter_pass.h>
-#include <gpu_structs.h>
-#include <moment_rule.h>
-#include <object_ids.h>
+#include <gnomon/shared/filter_pass.h>
+#include <gnomon/shared/gpu_structs.h>
+#include <gnomon/shared/moment_rule.h>
+#include <gnomon/shared/object_ids.h>
 
 #include <cstdint>
 #include <span>
@@ -17,39 +18,40 @@ namespace gnomon::pack {
 
 /// Bound on the error of a depth that such a map stores, in units of View::metric: storage and the single precision
 /// that led to it. The automatic bias takes it into account.
-[[nodiscard]] float depthQuantum(MapFormat format);
-/// How a texel of a map holds depths: a kDepth constant of shared/paired_depth.h. That of a filterable map holds other
-/// things: kDepthAlone.
-[[nodiscard]] int depthHolding(const ResolvedOptions& options);
-/// For shaders/lib/encoders.glsl and the filters that read what they wrote. Precondition: options.filterable().
-[[nodiscard]] shared::MomentRule momentRuleOf(const ResolvedOptions& options);
+[[nodiscard]] GNOMON_API float depthQuantum(MapFormat format);
+/// How a texel of a map holds depths: a kDepth constant of gnomon/shared/paired_depth.h. That of a filterable map holds
+/// other things: kDepthAlone.
+[[nodiscard]] GNOMON_API int depthHolding(const ResolvedOptions& options);
+/// For gnomon/lib/encoders.glsl and the filters that read what they wrote. Precondition: options.filterable().
+[[nodiscard]] GNOMON_API shared::MomentRule momentRuleOf(const ResolvedOptions& options);
 /// Of filters that compare depths what their maps hold of it (DepthMetricKind) alone; of filterable ones the above.
-[[nodiscard]] shared::MomentRule readingRuleOf(const ResolvedOptions& options);
+[[nodiscard]] GNOMON_API shared::MomentRule readingRuleOf(const ResolvedOptions& options);
 /// What filters id and depth-id go by.
-[[nodiscard]] shared::IdRule idRuleOf(const ResolvedOptions& options);
+[[nodiscard]] GNOMON_API shared::IdRule idRuleOf(const ResolvedOptions& options);
 /// All that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps' image, is
 /// left 0: fillConstants() fills it in.
-void fillRule(const ResolvedOptions& options, shared::GpuRule& out);
+GNOMON_API void fillRule(const ResolvedOptions& options, shared::GpuRule& out);
 /// The weights of a filterable map's blur, normalised in double precision: those of all texels add up to 1.
 /// Precondition: blurRadius(options) > 0.
-[[nodiscard]] shared::BlurKernel blurKernel(const MomentOptions& options);
+[[nodiscard]] GNOMON_API shared::BlurKernel blurKernel(const MomentOptions& options);
 
 /// Mip levels of maps of this size, 1 to 8: 1 unless the filter is filterable and its sampling reads coarser ones. A
 /// coarser texel is an average of four whole ones, so there are as many levels as both sides can be halved without a
 /// remainder, and one: an odd side has one level.
-[[nodiscard]] std::uint32_t mipLevels(const ResolvedOptions& options, std::uint32_t width, std::uint32_t height);
+[[nodiscard]] GNOMON_API std::uint32_t mipLevels(const ResolvedOptions& options, std::uint32_t width,
+                                                 std::uint32_t height);
 /// The coarsest mip level whose texels lie in one tile, each over whole texels of the next finer level. `levels`: of
 /// the map's image, at least 1.
-[[nodiscard]] std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels);
-/// Levels of the blocks of maps of this size (shaders/shared/map_blocks.h), at least 1.
-[[nodiscard]] std::uint32_t blockLevels(const glm::uvec2& size_px);
+[[nodiscard]] GNOMON_API std::uint32_t coarsestLevel(const Tile& tile, std::uint32_t levels);
+/// Levels of the blocks of maps of this size (gnomon/shared/map_blocks.h), at least 1.
+[[nodiscard]] GNOMON_API std::uint32_t blockLevels(const glm::uvec2& size_px);
 
 /// The depth that a texel of a map stands for, for people to look at: in [0, 1] of what the map measures depth in. Of a
 /// filterable map it is the mean of what was averaged; of esm and evsm (in the warp of c+) the depth whose exponential
 /// is the mean of exponentials, of lvsm the mean in its first layer's own metric. `texel`: the channels of the format,
 /// in their order. `part`: of a texel that two maps share. What holds no such number gives one that is not in [0, 1],
 /// or none.
-[[nodiscard]] float mapDepth(const ResolvedOptions& options, std::span<const float> texel,
-                             TexelPart part = TexelPart::whole);
+[[nodiscard]] GNOMON_API float mapDepth(const ResolvedOptions& options, std::span<const float> texel,
+                                        TexelPart part = TexelPart::whole);
 
 } // namespace gnomon::pack

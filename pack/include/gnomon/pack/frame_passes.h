@@ -2,6 +2,7 @@
 // What there is to do for a plan, in order. The Vulkan backend executes this list; another API's would, too.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/plan.h>
 
 #include <cstdint>
@@ -26,16 +27,16 @@ struct FramePass {
 };
 
 /// Keeps what `out` has allocated.
-void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
-[[nodiscard]] bool has(const std::vector<FramePass>& passes, FramePassKind kind);
+GNOMON_API void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
+[[nodiscard]] GNOMON_API bool has(const std::vector<FramePass>& passes, FramePassKind kind);
 /// Has the plan a light of these options? Where it has no light at all, the first options stand in, so that there is
 /// something to bind.
-[[nodiscard]] bool hasLights(const Plan& plan, std::uint32_t options);
+[[nodiscard]] GNOMON_API bool hasLights(const Plan& plan, std::uint32_t options);
 /// Does the light's plan join this frame's visibility with that of the frame before?
-[[nodiscard]] bool takesTurns(const LightPlan& light);
+[[nodiscard]] GNOMON_API bool takesTurns(const LightPlan& light);
 /// Is the light read at one pixel of each 2 x 2 (MaskSize::half)?
-[[nodiscard]] bool halvesMask(const Plan& plan, const LightPlan& light);
+[[nodiscard]] GNOMON_API bool halvesMask(const Plan& plan, const LightPlan& light);
 /// Is its visibility a mean over frames?
-[[nodiscard]] bool joinsFrames(const LightPlan& light);
+[[nodiscard]] GNOMON_API bool joinsFrames(const LightPlan& light);
 
 } // namespace gnomon::pack

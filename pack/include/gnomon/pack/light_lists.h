@@ -3,6 +3,7 @@
 // Based on: O. Olsson, U. Assarsson, "Tiled Shading", Journal of Graphics, GPU, and Game Tools, 2011.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 
 #include <cstdint>
@@ -26,8 +27,8 @@ struct ScreenBounds {
 /// Every pixel that may show a point in the light's reach is inside: all of the picture for a directional light, for a
 /// spot the bounds of its cone, for a point light those of a cube around its sphere. A pixel's width is added on all
 /// sides. `extent`: of the light, extentOf(). A light whose numbers are not finite has all of the picture.
-[[nodiscard]] ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const Camera& camera,
-                                        glm::uvec2 size_px);
+[[nodiscard]] GNOMON_API ScreenBounds screenBounds(const Light& light, const LightExtent& extent, const Camera& camera,
+                                                   glm::uvec2 size_px);
 
 /// The lights of each tile, as two arrays that a storage buffer can take as they are.
 struct LightLists {
@@ -47,9 +48,9 @@ struct LightLists {
 
 /// Of a frame's lights, whether or not they cast. `scene_bounds_ws`: of all objects, for lights without a range
 /// (extentOf()). Keeps what `out` has allocated. No tiles of a picture, or of tiles, without size.
-void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out);
+GNOMON_API void listLights(const Frame& frame, const Aabb& scene_bounds_ws, std::uint32_t side_px, LightLists& out);
 /// The same for a picture of another size than Frame::size_px.
-void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
-                LightLists& out);
+GNOMON_API void listLights(const Frame& frame, const Aabb& scene_bounds_ws, glm::uvec2 size_px, std::uint32_t side_px,
+                           LightLists& out);
 
 } // namespace gnomon::pack

@@ -5,11 +5,12 @@
 // A lamp reaches a part of the screen: a layer is drawn in rectangles, each with the lights that reach it.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/pack/light_lists.h>
 #include <gnomon/plan.h>
 
-#include <gpu_structs.h>
+#include <gnomon/shared/gpu_structs.h>
 
 #include <array>
 #include <span>
@@ -48,21 +49,21 @@ struct MaskDraw {
 };
 
 /// The draws for a screen of this size, in order, each light's all over it. Keeps what `out` has allocated.
-void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
+GNOMON_API void listMaskDraws(const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
 /// The same of this frame: each light's within its screenBounds(). A light without a range reaches as far as the
 /// frame's objects, and everything where it has none. What such a draw needs, its options, kinds of views and shares,
 /// is what a draw of the other list needs.
-void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
-/// Of an image of half the size the texels whose pixels these are, by shaders/shared/mask_upsample.h: what is drawn to
+GNOMON_API void listMaskDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<MaskDraw>& out);
+/// Of an image of half the size the texels whose pixels these are, by gnomon/shared/mask_upsample.h: what is drawn to
 /// it of such a draw. Draws side by side have no texel in common. Empty where there is none.
-[[nodiscard]] ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px);
+[[nodiscard]] GNOMON_API ScreenBounds halfTexels(const ScreenBounds& pixels, glm::uvec2 size_px);
 /// How many draws there are at most for a plan like this one, wherever its lights reach and however its suns stand.
-[[nodiscard]] std::size_t mostMaskDraws(const Plan& plan);
+[[nodiscard]] GNOMON_API std::size_t mostMaskDraws(const Plan& plan);
 /// How many places fillMaskLights() needs at most for a plan like this one, however its suns stand.
-[[nodiscard]] std::uint32_t maskLightCount(const Plan& plan);
+[[nodiscard]] GNOMON_API std::uint32_t maskLightCount(const Plan& plan);
 /// What the draws read: at MaskDraw::first_light + channel the light that has this channel, a coloured one four times.
 /// Throws Error where there is no room for that, or the frame has other lights than the plan.
-void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
-                    std::span<shared::GpuLight> lights);
+GNOMON_API void fillMaskLights(const Frame& frame, const Plan& plan, std::span<const MaskDraw> draws,
+                               std::span<shared::GpuLight> lights);
 
 } // namespace gnomon::pack

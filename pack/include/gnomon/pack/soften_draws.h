@@ -3,6 +3,7 @@
 // the same.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/plan.h>
 
 #include <cstdint>
@@ -19,8 +20,8 @@ struct SoftenDraw {
 };
 
 /// Is the light's part of the mask blurred?
-[[nodiscard]] bool softens(const Plan& plan, const LightPlan& light);
+[[nodiscard]] GNOMON_API bool softens(const Plan& plan, const LightPlan& light);
 /// In the order of the lights. Keeps what `out` has allocated.
-void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out);
+GNOMON_API void listSoftenDraws(const Plan& plan, std::vector<SoftenDraw>& out);
 
 } // namespace gnomon::pack

@@ -2,6 +2,7 @@
 // For passes that are made for one technique: what its options decide, as specialization constants.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/options.h>
 #include <gnomon/plan.h>
 
@@ -24,15 +25,15 @@ struct TechniqueConstants {
 };
 
 /// Of lights with these options. `few_views` is left 0, which serves every plan.
-[[nodiscard]] TechniqueConstants techniqueConstants(const ResolvedOptions& options);
+[[nodiscard]] GNOMON_API TechniqueConstants techniqueConstants(const ResolvedOptions& options);
 
 /// A light that is never seen from two positions, alone in a plan, may have few views: then a pass may look among so
 /// many, at most kFewViews, of which some may be left over (fillViews()). Else 0.
-[[nodiscard]] std::uint32_t fewViews(const ResolvedOptions& options);
+[[nodiscard]] GNOMON_API std::uint32_t fewViews(const ResolvedOptions& options);
 /// The same of a plan as it is: 0 where it has several lights, no views, more than kFewViews, or views of two positions
 /// of a sun.
-[[nodiscard]] std::uint32_t fewViewsOf(const Plan& plan);
+[[nodiscard]] GNOMON_API std::uint32_t fewViewsOf(const Plan& plan);
 /// Of a pass that asks for this one of the plan's lights alone.
-[[nodiscard]] std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light);
+[[nodiscard]] GNOMON_API std::uint32_t fewViewsOf(const Plan& plan, const LightPlan& light);
 
 } // namespace gnomon::pack

@@ -5,11 +5,12 @@
 // 2003.
 //
 // For another backend: of each draw, clear the stencil within `pixels`; draw every caster's volume
-// (shaders/shared/shadow_volume.h says what that is) with depth clamped, not clipped, depth tested and not written, and
+// (gnomon/shared/shadow_volume.h says what that is) with depth clamped, not clipped, depth tested and not written, and
 // where the test fails add 1 for faces that turn away from the eye and take 1 away for those that turn to it, both
 // wrapping. Where the count is not 0 the light does not reach.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/pack/light_lists.h>
 #include <gnomon/plan.h>
@@ -32,6 +33,6 @@ struct VolumeDraw {
 };
 
 /// Of the lights that have volumes, in their order. Keeps what `out` has allocated.
-void listVolumeDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out);
+GNOMON_API void listVolumeDraws(const Frame& frame, const Plan& plan, glm::uvec2 size_px, std::vector<VolumeDraw>& out);
 
 } // namespace gnomon::pack

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws casters for hosts with ordinary meshes: a ready-made DrawCasters callback. Hosts with vertex formats of their
-// own write their callback and shaders instead (shaders/lib/caster.glsl).
+// own write their callback and shaders instead (gnomon/lib/caster.glsl).
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/pack/caster_rows.h>
 #include <gnomon/vulkan/draw_batcher.h>
 #include <gnomon/vulkan/shadow_renderer.h>
@@ -110,7 +111,7 @@ struct CasterDrawerOptions {
 /// After a call that threw (Error, std::bad_alloc) the scene is what the last setScene() that did not throw says, and
 /// the next beginFrame() makes what is not there. After ErrorKind::device_lost only the destructor is of use: it
 /// neither waits nor throws.
-class CasterDrawer {
+class GNOMON_API CasterDrawer {
 public:
     /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
     CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
@@ -147,7 +148,7 @@ public:
     [[nodiscard]] std::span<const MemoryUse> memory() const;
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

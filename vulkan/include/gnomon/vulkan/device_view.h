@@ -2,6 +2,8 @@
 // The caller's Vulkan 1.3 device as the backend sees it. Nothing here is owned, created or destroyed.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -68,13 +70,13 @@ struct FeatureUses {
 /// The features that these uses rely on, chained for VkDeviceCreateInfo::pNext: for a host that wants no others. Static
 /// lifetime. Every desktop driver of Vulkan 1.3 and Mesa's lavapipe have them, shaderOutputLayer apart;
 /// vulkan/src/features.cpp says what each is for.
-[[nodiscard]] const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses = {});
+[[nodiscard]] GNOMON_API const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses = {});
 
 /// Adds what is missing to an engine's own features. In a chain no feature may be asked for in two structures: each is
 /// turned on in the one that is there, which is changed in place (VkDeviceCreateInfo::pEnabledFeatures,
 /// VkPhysicalDeviceFeatures2, VkPhysicalDeviceVulkan12Features, -13Features, or the structure of that feature alone),
 /// and else a structure is put before the chain. To live until vkCreateDevice() has returned.
-class FeatureMerge {
+class GNOMON_API FeatureMerge {
 public:
     /// Changes `info`: its pNext or pEnabledFeatures. Throws Error for shaderOutputLayer in a chain that has structures
     /// of single features of Vulkan 1.2, with which VkPhysicalDeviceVulkan12Features must not be.
@@ -84,16 +86,17 @@ public:
     FeatureMerge& operator=(const FeatureMerge&) = delete;
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 
 /// Has the physical device shaderOutputLayer?
-[[nodiscard]] bool supportsLayered(const DeviceView& view);
+[[nodiscard]] GNOMON_API bool supportsLayered(const DeviceView& view);
 /// Has it depthBounds?
-[[nodiscard]] bool supportsDepthBounds(const DeviceView& view);
+[[nodiscard]] GNOMON_API bool supportsDepthBounds(const DeviceView& view);
 /// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
 /// at most `capacity` bytes to `text`, the last one a zero.
-void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses = {});
+GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity,
+                                const FeatureUses& uses = {});
 
 } // namespace gnomon::vulkan

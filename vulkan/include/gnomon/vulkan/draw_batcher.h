@@ -3,6 +3,8 @@
 // which are usually mapped memory. Serves shadow casters (caster_drawer.h) and a host's own passes alike.
 #pragma once
 
+#include <gnomon/export.h>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -47,7 +49,7 @@ struct DrawLists {
 };
 
 /// Deterministic; allocates in setScene() alone. Not thread-safe.
-class DrawBatcher {
+class GNOMON_API DrawBatcher {
 public:
     /// Copies what it needs. Ranges of `objects` must lie inside `parts`, else Error.
     void setScene(std::span<const DrawPart> parts, std::span<const DrawObject> objects);

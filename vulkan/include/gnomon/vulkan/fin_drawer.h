@@ -4,6 +4,7 @@
 // need nothing more. Based on: E. Chan, F. Durand, "Rendering Fake Soft Shadows with Smoothies", EGSR 2003.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/vulkan/volume_drawer.h>
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct FinDrawerOptions {
 ///   an object of the plan that setScene() was not given                             draws nothing
 ///
 /// Not thread-safe. After a call that threw, beginFrame() again.
-class FinDrawer {
+class GNOMON_API FinDrawer {
 public:
     /// Makes its pipelines. Throws Error when a function is missing or memory runs out.
     FinDrawer(const DeviceView& device, const FinDrawerOptions& options);
@@ -43,7 +44,7 @@ public:
     std::uint32_t draw(const MapPass& pass);
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -2,6 +2,7 @@
 // GPU time and pipeline statistics per named pass. Used by the backend and by hosts alike.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/vulkan/device_view.h>
 
 #include <cstdint>
@@ -24,7 +25,7 @@ struct PassRecord {
 /// Not thread-safe. Error for no or too many frames (kMostFrames in shadow_renderer.h), no passes, a slot beyond them,
 /// and passes that nest or come before beginFrame(). An endPass() without its beginPass() does nothing. Passes beyond
 /// `max_passes` are not measured.
-class Profiler {
+class GNOMON_API Profiler {
 public:
     /// Throws Error when a function is missing or memory runs out.
     Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes);
@@ -42,7 +43,7 @@ public:
     [[nodiscard]] std::span<const PassRecord> results(std::uint32_t slot);
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -3,6 +3,7 @@
 // Never submits, never waits, never owns the device.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/frame.h>
 #include <gnomon/options.h>
 #include <gnomon/pack/compact_mask.h>
@@ -88,7 +89,7 @@ struct MaskInputs {
     VkExtent2D extent{};                // of the mask, and of each image here: no larger ones
     VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    /// Geometric world-space normals, octahedral in RG (snorm or float; shaders/shared/octahedral.h), or
+    /// Geometric world-space normals, octahedral in RG (snorm or float; gnomon/shared/octahedral.h), or
     /// VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
     /// Of smooth-shaded meshes, in RGB of 16 bits (snorm or float): what gnomonSmoothEncode() gives
@@ -138,7 +139,7 @@ struct MapPassFormats {
     bool paraboloid = false;
     /// Filters id and depth-id: `colour` holds gnomonCasterIdTexel() of what pack::casterIdOf() says of the object.
     bool ids = false;
-    /// Filter smoothies, once its map is drawn: fins along the casters' silhouettes (shaders/shared/smoothie_fins.h)
+    /// Filter smoothies, once its map is drawn: fins along the casters' silhouettes (gnomon/shared/smoothie_fins.h)
     /// into an image beside it, R32_UINT, packed as smoothies.h has them. gl_FragDepth = finOrder(); depth is tested,
     /// LESS_OR_EQUAL, and written. Casters that have no fins keep the shadow that their map gives them.
     bool fins = false;
@@ -167,10 +168,10 @@ struct MapPass {
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F};
-    /// d' = dot(metric_ws, (p, 1)); see shaders/lib/caster.glsl. Of a paraboloid w alone counts.
+    /// d' = dot(metric_ws, (p, 1)); see gnomon/lib/caster.glsl. Of a paraboloid w alone counts.
     glm::vec4 metric_ws{0.0F};
     /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
-    /// written, says which part of it the view shows: casterPlaced() in shaders/lib/caster.glsl. A vertex buffer (to be
+    /// written, says which part of it the view shows: casterPlaced() in gnomon/lib/caster.glsl. A vertex buffer (to be
     /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0;
@@ -198,7 +199,7 @@ using DrawCasters = std::function<void(const MapPass&)>;
 
 /// What views of such options are drawn in: of View::orthographic or not. Of CasterFaces::midpoint the first of a map's
 /// two passes; the second has behind_first, too.
-[[nodiscard]] MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
+[[nodiscard]] GNOMON_API MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
 struct ImageRef {
     VkImage image = VK_NULL_HANDLE;
@@ -280,7 +281,7 @@ struct WarmUp {
 /// flight may use. What was recorded of its frame is not to be submitted. The next prepare() or warmUp() then begins as
 /// a new renderer does: all maps are drawn again, all pipelines made again. After Error with ErrorKind::device_lost
 /// only the destructor is of use: it destroys what there is, and neither waits nor throws.
-class ShadowRenderer {
+class GNOMON_API ShadowRenderer {
 public:
     /// Throws Error when a handle of the device or a function is missing or memory runs out.
     ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
@@ -337,8 +338,8 @@ public:
     /// them. After recordMaps() its writes are
     /// visible to FRAGMENT_SHADER and COMPUTE_SHADER reads.
     [[nodiscard]] ImageRef maps(std::uint32_t options = 0) const;
-    /// The blocks of those maps (shaders/shared/map_blocks.h), visible likewise, or with filter or soften smoothies
-    /// what shaders/shared/smoothies.h says. Of other filters than pcss and raymarch, and where maps() is empty, an
+    /// The blocks of those maps (gnomon/shared/map_blocks.h), visible likewise, or with filter or soften smoothies
+    /// what gnomon/shared/smoothies.h says. Of other filters than pcss and raymarch, and where maps() is empty, an
     /// empty one.
     [[nodiscard]] ImageRef blocks(std::uint32_t options = 0) const;
     /// The maps of tints beside those maps, for GNOMON_TINTS (shaders/include/gnomon/visibility.glsl), visible
@@ -373,7 +374,7 @@ public:
     [[nodiscard]] std::vector<FittedView> fittedViews(std::uint32_t slot) const;
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

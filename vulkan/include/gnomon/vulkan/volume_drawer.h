@@ -5,6 +5,7 @@
 // 2003.
 #pragma once
 
+#include <gnomon/export.h>
 #include <gnomon/pack/caster_rows.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
@@ -47,7 +48,7 @@ struct VolumeDrawerOptions {
 ///   an object of the plan that setScene() was not given                             draws nothing
 ///
 /// Not thread-safe. Needs the feature depthClamp. After a call that threw, beginFrame() again.
-class VolumeDrawer {
+class GNOMON_API VolumeDrawer {
 public:
     /// Throws Error when a function is missing or memory runs out.
     VolumeDrawer(const DeviceView& device, const VolumeDrawerOptions& options);
@@ -67,7 +68,7 @@ public:
     [[nodiscard]] std::uint64_t triangles() const; // submitted since beginFrame(), those that came to nothing included
 
 private:
-    struct Impl;
+    struct GNOMON_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -6,13 +6,13 @@
 // coordinates, in the order of textureGather: x: left low, y: right low, z: right high, w: left high, where "low" is the larger y.
 //   real mapTexel(real2 texel, real layer, real part);    // texel: integer coordinates
 //   real4 mapGather(real2 corner, real layer, real part); // corner: integer coordinates
-// `part`: which of the two maps that a texel may hold (shared/paired_depth.h).
-// To what is known of squares of texels (shared/map_blocks.h): block (i, j) of a level >= 1 has the texels from
+// `part`: which of the two maps that a texel may hold (gnomon/shared/paired_depth.h).
+// To what is known of squares of texels (gnomon/shared/map_blocks.h): block (i, j) of a level >= 1 has the texels from
 // (i, j) times 2^level on; nearest and farthest depth.
 //   real2 mapBlock(real2 block, int level, real layer);
-// To what smoothies (shared/smoothies.h) have beside a texel, packed:
+// To what smoothies (gnomon/shared/smoothies.h) have beside a texel, packed:
 //   int mapSmoothie(real2 texel, real layer);
-// And to the points of a disc filter's pattern, which are a table on the GPU (shared/discs.h):
+// And to the points of a disc filter's pattern, which are a table on the GPU (gnomon/shared/discs.h):
 //   real2 discPoint(int i); // in the unit disc
 // And to filterable maps: an average of texels of one mip level or two, with texel coordinates of the finest level, and
 // the layers of depth of a view (GpuDepthLayers::layer):
@@ -30,7 +30,7 @@ struct FilterInput {
     int kernel_width;   // 1, 3, 5, 7: separable; 0: disc; below 0: nine points (pcf_weights.h)
     int disc_taps;      // points of the disc
     real disc_radius;   // texels
-    real smoothies;     // texels that those beside the map reach (shared/smoothies.h); 0: there are none
+    real smoothies;     // texels that those beside the map reach (gnomon/shared/smoothies.h); 0: there are none
     real4 kernel;       // gaussianWeights(kernel_width, sigma); of id and depth-id IdRule
     real2 pixel;        // of the screen, for noise
     real4 tile;         // the view's whole tile: x0, y0, x1, y1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which texels of a depth map can block any ray of a receiver's cone, and what blocks (shared/map_blocks.h) say of that.
+// Which texels of a depth map can block any ray of a receiver's cone, and what blocks (gnomon/shared/map_blocks.h) say of that.
 #ifndef GNOMON_CONE_TEXELS_GLSL
 #define GNOMON_CONE_TEXELS_GLSL
 #include "light_cone.glsl"

@@ -5,7 +5,7 @@
 // define GNOMON_LAYERS_BINDING too: the storage buffer with the views' layers of depth. For pcss and raymarch define
 // GNOMON_BLOCKS_BINDING: the image of the maps' blocks; for hard and pcf with GNOMON_SMOOTHIES that of their smoothies.
 // For formats of two maps a texel (rg16 and rg16f of hard and pcf, rgba8) define GNOMON_DEPTH_HOLDING: kDepthChannel or
-// kDepthBytes of shared/paired_depth.h.
+// kDepthBytes of gnomon/shared/paired_depth.h.
 #ifndef GNOMON_MAP_TEXTURE_GLSL
 #define GNOMON_MAP_TEXTURE_GLSL
 #include "../shared/gpu_structs.h"

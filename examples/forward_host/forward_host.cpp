@@ -4,13 +4,13 @@
 // through gnomon/visibility.glsl, without a mask or a depth prepass. A fence has holes, depth is 0 near, and the
 // picture changes its size. Usage: forward_host FOLDER. Writes forward.ppm there; exits with 1 if shadows are not where
 // the scene's geometry says.
-#include "small_vulkan.h"
+#include "../small_vulkan.h"
 
 #include <gnomon/pack/shading_buffers.h>
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/shadow_renderer.h>
 
-#include <gnomon_example_spirv.h>
+#include <forward_host_spirv.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -84,12 +84,12 @@ public:
     {
         for (int i = 0; i < 8; ++i) { // by perspective, clamp, masked
             const gnomon::vulkan::MapPassFormats formats = gnomon::vulkan::mapFormats(options, (i & 1) == 0);
-            PipelineWish wish{gnomon::spirv::forward_caster_vert, {}, layout};
+            PipelineWish wish{forward_host_spirv::forward_caster_vert, {}, layout};
             if ((i & 4) != 0) {
-                wish.fragment = formats.write_frag_depth ? gnomon::spirv::forward_caster_depth_masked_frag
-                                                         : gnomon::spirv::forward_caster_masked_frag;
+                wish.fragment = formats.write_frag_depth ? forward_host_spirv::forward_caster_depth_masked_frag
+                                                         : forward_host_spirv::forward_caster_masked_frag;
             } else if (formats.write_frag_depth) {
-                wish.fragment = gnomon::spirv::forward_caster_depth_frag;
+                wish.fragment = forward_host_spirv::forward_caster_depth_frag;
             }
             wish.depth = vk::Format(formats.depth); // formats.colour is UNDEFINED: maps of evsm are made of depths
             wish.samples = vk::SampleCountFlagBits(formats.samples);
@@ -256,7 +256,7 @@ int run(const std::string& folder)
     std::array<ShadowSet, kSlots> sets{ShadowSet(d, pool), ShadowSet(d, pool)};
     const Casters casters(d, options, *layout);
     const vk::raii::Pipeline forward =
-        makePipeline(d, {gnomon::spirv::forward_vert, gnomon::spirv::forward_frag, *layout, kColour});
+        makePipeline(d, {forward_host_spirv::forward_vert, forward_host_spirv::forward_frag, *layout, kColour});
 
     std::optional<Picture> picture;
     for (int i = 0; i < kFrames; ++i) {

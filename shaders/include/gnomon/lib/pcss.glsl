@@ -3,7 +3,7 @@
 // Based on: R. Fernando, "Percentage-closer soft shadows", NVIDIA, 2005. In world units: both discs are cross-sections
 // of the cone of rays to the light, carried to the map by its own rows, so that a penumbra is as wide in every fit,
 // cascade and size of a map. Departures: a texel counts as a blocker only where the cone has come as far as it when it
-// is as deep; each comparison is with the receiver's plane at the texel's own centre; what blocks (shared/map_blocks.h)
+// is as deep; each comparison is with the receiver's plane at the texel's own centre; what blocks (gnomon/shared/map_blocks.h)
 // can decide is not searched.
 #ifndef GNOMON_PCSS_GLSL
 #define GNOMON_PCSS_GLSL

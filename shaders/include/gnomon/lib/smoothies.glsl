@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What smoothies beside a map (shared/smoothies.h) say of a receiver. The includer defines, besides the functions of
+// What smoothies beside a map (gnomon/shared/smoothies.h) say of a receiver. The includer defines, besides the functions of
 // filter_types.glsl:
 //   int mapSmoothie(real2 texel, real layer); // texel: integer coordinates; packed
 #ifndef GNOMON_SMOOTHIES_GLSL

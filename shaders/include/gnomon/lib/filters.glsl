@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of filters. A new one is a file in this folder, a number in shared/choice_numbers.h, and its lines here.
+// The table of filters. A new one is a file in this folder, a number in gnomon/shared/choice_numbers.h, and its lines here.
 // With GNOMON_FILTER defined as one of those numbers that filter alone is compiled.
 #ifndef GNOMON_FILTERS_GLSL
 #define GNOMON_FILTERS_GLSL

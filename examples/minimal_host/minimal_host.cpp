@@ -2,12 +2,12 @@
 // The least that a renderer needs to get soft-shadow masks from Gnomon: it owns its device, its frame loop and its
 // depth prepass, and hands Gnomon a frame and a way to draw. Usage: minimal_host FOLDER. Writes the masks of a sun and
 // a spot light there as PGM; exits with 1 if they are not as the scene's geometry says.
-#include "small_vulkan.h"
+#include "../small_vulkan.h"
 
 #include <gnomon/planner.h>
 #include <gnomon/vulkan/caster_drawer.h>
 
-#include <gnomon_example_spirv.h>
+#include <minimal_host_spirv.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -73,7 +73,7 @@ struct Prepass {
     {
         const vk::PushConstantRange range(vk::ShaderStageFlagBits::eVertex, 0, sizeof(glm::mat4));
         layout = {d.device, vk::PipelineLayoutCreateInfo().setPushConstantRanges(range)};
-        PipelineWish wish{gnomon::spirv::minimal_host_vert, {}, *layout};
+        PipelineWish wish{minimal_host_spirv::minimal_host_vert, {}, *layout};
         wish.compare = vk::CompareOp::eGreater;
         pipeline = makePipeline(d, wish);
     }

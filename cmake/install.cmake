@@ -1,0 +1,72 @@
+# What `cmake --install` puts where. Three components, which are also the Debian packages (cmake/package.cmake): library is what
+# a linked program needs, development what a compiler needs, tools is the program.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(gnomon_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
+
+# gnomon_pkg_config(COMPONENT DESCRIPTION LIBS REQUIRES REQUIRES_PRIVATE): gnomon-COMPONENT.pc, which finds the rest from where
+# it lies itself, so that an installed tree may be moved.
+function(gnomon_pkg_config component description libs requires requires_private)
+    set(prefix ${CMAKE_INSTALL_PREFIX})
+    if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
+        file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+        string(REGEX REPLACE "/$" "" up ${up})
+        set(prefix "\${pcfiledir}/${up}")
+    endif()
+    foreach(dir includedir libdir)
+        string(TOUPPER ${dir} name)
+        set(${dir} "\${prefix}")
+        cmake_path(APPEND ${dir} ${CMAKE_INSTALL_${name}})
+    endforeach()
+    configure_file(cmake/gnomon.pc.in gnomon-${component}.pc @ONLY)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gnomon-${component}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+            COMPONENT development)
+endfunction()
+
+set(gnomon_libs "-L\${libdir} -lgnomon-")
+gnomon_pkg_config(core "Plans of shadow maps" ${gnomon_libs}core glm "")
+gnomon_pkg_config(pack "What shaders read of Gnomon's plans" ${gnomon_libs}pack gnomon-core "")
+gnomon_pkg_config(vulkan "Soft shadows recorded into Vulkan command buffers" ${gnomon_libs}vulkan "gnomon-core gnomon-pack" vulkan)
+gnomon_pkg_config(shaders "Gnomon's GLSL, in includedir" "" "" "")
+
+foreach(component core pack vulkan)
+    install(TARGETS gnomon_${component} EXPORT gnomon-${component}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY ${component}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+endforeach()
+install(TARGETS gnomon_glsl EXPORT gnomon-shaders INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY shaders/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+
+foreach(component core pack vulkan shaders)
+    install(EXPORT gnomon-${component} NAMESPACE gnomon:: DESTINATION ${gnomon_cmake_dir} COMPONENT development)
+endforeach()
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/gnomon-config-version.cmake
+    VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
+install(FILES cmake/gnomon-config.cmake cmake/shaders.cmake cmake/embed_spirv.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/gnomon-config-version.cmake
+        DESTINATION ${gnomon_cmake_dir} COMPONENT development)
+
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development PATTERN examples/CMakeLists.txt EXCLUDE)
+if(NOT GNOMON_PACKAGE)
+    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+endif()
+
+set(gnomon_installed gnomon_core gnomon_pack gnomon_vulkan)
+if(GNOMON_PROGRAM)
+    list(APPEND gnomon_installed gnomon)
+    install(TARGETS gnomon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+endif()
+# For `make install`, which builds no tests.
+add_custom_target(gnomon_installed DEPENDS ${gnomon_installed})
+
+if(BUILD_SHARED_LIBS)
+    # Found from where they lie, wherever that is; CMAKE_SKIP_INSTALL_RPATH is for prefixes that the loader knows.
+    set_target_properties(gnomon_core gnomon_pack gnomon_vulkan PROPERTIES INSTALL_RPATH $ORIGIN)
+    if(GNOMON_PROGRAM)
+        file(RELATIVE_PATH up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+        set_target_properties(gnomon PROPERTIES INSTALL_RPATH $ORIGIN/${up})
+    endif()
+endif()
