@@ -5,6 +5,7 @@
 # CMAKE_FLAGS  handed to the configure step, e.g. CMAKE_FLAGS=-DGNOMON_WERROR=ON
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
 # TIDY_FOLDERS what `make tidy` looks at, e.g. core/src (default: all sources)
+# PREFIX       where `make install` puts it (default /usr/local); DESTDIR goes before it
 # FUZZ_SECONDS how long `make fuzz` runs, all fuzzers together (default 60)
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -29,6 +30,9 @@ help:
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
 	@echo "make asan    build and run the tests with address and undefined behaviour sanitizers, in build-asan/"
 	@echo "make fuzz    run all fuzzers in turn for FUZZ_SECONDS (60) together, in build-fuzz/"
+	@echo "make install      build and install library and program under PREFIX (/usr/local); LIBRARY_ONLY=1: the library alone"
+	@echo "make package      the Debian packages libgnomon0, libgnomon-dev and gnomon, in build-package/"
+	@echo "make package-test install them in a bare Debian root, and build and run the examples there (needs root, minutes)"
 	@echo "make clean   remove build folders and out/"
 
 .PHONY: packages
@@ -91,6 +95,31 @@ asan: build-asan
 fuzz: packages
 	@tools/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
+# The library alone has a build folder of its own, for it is configured otherwise.
+PREFIX ?= /usr/local
+.PHONY: install
+ifdef LIBRARY_ONLY
+install:
+	@tools/install_packages.sh --only library packages.txt
+	@cmake --preset release -B build-library -DGNOMON_PROGRAM=OFF $(CMAKE_FLAGS)
+	@cmake --build build-library --target gnomon_installed -j $(JOBS)
+	@cmake --install build-library --prefix $(PREFIX)
+else
+install: configure
+	@cmake --build build --target gnomon_installed -j $(JOBS)
+	@cmake --install build --prefix $(PREFIX)
+endif
+
+.PHONY: package
+package: packages
+	@cmake --preset package $(CMAKE_FLAGS)
+	@cmake --build build-package -j $(JOBS)
+	@cd build-package && cpack -B packages
+
+.PHONY: package-test
+package-test: package
+	@tools/package_test.sh build-package/packages
+
 .PHONY: clean
 clean:
-	rm -rf build build-asan build-ci build-debug build-fuzz build-tidy out
+	rm -rf build build-asan build-ci build-debug build-fuzz build-library build-package build-tidy out

@@ -26,7 +26,7 @@ endfunction()
 set(gnomon_libs "-L\${libdir} -lgnomon-")
 gnomon_pkg_config(core "Plans of shadow maps" ${gnomon_libs}core glm "")
 gnomon_pkg_config(pack "What shaders read of Gnomon's plans" ${gnomon_libs}pack gnomon-core "")
-gnomon_pkg_config(vulkan "Soft shadows recorded into Vulkan command buffers" ${gnomon_libs}vulkan "gnomon-core gnomon-pack" vulkan)
+gnomon_pkg_config(vulkan "Soft shadows recorded into Vulkan command buffers" ${gnomon_libs}vulkan gnomon-pack vulkan)
 gnomon_pkg_config(shaders "Gnomon's GLSL, in includedir" "" "" "")
 
 foreach(component core pack vulkan)

@@ -6,7 +6,8 @@ include_guard(GLOBAL)
 # choice of each axis. An axis is its choices with | between them, a choice is "NAME:DEFINE,DEFINE"; an empty one adds
 # nothing. The variant is called after the source and the names taken: pass.frag with "|wide:WIDE" and "a:KIND=1|b:KIND=2"
 # makes pass_a.frag, pass_b.frag, pass_wide_a.frag and pass_wide_b.frag.
-function(gnomon_shader_variants list source)
+function(gnomon_shader_variants gnomon_list source)
+    set(entries ${${gnomon_list}}) # before this function has variables that may have the list's name
     get_filename_component(base ${source} NAME_WE)
     get_filename_component(stage ${source} LAST_EXT)
     set(variants "${base}:")
@@ -31,11 +32,8 @@ function(gnomon_shader_variants list source)
         endforeach()
         set(variants "${more}")
     endforeach()
-    foreach(variant IN LISTS variants)
-        string(REGEX MATCH "^([^:]*):(.*)$" _ "${variant}")
-        list(APPEND ${list} "${CMAKE_MATCH_1}${stage}:${source}:${CMAKE_MATCH_2}")
-    endforeach()
-    set(${list} "${${list}}" PARENT_SCOPE)
+    list(TRANSFORM variants REPLACE "^([^:]*):(.*)$" "\\1${stage}:${source}:\\2")
+    set(${gnomon_list} ${entries} ${variants} PARENT_SCOPE)
 endfunction()
 
 # gnomon_shaders(TARGET [NAMESPACE NAME] ENTRIES...): makes an object library that embeds each entry as `const std::span<const
@@ -43,8 +41,8 @@ endfunction()
 # them in `NAME::all_of_TARGET`. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
 # Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
 # with sanitizers, which look at C++ alone.
-# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are. It has to be built already, from the same
-# sources, in Release or with sanitizers.
+# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are for gnomon's own sources.
+# It has to be built already, from the same sources, in Release or with sanitizers.
 function(gnomon_shaders target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAMESPACE" "")
     if(NOT arg_NAMESPACE)
@@ -106,8 +104,12 @@ endfunction()
 # _gnomon_compile_shader(TARGET NAME SOURCE DEFINES...): the rule that makes TARGET/NAME.inc, the words of the module.
 function(_gnomon_compile_shader target name source)
     set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}/${name})
-    if(GNOMON_SPIRV_FROM)
-        file(RELATIVE_PATH place ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
+    set(is_ours OFF)
+    if(DEFINED gnomon_BINARY_DIR)
+        cmake_path(IS_PREFIX gnomon_BINARY_DIR ${CMAKE_CURRENT_BINARY_DIR} is_ours)
+    endif()
+    if(GNOMON_SPIRV_FROM AND is_ours)
+        file(RELATIVE_PATH place ${gnomon_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
         set(made ${GNOMON_SPIRV_FROM}/${place}/${target}/${name})
         add_custom_command(
             OUTPUT ${out}.inc

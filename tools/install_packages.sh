@@ -1,10 +1,29 @@
 #!/usr/bin/env bash
 # Installs what is missing of packages.txt, and says so. Touches nothing (no apt, no network, no root) when all is there.
-# usage: tools/install_packages.sh [packages.txt]
+# usage: tools/install_packages.sh [--list] [--only SECTION] [packages.txt]
+# --only: of that section alone, as "= SECTION" begins it. --list: says which packages these are, and installs nothing.
 set -euo pipefail
+only=
+list_them=0
+while [[ ${1:-} == --* ]]; do
+    case $1 in
+        --only) only=${2:?--only needs a section}; shift 2 ;;
+        --list) list_them=1; shift ;;
+        *) echo "packages: there is no option $1" >&2; exit 2 ;;
+    esac
+done
 list=${1:-$(dirname "$0")/../packages.txt}
 
-mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' "$list" | grep -v '^$')
+mapfile -t wanted < <(awk -v only="$only" '/^= / { section = substr($0, 3); next } { sub(/#.*/, "") }
+    NF && (only == "" || section == only) { print $1 }' "$list")
+if [[ ${#wanted[@]} -eq 0 ]]; then
+    echo "packages: $list has nothing in section \"$only\"; it has these: $(sed -n 's/^= //p' "$list" | paste -sd, -)" >&2
+    exit 2
+fi
+if [[ $list_them -eq 1 ]]; then
+    printf '%s\n' "${wanted[@]}"
+    exit 0
+fi
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     echo "packages: this is not a Debian system, so nothing is installed. Needed are the equivalents of:" >&2
     echo "  ${wanted[*]}" >&2

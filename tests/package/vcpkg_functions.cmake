@@ -1,0 +1,43 @@
+# Runs the port of packaging/vcpkg: vcpkg's functions are here what they come to for CMake, but that nothing is built.
+cmake_minimum_required(VERSION 3.25)
+set(CURRENT_PACKAGES_DIR ${PACKAGES})
+set(CURRENT_BUILDTREES_DIR ${PACKAGES}/build)
+set(VCPKG_HOST_EXECUTABLE_SUFFIX "")
+set(PORT gnomon)
+
+function(vcpkg_cmake_configure)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SOURCE_PATH" "OPTIONS")
+    if(arg_UNPARSED_ARGUMENTS OR NOT EXISTS ${arg_SOURCE_PATH}/CMakeLists.txt)
+        message(FATAL_ERROR "vcpkg_cmake_configure(${ARGN})")
+    endif()
+    execute_process(
+        COMMAND ${CMAKE_COMMAND} -G Ninja -S ${arg_SOURCE_PATH} -B ${CURRENT_BUILDTREES_DIR} ${arg_OPTIONS}
+                -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR}
+        OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+    # Those are the programs that shaders are compiled with.
+    file(STRINGS ${CURRENT_BUILDTREES_DIR}/CMakeCache.txt tools REGEX "^GNOMON_(GLSLC|SPIRV_VAL):.*=${CURRENT_HOST_INSTALLED_DIR}")
+    list(LENGTH tools count)
+    if(NOT count EQUAL 2)
+        message(FATAL_ERROR "the port's shader compilers are not taken: ${tools}")
+    endif()
+endfunction()
+function(vcpkg_cmake_install)
+    if(NOT EXISTS ${CURRENT_BUILDTREES_DIR}/cmake_install.cmake)
+        message(FATAL_ERROR "nothing would be installed")
+    endif()
+endfunction()
+function(vcpkg_cmake_config_fixup)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "PACKAGE_NAME;CONFIG_PATH" "")
+    file(STRINGS ${CURRENT_BUILDTREES_DIR}/cmake_install.cmake lines REGEX "PREFIX}/${arg_CONFIG_PATH}\" TYPE FILE")
+    if(NOT lines)
+        message(FATAL_ERROR "files for CMake are not installed to ${arg_CONFIG_PATH}")
+    endif()
+endfunction()
+function(vcpkg_fixup_pkgconfig)
+endfunction()
+function(vcpkg_install_copyright)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "FILE_LIST")
+    configure_file(${arg_FILE_LIST} ${CURRENT_PACKAGES_DIR}/share/${PORT}/copyright COPYONLY)
+endfunction()
+
+include(${CURRENT_PORT_DIR}/portfile.cmake)
