@@ -91,8 +91,8 @@ endfunction()
 
 # They are looked for where the first shader is: who compiles none needs none.
 function(_gnomon_shader_tools)
-    find_program(GNOMON_GLSLC glslc HINTS $ENV{VULKAN_SDK}/bin)
-    find_program(GNOMON_SPIRV_VAL spirv-val HINTS $ENV{VULKAN_SDK}/bin)
+    find_program(GNOMON_GLSLC glslc HINTS ENV VULKAN_SDK PATH_SUFFIXES bin)
+    find_program(GNOMON_SPIRV_VAL spirv-val HINTS ENV VULKAN_SDK PATH_SUFFIXES bin)
     foreach(tool GLSLC SPIRV_VAL)
         if(NOT GNOMON_${tool})
             message(FATAL_ERROR "gnomon_shaders: compiling shaders needs glslc and spirv-val, and one of them was not found; "
