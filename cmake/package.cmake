@@ -14,9 +14,10 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(same_version "(= ${PROJECT_VERSION})")
 
-set(about " Gnomon turns a frame (camera, lights, bounds of objects) into one visibility
- value per pixel and light: shadow maps of all kinds, or shadow volumes, planned
- on the CPU and recorded into the caller's Vulkan 1.3 command buffers.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own, in its description's first line
+set(about "Gnomon turns a frame (camera, lights, bounds of objects) into one visibility
+value per pixel and light: shadow maps of all kinds, or shadow volumes, planned
+on the CPU and recorded into the caller's Vulkan 1.3 command buffers.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libgnomon${PROJECT_VERSION_MAJOR})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "real-time soft shadows - shared libraries\n${about}")
@@ -24,26 +25,25 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 # Programs depend on the very version that they were linked with, for as long as each may change the ABI.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_MULTIARCH same)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgnomon-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "real-time soft shadows - development files\n${about}
- .
- C++ and GLSL headers, files for CMake and pkg-config, and examples.")
+
+C++ and GLSL headers, files for CMake and pkg-config, and examples.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${same_version}, libglm-dev, libvulkan-dev (>= 1.3)")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "glslc, spirv-tools")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_MULTIARCH same)
 
 if(GNOMON_PROGRAM)
     list(APPEND CPACK_COMPONENTS_ALL tools)
     set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME gnomon)
     set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
     set(CPACK_DEBIAN_TOOLS_DESCRIPTION "real-time soft shadows - the program that draws and measures them\n${about}
- .
- The program gnomon renders glTF files and built-in worlds with every technique,
- and holds each against ray-traced shadows.")
+
+The program gnomon renders glTF files and built-in worlds with every technique,
+and holds each against ray-traced shadows.")
     set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} ${same_version}")
     set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
@@ -55,13 +55,14 @@ if(GNOMON_PACKAGE)
     # Policy asks each package for its licence and its changes.
     find_program(GNOMON_GZIP gzip REQUIRED)
     set(changes ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
-    add_custom_command(OUTPUT ${changes} COMMAND ${GNOMON_GZIP} -9cn ${PROJECT_SOURCE_DIR}/CHANGELOG.md >${changes}
-                       DEPENDS CHANGELOG.md VERBATIM)
+    set(debian ${PROJECT_SOURCE_DIR}/packaging/debian)
+    add_custom_command(OUTPUT ${changes} COMMAND ${GNOMON_GZIP} -9cn ${debian}/changelog > ${changes}
+                       DEPENDS ${debian}/changelog VERBATIM)
     add_custom_target(gnomon_changes ALL DEPENDS ${changes})
     foreach(component IN LISTS CPACK_COMPONENTS_ALL)
         string(TOUPPER ${component} name)
         set(doc share/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})
-        install(FILES packaging/debian/copyright ${changes} DESTINATION ${doc} COMPONENT ${component})
+        install(FILES ${debian}/copyright ${changes} DESTINATION ${doc} COMPONENT ${component})
     endforeach()
 endif()
 

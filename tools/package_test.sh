@@ -30,15 +30,12 @@ bare_root_make "$roots/bare"
 # root_of STEP: a bare root of its own, with the projects that take Gnomon in.
 root_of() {
     local root=$roots/$1
-    rm -rf --one-file-system "$root"
-    cp -a "$roots/bare" "$root"
-    mkdir -p "$root/src"
-    cp -r tests/package/consumer "$root/src/consumer"
-    echo "$root"
+    rm -rf --one-file-system "$root" && cp -a "$roots/bare" "$root" && mkdir -p "$root/src" &&
+        cp -r tests/package/consumer "$root/src/consumer" && echo "$root"
 }
 step_packages() {
     local root
-    root=$(root_of packages)
+    root=$(root_of packages) || return
     cp -r "$debs" "$root/debs"
     bare_root_run "$root" '
         apt-get -qq update
@@ -58,7 +55,7 @@ step_packages() {
         cd /src
         g++ -std=c++20 consumer/plan.cpp -o plan $(pkg-config --cflags --libs gnomon-core)
         ./plan
-        ldd plan | grep "/usr/lib/.*/libgnomon-core.so.0"
+        ldd plan | grep "libgnomon-core.so.0 => /"
         glslc --target-env=vulkan1.3 -DGNOMON_FILTER=GNOMON_FILTER_HARD consumer/visible.frag -o visible.spv \
             -I $(pkg-config --variable=includedir gnomon-shaders)
         for example in minimal_host forward_host; do
@@ -78,7 +75,7 @@ step_packages() {
 }
 step_library() {
     local root
-    root=$(root_of library)
+    root=$(root_of library) || return
     mkdir -p "$root/src/gnomon"
     git ls-files -z | xargs -0 cp --parents -t "$root/src/gnomon"
     bare_root_run "$root" '
@@ -104,7 +101,7 @@ step_library() {
 }
 step_lintian() {
     local root
-    root=$(root_of lintian)
+    root=$(root_of lintian) || return
     cp -r "$debs" "$root/debs"
     bare_root_run "$root" '
         apt-get -qq update

@@ -192,6 +192,10 @@ class Recipes(Case):
     def version(self) -> str:
         return re.search(r"project\(gnomon VERSION (\S+)", (OPTIONS.source / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 
+    def test_debian_changelog(self):
+        text = (OPTIONS.source / "packaging/debian/changelog").read_text(encoding="utf-8")
+        self.assertRegex(text, rf"^gnomon \({re.escape(self.version())}\) ")
+
     def test_vcpkg_manifest(self):
         port = OPTIONS.source / "packaging/vcpkg/ports/gnomon"
         manifest = json.loads((port / "vcpkg.json").read_text(encoding="utf-8"))
