@@ -6,11 +6,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace gnomon {
 
 /// 1 to 4 channels, 8 bit. Values are written as they are (pictures: sRGB-encoded already; tagged sRGB when 3 or 4).
 void writePng(const std::filesystem::path& file, const Image8& image);
+/// The bytes of that file, for whoever keeps pictures elsewhere than in files.
+[[nodiscard]] std::string encodePng(const Image8& image);
 /// 16-bit, tagged linear (gAMA 1.0).
 void writePng(const std::filesystem::path& file, const Image16& image);
 /// Half or full float, lossless (ZIP). 1 channel is named Y; 3 and 4 R, G, B, A.

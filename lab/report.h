@@ -19,18 +19,25 @@ namespace gnomon::lab {
 /// least 320 px wide. What is smaller than 320 px is shown larger by the whole factor that fits, and padded on both
 /// sides with the legend's dark grey. Precondition: one size, one channel each.
 [[nodiscard]] Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted);
+/// The same without a legend and of the masks' own size, for pages that have legends of their own. So the next two.
+[[nodiscard]] Image8 errorPixels(const ImageF& test, const ImageF& truth, const Counted& counted);
+/// The colour of an error from -1 to 1 in both: red, green, blue, sRGB-encoded.
+[[nodiscard]] std::array<std::uint8_t, 3> errorRgb(double error);
 
 /// The colour-blind-safe colour of a class in pictures and plots: red, green, blue, sRGB-encoded.
 [[nodiscard]] std::array<std::uint8_t, 3> classRgb(ErrorClass error_class);
 
-/// classRgb() over a faint grey truth, with a legend
-/// that names them. The colour is as strong as the square root of |test - truth|: a pixel near an edge without error
+/// classRgb() over a faint grey truth, with a legend that names them. The colour is as strong as the square root of |test - truth|: a pixel near an edge without error
 /// stays grey.
 [[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
+[[nodiscard]] Image8 classPixels(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
 
 /// Texels per pixel on a logarithmic scale from 1/16 to 16 (a sequential map, perceptually even; a white line where it
 /// passes through 1), with a legend; 0 (left out) dark grey, NaN magenta.
 [[nodiscard]] Image8 densityPicture(const ImageF& texels_per_pixel);
+[[nodiscard]] Image8 densityPixels(const ImageF& texels_per_pixel);
+/// The colour of so many texels per pixel in both, as errorRgb().
+[[nodiscard]] std::array<std::uint8_t, 3> densityRgb(double texels_per_pixel);
 
 /// How many lights reach each pixel, from 1 to 32 on a logarithmic scale in the same colours; dark grey where none
 /// does.

@@ -46,7 +46,7 @@ FOREIGN_KINDS = [
     (r"^embree\d/", "embree"),
     (r"^xxhash\.h$", "xxhash"),
     (r"^gd(font\w+)?\.h$", "gd"),
-    (r"^(plot_script|page_style)\.h$", "text"),  # of tools/plot.py and the page's CSS, made by app/CMakeLists.txt
+    (r"^page_texts\.h$", "text"),  # of the files in app/pages, made by app/CMakeLists.txt
     (r"^(fstream|filesystem|iostream|cstdio|stdio\.h|dirent\.h|fcntl\.h|unistd\.h|sys/\w+\.h)$", "std-file"),
     (r"^(dlfcn|signal|pthread|errno|spawn|poll)\.h$", "system"),
     (r"^([a-z0-9_]+|(stdint|stddef|math|string|stdlib|assert|float|limits)\.h)$", "std"),

@@ -3,7 +3,9 @@
 #include "app/shot.h"
 #include "app/visual.h"
 #include "bench_against.h"
+#include "bench_page.h"
 #include "bench_report.h"
+#include "compare_folder.h"
 #include "contestants.h"
 #include "findings.h"
 #include "progress.h"
@@ -21,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <span>
 
 namespace gnomon::app {
@@ -210,6 +213,16 @@ BenchRun runTimes(const Settings& settings)
     return run;
 }
 
+/// `json` gains "report_files".
+void writeReport(ReportFolder& folder, Json& json)
+{
+    json["report_files"] = {kReportPage, kReportResult};
+    const std::string text = jsonText(json);
+    folder.write(kReportResult, text);
+    folder.write(kReportPage, benchPage(Json::parse(text))); // of the text, all of it UTF-8
+    folder.keep();
+}
+
 } // namespace
 
 Json findByTiming(const Settings& settings)
@@ -223,8 +236,12 @@ int runBench(const Settings& settings)
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
+    std::unique_ptr<ReportFolder> folder;
+    if (!settings.report.empty()) {
+        folder = std::make_unique<ReportFolder>(settings.report, std::vector<std::string>{kReportPage, kReportResult});
+    }
     const BenchRun run = runTimes(settings);
-    if (settings.json.empty() && !run.earlier) {
+    if (settings.json.empty() && !run.earlier && !folder) {
         writeStdout(benchTable(run.result, run.shot, settings));
         return 0;
     }
@@ -232,7 +249,12 @@ int runBench(const Settings& settings)
     if (run.earlier) {
         json["against"] = againstJson(*run.earlier, parseBenchFigures(jsonText(json), "this run"));
     }
-    if (settings.json.empty()) {
+    if (folder) {
+        writeReport(*folder, json);
+    }
+    if (settings.json.empty() && !run.earlier) {
+        writeStdout(benchTable(run.result, run.shot, settings));
+    } else if (settings.json.empty()) {
         writeStdout(benchTable(run.result, run.shot, settings) + againstText(json.at("against")));
     } else {
         writeResult(settings.json, jsonText(json));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_report.h"
 
+#include "command_text.h"
 #include "compare_table.h"
 #include "technique_json.h"
 
@@ -173,6 +174,7 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     json["results"] = Json::array();
     for (const BenchedTechnique& technique : result.techniques) {
         json["results"].push_back(techniqueJson(technique));
+        json["results"].back()["command"] = commandText(settings, kBench, describeTechnique(technique.settings));
     }
     json["units"] = sharedUnitsJson();
     json["units"]["static_mean_texels_rendered"] = "texels per frame, maps that still hold kept";

@@ -10,6 +10,7 @@
 #include "findings.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "report_pictures.h"
 #include "streams.h"
 #include "subcommands.h"
 
@@ -89,7 +90,7 @@ public:
         result_.scene_hash = scene::toString(scene::sceneHash(shot.scene));
     }
 
-    void trace() { result_.judged = judge(shot_, settings_); }
+    void trace();
     void scoreAll(const std::vector<Settings>& techniques);
     void walk(const std::vector<Settings>& techniques);
     void timeAll();
@@ -112,6 +113,14 @@ private:
     host::SceneOnGpu scene_;
     CompareResult result_;
 };
+
+void Comparison::trace()
+{
+    result_.judged = judge(shot_, settings_);
+    if (!settings_.report.empty()) {
+        result_.shades.push_back(drawShades(scene_, result_.judged.subject, settings_));
+    }
+}
 
 /// Pictures of every pixel are kept for a report only: of many techniques they would fill the memory.
 void Comparison::scoreAll(const std::vector<Settings>& techniques)
@@ -217,9 +226,7 @@ Json tell(const CompareResult& result, const Shot& shot, const Settings& setting
     }
     if (folder != nullptr) {
         Progress progress("drawing the report", result.techniques.size());
-        if (const auto no_plots = writeReport(*folder, result, json, [&] { progress.step(); })) {
-            notice(*no_plots);
-        }
+        writeReport(*folder, result, json, [&] { progress.step(); });
     }
     return json;
 }
@@ -243,7 +250,7 @@ Json findByComparing(const Settings& settings)
     if (!settings.report.empty()) {
         folder = std::make_unique<ReportFolder>(
             settings.report, settings.path.empty()
-                                 ? reportFiles(sweep ? sweep->lines.size() : techniques.size(), sweep.has_value())
+                                 ? reportFiles(sweep ? 0 : techniques.size())
                                  : pathReportFiles(techniques.size(), *settings.frames));
     }
     Shot shot = makeShot(firstOf(sweep, settings));

@@ -4,7 +4,7 @@
 #include "app/visual.h"
 #include "compare_json.h"
 #include "compare_page.h"
-#include "report_plots.h"
+#include "report_pictures.h"
 
 #include "files/files.h"
 #include "image/image_io.h"
@@ -195,17 +195,6 @@ void ReportFolder::write(const std::string& name, std::string_view bytes)
     writeFile(fileFor(name), bytes);
 }
 
-std::optional<std::string> ReportFolder::writePlots()
-{
-    std::optional<std::string> why = drawPlots(fileFor(kReportResult), work_->path());
-    for (const std::string& name : files_) {
-        if (why && name.ends_with(".svg")) {
-            fs::remove(work_->path() / name); // the first of them may be there
-        }
-    }
-    return why;
-}
-
 std::vector<std::string> ReportFolder::listed() const
 {
     std::vector<std::string> names = files_;
@@ -252,28 +241,18 @@ void ReportFolder::moveFiles()
     }
 }
 
-std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, Json& json,
-                                       const std::function<void()>& step)
+void writeReport(ReportFolder& folder, const CompareResult& result, Json& json, const std::function<void()>& step)
 {
     writeTruths(folder, result);
     for (std::size_t i = 0; i < result.techniques.size(); ++i) {
         json["results"][i]["pictures"] = writePictures(folder, result, i);
         step();
     }
-    std::optional<std::string> no_plots;
-    if (result.sweep || result.path) {
-        folder.write(kReportResult, jsonText(json));
-        no_plots = folder.writePlots();
-    }
-    if (no_plots) {
-        json["notes"].push_back(*no_plots);
-    }
     json["report_files"] = folder.listed();
     const std::string text = jsonText(json);
     folder.write(kReportResult, text);
-    folder.write(kReportPage, comparePage(Json::parse(text))); // of the text, all of which is UTF-8
+    folder.write(kReportPage, comparePage(Json::parse(text), pagePictures(result))); // of the text, all of it UTF-8
     folder.keep();
-    return no_plots;
 }
 
 } // namespace gnomon::app

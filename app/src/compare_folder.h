@@ -32,8 +32,6 @@ public:
     void write(const std::string& name, const Image8& picture);
     void write(const std::string& name, const Image16& mask);
     void write(const std::string& name, std::string_view bytes);
-    /// By drawPlots(), from result.json as it was written: all of them, or none and why.
-    [[nodiscard]] std::optional<std::string> writePlots();
     /// What a report with all that was written has: that, the page and result.json.
     [[nodiscard]] std::vector<std::string> listed() const;
     /// Puts what was written in its place, and removes what the earlier report had and this one has not.
@@ -51,9 +49,8 @@ private:
     std::optional<Temporary> work_;    // where files are written, once the first one is
 };
 
-/// Pictures of every technique, plots, the page, result.json. `json` (of `result`) gains "pictures" and "report_files",
-/// and a note where plots cannot be drawn, which is given back. `step` is called after every technique and may throw.
-[[nodiscard]] std::optional<std::string> writeReport(ReportFolder& folder, const CompareResult& result, Json& json,
-                                                     const std::function<void()>& step);
+/// Pictures of every technique, the page, result.json. `json` (of `result`) gains "pictures" and "report_files". `step`
+/// is called after every technique and may throw.
+void writeReport(ReportFolder& folder, const CompareResult& result, Json& json, const std::function<void()>& step);
 
 } // namespace gnomon::app

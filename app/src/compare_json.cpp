@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare_json.h"
 
+#include "command_text.h"
 #include "compare_notes.h"
 #include "technique_json.h"
 
@@ -116,6 +117,19 @@ void addPlaces(Json& json, const SweepResult& sweep)
     }
 }
 
+/// How to have each point of a sweep alone.
+void addCommands(Json& json, const SweepPlan& plan, const Settings& settings)
+{
+    for (std::size_t line = 0; line < plan.lines.size(); ++line) {
+        Json commands = Json::array();
+        for (std::size_t value = 0; value < plan.values.size(); ++value) {
+            commands.push_back(commandText(plan.remakes_shot ? settingsAt(plan, value, settings) : settings, kCompare,
+                                           describeTechnique(plan.lines[line].points[value])));
+        }
+        json["results"][line]["commands"] = std::move(commands);
+    }
+}
+
 Json unitsJson()
 {
     Json units = sharedUnitsJson();
@@ -184,10 +198,12 @@ Json compareJson(const CompareResult& result, const Shot& shot, const Settings& 
     json["results"] = Json::array();
     for (const ComparedTechnique& technique : result.techniques) {
         json["results"].push_back(techniqueJson(technique, result.path));
+        json["results"].back()["command"] = commandText(settings, kCompare, technique.name);
     }
     json["pixels"] = pixelsJson(result.pixels);
     if (result.sweep) {
         json["sweep"] = sweepJson(*result.sweep);
+        addCommands(json["sweep"], result.sweep->plan, settings);
         if (result.sweep->plan.remakes_shot) {
             addPlaces(json["sweep"], *result.sweep);
         }

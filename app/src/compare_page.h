@@ -8,8 +8,8 @@
 
 namespace gnomon::app {
 
-/// HTML in UTF-8, without script or anything from elsewhere, which a browser shows from the folder that the report's
-/// pictures lie in. Made of the comparison's JSON alone, with the files of its report; every text in it is escaped.
-[[nodiscard]] std::string comparePage(const Json& result);
+/// HTML in UTF-8 with all that it shows and runs: a browser asks for nothing. Made of the comparison's JSON alone, and
+/// of `pictures` (pagePictures()), which may be null. Every text in it is escaped.
+[[nodiscard]] std::string comparePage(const Json& result, const Json& pictures);
 
 } // namespace gnomon::app

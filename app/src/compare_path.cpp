@@ -2,6 +2,7 @@
 #include "compare_path.h"
 
 #include "app/visual.h"
+#include "report_pictures.h"
 #include "truth_run.h"
 
 #include <algorithm>
@@ -113,6 +114,7 @@ private:
         facts.from_cache = facts.from_cache && truth.from_cache;
         if (show) {
             result_.path->truths.push_back(visibility.visibility);
+            result_.shades.push_back(drawShades(scene_, subjectNow(), settings_));
         }
     }
 

@@ -5,6 +5,7 @@
 #include "app/shot.h"
 #include "compare_judged.h"
 #include "equal_error.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/path_run.h"
 #include "sweep.h"
@@ -27,6 +28,12 @@ struct TechniqueOnPath {
     std::optional<lab::Stability> stability;
     std::vector<std::optional<double>> rmse;      // by frame; absent where no pixel counts
     std::vector<lab::StabilityMeter::Step> steps; // by frame, from the second on
+};
+
+/// A frame with all of its light and with none: every picture of it lies between the two, as its mask says.
+struct Shades {
+    Image8 lit;
+    Image8 unlit;
 };
 
 /// What all techniques have in common along --path.
@@ -57,6 +64,7 @@ struct CompareResult {
     lab::Timed baseline; // without shadows
     std::uint64_t baseline_bytes = 0;
     std::vector<ComparedTechnique> techniques; // best first
+    std::vector<Shades> shades;                // of the frame, or of PathResult::shown; none without a report
     std::optional<SweepResult> sweep;          // then there are no techniques
     std::optional<PathResult> path;            // then `judged` is of its first frame and has no truth
 

@@ -79,7 +79,7 @@ Json pointsOf(const Json& sweep)
         for (std::size_t i = 0; i < sweep.at("values").size(); ++i) {
             Json point{{"technique", line.at("technique")}, {"value", sweep.at("values")[i]}};
             for (const auto& [key, list] : line.items()) {
-                if (list.is_array()) {
+                if (list.is_array() && key != "commands") {
                     point["error"][key] = list[i];
                 }
             }

@@ -10,8 +10,7 @@
 namespace gnomon::app {
 namespace {
 
-constexpr std::array<std::string_view, 5> kNumbered{"mask.png", "error.png", "classes.png", "density.png",
-                                                    kReportSweep};
+constexpr std::array<std::string_view, 4> kNumbered{"mask.png", "error.png", "classes.png", "density.png"};
 constexpr std::array<std::string_view, 3> kMoments{"", "_middle", "_last"};
 constexpr std::array<std::string_view, 3> kOfMoment{"mask", "error", "classes"};
 
@@ -31,7 +30,7 @@ bool isNumbered(const std::string& name)
 /// Of none of the techniques.
 bool isFixed(const std::string& name)
 {
-    constexpr std::array kFixed{kReportPage, kReportResult, kReportTruth, kReportSweep, kReportError, kReportChange};
+    constexpr std::array<std::string_view, 3> kFixed{kReportPage, kReportResult, kReportTruth};
     return std::find(kFixed.begin(), kFixed.end(), name) != kFixed.end() ||
            std::any_of(kMoments.begin(), kMoments.end(),
                        [&](std::string_view moment) { return name == pictureOf("truth", moment); });
@@ -39,18 +38,12 @@ bool isFixed(const std::string& name)
 
 } // namespace
 
-std::vector<std::string> reportFiles(std::size_t shown, bool sweep)
+std::vector<std::string> reportFiles(std::size_t shown)
 {
     std::vector<std::string> files{kReportTruth};
-    if (sweep) {
-        files.emplace_back(kReportSweep);
-    }
     for (std::size_t i = 0; i < shown; ++i) {
         for (const std::string_view what : kNumbered) {
-            // The plot of a sweep's only line is the sweep's.
-            if ((what == kReportSweep) == sweep && !(sweep && shown == 1)) {
-                files.push_back(numbered(i, what));
-            }
+            files.push_back(numbered(i, what));
         }
     }
     files.emplace_back(kReportPage);
@@ -60,10 +53,7 @@ std::vector<std::string> reportFiles(std::size_t shown, bool sweep)
 
 std::vector<std::string> pathReportFiles(std::size_t shown, const FrameRange& frames)
 {
-    std::vector<std::string> files{kReportError};
-    if (frames.first != frames.last) {
-        files.emplace_back(kReportChange);
-    }
+    std::vector<std::string> files;
     for (const std::string_view moment : momentsOf(frames.last - frames.first + 1)) {
         files.push_back(pictureOf("truth", moment));
         for (std::size_t i = 0; i < shown; ++i) {

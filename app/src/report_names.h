@@ -14,13 +14,10 @@ namespace gnomon::app {
 inline constexpr const char* kReportPage = "index.html";
 inline constexpr const char* kReportResult = "result.json";
 inline constexpr const char* kReportTruth = "truth.png";
-inline constexpr const char* kReportSweep = "sweep.svg";
-inline constexpr const char* kReportError = "error.svg";   // of a path: over its frames
-inline constexpr const char* kReportChange = "change.svg"; // likewise
 
-/// Names of a report's files, the page and result.json last. `shown`: techniques, or lines of a sweep.
-[[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown, bool sweep);
-/// The same of a comparison along --path: pictures of the first, the middle and the last frame, and curves.
+/// Names of a report's files, the page and result.json last. `shown`: techniques, of a sweep none.
+[[nodiscard]] std::vector<std::string> reportFiles(std::size_t shown);
+/// The same of a comparison along --path: pictures of the first, the middle and the last frame.
 [[nodiscard]] std::vector<std::string> pathReportFiles(std::size_t shown, const FrameRange& frames);
 /// Whether a report could have it: a list from a file is not taken at its word.
 [[nodiscard]] bool isReportFile(const std::string& name);

@@ -285,7 +285,7 @@ const std::vector<Setting>& rows()
          .doc = "frames of each technique before them", .subcommands = kBench | kCompare,
          .apply = [](Settings& s, const Value& v) { s.warmup = static_cast<std::uint32_t>(v.integer); }},
         {.key = "report", .group = Group::result, .type = text, .form = "DIR", .doc = "folder for a page with pictures and the table",
-         .subcommands = kCompare, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
+         .subcommands = kBench | kCompare, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.report = v.text; }},
         {.key = "against", .group = Group::result, .type = text, .form = "FILE", .doc = "what has grown since an earlier --json; status 1 if counters have",
          .subcommands = kBench, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.against = v.text; }},
         {.key = "equal-error", .group = Group::result, .type = flag, .default_text = "0", .doc = "time the cheapest pcf that is as near to the truth, too",

@@ -11,6 +11,7 @@
 #include <exception>
 #include <png.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -86,15 +87,15 @@ bool encode(Sink& sink, const Layout& layout)
     return true;
 }
 
+/// `what` begins the line of an Error.
 template <typename T>
-void write(const std::filesystem::path& file, const ImageOf<T>& image)
+std::string encoded(const std::string& what, const ImageOf<T>& image)
 {
     constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                     PNG_COLOR_TYPE_RGB_ALPHA};
     if (image.width == 0 || image.height == 0 || image.channels == 0 || image.channels > 4) {
-        throw Error("writing " + file.string(), "the image is empty or has more than 4 channels");
+        throw Error(what, "the image is empty or has more than 4 channels");
     }
-    requireWritable(file); // before the work of compressing
     std::vector<png_bytep> rows(image.height);
     for (std::uint32_t y = 0; y < image.height; ++y) {
         // libpng takes rows as not const and does not write to them.
@@ -112,10 +113,17 @@ void write(const std::filesystem::path& file, const ImageOf<T>& image)
     if (!encode(sink, layout)) {
         // libpng says nothing where it has no memory to begin with.
         const bool no_memory = sink.full || sink.problem.front() == '\0';
-        throw Error("writing " + file.string(), no_memory ? "out of memory" : sink.problem.data(), {},
+        throw Error(what, no_memory ? "out of memory" : sink.problem.data(), {},
                     no_memory ? ErrorKind::out_of_memory : ErrorKind::other);
     }
-    writeFile(file, sink.bytes);
+    return std::move(sink.bytes);
+}
+
+template <typename T>
+void write(const std::filesystem::path& file, const ImageOf<T>& image)
+{
+    requireWritable(file); // before the work of compressing
+    writeFile(file, encoded("writing " + file.string(), image));
 }
 
 } // namespace
@@ -123,6 +131,11 @@ void write(const std::filesystem::path& file, const ImageOf<T>& image)
 void writePng(const std::filesystem::path& file, const Image8& image)
 {
     write(file, image);
+}
+
+std::string encodePng(const Image8& image)
+{
+    return encoded("compressing a picture", image);
 }
 
 void writePng(const std::filesystem::path& file, const Image16& image)

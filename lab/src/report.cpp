@@ -150,13 +150,24 @@ void drawLineAtOne(Image8& picture, const ImageF& density)
 
 } // namespace
 
-Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
+Image8 errorPixels(const ImageF& test, const ImageF& truth, const Counted& counted)
 {
     assert(areMasksOfOneSize(test, truth) && areMasksOfOneSize(test, counted));
     const auto colour_of = [&](std::size_t i) {
         return counted.values[i] == 0 ? kLeftOut : errorColour(test.values[i] - truth.values[i]);
     };
-    return withLegend(paint(test.width, test.height, colour_of), errorLegend());
+    return paint(test.width, test.height, colour_of);
+}
+
+Image8 errorPicture(const ImageF& test, const ImageF& truth, const Counted& counted)
+{
+    return withLegend(errorPixels(test, truth, counted), errorLegend());
+}
+
+std::array<std::uint8_t, 3> errorRgb(double error)
+{
+    const Colour colour = errorColour(error);
+    return {colour.red, colour.green, colour.blue};
 }
 
 std::array<std::uint8_t, 3> classRgb(ErrorClass error_class)
@@ -165,7 +176,7 @@ std::array<std::uint8_t, 3> classRgb(ErrorClass error_class)
     return {colour.red, colour.green, colour.blue};
 }
 
-Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
+Image8 classPixels(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
 {
     assert(areMasksOfOneSize(classes, test) && areMasksOfOneSize(test, truth));
     const auto colour_of = [&](std::size_t i) {
@@ -181,16 +192,32 @@ Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, cons
                    ? grey
                    : mixLight(grey, classColour(classes.values[i]), std::sqrt(std::min(error, 1.0)));
     };
-    return withLegend(paint(classes.width, classes.height, colour_of), classLegend());
+    return paint(classes.width, classes.height, colour_of);
 }
 
-Image8 densityPicture(const ImageF& texels_per_pixel)
+Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth)
+{
+    return withLegend(classPixels(classes, test, truth), classLegend());
+}
+
+Image8 densityPixels(const ImageF& texels_per_pixel)
 {
     assert(texels_per_pixel.channels == 1);
     Image8 picture = paint(texels_per_pixel.width, texels_per_pixel.height,
                            [&](std::size_t i) { return densityColour(texels_per_pixel.values[i]); });
     drawLineAtOne(picture, texels_per_pixel);
-    return withLegend(picture, densityLegend());
+    return picture;
+}
+
+Image8 densityPicture(const ImageF& texels_per_pixel)
+{
+    return withLegend(densityPixels(texels_per_pixel), densityLegend());
+}
+
+std::array<std::uint8_t, 3> densityRgb(double texels_per_pixel)
+{
+    const Colour colour = densityColour(texels_per_pixel);
+    return {colour.red, colour.green, colour.blue};
 }
 
 Image8 lightCountPicture(const ImageOf<std::uint8_t>& lights)

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line that does a run again, for people to copy.
+#pragma once
+
+#include "app/settings.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace gnomon::app {
+
+/// As a POSIX shell takes it for one word: as it is, or between single quotes.
+[[nodiscard]] std::string shellWord(std::string_view text);
+/// "gnomon compare rts --size=640x360 --techniques=pcf": one technique of a run of `subcommand` (kCompare or kBench),
+/// with every setting that is not at its default. `technique` is as describeTechnique() gives it, so what of it other
+/// settings gave is in it. What says where results go is left out, and so is --sweep, whose point the settings have.
+[[nodiscard]] std::string commandText(const Settings& settings, std::uint32_t subcommand, std::string_view technique);
+
+} // namespace gnomon::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pages of all reports have in common: one file that asks for nothing from elsewhere.
+#pragma once
+
+#include "compare_table.h"
+#include "result_json.h"
+
+#include <string>
+#include <string_view>
+
+namespace gnomon::app {
+
+/// Text as it stands in HTML and in attributes between double quotes.
+[[nodiscard]] std::string escaped(std::string_view text);
+/// A name and what it is, of a list <dl>.
+[[nodiscard]] std::string definition(std::string_view name, std::string_view text);
+/// With a heading that names it. `heading` is text, `body` HTML; without a body it is none.
+[[nodiscard]] std::string section(std::string_view id, std::string_view heading, std::string_view body);
+/// A list of the notes, or nothing.
+[[nodiscard]] std::string notesHtml(const Json& result);
+
+/// A table as report_table.js sorts and filters it. Its first column names the rows.
+struct TableHtml {
+    std::string id;
+    std::string caption;
+    bool picks = false; // a row is chosen by a click, and the pictures are the chosen row's
+};
+[[nodiscard]] std::string tableHtml(const TextTable& table, const TableHtml& about);
+/// What the columns mean, folded away.
+[[nodiscard]] std::string meaningsHtml(const TextTable& table);
+
+/// PNG as a data: URI.
+[[nodiscard]] std::string dataUri(std::string_view png);
+
+struct Page {
+    std::string kind;  // what report_page.js is to make of it: "compare", "sweep" or "bench"
+    std::string title; // and first heading
+    std::string lead;  // one line below it
+    std::string body;  // HTML: sections
+    Json data;         // what the scripts read
+    Json pictures;     // what they show; null: nothing
+};
+/// The whole file, in UTF-8. The scripts, the style and the charts' library are in it.
+[[nodiscard]] std::string pageHtml(const Page& page);
+/// What ends the part of a page that its pictures do not change.
+inline constexpr std::string_view kPicturesTag = "<script type=\"application/json\" id=\"pictures\">";
+
+} // namespace gnomon::app
