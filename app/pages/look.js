@@ -35,8 +35,10 @@ function slider(stage) {
   input.addEventListener("input", show);
   const divider = el("div", { class: "divider", "aria-hidden": "true" });
   divider.addEventListener("pointerdown", (event) => {
-    event.stopPropagation();
-    divider.setPointerCapture(event.pointerId);
+    if (event.isPrimary) { // a second finger is the picture's, to pinch
+      event.stopPropagation();
+      divider.setPointerCapture(event.pointerId);
+    }
   });
   divider.addEventListener("pointermove", (event) => {
     if (divider.hasPointerCapture(event.pointerId)) {

@@ -13,8 +13,8 @@ function chartSection(title, boxes) {
 function fillCompare() {
   fill("look", el("div", { class: "first" }, viewer(), el("div", { class: "winners" }, ...winners(), chosenCard())));
   fill("panes", pictures());
-  const over = result.path ? pathCharts() : [];
-  fill("charts", chartSection("All techniques", [scatter(), classBars("Where the error comes from", data.names, result.results.map((one) => one.error)), ...over]));
+  const boxes = [scatter(), classBars("Where the error comes from", data.names, result.results.map((one) => one.error))];
+  fill("charts", chartSection("All techniques", [...boxes, ...(result.path ? pathCharts() : [])]));
   const table = document.getElementById("techniques");
   for (const point of paretoFront(pointsOfTechniques())) {
     table.tBodies[0].rows[point.index].classList.add("front");

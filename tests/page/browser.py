@@ -18,7 +18,7 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--no-default-browser-check", "--disable-sync",
              "--disable-background-networking", "--disable-component-update", "--disable-extensions", "--disable-dev-shm-usage",
              "--hide-scrollbars", "--force-color-profile=srgb", "--remote-debugging-pipe"]
-LONGEST_WAIT_S = 60
+LONGEST_WAIT_S = 20
 
 
 def find_chromium() -> str | None:
@@ -162,7 +162,7 @@ class Browser:
         self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
 
     def key(self, name: str) -> None:
-        text = {"text": name} if len(name) == 1 else {}
+        text = {"text": "\r" if name == "Enter" else name} if len(name) == 1 or name == "Enter" else {}
         code = {"ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40, "Tab": 9, "Enter": 13, " ": 32}.get(name, ord(name[0]))
         self.call("Input.dispatchKeyEvent", type="keyDown", key=name, windowsVirtualKeyCode=code, **text)
         self.call("Input.dispatchKeyEvent", type="keyUp", key=name, windowsVirtualKeyCode=code)
