@@ -27,8 +27,8 @@ namespace gnomon::lab {
 /// The colour-blind-safe colour of a class in pictures and plots: red, green, blue, sRGB-encoded.
 [[nodiscard]] std::array<std::uint8_t, 3> classRgb(ErrorClass error_class);
 
-/// classRgb() over a faint grey truth, with a legend that names them. The colour is as strong as the square root of |test - truth|: a pixel near an edge without error
-/// stays grey.
+/// classRgb() over a faint grey truth, with a legend that names them. The colour is as strong as the square root of
+/// |test - truth|: a pixel near an edge without error stays grey.
 [[nodiscard]] Image8 classPicture(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
 [[nodiscard]] Image8 classPixels(const ImageOf<ErrorClass>& classes, const ImageF& test, const ImageF& truth);
 

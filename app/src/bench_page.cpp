@@ -29,15 +29,14 @@ constexpr Column kTimes[] = {
     {"still", "/still_time_ms/frame", 3, "median frame where masks that still hold are kept, too"},
     {"still ratio", "/still_frame_ratio", 2, "that, divided by the frame without shadows"}};
 
-constexpr Column kPass[] = {
-    {"ms", "/ms", 3, "median milliseconds"},
-    {"iqr", "/iqr_ms", 3, "their interquartile range"},
-    {"vertices", "/vertex_invocations", 0, "invocations of vertex shaders"},
-    {"primitives", "/primitives", 0, ""},
-    {"fragments", "/fragment_invocations", 0, "invocations of fragment shaders"},
-    {"compute", "/compute_invocations", 0, "invocations of compute shaders"},
-    {"draws", "/draws", 0, ""},
-    {"texels", "/texels", 0, ""}};
+constexpr Column kPass[] = {{"ms", "/ms", 3, "median milliseconds"},
+                            {"iqr", "/iqr_ms", 3, "their interquartile range"},
+                            {"vertices", "/vertex_invocations", 0, "invocations of vertex shaders"},
+                            {"primitives", "/primitives", 0, ""},
+                            {"fragments", "/fragment_invocations", 0, "invocations of fragment shaders"},
+                            {"compute", "/compute_invocations", 0, "invocations of compute shaders"},
+                            {"draws", "/draws", 0, ""},
+                            {"texels", "/texels", 0, ""}};
 
 TextTable timesTable(const Json& result)
 {
@@ -115,9 +114,10 @@ std::string benchPage(const Json& result)
     }
     const std::string body =
         "<div id=\"look\"></div>\n<div id=\"charts\"></div>\n" +
-        section("numbers", "Times",
-                tableHtml(times, {"techniques", "Median milliseconds; ratios are to the frame without shadows.", true}) +
-                    meaningsHtml(times)) +
+        section(
+            "numbers", "Times",
+            tableHtml(times, {"techniques", "Median milliseconds; ratios are to the frame without shadows.", true}) +
+                meaningsHtml(times)) +
         section("counters", "Passes and what they counted",
                 tableHtml(passes, {"passes", "Of frames in which every map is drawn anew.", false}) +
                     meaningsHtml(passes)) +

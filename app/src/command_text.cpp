@@ -33,9 +33,8 @@ std::string optionText(const Setting& setting, std::string_view value)
     }
     std::string text;
     // A value may begin with a minus, so it is joined to its option.
-    for (const std::string_view piece : setting.repeatable
-                                            ? split(value, setting.separator.front())
-                                            : std::vector<std::string_view>{value}) {
+    for (const std::string_view piece :
+         setting.repeatable ? split(value, setting.separator.front()) : std::vector<std::string_view>{value}) {
         text += " " + shellWord(fmt::format("--{}={}", setting.key, piece));
     }
     return text;

@@ -249,9 +249,8 @@ Json findByComparing(const Settings& settings)
     std::unique_ptr<ReportFolder> folder;
     if (!settings.report.empty()) {
         folder = std::make_unique<ReportFolder>(
-            settings.report, settings.path.empty()
-                                 ? reportFiles(sweep ? 0 : techniques.size())
-                                 : pathReportFiles(techniques.size(), *settings.frames));
+            settings.report, settings.path.empty() ? reportFiles(sweep ? 0 : techniques.size())
+                                                   : pathReportFiles(techniques.size(), *settings.frames));
     }
     Shot shot = makeShot(firstOf(sweep, settings));
     const host::ShadedLight light = shot.lights[lightIndex(shot, settings)];

@@ -137,13 +137,13 @@ std::string dataUri(std::string_view png)
 std::string pageHtml(const Page& page)
 {
     const std::string title = escaped(page.title);
-    std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
-        "<title>{}</title>\n<style>\n{}</style>\n</head>\n",
-        kPolicy, title, joined(kPageStyle));
+    std::string html =
+        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                    "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                    "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
+                    "<title>{}</title>\n<style>\n{}</style>\n</head>\n",
+                    kPolicy, title, joined(kPageStyle));
     html += fmt::format("<body data-kind=\"{}\">\n<header class=\"masthead\">\n<p class=\"brand\">Gnomon</p>\n"
                         "<h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n<main>\n"
                         "<noscript><p>The pictures and charts of this page need JavaScript; its numbers do not.</p>"

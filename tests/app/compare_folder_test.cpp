@@ -37,7 +37,7 @@ std::vector<std::string> namesIn(const fs::path& folder)
 TEST(ReportFolder, GoesAwayUnlessItIsKept)
 {
     const test::Folder folder;
-    const std::vector<std::string> files = app::reportFiles(1, false);
+    const std::vector<std::string> files = app::reportFiles(1);
     {
         app::ReportFolder report(folder / "out", files);
         report.write("result.json", "{}");
@@ -66,30 +66,28 @@ TEST(ReportFolder, ChangesAnotherOnlyWhenKept)
     test::spill(folder / "result.json", R"({"report_files": ["03_mask.png", "result.json", "mine.txt", "../x", 3]})");
     const std::vector<std::string> before = namesIn(folder.path());
     {
-        app::ReportFolder report(folder.path(), app::reportFiles(1, true));
+        app::ReportFolder report(folder.path(), app::reportFiles(0));
         report.write("result.json", "new");
     }
     EXPECT_EQ(namesIn(folder.path()), before);
     EXPECT_NE(test::slurp(folder / "result.json"), "new");
-    app::ReportFolder report(folder.path(), app::reportFiles(1, true));
+    app::ReportFolder report(folder.path(), app::reportFiles(0));
     report.write("result.json", "new");
-    report.write("sweep.svg", "new");
+    report.write("truth.png", "new");
     report.keep();
     EXPECT_EQ(test::slurp(folder / "result.json"), "new");
-    EXPECT_TRUE(fs::exists(folder / "sweep.svg"));
+    EXPECT_TRUE(fs::exists(folder / "truth.png"));
     EXPECT_FALSE(fs::exists(folder / "03_mask.png")); // the earlier report's alone
     EXPECT_TRUE(fs::exists(folder / "2024_mask.png"));
     EXPECT_TRUE(fs::exists(folder / "mine.txt"));
 }
 
-TEST(ReportFiles, AreNumberedByTechniqueOrLine)
+TEST(ReportFiles, AreNumberedByTechnique)
 {
     using Names = std::vector<std::string>;
-    EXPECT_EQ(app::reportFiles(1, false), (Names{"truth.png", "01_mask.png", "01_error.png", "01_classes.png",
-                                                 "01_density.png", "index.html", "result.json"}));
-    EXPECT_EQ(app::reportFiles(1, true), (Names{"truth.png", "sweep.svg", "index.html", "result.json"}));
-    EXPECT_EQ(app::reportFiles(2, true),
-              (Names{"truth.png", "sweep.svg", "01_sweep.svg", "02_sweep.svg", "index.html", "result.json"}));
+    EXPECT_EQ(app::reportFiles(1), (Names{"truth.png", "01_mask.png", "01_error.png", "01_classes.png",
+                                          "01_density.png", "index.html", "result.json"}));
+    EXPECT_EQ(app::reportFiles(0), (Names{"truth.png", "index.html", "result.json"})); // of a sweep
 }
 
 /// A frame of up to a second; more, or --equal-error, makes it wider.

@@ -8,6 +8,7 @@
 #include "compare_page.h"
 #include "compare_text.h"
 #include "image/image_io.h"
+#include "report_html.h"
 #include "sweep.h"
 
 #include <gtest/gtest.h>
@@ -124,7 +125,10 @@ TEST(Compare, TableAndPageAreMadeOfTheJson)
         ASSERT_EQ(ran.status, 0) << ran.err;
         const app::Json result = app::Json::parse(test::slurp(place.folder / "out/result.json"));
         EXPECT_EQ(app::compareText(result), ran.out);
-        EXPECT_EQ(app::comparePage(result), test::slurp(place.folder / "out/index.html"));
+        const std::string page = test::slurp(place.folder / "out/index.html");
+        const std::size_t pictures = page.find(app::kPicturesTag);
+        ASSERT_NE(pictures, std::string::npos);
+        EXPECT_EQ(app::comparePage(result, nullptr).substr(0, pictures), page.substr(0, pictures));
     }
 }
 

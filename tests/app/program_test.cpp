@@ -7,6 +7,7 @@
 #include "app/command_line.h"
 #include "app/preset.h"
 #include "app/shot.h"
+#include "bench_page.h"
 #include "image/image_io.h"
 
 #include <gnomon/choice_rules.h>
@@ -243,6 +244,24 @@ TEST(Bench, JsonHasWhatScriptsRelyOn)
         EXPECT_GT(result["fit_efficiency"].get<double>(), 0.0);
         EXPECT_LE(result["fit_efficiency"].get<double>(), 1.0);
     }
+}
+
+TEST(Bench, ReportIsAPageMadeOfItsJson)
+{
+    const test::Folder folder;
+    const std::vector<std::string> words{"bench",         "planes", "--size",   "16x16", "--map-size", "64",
+                                         "--repetitions", "1",      "--warmup", "0",     "--report",   "out"};
+    const test::Ran ran = inFolder(folder, words);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.out.find("no shadows"), std::string::npos); // the table is told all the same
+    const app::Json result = app::Json::parse(test::slurp(folder / "out/result.json"));
+    EXPECT_EQ(result["report_files"], (std::vector<std::string>{"index.html", "result.json"}));
+    EXPECT_EQ(test::slurp(folder / "out/index.html"), app::benchPage(result));
+    std::vector<std::string> again = words;
+    again.insert(again.end(), {"--preset", "out/result.json", "--json"}); // renews it
+    const test::Ran repeated = inFolder(folder, again);
+    ASSERT_EQ(repeated.status, 0) << repeated.err;
+    EXPECT_EQ(json::parse(repeated.out), json::parse(test::slurp(folder / "out/result.json")));
 }
 
 /// What throws no shadow is the cheapest of all.

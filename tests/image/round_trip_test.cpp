@@ -3,6 +3,7 @@
 
 #include "image/image_io.h"
 
+#include <gnomon/error.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,6 +99,8 @@ TEST(Png, PicturesAreTaggedSrgbAndMasksLinear)
     writePng(folder / "picture.png", pattern<std::uint8_t>(4, 4, 3));
     writePng(folder / "mask.png", pattern<std::uint16_t>(4, 4, 1));
     EXPECT_NE(test::slurp(folder / "picture.png").find("sRGB"), std::string::npos);
+    EXPECT_EQ(encodePng(pattern<std::uint8_t>(4, 4, 3)), test::slurp(folder / "picture.png"));
+    EXPECT_THROW((void)encodePng(Image8(4, 4, 5)), Error);
     const std::string mask = test::slurp(folder / "mask.png");
     EXPECT_EQ(mask.find("sRGB"), std::string::npos);
     const std::size_t gamma = mask.find("gAMA");

@@ -138,10 +138,15 @@ TEST(ReportError, EveryPixelHasItsColour)
     counted.values[6] = 0;
     counted.values[7] = 0;
     const Image8 picture = errorPicture(test, truth, counted);
+    const Image8 alone = errorPixels(test, truth, counted); // without its legend
+    EXPECT_EQ(alone.width, test.width);
+    EXPECT_EQ(alone.height, test.height);
     const std::array<Colour, 8> expected = {kWhite,      errorColour(-1.0), errorColour(1.0), errorColour(0.25),
                                             kNotANumber, kNotANumber,       kLeftOut,         kLeftOut};
-    for (std::uint32_t x = 0; x < expected.size(); ++x)
+    for (std::uint32_t x = 0; x < expected.size(); ++x) {
         EXPECT_EQ(at(picture, x, 0), expected[x]) << x;
+        EXPECT_EQ(at(alone, x, 0), expected[x]) << x;
+    }
 }
 
 TEST(ReportError, TheScaleIsInTheLegend)
