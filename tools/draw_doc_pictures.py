@@ -7,7 +7,7 @@ usage: draw_doc_pictures.py [--check] [--only TEXT] [--jobs N] GNOMON FOLDER
 Every command `build/gnomon render ... -o docs/images/NAME` or `build/gnomon plan ... --draw docs/images/NAME` of a .md
 file, in a code block or between backticks, is run with the program GNOMON and writes FOLDER/NAME; docs/images itself may
 be FOLDER. Where a document shows images/NAME.svg and names `build/gnomon compare ... --sweep ... --report out/NAME`, the
-picture is the report's sweep.svg. --only takes the pictures whose names hold TEXT, --jobs draws N at a time (default 1).
+picture is what tools/plot.py draws of the report's result. --only takes the pictures whose names hold TEXT, --jobs draws N at a time (default 1).
 
 --check then compares each with docs/images, byte for byte, and says which differ and by how much. Pictures are those of
 llvmpipe: another driver, or another version of it, may round otherwise. Plots are those of Debian's matplotlib.
@@ -19,7 +19,6 @@ document shows, or when --check finds a difference. Pictures for which no docume
 import argparse
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -75,9 +74,9 @@ def draw(gnomon: Path, root: Path, folder: Path, name: str, arguments: list[str]
         report = Path(kept) / "report"
         target = report if arguments[-1] == "--report" else folder / name
         run = subprocess.run([gnomon, *arguments, target], cwd=root, capture_output=True, text=True, check=False)
-        if run.returncode == 0 and (target != report or (report / "sweep.svg").is_file()):
-            if target == report:
-                shutil.copy(report / "sweep.svg", folder / name)
+        if run.returncode == 0 and target == report:
+            run = subprocess.run([root / "tools/plot.py", report / "result.json", folder / name], capture_output=True, text=True, check=False)
+        if run.returncode == 0:
             return None
     # The program's own sentence comes last, after what it says of the device.
     said = run.stderr.strip().splitlines()[-1:] or [f"exit status {run.returncode}"]

@@ -11,8 +11,8 @@ RESULT.json is what `gnomon compare --json` or a report has. The first form writ
   comes from (of a single technique, sweep.svg is that);
 - of a --path: error.svg and change.svg, the error and how much it changes, over the frames.
 
-The second form writes one of them, PLOT (default: the first). `gnomon compare --report` runs this script. Needs
-matplotlib (Debian: python3-matplotlib); exit status 3 without it. The same result gives the same bytes.
+The second form writes one of them, PLOT (default: the first). The documents' plots are drawn so
+(tools/draw_doc_pictures.py); a report's page draws its own. Needs matplotlib (Debian: python3-matplotlib); exit status 3 without it. The same result gives the same bytes.
 """
 
 import json

@@ -27,9 +27,13 @@ PROGRAM = """#!/bin/sh
 case "$*" in
     metrics*) echo "rmse 0.5";;
     *--bad*) echo "gnomon: no GPU found" >&2; echo "gnomon: --bad is unknown" >&2; exit 2;;
-    compare*) for last; do :; done; mkdir "$last"; echo "$*" | sed 's/ --report .*//' > "$last/sweep.svg";;
+    compare*) for last; do :; done; mkdir "$last"; echo "$*" | sed 's/ --report .*//' > "$last/result.json";;
     *) for last; do :; done; echo "$*" | sed 's/ \\(-o\\|--draw\\) .*//' > "$last";;
 esac
+"""
+# Stands for tools/plot.py: a plot is its result.
+PLOT = """#!/bin/sh
+cp "$1" "$2"
 """
 FAULTS = [
     (KEPT, "64", "32", "a.png: differs: rmse 0.5"),
@@ -53,8 +57,9 @@ def run(tree: dict[str, str], *options: str) -> subprocess.CompletedProcess:
         for tool in (TOOL, TOOL.parent / "sources.py"):
             shutil.copy(tool, tools)
         program = Path(root, "gnomon")
-        program.write_text(PROGRAM, encoding="utf-8")
-        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        for script, text in ((program, PROGRAM), (tools / "plot.py", PLOT)):
+            script.write_text(text, encoding="utf-8")
+            script.chmod(script.stat().st_mode | stat.S_IXUSR)
         return subprocess.run([sys.executable, "-B", tools / TOOL.name, *options, program, Path(root, "out")],
                               capture_output=True, text=True, check=False)
 
