@@ -34,7 +34,7 @@ function passBars() {
       options: {
         indexAxis: "y",
         scales: { x: axis("median milliseconds of a frame", { stacked: true, beginAtZero: true }),
-          y: { stacked: true, grid: { display: false }, ticks: { autoSkip: false, color: colour("ink") } } },
+          y: { stacked: true, grid: { display: false }, ticks: rowTicks() } },
         plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } },
           tooltip: { mode: "index", filter: (item) => item.raw > 0, callbacks: { label: (item) => `${item.dataset.label}: ${number(item.raw, 3)} ms` } } },
         onClick: (_, hits) => {
@@ -57,7 +57,7 @@ function keptBars() {
     label: "Ratio of each technique's frame to the frame without shadows, with maps drawn anew and kept. The table has all numbers." }, () => ({
     type: "bar",
     data: { labels: data.names, datasets: ways.map(([label, key], i) => ({ label, data: result.results.map((one) => one[key]), backgroundColor: colour(`series-${i + 1}`) })) },
-    options: { indexAxis: "y", scales: { x: axis("times the frame without shadows", { beginAtZero: true }), y: { grid: { display: false }, ticks: { autoSkip: false, color: colour("ink") } } },
+    options: { indexAxis: "y", scales: { x: axis("times the frame without shadows", { beginAtZero: true }), y: { grid: { display: false }, ticks: rowTicks() } },
       plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } } } }
   }));
 }

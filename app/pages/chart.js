@@ -48,8 +48,9 @@ function chartPanel({ title, note, label, height, wide }, config) {
 /// Once they are in the page, which gives them their size.
 function drawCharts() {
   charts.forEach(drawChart);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => charts.forEach(drawChart));
-  addEventListener("beforeprint", () => charts.forEach((entry) => entry.chart.resize()));
+  for (const medium of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(medium).addEventListener("change", () => charts.forEach(drawChart));
+  }
 }
 
 /// Of a logarithmic axis: 1, 2 and 5 of each power of ten.
@@ -64,6 +65,17 @@ function shortNumber(value) {
 
 function axis(text, more) {
   return { title: { display: true, text }, grid: { color: colour("line"), borderColor: colour("line") }, ...more };
+}
+
+/// Names of rows, of which a narrow chart shows both ends.
+function rowTicks() {
+  return {
+    autoSkip: false, color: colour("ink"),
+    callback(value) {
+      const name = this.getLabelForValue(value);
+      return this.chart.width < 520 && name.length > 20 ? `${name.slice(0, 9)}\u2026${name.slice(-10)}` : name;
+    }
+  };
 }
 
 /// Writes a point's `label` into it.

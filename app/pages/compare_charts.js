@@ -70,7 +70,7 @@ function classBars(title, names, errors) {
       indexAxis: "y",
       scales: {
         x: axis(shares ? "per cent of the squared error" : "mean squared error", { stacked: true, max: shares ? 100 : undefined, ticks: { callback: shortNumber, maxRotation: 0 } }),
-        y: { stacked: true, grid: { display: false }, ticks: { autoSkip: false, color: colour("ink") } }
+        y: { stacked: true, grid: { display: false }, ticks: rowTicks() }
       },
       plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } },
         tooltip: { mode: "index", callbacks: { label: (item) => `${item.dataset.label}: ${shares ? `${number(item.raw, 1)} %` : item.raw.toExponential(2)}` } } },

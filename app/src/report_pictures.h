@@ -13,9 +13,9 @@ namespace gnomon::app {
 /// techniques are judged: any mask's picture lies between the two. Throws as host::FrameRenderer does.
 [[nodiscard]] Shades drawShades(const host::SceneOnGpu& scene, const lab::Subject& subject, const Settings& settings);
 
-/// More pixels of techniques' frames than this are shown smaller, so that a page stays one that a browser opens: about
-/// 30 MB.
-inline constexpr std::uint64_t kMostPagePixels = std::uint64_t{24} << 20U;
+/// More pixels of techniques' frames than this are shown smaller, so that a page stays one that a browser opens: some
+/// 35 MB.
+inline constexpr std::uint64_t kMostPagePixels = std::uint64_t{16} << 20U;
 /// Into how many pixels on each side one is to be made of, for so many pixels.
 [[nodiscard]] std::uint32_t pageReduction(std::uint64_t pixels);
 /// Means of squares of `reduction` pixels on a side; what is left at the right and below makes smaller ones.
