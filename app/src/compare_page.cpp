@@ -13,6 +13,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace gnomon::app {
 namespace {

@@ -7,6 +7,8 @@
 #include "image/image.h"
 #include "result_json.h"
 
+#include <cstdint>
+
 namespace gnomon::app {
 
 /// The frame of `subject` shaded once with all light and once with none of its lights, without anti-aliasing, as

@@ -17,7 +17,7 @@ import unittest
 from pathlib import Path
 
 from browser import Browser, find_chromium
-from reports import HOSTILE, Reports
+from reports import HOSTILE, RUNS, Reports
 
 GNOMON = Path(sys.argv[1]).resolve()
 RESULTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -63,7 +63,7 @@ class Pages(unittest.TestCase):
         return left + width / 2, top + height / 2
 
     def test_nothing_is_asked_for_and_nothing_goes_wrong(self):
-        for name in ("compare", "path", "sweep", "bench", "hostile"):
+        for name in RUNS:
             for size in (DESKTOP, PHONE):
                 browser = self.show(name, size, dark=size == PHONE)
                 self.assertEqual(browser.problems, [], name)
@@ -85,7 +85,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(self.browser.problems, [])
 
     def test_no_page_is_wider_than_its_screen(self):
-        for name in ("compare", "path", "sweep", "bench", "hostile"):
+        for name in RUNS:
             for size in (DESKTOP, PHONE):
                 browser = self.show(name, size)
                 self.assertLessEqual(browser.run("document.documentElement.scrollWidth"), size[0], (name, size))
