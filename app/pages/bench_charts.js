@@ -69,7 +69,7 @@ function benchCards() {
   const box = el("div", { class: "card panel", "aria-live": "polite", id: "chosen" });
   whenChosen(() => {
     const one = result.results[chosen.technique];
-    box.replaceChildren(el("span", { class: "what" }, "Chosen"), el("span", { class: "who" }, data.names[chosen.technique]),
+    box.replaceChildren(el("span", { class: "what" }, "Chosen"), el("span", { class: "who" }, nameParts(data.names[chosen.technique])),
       el("span", { class: "how" }, `${ms(one.time_ms.frame ?? NaN)}, interquartile range ${ms(one.iqr_ms.frame ?? NaN)}, ${number(one.frame_ratio ?? NaN, 2)} \u00d7 without shadows`),
       commandBox(one.command));
   });

@@ -67,13 +67,14 @@ function axis(text, more) {
   return { title: { display: true, text }, grid: { color: colour("line"), borderColor: colour("line") }, ...more };
 }
 
-/// Names of rows, of which a narrow chart shows both ends.
+/// Names of rows; of what is too long for the chart, both ends.
 function rowTicks() {
   return {
     autoSkip: false, color: colour("ink"),
     callback(value) {
       const name = this.getLabelForValue(value);
-      return this.chart.width < 520 && name.length > 20 ? `${name.slice(0, 9)}\u2026${name.slice(-10)}` : name;
+      const half = Math.max(8, Math.floor(this.chart.width / 40));
+      return name.length > 2 * half + 1 ? `${name.slice(0, half)}\u2026${name.slice(-half)}` : name;
     }
   };
 }

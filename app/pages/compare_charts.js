@@ -4,6 +4,9 @@
 
 function scatter() {
   const points = pointsOfTechniques().filter((p) => Number.isFinite(p.time) && Number.isFinite(p.error));
+  if (points.length === 0) {
+    return null;
+  }
   const front = paretoFront(points);
   const rest = points.filter((p) => !front.includes(p));
   const times = points.map((p) => p.time);
@@ -49,7 +52,7 @@ function scatter() {
 /// The names of the points that have a number, each a way to choose it.
 function frontList(front) {
   return el("ol", { class: "front-list" }, ...front.map((p) => {
-    const button = el("button", { type: "button", onclick: () => choose({ technique: p.index }) }, p.name);
+    const button = el("button", { type: "button", onclick: () => choose({ technique: p.index }) }, nameParts(p.name));
     whenChosen(() => button.setAttribute("aria-pressed", String(chosen.technique === p.index)));
     return el("li", null, button, el("span", null, `${number(p.error, 4)} in ${ms(p.time)}`));
   }));
@@ -57,6 +60,9 @@ function frontList(front) {
 
 /// A bar for each name, made of the classes of `errors`. As mean squares, which add up to the square of rmse, or shares.
 function classBars(title, names, errors) {
+  if (!errors.some((error) => Number.isFinite(error?.rmse))) {
+    return null;
+  }
   let shares = false;
   const values = (name) => errors.map((error) => {
     const total = kClasses.reduce((sum, one) => sum + (error?.[one] ?? NaN), 0);

@@ -85,6 +85,11 @@ function copyButton(textNow, text, label) {
   return button;
 }
 
+/// A technique's name that breaks between its parts.
+function nameParts(name) {
+  return el("span", { class: "parts" }, ...name.split("+").map((part, i) => el("span", null, i > 0 ? `+${part}` : part)));
+}
+
 /// A command line with its button; each word stays together where it can.
 function commandBox(command) {
   const words = command.split(" ").flatMap((word, i) => [i > 0 ? " " : "", el("span", null, word)]);

@@ -103,7 +103,7 @@ function viewer() {
     const frame = frames[chosen.frame];
     showMask(left, frame, maskUri(chosen.technique), chosen.shaded);
     showMask(right, frame, maskUri(chosen.against), chosen.shaded);
-    [chosen.technique, chosen.against].forEach((one, i) => { tags[i].textContent = nameOf(one); });
+    [chosen.technique, chosen.against].forEach((one, i) => { tags[i].replaceChildren(nameParts(nameOf(one))); });
     stage.setAttribute("aria-label", `Shadows of ${nameOf(chosen.technique)} on the left, of ${nameOf(chosen.against)} on the right. ` +
       "Plus and minus zoom, 0 shows all, arrow keys move.");
   });
@@ -114,7 +114,7 @@ function viewer() {
 
 function card(what, index, how, first_prize) {
   return el("button", { type: "button", class: `card panel${first_prize ? " first-prize" : ""}`, onclick: () => choose({ technique: index }) },
-    el("span", { class: "what" }, what), el("span", { class: "who" }, data.names[index]), el("span", { class: "how" }, how));
+    el("span", { class: "what" }, what), el("span", { class: "who" }, nameParts(data.names[index])), el("span", { class: "how" }, how));
 }
 
 function least(values) {
@@ -132,7 +132,7 @@ function frontCard() {
   const front = paretoFront(points);
   const chips = el("div", { class: "chips" });
   for (const point of front) {
-    const chip = el("button", { type: "button", onclick: () => choose({ technique: point.index }) }, point.name);
+    const chip = el("button", { type: "button", onclick: () => choose({ technique: point.index }) }, nameParts(point.name));
     whenChosen(() => chip.setAttribute("aria-pressed", String(chosen.technique === point.index)));
     chips.append(chip);
   }
@@ -185,7 +185,7 @@ function chosenCard() {
       bar.append(part);
     });
     box.replaceChildren(el("span", { class: "what" }, `Chosen: ${chosen.technique + 1} of ${result.results.length}, best first`),
-      el("span", { class: "who" }, data.names[chosen.technique]),
+      el("span", { class: "who" }, nameParts(data.names[chosen.technique])),
       el("span", { class: "how" }, `rmse ${number(one.error?.rmse ?? NaN, 4)}, ${ms(one.time_ms?.frame ?? NaN)}, ${number(one.frame_ratio ?? NaN, 2)} \u00d7 without shadows`),
       shares ? bar : "", shares ? classLegend(shares) : "",
       commandBox(one.command));
@@ -239,7 +239,7 @@ function truthPane() {
 function pictures() {
   const of = (key) => () => frames[chosen.frame].techniques[chosen.technique][key];
   const title = el("h2", { id: "panes-heading" });
-  whenChosen(() => { title.textContent = `The same place in every picture: ${data.names[chosen.technique]}`; });
+  whenChosen(() => { title.replaceChildren("The same place in every picture: ", nameParts(data.names[chosen.technique])); });
   const smaller = frames[0].reduction > 1 ? ` Shown at 1/${frames[0].reduction} of their size, for all would make the page too large: the files beside it have every pixel.` : "";
   return el("section", { "aria-labelledby": "panes-heading" },
     el("div", { class: "heading" }, title, el("p", null, `They zoom and move with the one above.${smaller}`)),

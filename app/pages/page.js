@@ -7,7 +7,8 @@ function fill(id, ...elements) {
 }
 
 function chartSection(title, boxes) {
-  return el("section", { "aria-label": title }, el("h2", null, title), el("div", { class: "charts" }, ...boxes));
+  const shown = boxes.filter(Boolean);
+  return shown.length === 0 ? null : el("section", { "aria-label": title }, el("h2", null, title), el("div", { class: "charts" }, ...shown));
 }
 
 function fillCompare() {

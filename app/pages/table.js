@@ -94,7 +94,7 @@ function makePickable(table) {
     const head = row.cells[0];
     const name = head.textContent;
     head.dataset.text = name;
-    head.replaceChildren(el("button", { type: "button", "aria-label": `Show ${name}` }, name));
+    head.replaceChildren(el("button", { type: "button", "aria-label": `Show ${name}` }, nameParts(name)));
     row.addEventListener("click", () => choose({ technique: index }));
     whenChosen(() => {
       const picked = chosen.technique === index;
