@@ -36,7 +36,7 @@ root_of() {
 step_packages() {
     local root
     root=$(root_of packages) || return
-    cp -r "$debs" "$root/debs"
+    mkdir "$root/debs" && cp "$debs"/*.deb "$root/debs"
     bare_root_run "$root" '
         apt-get -qq update
         export DEBIAN_FRONTEND=noninteractive
@@ -102,7 +102,7 @@ step_library() {
 step_lintian() {
     local root
     root=$(root_of lintian) || return
-    cp -r "$debs" "$root/debs"
+    mkdir "$root/debs" && cp "$debs"/*.deb "$root/debs"
     bare_root_run "$root" '
         apt-get -qq update
         DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends lintian >/debs/apt.log 2>&1

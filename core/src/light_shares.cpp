@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light_shares.h"
 
+#include "light_space.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ LEGAL = {
     "core/include/gnomon/bias.h": "#include <gnomon/geometry.h>\n",
     "core/include/gnomon/frame.h": "#include <gnomon/geometry.h>\n",
     "core/include/gnomon/choices.h": "#include <cstdint>\n",
-    "core/src/fit/uniform.cpp": '#include <gnomon/plan.h>\n#include "fit/uniform.h"\n#include "bias.h"\n',
+    "core/src/fit/uniform.cpp": '#include <gnomon/plan.h>\n#include "fit/uniform.h"\n#include <gnomon/shared/bias.h>\n',
     "core/src/fit/uniform.h": "#pragma once\n",
     "pack/include/gnomon/pack/lists.h": "#include <gnomon/plan.h>\n",
     "vulkan/include/gnomon/vulkan/renderer.h": "#include <gnomon/pack/lists.h>\n#include <vulkan/vulkan_core.h>\n",
