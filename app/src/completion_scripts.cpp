@@ -10,10 +10,12 @@ namespace {
 // Readline breaks words at "=" and puts a candidate in the place of what follows the last of them.
 constexpr std::string_view kBash = R"script(# bash completion of gnomon, made by `gnomon completion bash`
 _gnomon() {
-    local line=${COMP_LINE:0:COMP_POINT} head= has_files= item rest
+    local line=${COMP_LINE:0:COMP_POINT} head= has_files= item rest gap=$'\x1f'
     local -a typed=() found=()
+    line=${line//\\ /$gap} # names of lights have blanks
     read -ra typed <<<"$line"
     [[ $line == *[[:space:]] ]] && typed+=("")
+    typed=("${typed[@]//$gap/ }")
     local current=${typed[${#typed[@]} - 1]}
     [[ $COMP_WORDBREAKS == *=* && $current == *=* ]] && head=${current%"${current##*=}"}
     while IFS=$'\t' read -r item rest; do
