@@ -28,9 +28,9 @@ function scatter() {
       },
       plugins: { legend: { position: "bottom", labels: { usePointStyle: true } },
         tooltip: { callbacks: { label: (item) => `${data.names[item.raw.index]}: rmse ${number(item.raw.y, 4)}, ${ms(item.raw.x)}` } } },
-      onClick: (_, hits) => {
+      onClick: (_, hits, chart) => {
         if (hits.length > 0) {
-          choose({ technique: hits[0].element.$context.raw.index });
+          choose({ technique: chart.data.datasets[hits[0].datasetIndex].data[hits[0].index].index });
         }
       }
     },

@@ -11,15 +11,15 @@ from pathlib import Path
 # Text in a browser's hands, and in a shell's.
 HOSTILE = "it's <img src=x onerror=hit=1> \"q\" $(touch hit) &amp; `x`.gltf"
 SMALL = ["--size", "160x90", "--light", "sun"]
-QUICK = ["--repetitions", "2", "--warmup", "0"]
+QUICK = ["--repetitions", "2", "--warmup", "0", "--map-size", "128"]
 RUNS = {
     "compare": ["compare", "planes", *SMALL, *QUICK, "--sun-angle", "4", "--samples", "16", "--techniques", "hard,pcf,pcss,vsm,esm"],
-    "path": ["compare", "planes", *SMALL, "--truth", "hard", "--techniques", "hard,pcf", "--path", "orbit", "--frames", "3-6"],
+    "path": ["compare", "planes", *SMALL, "--truth", "hard", "--map-size", "128", "--techniques", "hard,pcf", "--path", "orbit", "--frames", "3-6"],
     "sweep": ["compare", "planes", *SMALL, "--samples", "16", "--techniques", "hard,pcf", "--sweep", "map-size=64:256:3:log"],
     "bench": ["bench", "planes", "--size", "160x90", *QUICK, "--techniques", "hard,vsm,pcf+cascades"],
     # No pixel counts, so there is no error; and one technique alone, with a column more.
     "nothing": ["compare", "planes", "--size", "64x36", *QUICK, "--sun", "0,1,0", "--truth", "hard", "--techniques", "hard,pcf"],
-    "alone": ["compare", "planes", *SMALL, "--samples", "16", *QUICK, "--techniques", "pcf+pcf.kernel=5x5+map-size=512", "--equal-error"],
+    "alone": ["compare", "planes", "--size", "64x36", "--light", "sun", "--samples", "16", *QUICK, "--techniques", "pcf+pcf.kernel=5x5+map-size=64+bias.slope=2", "--equal-error"],
     "hostile": ["compare", HOSTILE, "--size", "64x36", *QUICK, "--sun", "0.4,-1,0.2", "--eye", "3,3,3", "--target", "0,0,0", "--truth", "hard",
                 "--techniques", "hard"],
 }
