@@ -52,7 +52,7 @@ demo: configure
 	@echo "Holding the techniques against ray-traced truth"
 	@build/gnomon compare rts --camera camp --size 640x360 --samples 64 --repetitions 3 --warmup 1 \
 	    --report $(COMPARISON)
-	@echo "The pictures of the comparison are in $(COMPARISON); open $(COMPARISON)/index.html"
+	@echo "The comparison is a page: open $(COMPARISON)/index.html"
 
 .PHONY: build
 build: configure
