@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 namespace gnomon::app {
 namespace {
 
@@ -38,7 +41,26 @@ constexpr Column kPass[] = {{"ms", "/ms", 3, "median milliseconds"},
                             {"draws", "/draws", 0, ""},
                             {"texels", "/texels", 0, ""}};
 
-TextTable timesTable(const Json& result)
+/// What its techniques are called, without what all of them have in common.
+struct Names {
+    std::vector<std::string> names;
+    std::string common;
+};
+
+Names namesOf(const Json& result)
+{
+    Names names;
+    for (const Json& technique : result.at("results")) {
+        names.names.push_back(textAt(technique, "/technique"));
+    }
+    names.common = commonParts(names.names);
+    for (std::string& name : names.names) {
+        name = withoutParts(name, names.common);
+    }
+    return names;
+}
+
+TextTable timesTable(const Json& result, const std::vector<std::string>& names)
 {
     TextTable table{{"technique"}, {}, {""}};
     const auto row = [&](const std::string& name, const Json& json) {
@@ -55,8 +77,8 @@ TextTable timesTable(const Json& result)
     }
     table.columns.emplace_back("MiB");
     table.meanings.emplace_back("memory beyond the frame without shadows, whose own stands in its row");
-    for (const Json& technique : result.at("results")) {
-        row(textAt(technique, "/technique"), technique);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        row(names[i], result.at("results")[i]);
     }
     Json without = result.at("baseline");
     without["frame_ratio"] = 1.0;
@@ -64,7 +86,7 @@ TextTable timesTable(const Json& result)
     return table;
 }
 
-TextTable passesTable(const Json& result)
+TextTable passesTable(const Json& result, const std::vector<std::string>& names)
 {
     TextTable table{{"technique", "pass"}, {}, {"", ""}};
     for (const Column& column : kPass) {
@@ -79,8 +101,8 @@ TextTable passesTable(const Json& result)
             }
         }
     };
-    for (const Json& technique : result.at("results")) {
-        rows(textAt(technique, "/technique"), technique.at("passes"));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        rows(names[i], result.at("results")[i].at("passes"));
     }
     rows("no shadows", result.at("baseline").at("passes"));
     return table;
@@ -106,18 +128,14 @@ std::string facts(const Json& result)
 std::string benchPage(const Json& result)
 {
     const std::size_t count = result.at("results").size();
-    const TextTable times = timesTable(result);
-    const TextTable passes = passesTable(result);
-    Json data{{"result", result}, {"names", Json::array()}};
-    for (const Json& technique : result.at("results")) {
-        data["names"].push_back(textAt(technique, "/technique"));
-    }
+    const auto [names, common] = namesOf(result);
+    const TextTable times = timesTable(result, names);
+    const TextTable passes = passesTable(result, names);
+    const std::string caption = "Median milliseconds; ratios are to the frame without shadows." +
+                                (common.empty() ? std::string() : fmt::format(" All with {}.", common));
     const std::string body =
         "<div id=\"look\"></div>\n<div id=\"charts\"></div>\n" +
-        section(
-            "numbers", "Times",
-            tableHtml(times, {"techniques", "Median milliseconds; ratios are to the frame without shadows.", true}) +
-                meaningsHtml(times)) +
+        section("numbers", "Times", tableHtml(times, {"techniques", caption, true}) + meaningsHtml(times)) +
         section("counters", "Passes and what they counted",
                 tableHtml(passes, {"passes", "Of frames in which every map is drawn anew.", false}) +
                     meaningsHtml(passes)) +
@@ -128,7 +146,7 @@ std::string benchPage(const Json& result)
                                          count == 1 ? "" : "s", textAt(result, "/camera"),
                                          textAt(result, "/settings/size"), textAt(result, "/device")),
                      .body = body,
-                     .data = std::move(data),
+                     .data = {{"result", result}, {"names", names}},
                      .pictures = nullptr});
 }
 
