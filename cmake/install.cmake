@@ -58,6 +58,24 @@ set(gnomon_installed gnomon_core gnomon_pack gnomon_vulkan)
 if(GNOMON_PROGRAM)
     list(APPEND gnomon_installed gnomon)
     install(TARGETS gnomon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+    # The program tells its own command lines and manual. Each is built by `all`, since nothing may be built while installing.
+    set(told ${CMAKE_CURRENT_BINARY_DIR}/told)
+    set(told_files ${told}/gnomon ${told}/_gnomon ${told}/gnomon.fish ${told}/gnomon.1)
+    add_custom_command(OUTPUT ${told_files}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${told}
+        COMMAND gnomon completion bash > ${told}/gnomon
+        COMMAND gnomon completion zsh > ${told}/_gnomon
+        COMMAND gnomon completion fish > ${told}/gnomon.fish
+        COMMAND gnomon man > ${told}/gnomon.1
+        DEPENDS gnomon VERBATIM)
+    add_custom_target(gnomon_told ALL DEPENDS ${told_files})
+    list(APPEND gnomon_installed gnomon_told)
+    install(FILES ${told}/gnomon DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
+    install(FILES ${told}/_gnomon DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT tools)
+    install(FILES ${told}/gnomon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT tools)
+    if(NOT GNOMON_PACKAGE) # Debian has it compressed: package.cmake
+        install(FILES ${told}/gnomon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+    endif()
 endif()
 # For `make install`, which builds no tests.
 add_custom_target(gnomon_installed DEPENDS ${gnomon_installed})

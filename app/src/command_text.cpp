@@ -23,21 +23,21 @@ bool isLeftOut(const Setting& setting, std::uint32_t subcommand)
            setting.group == SettingGroup::technique || setting.key == "techniques" || setting.key == "sweep";
 }
 
-std::string optionText(const Setting& setting, std::string_view value)
+void addOption(std::vector<std::string>& words, const Setting& setting, std::string_view value)
 {
     if (!setting.own_option || (setting.type == SettingType::flag && value != "1")) {
-        return " --set " + shellWord(fmt::format("{}={}", setting.key, value));
+        words.insert(words.end(), {"--set", fmt::format("{}={}", setting.key, value)});
+        return;
     }
     if (setting.type == SettingType::flag) {
-        return fmt::format(" --{}", setting.key);
+        words.push_back(fmt::format("--{}", setting.key));
+        return;
     }
-    std::string text;
     // A value may begin with a minus, so it is joined to its option.
     for (const std::string_view piece :
          setting.repeatable ? split(value, setting.separator.front()) : std::vector<std::string_view>{value}) {
-        text += " " + shellWord(fmt::format("--{}={}", setting.key, piece));
+        words.push_back(fmt::format("--{}={}", setting.key, piece));
     }
-    return text;
 }
 
 } // namespace
@@ -54,24 +54,42 @@ std::string shellWord(std::string_view text)
     return word + "'";
 }
 
-std::string commandText(const Settings& settings, std::uint32_t subcommand, std::string_view technique)
+std::string shellText(std::span<const std::string> words)
 {
-    assert(subcommand == kCompare || subcommand == kBench);
+    std::string text = "gnomon";
+    for (const std::string& word : words) {
+        text += " " + shellWord(word);
+    }
+    return text;
+}
+
+std::vector<std::string> commandWords(const Settings& settings, std::uint32_t subcommand, std::string_view technique)
+{
     static const Settings defaults = defaultSettings();
+    assert(subcommand == kRender || subcommand == kCompare || subcommand == kBench);
+    const bool draws = subcommand == kRender;
     const bool looks_like_an_option = settings.scene.starts_with("-");
-    std::string text = fmt::format("gnomon {} {}", subcommand == kCompare ? "compare" : "bench",
-                                   shellWord((looks_like_an_option ? "./" : "") + settings.scene));
+    std::vector<std::string> words{draws                    ? "render"
+                                   : subcommand == kCompare ? "compare"
+                                                            : "bench",
+                                   (looks_like_an_option ? "./" : "") + settings.scene};
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
-        if (value == settings.values.end() || isLeftOut(setting, subcommand)) {
+        if (value == settings.values.end() || isLeftOut(setting, subcommand) || (draws && !isUsed(setting, settings))) {
             continue;
         }
         const auto usual = defaults.values.find(setting.key);
         if (usual == defaults.values.end() || usual->second != value->second) {
-            text += optionText(setting, value->second);
+            addOption(words, setting, value->second);
         }
     }
-    return fmt::format("{} {}", text, shellWord(fmt::format("--techniques={}", technique)));
+    words.push_back(fmt::format("--technique{}={}", draws ? "" : "s", technique));
+    return words;
+}
+
+std::string commandText(const Settings& settings, std::uint32_t subcommand, std::string_view technique)
+{
+    return shellText(commandWords(settings, subcommand, technique));
 }
 
 } // namespace gnomon::app

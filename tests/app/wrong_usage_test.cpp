@@ -13,7 +13,7 @@ using test::Wrong;
 const std::vector<Wrong> kWrong{
     {"UnknownSubcommand", {"rendr"}, 2, "did you mean \"render\""},
     {"ValueAsASubcommand", {"help", "msm"}, 2, "`gnomon list msm` tells about it"},
-    {"ViewIsNotHere", {"view"}, 2, "not in this version"},
+    {"FramesOfAWindow", {"view", "--frames", "0-3"}, 2, "--frames is not an option of view"},
     {"OptionBeforeSubcommand", {"--size", "10x10", "render"}, 2, "a subcommand comes first"},
     {"UnknownOption", {"render", "--fliter", "hard"}, 2, "did you mean \"--filter\""},
     {"UnknownShortOption", {"render", "-z"}, 2, "no option -z"},

@@ -3,7 +3,7 @@
 #include "view/camera_moves.h"
 
 #include "app/command_line.h"
-#include "repeat.h"
+#include "command_text.h"
 #include "view/edits.h"
 
 #include <glm/geometric.hpp>
@@ -153,7 +153,7 @@ TEST(Edits, TakeSettingsBackToTheirDefaults)
     EXPECT_EQ(back.settings->values.at("filter"), "pcf");
 }
 
-TEST(Repeat, LeadsBackToTheSameSettings)
+TEST(CommandOfAPicture, LeadsBackToTheSameSettings)
 {
     const Edited made = edited(plain(), {{"filter", "pcf"},
                                          {"pcf.kernel", "7x7"},
@@ -163,20 +163,15 @@ TEST(Repeat, LeadsBackToTheSameSettings)
                                          {"bloom", "1"},
                                          {"ground", "1"}});
     ASSERT_TRUE(made.settings) << made.refusal;
-    const std::vector<std::string> words = app::argumentsOf(*made.settings, app::kRender);
+    const std::string technique = app::describeTechnique(*made.settings);
+    const std::vector<std::string> words = app::commandWords(*made.settings, app::kRender, technique);
     const app::Settings again = app::parseCommandLine(words).settings;
-    EXPECT_EQ(app::argumentsOf(again, app::kRender), words);
+    EXPECT_EQ(app::commandWords(again, app::kRender, app::describeTechnique(again)), words);
     EXPECT_EQ(again.shadow, made.settings->shadow);
     EXPECT_EQ(*again.eye_ws, *made.settings->eye_ws);
     EXPECT_EQ(*again.sun_ws, *made.settings->sun_ws);
     EXPECT_TRUE(again.bloom.on);
     EXPECT_TRUE(again.ground);
-}
-
-TEST(Repeat, QuotesWhatAShellWouldTakeApart)
-{
-    EXPECT_EQ(app::shellText({"gnomon", "render", "a b.glb"}), "gnomon render 'a b.glb'");
-    EXPECT_EQ(app::shellText({"it's", "$HOME", "", "pcf+a=1"}), "'it'\\''s' '$HOME' '' pcf+a=1");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // The window of `gnomon view` as somebody uses it: by mouse, keys and files, with Vulkan validation on.
 #include "user.h"
 
+#include "app/command_line.h"
 #include "app/preset.h"
 #include "files/files.h"
 #include "view/camera_moves.h"
@@ -53,6 +54,18 @@ void expectAsRendered(User& user)
     ASSERT_EQ(drawn.width, user.viewer().picture().width) << command;
     ASSERT_EQ(drawn.height, user.viewer().picture().height) << command;
     EXPECT_EQ(drawn.values, user.viewer().picture().values) << command;
+}
+
+TEST(ViewWithoutADesktop, SaysSoAndWhatToDo)
+{
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    testing::internal::CaptureStderr();
+    const std::vector<std::string> words{"view", "planes", "--gpu=software"};
+    EXPECT_EQ(app::runProgram(words), 1);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("no window system"), std::string::npos) << said;
+    EXPECT_NE(said.find("gnomon render"), std::string::npos) << said;
 }
 
 TEST_F(ViewWindow, ShowsThePictureThatRenderDraws)

@@ -2,7 +2,7 @@
 #include "view/viewer.h"
 
 #include "app/preset.h"
-#include "repeat.h"
+#include "command_text.h"
 #include "result_json.h"
 
 #include "files/files.h"
@@ -292,14 +292,10 @@ void Viewer::setTruthKind(truth::Kind kind)
     }
 }
 
-std::string Viewer::command(std::uint32_t subcommand) const
+std::string Viewer::command() const
 {
-    std::vector<std::string> words = argumentsOf(settings_, subcommand);
-    words.insert(words.begin(), "gnomon");
-    if (subcommand == kRender) {
-        words.emplace_back("-o");
-        words.emplace_back("picture.png");
-    }
+    std::vector<std::string> words = commandWords(settings_, kRender, describeTechnique(settings_));
+    words.insert(words.end(), {"-o", "picture.png"});
     return shellText(words);
 }
 

@@ -77,8 +77,8 @@ public:
     void play(bool plays) { plays_ = plays; }
     [[nodiscard]] bool plays() const { return plays_; }
 
-    /// The shell command that draws what the picture shows. `kRender` or another subcommand that takes a scene.
-    [[nodiscard]] std::string command(std::uint32_t subcommand = kRender) const;
+    /// The shell command that draws what the picture shows.
+    [[nodiscard]] std::string command() const;
     [[nodiscard]] const Message& message() const { return message_; }
     void say(Message message) { message_ = std::move(message); }
     /// Of the light that is looked at, against as many rays as there are yet; nothing while that is not known.
