@@ -81,7 +81,8 @@ step_library() {
     bare_root_run "$root" '
         cd /src/gnomon
         make install LIBRARY_ONLY=1 PREFIX=/opt/gnomon >/src/install.log 2>&1 || { tail -n 30 /src/install.log >&2; exit 1; }
-        wanted=$(tools/install_packages.sh --list | sort)
+        # ninja-build brings python3 along.
+        wanted=$(tools/install_packages.sh --list | grep -v "^python3$" | sort)
         for package in $(comm -23 <(echo "$wanted") <(tools/install_packages.sh --list --only library | sort)); do
             if dpkg-query -W -f "\${db:Status-Status}\n" $package 2>/dev/null | grep -x installed; then
                 echo "$package is installed" >&2
