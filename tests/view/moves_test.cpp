@@ -5,6 +5,7 @@
 #include "app/command_line.h"
 #include "command_text.h"
 #include "view/edits.h"
+#include "view/overlays.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -110,6 +111,28 @@ TEST(SunDome, NeverSetsTheSun)
         const glm::dvec3 sun = sunFrom(domeOf(eye), eye.position_ws, rayOf(clip_from_world, eye.position_ws, at));
         EXPECT_LT(sun.y, -0.019) << at.x << ' ' << at.y;
         EXPECT_NEAR(glm::length(sun), 1.0, 1e-9);
+    }
+}
+
+TEST(Overlays, ShowTheEdgesOfABox)
+{
+    const host::Eye eye = eyeAt({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0});
+    const Aabb bounds{{-5.0F, -5.0F, -5.0F}, {5.0F, 5.0F, 5.0F}};
+    const glm::dmat4 clip_from_world = host::cameraOf(eye, 400, 400, bounds).clip_from_world;
+    // A box of 2 m around the origin: a map that looks along z.
+    const glm::dmat4 map(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 0.5, 0),
+                         glm::dvec4(0, 0, 0.5, 1));
+    const auto edges = edgesInPicture(clip_from_world, map);
+    ASSERT_EQ(edges.size(), 12U);
+    for (const auto& [from, to] : edges) {
+        EXPECT_TRUE(from.x > 0.3 && from.x < 0.7 && to.y > 0.3 && to.y < 0.7);
+    }
+    // Around the eye: what is behind it is cut off, and no edge leaps over to the other side.
+    const host::Eye inside = eyeAt({0.0, 0.0, 0.0}, {0.0, 0.0, -5.0});
+    const auto cut = edgesInPicture(host::cameraOf(inside, 400, 400, bounds).clip_from_world, map);
+    EXPECT_EQ(cut.size(), 8U) << "four edges are behind the eye";
+    for (const auto& [from, to] : cut) {
+        EXPECT_TRUE(std::isfinite(from.x + from.y + to.x + to.y));
     }
 }
 

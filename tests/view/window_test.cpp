@@ -218,6 +218,49 @@ TEST_F(ViewWindow, HoldsAgainstATechniqueAndTheTruth)
     EXPECT_EQ(user.viewer().beside(), Beside::nothing);
 }
 
+/// How many pixels of the window differ from the picture, above its last 60 rows, where the last word is.
+std::size_t drawnOver(User& user)
+{
+    user.viewer().say({" ", false});         // the shortest last word
+    user.wheel(user.inPicture(0.1, 0.1), 0); // no widget explains itself
+    const Image8 shown = user.shownPicture();
+    const Image8 picture = user.viewer().picture();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < std::size_t{shown.width} * (shown.height - 60); ++i) {
+        count += std::equal(&shown.values[i * 3], &shown.values[i * 3] + 3, &picture.values[i * 3]) ? 0 : 1;
+    }
+    return count;
+}
+
+TEST_F(ViewWindow, ShowsDebugViewsFrustaAndMaps)
+{
+    User user(*desktop_,
+              {"planes", "--size=420x420", "--gpu=software", "--validate", "--technique=pcf+cascades+map-size=256"});
+    user.window().shown().sun = false;
+    ASSERT_TRUE(user.rest());
+    EXPECT_EQ(drawnOver(user), 0U);
+    user.click("Picture and debug views");
+    user.click("frusta of the light's maps");
+    ASSERT_TRUE(user.rest());
+    EXPECT_GT(drawnOver(user), 100U);
+    user.click("frusta of the light's maps");
+    user.click("maps in a corner");
+    ASSERT_TRUE(user.rest());
+    ASSERT_FALSE(user.viewer().message().is_refusal) << user.viewer().message().text;
+    EXPECT_GT(drawnOver(user), 240U * 200U / 2U);
+    user.drag(user.inPicture(0.2, 0.3), user.inPicture(0.3, 0.2));
+    ASSERT_TRUE(user.rest());
+    user.click("maps in a corner");
+    ASSERT_TRUE(user.rest());
+    EXPECT_EQ(drawnOver(user), 0U);
+    for (const std::string_view name : app::findSetting("debug")->choices()) {
+        user.pick("debug", name);
+        ASSERT_TRUE(user.rest()) << name;
+    }
+    user.pick("debug", "views");
+    expectAsRendered(user);
+}
+
 TEST_F(ViewWindow, SavesAndLoadsPresets)
 {
     User user(*desktop_, kSmall);

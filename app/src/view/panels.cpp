@@ -204,7 +204,18 @@ void scenePanel(Viewer& viewer, PanelState& state)
     explain("Lets the scene's time pass");
     widgets.setting(viewer, *findSetting("time"));
     if (widgets.tree("More of the scene")) {
-        for (const std::string_view key : {"animation", "fov", "ground", "override-material"}) {
+        std::vector<std::string> animations;
+        for (const scene::Animation& animation : viewer.shot().scene.animations) {
+            animations.push_back(animation.name);
+        }
+        const std::string& playing = viewer.settings().animation;
+        const int animation =
+            animations.empty() ? -1
+                               : widgets.pick("animation", playing.empty() ? animations.front() : playing, animations);
+        if (animation >= 0) {
+            viewer.change({{"animation", animations[static_cast<std::size_t>(animation)]}});
+        }
+        for (const std::string_view key : {"fov", "ground", "override-material"}) {
             widgets.setting(viewer, *findSetting(key));
         }
         ImGui::TreePop();
@@ -260,6 +271,11 @@ void picturePanel(Viewer& viewer, PanelState& state)
         return;
     }
     widgets.setting(viewer, *findSetting("debug"));
+    widgets.checkbox("frusta of the light's maps", state.shown.frusta);
+    explain("The box that each map shows. They follow the camera: from where it stands they are around the picture");
+    widgets.checkbox("maps in a corner", state.shown.maps);
+    explain("The page of maps that the light has its first one in: near is dark. A thick frame was drawn in the last "
+            "frame, a thin one was left as it is");
     widgets.checkbox("half size", state.shown.half_size);
     explain("Draws one pixel for each 2 x 2 of the window: quicker on a slow device");
     rowsOf(viewer, widgets, SettingGroup::picture, [](const Setting& setting) {

@@ -15,6 +15,8 @@ struct Shown {
     bool sun = true;        // the handle
     float divider = 0.5F;   // of the picture's width, where the second picture begins
     bool half_size = false; // pixels are drawn twice as large on each side
+    bool frusta = false;    // of the maps
+    bool maps = false;      // in a corner
 };
 
 /// Text that is typed in the panel, kept from turn to turn.

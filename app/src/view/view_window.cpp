@@ -3,6 +3,7 @@
 
 #include "app/visual.h"
 #include "interrupt.h"
+#include "view/overlays.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -156,6 +157,9 @@ std::vector<host::PicturePlace> ViewWindow::places() const
         const glm::ivec2 rest = glm::min(glm::ivec2(beside->size_px()), whole) - glm::ivec2(cut, 0);
         places.push_back({beside, {cut, 0}, rest, at + glm::ivec2(cut * enlarged, 0), rest * enlarged});
     }
+    if (inset_ && !inset_->isEmpty() && insetPlace().to_px.x >= at.x && insetPlace().to_px.y >= 0) {
+        places.push_back(insetPlace());
+    }
     return places;
 }
 
@@ -163,6 +167,41 @@ void ViewWindow::nap()
 {
     if (quiet_turns_ > kQuietTurns && !viewer_->isBusy()) {
         window_.listen(kNap_s);
+    }
+}
+
+/// In the lower right corner, above the last word.
+host::PicturePlace ViewWindow::insetPlace() const
+{
+    constexpr int kMargin_px = 12;
+    const glm::ivec2 size(inset_->canvas().size_px());
+    const int word_px = static_cast<int>(ImGui::GetFontSize() * ImGui::GetIO().DisplayFramebufferScale.y * 3.0F);
+    const glm::ivec2 at = glm::ivec2(interface_->size_px()) - size - glm::ivec2(kMargin_px, kMargin_px + word_px);
+    return {&inset_->canvas(), {0, 0}, size, at, size};
+}
+
+/// After the picture was drawn, from what it was drawn with.
+void ViewWindow::overlays(bool drew)
+{
+    if (shown_.frusta) {
+        drawFrusta(*viewer_, area_);
+    }
+    if (!shown_.maps) {
+        inset_.reset();
+        return;
+    }
+    if (drew || !inset_) {
+        inset_ ? void() : static_cast<void>(inset_.emplace(*gpu_));
+        inset_->paint(*viewer_);
+        if (!inset_->why().empty()) {
+            viewer_->say({inset_->why(), true});
+        }
+    }
+    const bool fits = !inset_->isEmpty() && insetPlace().to_px.x >= pictureAt().x && insetPlace().to_px.y >= 0;
+    if (fits) {
+        const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+        const glm::dvec2 px(scale.x, scale.y);
+        drawSquares(*inset_, glm::dvec2(insetPlace().to_px) / px, glm::dvec2(insetPlace().to_size_px) / px);
     }
 }
 
@@ -185,6 +224,7 @@ bool ViewWindow::prepare()
     constexpr double kLongest_s = 0.25; // after a pause nothing leaps
     build(std::min(elapsed_s, kLongest_s));
     const bool drew = viewer_->update(std::chrono::duration<double>(now - start_).count());
+    overlays(drew);
     quiet_turns_ = drew || window_.takeExposed() || ImGui::IsAnyItemActive() ? 0 : quiet_turns_ + 1;
     retitle();
     return true;

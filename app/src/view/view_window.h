@@ -4,6 +4,7 @@
 
 #include "app/settings.h"
 #include "host/window/interface.h"
+#include "view/map_inset.h"
 #include "view/panels.h"
 #include "view/pointer.h"
 
@@ -46,6 +47,8 @@ private:
     void build(double elapsed_s);
     void panel();
     void status() const;
+    void overlays(bool drew);
+    [[nodiscard]] host::PicturePlace insetPlace() const;
     void fitPicture();
     void retitle();
     [[nodiscard]] std::vector<host::PicturePlace> places() const;
@@ -61,6 +64,7 @@ private:
     Typed typed_;
     Widgets widgets_;
     Pointer pointer_;
+    std::optional<MapInset> inset_;
     PictureArea area_;
     std::string title_;
     bool validates_ = false;

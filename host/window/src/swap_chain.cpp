@@ -221,8 +221,8 @@ void SwapChain::recordPictures(VkCommandBuffer commands, VkImage target, std::sp
     const VkClearColorValue black{};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands, target, kCopyTarget.layout, &black, 1, &all);
-    memoryBarrier(commands, kCopyTarget, kCopyTarget);
     for (const PicturePlace& place : pictures) {
+        memoryBarrier(commands, kCopyTarget, kCopyTarget); // a picture may lie over another
         recordCanvas(commands, *place.canvas, place, target);
     }
     barrier(commands, target, VK_IMAGE_ASPECT_COLOR_BIT, kCopyTarget, kColourWrite);
