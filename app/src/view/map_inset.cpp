@@ -11,13 +11,33 @@
 namespace gnomon::app::view {
 namespace {
 
-constexpr std::uint32_t kSide_px = 240; // of the longer side
+constexpr std::uint32_t kSide_px = 160; // of a page
+constexpr std::uint32_t kGap_px = 6;
+constexpr std::uint32_t kColumns = 2;
+constexpr std::size_t kMostPages = 6; // of more the first ones are shown
 
 struct Page {
     const ImageF& texels;
     const ResolvedOptions& options;
-    double scale; // texels for a pixel of the inset
+    double scale;       // texels for a pixel of the inset
+    glm::uvec2 at_px;   // in the inset
+    glm::uvec2 size_px; // likewise
 };
+
+/// Layers that hold maps of this plan, ascending.
+std::vector<std::uint32_t> pagesOf(const Plan& plan)
+{
+    std::vector<std::uint32_t> pages;
+    for (const View& view : plan.views) {
+        if (view.tile.width > 0) {
+            pages.push_back(view.tile.layer);
+        }
+    }
+    std::sort(pages.begin(), pages.end());
+    pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
+    pages.resize(std::min(pages.size(), kMostPages));
+    return pages;
+}
 
 /// One map's depths, stretched from black to white.
 void paintMap(Image8& picture, const Page& page, const View& view)
@@ -25,8 +45,8 @@ void paintMap(Image8& picture, const Page& page, const View& view)
     const Tile& tile = view.tile;
     const auto first_x = static_cast<std::uint32_t>(std::ceil(tile.x / page.scale));
     const auto first_y = static_cast<std::uint32_t>(std::ceil(tile.y / page.scale));
-    const auto end_x = std::min(picture.width, static_cast<std::uint32_t>((tile.x + tile.width) / page.scale));
-    const auto end_y = std::min(picture.height, static_cast<std::uint32_t>((tile.y + tile.height) / page.scale));
+    const auto end_x = std::min(page.size_px.x, static_cast<std::uint32_t>((tile.x + tile.width) / page.scale));
+    const auto end_y = std::min(page.size_px.y, static_cast<std::uint32_t>((tile.y + tile.height) / page.scale));
     const auto depthAt = [&](std::uint32_t x, std::uint32_t y) {
         const auto from_x = std::min(static_cast<std::uint32_t>((x + 0.5) * page.scale), page.texels.width - 1);
         const auto from_y = std::min(static_cast<std::uint32_t>((y + 0.5) * page.scale), page.texels.height - 1);
@@ -45,37 +65,47 @@ void paintMap(Image8& picture, const Page& page, const View& view)
         for (std::uint32_t x = first_x; x < end_x; ++x) {
             const float depth = depthAt(x, y);
             const float share = most > least && std::isfinite(depth) ? (depth - least) / (most - least) : 0.0F;
-            std::fill_n(picture.pixel(x, y), 3, static_cast<std::uint8_t>(std::lround(share * 255.0F)));
+            std::fill_n(picture.pixel(page.at_px.x + x, page.at_px.y + y), 3,
+                        static_cast<std::uint8_t>(std::lround(share * 255.0F)));
         }
     }
 }
 
 } // namespace
 
-void MapInset::take(Viewer& viewer)
+void MapInset::paintPage(Viewer& viewer, std::uint32_t layer, const glm::uvec2& at, Image8& picture)
 {
     const Plan& plan = viewer.renderer().plan();
-    const auto light = static_cast<std::uint32_t>(lightIndex(viewer.shot(), viewer.settings()));
-    if (light >= plan.lights.size() || plan.lights[light].view_count == 0) {
-        why_ = "this light has no map";
-        return;
-    }
     const ResolvedOptions options = resolvedOrThrow(viewer.settings().shadow);
-    const std::uint32_t layer = plan.views[plan.lights[light].first_view].tile.layer;
     const ImageF texels = viewer.renderer().readMap(layer * imageLayersPerMap(options.filter(), options.moments()));
-    const double scale = std::max(1.0, static_cast<double>(std::max(texels.width, texels.height)) / kSide_px);
-    Image8 picture(static_cast<std::uint32_t>(texels.width / scale), static_cast<std::uint32_t>(texels.height / scale),
-                   3);
-    const glm::dvec2 whole(texels.width, texels.height);
+    const double scale = static_cast<double>(std::max(texels.width, texels.height)) / kSide_px;
+    const glm::dvec2 size = glm::dvec2(texels.width, texels.height) / scale;
+    const Page page{texels, options, scale, at, glm::uvec2(size)};
+    const glm::dvec2 whole(picture.width, picture.height);
     for (std::uint32_t i = 0; i < plan.views.size(); ++i) {
         const View& view = plan.views[i];
-        if (view.tile.layer != layer || view.tile.width == 0) {
-            continue;
+        if (view.tile.layer == layer && view.tile.width > 0) {
+            paintMap(picture, page, view);
+            squares_.push_back({(glm::dvec2(at) + glm::dvec2(view.tile.x, view.tile.y) / scale) / whole,
+                                glm::dvec2(view.tile.width, view.tile.height) / scale / whole, view.light,
+                                i - plan.lights[view.light].first_view, view.redraw});
         }
-        paintMap(picture, {texels, options, scale}, view);
-        squares_.push_back({glm::dvec2(view.tile.x, view.tile.y) / whole,
-                            glm::dvec2(view.tile.width, view.tile.height) / whole, view.light,
-                            i - plan.lights[view.light].first_view, view.redraw});
+    }
+}
+
+void MapInset::take(Viewer& viewer)
+{
+    const std::vector<std::uint32_t> pages = pagesOf(viewer.renderer().plan());
+    if (pages.empty()) {
+        why_ = "no light has a map";
+        return;
+    }
+    const auto count = static_cast<std::uint32_t>(pages.size());
+    const std::uint32_t columns = std::min(count, kColumns);
+    const std::uint32_t rows = (count + columns - 1) / columns;
+    Image8 picture(columns * (kSide_px + kGap_px) - kGap_px, rows * (kSide_px + kGap_px) - kGap_px, 3);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        paintPage(viewer, pages[i], glm::uvec2(i % columns, i / columns) * (kSide_px + kGap_px), picture);
     }
     canvas_.paint(picture);
 }

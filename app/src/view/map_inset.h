@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of shadow maps that the light in question has its first map in, small, in a corner of the picture: who has
-// which square, and what of it was drawn.
+// The pages of shadow maps, small, in a corner of the picture: who has which square, and what of it was drawn.
 #pragma once
 
 #include "view/viewer.h"
@@ -25,7 +24,7 @@ public:
     [[nodiscard]] bool isEmpty() const { return squares_.empty(); }
     [[nodiscard]] const std::string& why() const { return why_; }
 
-    /// A map's square, in shares of the page.
+    /// A map's square, in shares of the canvas.
     struct Square {
         glm::dvec2 least{0.0};
         glm::dvec2 size{0.0};
@@ -37,6 +36,7 @@ public:
 
 private:
     void take(Viewer& viewer);
+    void paintPage(Viewer& viewer, std::uint32_t layer, const glm::uvec2& at, Image8& picture);
 
     host::Canvas canvas_;
     std::vector<Square> squares_;

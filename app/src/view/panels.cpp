@@ -274,8 +274,8 @@ void picturePanel(Viewer& viewer, PanelState& state)
     widgets.checkbox("frusta of the light's maps", state.shown.frusta);
     explain("The box that each map shows. They follow the camera: from where it stands they are around the picture");
     widgets.checkbox("maps in a corner", state.shown.maps);
-    explain("The page of maps that the light has its first one in: near is dark. A thick frame was drawn in the last "
-            "frame, a thin one was left as it is");
+    explain("The pages that hold maps, six at most; near is dark. What has a thick frame was drawn in the last frame, "
+            "what has a thin one was left as it is");
     widgets.checkbox("half size", state.shown.half_size);
     explain("Draws one pixel for each 2 x 2 of the window: quicker on a slow device");
     rowsOf(viewer, widgets, SettingGroup::picture, [](const Setting& setting) {

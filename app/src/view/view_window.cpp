@@ -147,8 +147,13 @@ std::vector<host::PicturePlace> ViewWindow::places() const
     const glm::ivec2 at = pictureAt();
     const glm::ivec2 room = glm::ivec2(interface_->size_px()) - at;
     const int enlarged = shown_.half_size ? 2 : 1;
-    // A debug view's picture has a size of its own; it is shown from its top left, as far as there is room.
-    const glm::ivec2 whole = glm::min(glm::ivec2(canvas.size_px()), room / enlarged);
+    const glm::ivec2 whole(canvas.size_px());
+    if (whole.x * enlarged > room.x ||
+        whole.y * enlarged > room.y) { // a debug view with its legend: all of it, smaller
+        const double share = std::min(static_cast<double>(room.x) / whole.x, static_cast<double>(room.y) / whole.y);
+        const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(whole) * share), glm::ivec2(1));
+        return {{&canvas, {0, 0}, whole, at + (room - size) / 2, size}};
+    }
     const host::Canvas* const beside = viewer_->held() == Held::split ? viewer_->canvasBeside() : nullptr;
     const int cut =
         beside == nullptr ? whole.x : static_cast<int>(std::lround(static_cast<float>(whole.x) * shown_.divider));
@@ -157,7 +162,7 @@ std::vector<host::PicturePlace> ViewWindow::places() const
         const glm::ivec2 rest = glm::min(glm::ivec2(beside->size_px()), whole) - glm::ivec2(cut, 0);
         places.push_back({beside, {cut, 0}, rest, at + glm::ivec2(cut * enlarged, 0), rest * enlarged});
     }
-    if (inset_ && !inset_->isEmpty() && insetPlace().to_px.x >= at.x && insetPlace().to_px.y >= 0) {
+    if (inset_ && !inset_->isEmpty()) {
         places.push_back(insetPlace());
     }
     return places;
@@ -170,14 +175,18 @@ void ViewWindow::nap()
     }
 }
 
-/// In the lower right corner, above the last word.
+/// In the lower right corner, above the last word; smaller where the picture is small.
 host::PicturePlace ViewWindow::insetPlace() const
 {
     constexpr int kMargin_px = 12;
-    const glm::ivec2 size(inset_->canvas().size_px());
+    constexpr double kMost = 0.7; // of the picture
+    const glm::dvec2 whole(inset_->canvas().size_px());
+    const glm::dvec2 room = glm::dvec2(interface_->size_px()) - glm::dvec2(pictureAt());
+    const double share = std::min({1.0, kMost * room.x / whole.x, kMost * room.y / whole.y});
+    const glm::ivec2 size = glm::max(glm::ivec2(whole * share), glm::ivec2(1));
     const int word_px = static_cast<int>(ImGui::GetFontSize() * ImGui::GetIO().DisplayFramebufferScale.y * 3.0F);
     const glm::ivec2 at = glm::ivec2(interface_->size_px()) - size - glm::ivec2(kMargin_px, kMargin_px + word_px);
-    return {&inset_->canvas(), {0, 0}, size, at, size};
+    return {&inset_->canvas(), {0, 0}, glm::ivec2(whole), glm::max(at, pictureAt()), size};
 }
 
 /// After the picture was drawn, from what it was drawn with.
@@ -197,8 +206,7 @@ void ViewWindow::overlays(bool drew)
             viewer_->say({inset_->why(), true});
         }
     }
-    const bool fits = !inset_->isEmpty() && insetPlace().to_px.x >= pictureAt().x && insetPlace().to_px.y >= 0;
-    if (fits) {
+    if (!inset_->isEmpty()) {
         const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
         const glm::dvec2 px(scale.x, scale.y);
         drawSquares(*inset_, glm::dvec2(insetPlace().to_px) / px, glm::dvec2(insetPlace().to_size_px) / px);
