@@ -33,6 +33,12 @@ struct Shot {
 [[nodiscard]] Shot makeShot(const Settings& settings);
 /// Moves everything to a frame of --frames; camera and lights of the scene follow, and then the path.
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame);
+/// What makeShot() asks of a technique before it draws this scene: another one may be taken afterwards. Throws Error
+/// for casters that filter volumes cannot count; adds to Shot::notices.
+void askOfTechnique(Shot& shot, const Settings& settings);
+/// How far the eye is from what it looks at, metres: where there is but a direction, from the point of it that is
+/// nearest to the middle of the scene.
+[[nodiscard]] double focusOf(const Shot& shot);
 /// The scene's time at a frame, if no path says otherwise.
 [[nodiscard]] double timeOf(const Settings& settings, std::uint32_t frame);
 

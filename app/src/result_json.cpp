@@ -53,7 +53,8 @@ Json settingsJson(const Settings& settings, std::uint32_t subcommand)
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
         if (value != settings.values.end() && (setting.subcommands & subcommand) != 0 && !setting.command_line_only) {
-            json[std::string(setting.key)] = typed(setting, value->second);
+            const bool is_list = setting.repeatable && setting.separator == " ";
+            json[std::string(setting.key)] = is_list ? Json(split(value->second, ' ')) : typed(setting, value->second);
         }
     }
     return json;

@@ -209,8 +209,8 @@ double momentOf(const Shot& shot, const Settings& settings, std::uint32_t frame)
     return timeOf(settings, frame);
 }
 
-/// How far the path's start is from what it looks at: where there is but a direction, from the point of it that is
-/// nearest to the middle of the scene.
+} // namespace
+
 double focusOf(const Shot& shot)
 {
     constexpr double kNearest = 0.01; // of the scene's diagonal
@@ -222,6 +222,8 @@ double focusOf(const Shot& shot)
     return std::max(glm::dot(to_middle, glm::normalize(look)),
                     kNearest * glm::length(glm::dvec3(shot.state.bounds_ws.extent())));
 }
+
+namespace {
 
 /// The shot is at the first frame.
 void startPath(Shot& shot, const Settings& settings)
@@ -309,16 +311,22 @@ Shot makeShot(const Settings& settings)
     requireInRange(shot, settings);
     noteSizesWithoutEffect(shot, settings, shot.lights);
     noteWhatSurprises(shot, settings);
+    askOfTechnique(shot, settings);
+    return shot;
+}
+
+void askOfTechnique(Shot& shot, const Settings& settings)
+{
     requireClosedCasters(shot, settings);
     noteFinless(shot, settings);
-    return shot;
 }
 
 void moveShot(Shot& shot, const Settings& settings, std::uint32_t frame)
 {
     ++shot.moves;
     scene::advance(shot.scene, momentOf(shot, settings, frame), shot.state, settings.animation);
-    if (shot.camera != "fitted") { // a fitted one would breathe with the scene
+    const bool stays_fitted = shot.camera == "fitted" && !settings.eye_ws && settings.camera.empty();
+    if (!stays_fitted) { // it would breathe with the scene
         placeEye(shot, settings);
     }
     placeLights(shot, settings);
@@ -344,7 +352,9 @@ host::RenderOptions renderOptions(const Settings& settings)
     options.bloom = settings.bloom;
     options.reflection = settings.reflection;
     options.shading = settings.shading;
-    options.compact_mask = settings.compact_mask;
+    if (isUsed(*findSetting("compact-mask"), settings)) { // beside others it changes nothing, as people are told
+        options.compact_mask = settings.compact_mask;
+    }
     options.shows_rays = settings.debug == "rays";
     return options;
 }

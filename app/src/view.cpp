@@ -29,10 +29,12 @@ int runView(const Settings& settings)
                 throw;
             }
             notice(std::string(error.what()) + "; the window is opened anew");
+            const view::Holding holding = window->viewer().holding();
             last = window->viewer().settings();
             last.subcommand = kView;
             window.reset();
             window = std::make_unique<view::ViewWindow>(last);
+            window->viewer().hold(holding);
             window->viewer().say({"the GPU was lost, and everything was made anew", true});
             begun = Clock::now();
         }

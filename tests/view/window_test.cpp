@@ -167,6 +167,12 @@ TEST_F(ViewWindow, OpensEveryWorldAndDroppedFiles)
     user.drop(file);
     EXPECT_EQ(user.viewer().settings().scene, file) << user.viewer().message().text;
     expectAsRendered(user);
+    const Image8 before = user.viewer().picture();
+    const host::Eye eye = user.viewer().shot().eye; // it has no camera, so this was fitted
+    user.drag(user.inPicture(0.4, 0.3), user.inPicture(0.7, 0.4));
+    EXPECT_GT(glm::distance(user.viewer().shot().eye.position_ws, eye.position_ws), 0.1);
+    expectAsRendered(user);
+    EXPECT_NE(user.viewer().picture().values, before.values);
 }
 
 TEST_F(ViewWindow, ResizesAndMinimises)
@@ -256,8 +262,83 @@ TEST_F(ViewWindow, ShowsDebugViewsFrustaAndMaps)
     for (const std::string_view name : app::findSetting("debug")->choices()) {
         user.pick("debug", name);
         ASSERT_TRUE(user.rest()) << name;
+        if (user.viewer().settings().debug != name) {
+            user.press("Escape"); // the list, where it is grey
+        }
     }
     user.pick("debug", "views");
+    expectAsRendered(user);
+}
+
+TEST_F(ViewWindow, RefusesWhatRenderRefuses)
+{
+    User user(*desktop_,
+              {"planes", "--size=240x300", "--gpu=software", "--validate", "--technique=raymarch+single+map-size=256",
+               "--limit=file-bytes=2000000000", "--limit=count=2000000"});
+    ASSERT_TRUE(user.rest());
+    EXPECT_FALSE(user.viewer().change({{"filter", "volumes"}})) << "the ground is open";
+    EXPECT_NE(user.viewer().message().text.find("open"), std::string::npos) << user.viewer().message().text;
+    EXPECT_EQ(user.viewer().settings().values.at("filter"), "raymarch");
+    ASSERT_TRUE(user.viewer().change({{"debug", "rays"}}));
+    EXPECT_FALSE(user.viewer().change({{"filter", "hard"}})) << "rays are raymarch's";
+    ASSERT_TRUE(user.viewer().change({{"debug", ""}})) << user.viewer().message().text;
+    ASSERT_TRUE(user.viewer().change({{"fov", "50"}}));
+    ASSERT_TRUE(user.viewer().change({{"fov", ""}})) << "with two limits: " << user.viewer().message().text;
+    user.viewer().holdAgainst(Beside::technique);
+    ASSERT_TRUE(user.viewer().setTechniqueBeside("vsm"));
+    EXPECT_FALSE(user.viewer().setTechniqueBeside("volumes+msm"));
+    EXPECT_EQ(user.viewer().techniqueBeside(), "vsm");
+    ASSERT_TRUE(user.viewer().setTechniqueBeside("volumes+volumes.open=skip")) << user.viewer().message().text;
+    expectAsRendered(user);
+    const std::filesystem::path file = folder_ / "limits.json";
+    ASSERT_TRUE(user.viewer().savePreset(file));
+    EXPECT_TRUE(user.viewer().loadPreset(file.string())) << user.viewer().message().text;
+}
+
+TEST_F(ViewWindow, KeepsTheTruthForADifference)
+{
+    User user(*desktop_, kSmall);
+    user.viewer().holdAgainst(Beside::truth);
+    ASSERT_TRUE(user.rest());
+    EXPECT_TRUE(user.viewer().isTruthDone());
+    user.viewer().setHeld(Held::difference);
+    EXPECT_TRUE(user.viewer().isTruthDone());
+    user.wait();
+    EXPECT_TRUE(user.viewer().isTruthDone());
+    EXPECT_NE(user.shownPicture().values, user.viewer().picture().values) << "the difference is shown";
+}
+
+TEST_F(ViewWindow, HearsKeysOfSlowTurns)
+{
+    User user(*desktop_, kSmall);
+    ASSERT_TRUE(user.rest());
+    user.click("file");
+    for (const char* const key : {"a", "b", "c"}) {
+        desktop_->key(key, true);
+        desktop_->key(key, false);
+    }
+    user.wait();
+    EXPECT_EQ(user.window().typed().scene, "abc");
+    desktop_->key("BackSpace", true); // all within one turn
+    desktop_->key("BackSpace", false);
+    desktop_->key("BackSpace", true);
+    desktop_->key("BackSpace", false);
+    user.wait(6);
+    EXPECT_EQ(user.window().typed().scene, "a");
+}
+
+TEST_F(ViewWindow, TechniquesOfPresetsKeepThePicture)
+{
+    User user(*desktop_, kSmall);
+    user.drag(user.inPicture(0.5, 0.3), user.inPicture(0.7, 0.2));
+    ASSERT_TRUE(user.viewer().change({{"ground", "1"}}));
+    const glm::dvec3 eye = user.viewer().shot().eye.position_ws;
+    ASSERT_TRUE(user.viewer().loadPreset("fast")) << user.viewer().message().text;
+    EXPECT_EQ(user.viewer().shot().eye.position_ws, eye);
+    EXPECT_TRUE(user.viewer().settings().ground);
+    EXPECT_EQ(user.viewer().settings().values.at("quality"), "fast");
+    ASSERT_TRUE(user.viewer().loadPreset("demo"));
+    EXPECT_EQ(user.viewer().settings().scene, "rts") << "which names its scene, and so all of a picture";
     expectAsRendered(user);
 }
 

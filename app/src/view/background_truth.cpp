@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 namespace gnomon::app::view {
@@ -64,7 +65,7 @@ void BackgroundTruth::begin(const Shot& shot, const Settings& settings, std::siz
     Work work{shot.state, shot.eye, shot.lights, settings.size_px, truthOptions(settings), light};
     work.options.threads = std::max(1U, std::thread::hardware_concurrency() / 2); // the window wants to go on, too
     progress_ = 0.0;
-    thread_ = std::thread([this, all = std::move(work)] {
+    const auto traceAll = [this, all = std::move(work)] {
         try {
             trace(all);
         } catch (const std::exception& error) {
@@ -72,7 +73,14 @@ void BackgroundTruth::begin(const Shot& shot, const Settings& settings, std::siz
             fault_ = error.what();
         }
         progress_ = 1.0;
-    });
+    };
+    try {
+        thread_ = std::thread(traceAll);
+    } catch (const std::system_error& error) { // no thread is to be had
+        progress_ = 1.0;
+        const std::scoped_lock lock(mutex_);
+        fault_ = error.what();
+    }
 }
 
 void BackgroundTruth::trace(const Work& work)

@@ -48,9 +48,11 @@ void Drawing::showFrame()
 
 void Drawing::draw()
 {
-    still_ = fresh_ && settings_.converge == 1;
-    showFrame();
+    const bool is_still = fresh_ && settings_.converge == 1;
+    still_ = false;
     fresh_ = false;
+    showFrame();
+    still_ = is_still;
 }
 
 void Drawing::drawOnce()
@@ -63,12 +65,13 @@ void Drawing::drawStill()
     if (!fresh_) {
         make(true);
     }
+    still_ = false;
+    fresh_ = false;
     const Shot& shot = scenery_.shot;
     for (std::uint32_t frame = 1; frame < settings_.converge; ++frame) {
         renderer_->draw(shot.state, shot.eye, shot.lights);
     }
     showFrame();
-    fresh_ = false;
     still_ = true;
 }
 

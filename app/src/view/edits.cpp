@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/edits.h"
 
+#include "debug_views.h"
 #include "setting_values.h"
 
 #include <fmt/format.h>
@@ -26,8 +27,12 @@ Settings without(const Settings& settings, std::string_view left_out)
             continue;
         }
         const auto usual = made.values.find(setting.key);
-        if (usual == made.values.end() || usual->second != value->second) {
-            applySetting(made, setting, value->second);
+        if (usual != made.values.end() && usual->second == value->second) {
+            continue;
+        }
+        for (const std::string_view piece : setting.repeatable ? split(value->second, setting.separator.front())
+                                                               : std::vector<std::string_view>{value->second}) {
+            applySetting(made, setting, piece);
         }
     }
     return made;
@@ -48,6 +53,27 @@ void apply(Settings& settings, std::string_view key, const std::string& text)
 
 } // namespace
 
+Edited checked(Settings settings)
+{
+    try {
+        validateSettings(settings);
+        requireDebugView(settings);
+    } catch (const UsageError& error) {
+        return {std::nullopt, error.what()};
+    }
+    return {std::move(settings), ""};
+}
+
+Settings withoutTechnique(Settings settings)
+{
+    for (const Setting& setting : settingTable()) {
+        if (setting.group == SettingGroup::technique) {
+            settings.values.erase(std::string(setting.key));
+        }
+    }
+    return without(settings, "");
+}
+
 Edited edited(const Settings& settings, const Changes& changes)
 {
     Settings next = settings;
@@ -56,25 +82,16 @@ Edited edited(const Settings& settings, const Changes& changes)
             apply(next, key, text);
         }
         completeTechnique(next);
-        validateSettings(next);
     } catch (const UsageError& error) {
         return {std::nullopt, error.what()};
     }
-    return {std::move(next), ""};
+    return checked(std::move(next));
 }
 
 Edited withTechnique(const Settings& settings, std::string_view text)
 {
-    Settings plain = settings;
     try {
-        for (const Setting& setting : settingTable()) {
-            if (setting.group == SettingGroup::technique && plain.values.contains(setting.key)) {
-                plain.values.erase(std::string(setting.key));
-            }
-        }
-        Settings next = parseTechnique(without(plain, ""), text);
-        validateSettings(next);
-        return {std::move(next), ""};
+        return checked(parseTechnique(withoutTechnique(settings), text));
     } catch (const UsageError& error) {
         return {std::nullopt, error.what()};
     }

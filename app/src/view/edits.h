@@ -23,6 +23,10 @@ struct Edited {
 using Changes = std::vector<std::pair<std::string_view, std::string>>;
 /// Precondition: the keys are in the table.
 [[nodiscard]] Edited edited(const Settings& settings, const Changes& changes);
+/// Settings that were put together otherwise, if `render` would draw by them.
+[[nodiscard]] Edited checked(Settings settings);
+/// With all of the technique at its default.
+[[nodiscard]] Settings withoutTechnique(Settings settings);
 /// As if a technique in one word were given in the place of the present one.
 [[nodiscard]] Edited withTechnique(const Settings& settings, std::string_view text);
 

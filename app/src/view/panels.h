@@ -17,6 +17,7 @@ struct Shown {
     bool half_size = false; // pixels are drawn twice as large on each side
     bool frusta = false;    // of the maps
     bool maps = false;      // in a corner
+    bool hint = true;       // what hand and keys do; until they did something
 };
 
 /// Text that is typed in the panel, kept from turn to turn.

@@ -67,10 +67,10 @@ void Pointer::placeSun(const Viewer& viewer, const Shown& shown, const PictureAr
 {
     sun_at_.reset();
     const host::ShadedLight* const sun = sunOf(viewer.shot());
-    if (!shown.sun || sun == nullptr) {
+    if (!shown.sun || sun == nullptr || viewer.settings().debug != "none") { // whose pictures have a size of their own
         return;
     }
-    const SunDome dome = domeOf(viewer.shot().eye);
+    const SunDome dome = domeOf(viewer.aimed());
     const glm::dmat4 clip_from_world = cameraOf(viewer).clip_from_world;
     const auto centre = pointOf(clip_from_world, dome.centre_ws);
     const auto at = pointOf(clip_from_world, dome.centre_ws - glm::normalize(sun->caster.direction_ws) * dome.radius_m);
@@ -98,7 +98,7 @@ void Pointer::moveCamera(Viewer& viewer, const PictureArea& area)
     if (by == glm::dvec2(0.0)) {
         return;
     }
-    const host::Eye& eye = viewer.shot().eye;
+    const host::Eye eye = viewer.aimed();
     const glm::dvec2 turn = glm::dvec2(by.x, -by.y) * kPerPixel_rad;
     if (io.MouseDown[2] || (io.MouseDown[0] && io.KeyShift)) {
         viewer.look(panned(eye, by, area.size.y));
@@ -113,7 +113,7 @@ void Pointer::drag(Viewer& viewer, Shown& shown, const PictureArea& area)
 {
     const glm::dvec2 in = (pointerAt() - area.least) / area.size;
     if (grip_ == Grip::sun && moved() != glm::dvec2(0.0)) {
-        const host::Eye& eye = viewer.shot().eye;
+        const host::Eye eye = viewer.aimed();
         const glm::dvec3 ray = rayOf(cameraOf(viewer).clip_from_world, eye.position_ws, in);
         viewer.change({{"sun", textOf(sunFrom(domeOf(eye), eye.position_ws, ray))}});
     } else if (grip_ == Grip::divider) {
@@ -139,7 +139,7 @@ void Pointer::fly(Viewer& viewer, double elapsed_s)
         return;
     }
     // What one looks at is reached in two seconds; with shift in a quarter of that.
-    const host::Eye& eye = viewer.shot().eye;
+    const host::Eye eye = viewer.aimed();
     const double speed = glm::length(eye.target_ws - eye.position_ws) * (ImGui::GetIO().KeyShift ? 2.0 : 0.5);
     viewer.look(flown(eye, glm::normalize(way) * speed * elapsed_s));
 }
@@ -199,16 +199,17 @@ void Pointer::turn(Viewer& viewer, Shown& shown, const PictureArea& area, std::s
     }
     if (!io.WantCaptureMouse && isInside(area, pointerAt())) {
         if (io.MouseWheel != 0.0F) {
-            viewer.look(dollied(viewer.shot().eye, static_cast<double>(io.MouseWheel)));
+            viewer.look(dollied(viewer.aimed(), static_cast<double>(io.MouseWheel)));
         }
         if (io.MouseWheelH != 0.0F) { // two fingers sideways
-            viewer.look(orbited(viewer.shot().eye, {static_cast<double>(io.MouseWheelH) * kPerPixel_rad * 10.0, 0.0}));
+            viewer.look(orbited(viewer.aimed(), {static_cast<double>(io.MouseWheelH) * kPerPixel_rad * 10.0, 0.0}));
         }
     }
     if (!io.WantTextInput && !io.KeyCtrl) {
         fly(viewer, elapsed_s);
     }
     keys(viewer, shown, letters);
+    shown.hint = shown.hint && grip_ == Grip::none && io.MouseWheel == 0.0F && letters.empty();
     placeSun(viewer, shown, area);
     drawHandles(viewer, shown, area);
 }

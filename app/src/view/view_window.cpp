@@ -34,9 +34,6 @@ ViewWindow::ViewWindow(const Settings& settings)
       interface_(std::make_unique<host::Interface>(window_, *gpu_)), validates_(settings.validate)
 {
     viewer_ = std::make_unique<Viewer>(*gpu_, settings);
-    for (const std::string& text : viewer_->shot().notices) {
-        viewer_->say({text, false});
-    }
     typed_.technique_beside = viewer_->techniqueBeside();
 }
 
@@ -92,9 +89,18 @@ void ViewWindow::panel()
 }
 
 /// The last word about what was done, over the picture's lower edge.
-void ViewWindow::status() const
+void ViewWindow::status()
 {
-    const Message& message = viewer_->message();
+    constexpr std::chrono::seconds kRead{15}; // then it has been read
+    const Clock::time_point now = Clock::now();
+    if (viewer_->message().text != said_) {
+        said_ = viewer_->message().text;
+        said_at_ = now;
+    }
+    const Message message = now - said_at_ < kRead ? viewer_->message() : Message{};
+    if (message.text.empty() && !shown_.hint) {
+        return;
+    }
     const std::string text =
         message.text.empty() ? "drag: orbit   shift+drag: pan   right drag: look   wheel: nearer   W A S D Q E: fly   "
                                "F: frame all   T: truth   P: play   H: panel"
@@ -152,8 +158,22 @@ std::vector<host::PicturePlace> ViewWindow::places() const
         whole.y * enlarged > room.y) { // a debug view with its legend: all of it, smaller
         const double share = std::min(static_cast<double>(room.x) / whole.x, static_cast<double>(room.y) / whole.y);
         const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(whole) * share), glm::ivec2(1));
-        return {{&canvas, {0, 0}, whole, at + (room - size) / 2, size}};
+        places.push_back({&canvas, {0, 0}, whole, at + (room - size) / 2, size});
+    } else {
+        addPictures(places, canvas, at);
     }
+    if (inset_ && !inset_->isEmpty()) {
+        places.push_back(insetPlace());
+    }
+    return places;
+}
+
+/// One picture, or both with the divider between them.
+void ViewWindow::addPictures(std::vector<host::PicturePlace>& places, const host::Canvas& canvas,
+                             const glm::ivec2& at) const
+{
+    const int enlarged = shown_.half_size ? 2 : 1;
+    const glm::ivec2 whole(canvas.size_px());
     const host::Canvas* const beside = viewer_->held() == Held::split ? viewer_->canvasBeside() : nullptr;
     const int cut =
         beside == nullptr ? whole.x : static_cast<int>(std::lround(static_cast<float>(whole.x) * shown_.divider));
@@ -162,15 +182,11 @@ std::vector<host::PicturePlace> ViewWindow::places() const
         const glm::ivec2 rest = glm::min(glm::ivec2(beside->size_px()), whole) - glm::ivec2(cut, 0);
         places.push_back({beside, {cut, 0}, rest, at + glm::ivec2(cut * enlarged, 0), rest * enlarged});
     }
-    if (inset_ && !inset_->isEmpty()) {
-        places.push_back(insetPlace());
-    }
-    return places;
 }
 
 void ViewWindow::nap()
 {
-    if (quiet_turns_ > kQuietTurns && !viewer_->isBusy()) {
+    if (is_hidden_ || (quiet_turns_ > kQuietTurns && !viewer_->isBusy())) {
         window_.listen(kNap_s);
     }
 }
@@ -222,8 +238,8 @@ bool ViewWindow::prepare()
         viewer_->open(file);
         typed_.scene = file;
     }
-    if (!interface_->begin()) { // minimised
-        quiet_turns_ = kQuietTurns + 1;
+    is_hidden_ = !interface_->begin();
+    if (is_hidden_) {
         return false;
     }
     const Clock::time_point now = Clock::now();

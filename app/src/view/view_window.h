@@ -46,12 +46,13 @@ private:
     bool prepare();
     void build(double elapsed_s);
     void panel();
-    void status() const;
+    void status();
     void overlays(bool drew);
     [[nodiscard]] host::PicturePlace insetPlace() const;
     void fitPicture();
     void retitle();
     [[nodiscard]] std::vector<host::PicturePlace> places() const;
+    void addPictures(std::vector<host::PicturePlace>& places, const host::Canvas& canvas, const glm::ivec2& at) const;
 
     using Clock = std::chrono::steady_clock;
 
@@ -71,7 +72,10 @@ private:
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_ = start_;
     double turn_ms_ = 0.0;
-    int quiet_turns_ = 0; // in which nothing was drawn
+    int quiet_turns_ = 0;    // in which nothing was drawn
+    bool is_hidden_ = false; // minimised
+    std::string said_;       // the last word, and since when it stands there
+    Clock::time_point said_at_;
 };
 
 } // namespace gnomon::app::view

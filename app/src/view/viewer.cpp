@@ -11,6 +11,7 @@
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,7 @@ Viewer::Viewer(host::Gpu& gpu, const Settings& settings) : gpu_(gpu), settings_(
 void Viewer::makeScenery(const Settings& next)
 {
     scenery_ = std::make_unique<Scenery>(gpu_, next);
+    noteNotices();
     truth_ = std::make_unique<BackgroundTruth>(scenery_->shot.scene);
     settings_ = next;
     if (scenery_->shot.camera == "fitted") {
@@ -71,16 +73,50 @@ bool Viewer::refuse(const std::string& why)
     return false;
 }
 
-Settings Viewer::settingsBeside() const
+/// A lost device is not the viewer's to mend: it goes on to whoever has the window.
+bool Viewer::refuseUnlessLost(const Error& error)
 {
-    if (beside_ == Beside::truth) {
-        Settings settings = settings_;
-        settings.truth = truth_kind_;
-        settings.debug = "none";
-        return settings;
+    if (error.kind() == ErrorKind::device_lost) {
+        throw error;
     }
-    const Edited other = withTechnique(settings_, technique_beside_);
-    return other.settings.value_or(settings_);
+    return refuse(error.what());
+}
+
+host::Eye Viewer::aimed() const
+{
+    host::Eye eye = shot().eye;
+    if (!shot().has_target) {
+        eye.target_ws = eye.position_ws + glm::normalize(eye.target_ws - eye.position_ws) * focusOf(shot());
+    }
+    return eye;
+}
+
+/// Of what stands beside a picture of these settings, if anything does. Throws UsageError where the technique there
+/// cannot be had with them.
+std::optional<Settings> Viewer::besideOf(const Settings& settings) const
+{
+    if (beside_ == Beside::nothing) {
+        return std::nullopt;
+    }
+    if (beside_ == Beside::truth) {
+        Settings truth = settings;
+        truth.truth = truth_kind_;
+        truth.debug = "none";
+        return truth;
+    }
+    Edited other = withTechnique(settings, technique_beside_);
+    if (!other.settings) {
+        throw UsageError("the technique beside: " + other.refusal);
+    }
+    return std::move(other.settings);
+}
+
+/// What people should know before they look, as `render` says it.
+void Viewer::noteNotices()
+{
+    for (const std::string& text : scenery_->shot.notices) {
+        message_ = {text, false};
+    }
 }
 
 void Viewer::makeBeside()
@@ -90,8 +126,8 @@ void Viewer::makeBeside()
     truth_shown_ = false;
     rmse_.reset();
     truth_rays_ = 0;
-    if (beside_ != Beside::nothing) {
-        drawing_beside_ = std::make_unique<Drawing>(gpu_, *scenery_, settingsBeside());
+    if (const std::optional<Settings> beside = besideOf(settings_)) {
+        drawing_beside_ = std::make_unique<Drawing>(gpu_, *scenery_, *beside);
     }
     changed_ = true;
 }
@@ -105,11 +141,17 @@ void Viewer::adopt(const Settings& next)
         makeBeside();
         return;
     }
+    const std::optional<Settings> beside = besideOf(next);
     scenery_->move(next);
+    if (changesRenderer(settings_, next)) {
+        scenery_->shot.notices.clear();
+        askOfTechnique(scenery_->shot, next);
+        noteNotices();
+    }
     settings_ = next;
     drawing_->take(settings_);
     if (drawing_beside_ && beside_ == Beside::technique) {
-        drawing_beside_->take(settingsBeside());
+        drawing_beside_->take(*beside);
     } else if (drawing_beside_) {
         makeBeside();
     }
@@ -135,6 +177,7 @@ bool Viewer::take(const Settings& next)
 /// After a change that could not be: all as it was. Throws where that cannot be either.
 bool Viewer::goBack(const Settings& before, const std::string& why)
 {
+    drawn_ = before;
     const bool whole = scenery_ && drawing_ && !changesScene(settings_, before);
     if (whole) {
         scenery_->move(before);
@@ -196,21 +239,31 @@ bool Viewer::open(const std::string& scene)
 
 bool Viewer::loadPreset(const std::string& name_or_file)
 {
-    Settings next = defaultSettings();
-    next.subcommand = kRender;
-    next.scene = settings_.scene;
     try {
-        applySetting(next, "size", settings_.values.at("size"));
-        applyPreset(next, name_or_file, kRender);
+        // One that names a scene is a picture of its own; another one is a technique for this picture.
+        Settings whole = defaultSettings();
+        whole.subcommand = kRender;
+        whole.scene.clear();
+        applyPreset(whole, name_or_file, kRender);
+        Settings next = whole;
+        if (whole.scene.empty()) {
+            next = withoutTechnique(settings_);
+            applyPreset(next, name_or_file, kRender);
+        }
         next = withoutTruth(next);
         applySetting(next, "size", settings_.values.at("size")); // the window's
         completeTechnique(next);
-        validateSettings(next);
-    } catch (const std::exception& error) {
+        const Edited possible = checked(next);
+        if (!possible.settings) {
+            return refuse(possible.refusal);
+        }
+        if (!take(*possible.settings)) {
+            return false;
+        }
+    } catch (const UsageError& error) {
         return refuse(error.what());
-    }
-    if (!take(next)) {
-        return false;
+    } catch (const Error& error) {
+        return refuseUnlessLost(error);
     }
     message_ = {fmt::format("preset {}", name_or_file), false};
     return true;
@@ -243,7 +296,7 @@ bool Viewer::saveScreenshot(const std::filesystem::path& file)
     try {
         writePng(file, picture());
     } catch (const Error& error) {
-        return refuse(error.what());
+        return refuseUnlessLost(error);
     }
     message_ = {fmt::format("wrote {}", file.string()), false};
     return true;
@@ -251,17 +304,21 @@ bool Viewer::saveScreenshot(const std::filesystem::path& file)
 
 bool Viewer::holdAgainst(Beside beside)
 {
-    const Beside before = beside_;
+    if (beside == beside_) {
+        return true;
+    }
     beside_ = beside;
     try {
         makeBeside();
-    } catch (const Error& error) {
-        if (error.kind() == ErrorKind::device_lost) {
-            throw;
-        }
-        beside_ = before == beside ? Beside::nothing : before;
+    } catch (const UsageError& error) {
+        beside_ = Beside::nothing;
         makeBeside();
         return refuse(error.what());
+    } catch (const Error& error) {
+        beside_ = Beside::nothing;
+        (void)refuseUnlessLost(error);
+        makeBeside();
+        return false;
     }
     return true;
 }
@@ -273,13 +330,30 @@ bool Viewer::setTechniqueBeside(const std::string& technique)
         return refuse(other.refusal);
     }
     technique_beside_ = technique;
-    return beside_ != Beside::technique || holdAgainst(beside_);
+    if (beside_ != Beside::technique) {
+        return true;
+    }
+    beside_ = Beside::nothing; // and made anew
+    return holdAgainst(Beside::technique);
 }
 
 void Viewer::setHeld(Held held)
 {
-    changed_ = changed_ || held_ != held;
     held_ = held;
+    paintDifference();
+}
+
+Holding Viewer::holding() const
+{
+    return {beside_, held_, technique_beside_, truth_kind_};
+}
+
+void Viewer::hold(const Holding& holding)
+{
+    held_ = holding.held;
+    technique_beside_ = holding.technique;
+    truth_kind_ = holding.truth_kind;
+    (void)holdAgainst(holding.beside);
 }
 
 void Viewer::setTruthKind(truth::Kind kind)

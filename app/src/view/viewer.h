@@ -6,6 +6,8 @@
 #include "view/drawing.h"
 #include "view/edits.h"
 
+#include <gnomon/error.h>
+
 #include <glm/vec2.hpp>
 
 #include <array>
@@ -23,6 +25,14 @@ namespace gnomon::app::view {
 enum class Beside : std::uint8_t { nothing, technique, truth };
 /// How: at the divider one gives way to the other; or their difference is painted.
 enum class Held : std::uint8_t { split, difference };
+
+/// What stands beside a picture, and how.
+struct Holding {
+    Beside beside = Beside::nothing;
+    Held held = Held::split;
+    std::string technique = "hard";
+    truth::Kind truth_kind = truth::Kind::area;
+};
 
 /// A line for the person, and whether it is about something that cannot be.
 struct Message {
@@ -51,6 +61,9 @@ public:
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Shot& shot() const { return scenery_->shot; }
     [[nodiscard]] host::Gpu& gpu() const { return gpu_; }
+    /// The eye, with a target that is a place: where a camera has but a direction, as far away as the middle of the
+    /// scene.
+    [[nodiscard]] host::Eye aimed() const;
 
     // Changes. False: it cannot be, and message() says why; all is as before.
     bool change(const Changes& changes);
@@ -69,6 +82,9 @@ public:
     bool setTechniqueBeside(const std::string& technique);
     void setHeld(Held held);
     void setTruthKind(truth::Kind kind);
+    /// All of it, for another viewer that is to show the same.
+    [[nodiscard]] Holding holding() const;
+    void hold(const Holding& holding);
 
     [[nodiscard]] Beside beside() const { return beside_; }
     [[nodiscard]] Held held() const { return held_; }
@@ -119,10 +135,14 @@ private:
     bool followTruth();
     void judge(const BackgroundTruth::Level& level);
     void paintDifference();
-    [[nodiscard]] Settings settingsBeside() const;
+    [[nodiscard]] std::optional<Settings> besideOf(const Settings& settings) const;
+    void noteNotices();
+    bool refuseUnlessLost(const Error& error);
+    bool refuseAndGoBack(const std::string& why);
 
     host::Gpu& gpu_;
     Settings settings_;
+    Settings drawn_;                   // by which the last picture was drawn
     std::unique_ptr<Scenery> scenery_; // before all that draws it
     std::unique_ptr<Drawing> drawing_;
     Beside beside_ = Beside::nothing;

@@ -41,7 +41,7 @@ Image8 differenceOf(const Image8& first, const Image8& second)
 
 bool Viewer::isAtRest() const
 {
-    const bool averages = converges(settings_) && settings_.converge < kMostAveraged;
+    const bool averages = converges(settings_) && settings_.converge < kMostAveraged && settings_.debug == "none";
     const bool beside_rests = !drawing_beside_ || beside_ == Beside::truth ? beside_ != Beside::truth || truth_done_
                                                                            : drawing_beside_->isStill();
     return !changed_ && drawing_->isStill() && beside_rests && !averages;
@@ -146,6 +146,7 @@ bool Viewer::drawDue(double now_s)
         changed_s_ = now_s;
         forgetTruth();
         drawBoth(false);
+        drawn_ = settings_;
         return true;
     }
     if (now_s - changed_s_ < kRest_s) {
@@ -176,13 +177,22 @@ bool Viewer::update(double now_s)
     try {
         return drawDue(now_s);
     } catch (const UsageError& error) {
-        return refuse(error.what());
+        return refuseAndGoBack(error.what());
     } catch (const Error& error) {
-        if (error.kind() == ErrorKind::device_lost) {
-            throw;
-        }
-        return refuse(error.what());
+        (void)refuseUnlessLost(error);
+        return refuseAndGoBack(error.what());
     }
+}
+
+/// What cannot be drawn is not kept: the settings of the last picture are taken again, if it was drawn by others.
+bool Viewer::refuseAndGoBack(const std::string& why)
+{
+    const bool has_drawn_others = drawn_.values != settings_.values || drawn_.scene != settings_.scene;
+    if (!drawn_.values.empty() && has_drawn_others) {
+        const Settings last = drawn_;
+        return goBack(last, why);
+    }
+    return refuse(why);
 }
 
 } // namespace gnomon::app::view

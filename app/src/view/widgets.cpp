@@ -55,8 +55,18 @@ void explain(std::string_view text)
     ImGui::EndTooltip();
 }
 
+void Widgets::begin()
+{
+    places_.clear();
+    if (!edited_was_there_) { // hidden while it was dragged: nobody will let go of it
+        edited_key_.clear();
+    }
+    edited_was_there_ = false;
+}
+
 void Widgets::note(const std::string& label)
 {
+    edited_was_there_ = edited_was_there_ || label == edited_key_;
     if (revealed_ == label) {
         ImGui::SetScrollHereY(0.5F);
         revealed_.clear();

@@ -16,7 +16,7 @@ namespace gnomon::app::view {
 class Widgets {
 public:
     /// Before the first widget of a turn.
-    void begin() { places_.clear(); }
+    void begin();
 
     /// A row for a setting: as what it is, with unit, range and what it does where the pointer rests.
     void setting(Viewer& viewer, const Setting& setting);
@@ -52,6 +52,7 @@ private:
     std::string revealed_;
     // What is being typed or dragged, until it is given.
     std::string edited_key_;
+    bool edited_was_there_ = false; // in this turn
     std::string edited_text_;
     double edited_number_ = 0.0;
 };

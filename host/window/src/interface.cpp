@@ -10,10 +10,15 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+#include <vector>
 
 namespace gnomon::host {
 namespace {
@@ -23,11 +28,60 @@ struct Context {
     Context()
     {
         IMGUI_CHECKVERSION();
-        ImGui::CreateContext();
+        ImGui::SetCurrentContext(nullptr); // that of an interface whose device was abandoned is there still
+        own = ImGui::CreateContext();
+        ImGui::SetCurrentContext(own);
     }
-    ~Context() { ImGui::DestroyContext(); }
+    ~Context() { ImGui::DestroyContext(own); }
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
+    ImGuiContext* own = nullptr;
+};
+
+/// Dear ImGui of this version knows which keys are down when a frame begins, and no more: what was pressed and let go
+/// of within a slow one never was. So keys wait here, and a key that was pressed since the last frame is let go of in
+/// the next one.
+class KeyQueue {
+public:
+    explicit KeyQueue(GLFWwindow* window) : window_(window)
+    {
+        current = this;
+        before_ = glfwSetKeyCallback(window, [](GLFWwindow*, int key, int code, int action, int mods) {
+            current->keys_.push_back({key, code, action, mods});
+        });
+    }
+    ~KeyQueue() { glfwSetKeyCallback(window_, before_); }
+    KeyQueue(const KeyQueue&) = delete;
+    KeyQueue& operator=(const KeyQueue&) = delete;
+
+    /// Before a frame: tells what may be told now, of each key one thing.
+    void tell()
+    {
+        std::vector<Key> later;
+        std::vector<int> told;
+        for (const Key& key : keys_) {
+            if (std::find(told.begin(), told.end(), key.key) != told.end()) {
+                later.push_back(key);
+                continue;
+            }
+            told.push_back(key.key);
+            before_(window_, key.key, key.code, key.action, key.mods);
+        }
+        keys_ = std::move(later);
+    }
+
+private:
+    struct Key {
+        int key = 0;
+        int code = 0;
+        int action = 0;
+        int mods = 0;
+    };
+
+    static inline KeyQueue* current = nullptr;
+    GLFWwindow* window_;
+    GLFWkeyfun before_ = nullptr; // Dear ImGui's, which calls the window's
+    std::vector<Key> keys_;
 };
 
 void checkResult(VkResult result)
@@ -132,6 +186,7 @@ struct Interface::Impl {
     OwnedDescriptorPool pool;
     bool has_glfw = false;
     bool has_vulkan = false;
+    std::optional<KeyQueue> keys;
 
     void makePool();
     void makeBackends();
@@ -141,6 +196,7 @@ struct Interface::Impl {
 
 Interface::Impl::~Impl()
 {
+    keys.reset(); // before the callbacks that it calls go
     if (!gpu.abandoned()) {
         (void)vkQueueWaitIdle(gpu.queue());
         if (has_vulkan) {
@@ -184,6 +240,7 @@ void Interface::Impl::makeBackends()
     if (!has_glfw || !has_vulkan) {
         throw Error("making the interface", "Dear ImGui does not start");
     }
+    keys.emplace(window.handle());
 }
 
 void Interface::Impl::uploadFonts()
@@ -232,6 +289,7 @@ bool Interface::begin()
     if (!impl_->chain.prepare()) {
         return false;
     }
+    impl_->keys->tell();
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
