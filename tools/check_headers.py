@@ -38,6 +38,7 @@ FOLDERS = [
     ("scene/src/", [".", "core/include", "scene/src"]),
     ("scene/", [".", "core/include"]),
     ("truth/", [".", "core/include", "truth/src"]),
+    ("host/window/src/", [*PUBLIC, "host/src", "host/window/src"]),
     ("host/src/", [*PUBLIC, "host/src"]),
     ("host/", PUBLIC),
     ("lab/score/", ["core/include", "shaders/include", ".", "lab/score/src"]),
