@@ -147,7 +147,8 @@ TEST(List, KnowsWhichRulesAreAValuesOwn)
 TEST(List, OfASettingAPresetAWorldAndAClaim)
 {
     const std::string setting = list({"draw-budget.ms"}).out;
-    for (const char* part : {"write", "range", "ms", "docs/techniques/atlas.md", "render, view, compare, plan, bench"}) {
+    for (const char* part :
+         {"write", "range", "ms", "docs/techniques/atlas.md", "render, view, compare, plan, bench"}) {
         EXPECT_TRUE(has(setting, part)) << part << setting;
     }
     EXPECT_TRUE(has(list({"esm-2008"}).out, "\"esm.exponent\": 80"));
