@@ -69,20 +69,17 @@ std::string nameOf(const Shot& shot, std::size_t placed)
 
 void useNamed(Shot& shot, const Settings& settings)
 {
-    std::vector<std::string> names;
     for (const scene::NamedView& view : shot.scene.views) {
         if (view.name == settings.camera) {
             useView(shot, settings, view);
             return;
         }
-        names.push_back(view.name);
     }
     for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
         if (nameOf(shot, i) == settings.camera) {
             usePlaced(shot, settings, shot.state.cameras[i], settings.camera);
             return;
         }
-        names.push_back(nameOf(shot, i));
     }
     for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
         if (nodeNameOf(shot, i) == settings.camera) {
@@ -90,6 +87,7 @@ void useNamed(Shot& shot, const Settings& settings)
             return;
         }
     }
+    const std::vector<std::string> names = cameraNames(shot);
     const std::vector<std::string_view> known(names.begin(), names.end());
     throw UsageError(fmt::format(
         "--camera: {} has no camera \"{}\"{}; {}", settings.scene, settings.camera, suggestion(settings.camera, known),
@@ -104,6 +102,18 @@ void useFramed(Shot& shot, const Settings& settings)
 }
 
 } // namespace
+
+std::vector<std::string> cameraNames(const Shot& shot)
+{
+    std::vector<std::string> names;
+    for (const scene::NamedView& view : shot.scene.views) {
+        names.push_back(view.name);
+    }
+    for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
+        names.push_back(nameOf(shot, i));
+    }
+    return names;
+}
 
 host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect)
 {

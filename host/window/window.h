@@ -28,8 +28,9 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What GpuOptions::presents needs.
+    /// GpuOptions::surface_extensions; GLFW's, so they hold as long as the window does.
     [[nodiscard]] std::vector<const char*> instanceExtensions() const;
+    /// GpuOptions::presents.
     [[nodiscard]] static bool canShow(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family);
     /// Throws Error. The caller destroys it, before the instance and the window.
     [[nodiscard]] VkSurfaceKHR makeSurface(VkInstance instance) const;
@@ -42,6 +43,7 @@ public:
     /// How much larger than on a common screen letters should be, in pixels; 1 on a common one.
     [[nodiscard]] double contentScale() const;
     void setTitle(const std::string& title);
+    /// Of its inside, in the desktop's units, each above 0. It has it when the desktop has heard of it.
     void resize(glm::uvec2 size);
     /// Files dropped on it since the last call.
     [[nodiscard]] std::vector<std::string> takeDropped();

@@ -2,16 +2,9 @@
 // What the window of `gnomon view` shows beside the picture, and what it refuses and keeps.
 #include "window_fixture.h"
 
-#include "app/command_line.h"
-#include "app/preset.h"
-#include "view/camera_moves.h"
-
-#include <glm/geometric.hpp>
-
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <random>
 #include <thread>
 
 namespace gnomon {

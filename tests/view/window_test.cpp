@@ -9,16 +9,12 @@
 #include <glm/geometric.hpp>
 
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <random>
-#include <thread>
 
 namespace gnomon {
 namespace {
 
-using app::view::Beside;
-using app::view::Held;
 using test::expectAsRendered;
 using test::kSmall;
 using test::User;

@@ -21,9 +21,8 @@ Settings without(const Settings& settings, std::string_view left_out)
     made.scene = settings.scene;
     for (const Setting& setting : settingTable()) {
         const auto value = settings.values.find(setting.key);
-        const bool is_noted_only = (setting.key == "map-format" && !settings.shadow.format) ||
-                                   (setting.key == "border" && !settings.shadow.border_texels);
-        if (value == settings.values.end() || setting.key == left_out || is_noted_only || value->second.empty()) {
+        if (value == settings.values.end() || setting.key == left_out || isNotedOnly(settings, setting.key) ||
+            value->second.empty()) {
             continue;
         }
         const auto usual = made.values.find(setting.key);
@@ -52,6 +51,11 @@ void apply(Settings& settings, std::string_view key, const std::string& text)
 }
 
 } // namespace
+
+bool isNotedOnly(const Settings& settings, std::string_view key)
+{
+    return (key == "map-format" && !settings.shadow.format) || (key == "border" && !settings.shadow.border_texels);
+}
 
 Edited checked(Settings settings)
 {

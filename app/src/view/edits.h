@@ -38,6 +38,9 @@ using Changes = std::vector<std::pair<std::string_view, std::string>>;
 /// "x,y,z", likewise.
 [[nodiscard]] std::string textOf(const glm::dvec3& vector);
 
+/// Is a setting's text only what follows from others, as completeTechnique() notes it, and was never asked for?
+[[nodiscard]] bool isNotedOnly(const Settings& settings, std::string_view key);
+
 /// Must the scene be loaded and uploaded anew?
 [[nodiscard]] bool changesScene(const Settings& from, const Settings& to);
 /// Must what draws it be made anew, and not only another picture be drawn? Of the same scene.

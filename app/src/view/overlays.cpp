@@ -72,9 +72,7 @@ void drawFrusta(Viewer& viewer, const PictureArea& area)
     if (light >= plan.lights.size()) {
         return;
     }
-    const Shot& shot = viewer.shot();
-    const glm::uvec2 size = viewer.settings().size_px;
-    const glm::dmat4 clip_from_world = host::cameraOf(shot.eye, size.x, size.y, shot.state.bounds_ws).clip_from_world;
+    const glm::dmat4 clip_from_world = viewer.camera().clip_from_world;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const glm::dvec2 end = area.least + area.size;
     list.PushClipRect(imgui(area.least), imgui(end));

@@ -2,6 +2,7 @@
 #include "view/panels.h"
 
 #include "app/preset.h"
+#include "shot_camera.h"
 
 #include <gnomon/choices.h>
 
@@ -75,19 +76,6 @@ std::vector<std::string> namesOfLights(const Shot& shot)
     std::vector<std::string> names;
     for (const host::ShadedLight& light : shot.lights) {
         names.push_back(light.name);
-    }
-    return names;
-}
-
-std::vector<std::string> namesOfCameras(const Shot& shot)
-{
-    std::vector<std::string> names;
-    for (const scene::NamedView& one : shot.scene.views) {
-        names.push_back(one.name);
-    }
-    for (std::size_t i = 0; i < shot.state.cameras.size(); ++i) {
-        const scene::Camera& camera = shot.scene.cameras[shot.state.cameras[i].camera];
-        names.push_back(camera.name.empty() ? fmt::format("camera{}", i) : camera.name);
     }
     return names;
 }
@@ -184,7 +172,7 @@ void scenePanel(Viewer& viewer, PanelState& state)
     if (widgets.text("file", state.typed.scene, "scene.glb, or drop it here") && !state.typed.scene.empty()) {
         viewer.open(state.typed.scene);
     }
-    const std::vector<std::string> cameras = namesOfCameras(viewer.shot());
+    const std::vector<std::string> cameras = cameraNames(viewer.shot());
     const int camera = widgets.pick("camera", viewer.shot().camera, cameras);
     if (camera >= 0) {
         viewer.change({{"fov", ""},
@@ -238,11 +226,8 @@ void lightPanel(Viewer& viewer, PanelState& state)
     if (light >= 0) {
         viewer.change({{"light", lights[static_cast<std::size_t>(light)]}});
     }
-    const auto sun =
-        std::find_if(viewer.shot().lights.begin(), viewer.shot().lights.end(),
-                     [](const host::ShadedLight& one) { return one.caster.type == LightType::directional; });
-    SunAngles angles =
-        anglesOf(sun != viewer.shot().lights.end() ? sun->caster.direction_ws : glm::dvec3(0.65, -0.75, -0.12));
+    const host::ShadedLight* const sun = sunOf(viewer.shot());
+    SunAngles angles = anglesOf(sun != nullptr ? sun->caster.direction_ws : glm::dvec3(0.65, -0.75, -0.12));
     const bool turned = widgets.slider("sun from (degrees)", angles.azimuth_deg, 0.0F, 360.0F);
     explain("From which side it shines: 0 from -z, 90 from +x. Moving it replaces the scene's lights with one sun");
     const bool raised = widgets.slider("sun's height (degrees)", angles.height_deg, 1.0F, 90.0F);

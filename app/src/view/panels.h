@@ -23,7 +23,6 @@ struct Shown {
 /// Text that is typed in the panel, kept from turn to turn.
 struct Typed {
     std::string scene;
-    std::string preset;
     std::string technique_beside = "hard";
     std::string screenshot = "gnomon.png";
     std::string preset_file = "preset.json";
@@ -39,10 +38,10 @@ struct PanelState {
 // Its parts, in this order.
 void techniquePanel(Viewer& viewer, PanelState& state);
 void comparePanel(Viewer& viewer, PanelState& state);
+void timesPanel(Viewer& viewer, PanelState& state);
 void scenePanel(Viewer& viewer, PanelState& state);
 void lightPanel(Viewer& viewer, PanelState& state);
 void picturePanel(Viewer& viewer, PanelState& state);
-void timesPanel(Viewer& viewer, PanelState& state);
 void filesPanel(Viewer& viewer, PanelState& state);
 
 /// How wide the panel is, pixels.

@@ -42,20 +42,6 @@ bool isInside(const PictureArea& area, const glm::dvec2& at)
     return in.x >= 0.0 && in.y >= 0.0 && in.x < area.size.x && in.y < area.size.y;
 }
 
-const host::ShadedLight* sunOf(const Shot& shot)
-{
-    const auto sun = std::find_if(shot.lights.begin(), shot.lights.end(), [](const host::ShadedLight& light) {
-        return light.caster.type == LightType::directional;
-    });
-    return sun != shot.lights.end() ? &*sun : nullptr;
-}
-
-Camera cameraOf(const Viewer& viewer)
-{
-    const glm::uvec2 size = viewer.settings().size_px;
-    return host::cameraOf(viewer.shot().eye, size.x, size.y, viewer.shot().state.bounds_ws);
-}
-
 ImVec2 imgui(const glm::dvec2& at)
 {
     return {static_cast<float>(at.x), static_cast<float>(at.y)};
@@ -71,7 +57,7 @@ void Pointer::placeSun(const Viewer& viewer, const Shown& shown, const PictureAr
         return;
     }
     const SunDome dome = domeOf(viewer.aimed());
-    const glm::dmat4 clip_from_world = cameraOf(viewer).clip_from_world;
+    const glm::dmat4 clip_from_world = viewer.camera().clip_from_world;
     const auto centre = pointOf(clip_from_world, dome.centre_ws);
     const auto at = pointOf(clip_from_world, dome.centre_ws - glm::normalize(sun->caster.direction_ws) * dome.radius_m);
     if (centre && at) {
@@ -114,7 +100,7 @@ void Pointer::drag(Viewer& viewer, Shown& shown, const PictureArea& area)
     const glm::dvec2 in = (pointerAt() - area.least) / area.size;
     if (grip_ == Grip::sun && moved() != glm::dvec2(0.0)) {
         const host::Eye eye = viewer.aimed();
-        const glm::dvec3 ray = rayOf(cameraOf(viewer).clip_from_world, eye.position_ws, in);
+        const glm::dvec3 ray = rayOf(viewer.camera().clip_from_world, eye.position_ws, in);
         viewer.change({{"sun", textOf(sunFrom(domeOf(eye), eye.position_ws, ray))}});
     } else if (grip_ == Grip::divider) {
         shown.divider = static_cast<float>(std::clamp(in.x, 0.0, 1.0));

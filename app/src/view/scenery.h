@@ -5,6 +5,8 @@
 #include "app/shot.h"
 #include "host/scene_on_gpu.h"
 
+#include <algorithm>
+
 namespace gnomon::app::view {
 
 struct Scenery {
@@ -17,5 +19,14 @@ struct Scenery {
     Shot shot;
     host::SceneOnGpu on_gpu;
 };
+
+/// The first directional light; null where there is none.
+[[nodiscard]] inline const host::ShadedLight* sunOf(const Shot& shot)
+{
+    const auto sun = std::find_if(shot.lights.begin(), shot.lights.end(), [](const host::ShadedLight& light) {
+        return light.caster.type == LightType::directional;
+    });
+    return sun != shot.lights.end() ? &*sun : nullptr;
+}
 
 } // namespace gnomon::app::view

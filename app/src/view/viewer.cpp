@@ -19,8 +19,6 @@
 namespace gnomon::app::view {
 namespace {
 
-constexpr std::string_view kConverge = "converge";
-
 /// A window asks for one picture; what others ask for beside it does not come along.
 Settings withoutTruth(Settings settings)
 {
@@ -80,6 +78,11 @@ bool Viewer::refuseUnlessLost(const Error& error)
         throw error;
     }
     return refuse(error.what());
+}
+
+Camera Viewer::camera() const
+{
+    return host::cameraOf(shot().eye, settings_.size_px.x, settings_.size_px.y, shot().state.bounds_ws);
 }
 
 host::Eye Viewer::aimed() const
@@ -197,9 +200,8 @@ bool Viewer::change(const Changes& changes)
     if (!next.settings) {
         return refuse(next.refusal);
     }
-    const bool counts = changes.size() == 1 && changes.front().first == kConverge;
-    if (!counts && next.settings->converge != 1) { // it begins again
-        applySetting(*next.settings, kConverge, "1");
+    if (next.settings->converge != 1) { // averaging begins again
+        applySetting(*next.settings, "converge", "1");
     }
     return take(*next.settings);
 }
@@ -275,10 +277,7 @@ bool Viewer::savePreset(const std::filesystem::path& file)
     json["scene"] = settings_.scene;
     const Json all = settingsJson(settings_, kRender);
     for (const auto& [key, value] : all.items()) {
-        const Setting* const setting = findSetting(key);
-        const bool is_noted_only =
-            (key == "map-format" && !settings_.shadow.format) || (key == "border" && !settings_.shadow.border_texels);
-        if (isUsed(*setting, settings_) && !is_noted_only) {
+        if (isUsed(*findSetting(key), settings_) && !isNotedOnly(settings_, key)) {
             json[key] = value;
         }
     }

@@ -64,6 +64,8 @@ public:
     /// The eye, with a target that is a place: where a camera has but a direction, as far away as the middle of the
     /// scene.
     [[nodiscard]] host::Eye aimed() const;
+    /// That of the picture.
+    [[nodiscard]] Camera camera() const;
 
     // Changes. False: it cannot be, and message() says why; all is as before.
     bool change(const Changes& changes);
@@ -109,7 +111,8 @@ public:
     /// Will there be anything to draw though nobody does anything?
     [[nodiscard]] bool isBusy() const { return plays_ || !isAtRest(); }
 
-    /// Both of the picture's size; the second one empty while there is nothing to hold against.
+    /// Both of the picture's size; the second one null while there is nothing to show beside it. The first is the
+    /// difference of both where that is wanted.
     [[nodiscard]] const host::Canvas& canvas() const;
     [[nodiscard]] const host::Canvas* canvasBeside() const;
     [[nodiscard]] const host::FrameTimes& times() const { return drawing_->times(); }
@@ -131,6 +134,8 @@ private:
     void passTime(double elapsed_s);
     bool drawDue(double now_s);
     void drawBoth(bool still);
+    [[nodiscard]] bool averages() const;
+    [[nodiscard]] bool restsBeside() const;
     void forgetTruth();
     bool followTruth();
     void judge(const BackgroundTruth::Level& level);

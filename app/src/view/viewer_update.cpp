@@ -20,11 +20,6 @@ constexpr double kRest_s = 0.12;             // after which a picture that nobod
 constexpr std::uint32_t kMostAveraged = 256; // frames at rest of soften converge, and more change nothing that is seen
 constexpr double kTick_s = 0.001;            // the scene's time goes in whole ones, so that it can be written down
 
-bool converges(const Settings& settings)
-{
-    return settings.shadow.technique.soften == Soften::converge;
-}
-
 /// How far the first is from the second in each channel, enlarged so that a small difference is seen: black is none.
 Image8 differenceOf(const Image8& first, const Image8& second)
 {
@@ -39,12 +34,29 @@ Image8 differenceOf(const Image8& first, const Image8& second)
 
 } // namespace
 
+/// Will more frames at rest make the picture smoother?
+bool Viewer::averages() const
+{
+    return settings_.shadow.technique.soften == Soften::converge && settings_.converge < kMostAveraged &&
+           settings_.debug == "none";
+}
+
+bool Viewer::restsBeside() const
+{
+    switch (beside_) {
+    case Beside::technique:
+        return drawing_beside_ && drawing_beside_->isStill();
+    case Beside::truth:
+        return truth_done_;
+    case Beside::nothing:
+        break;
+    }
+    return true;
+}
+
 bool Viewer::isAtRest() const
 {
-    const bool averages = converges(settings_) && settings_.converge < kMostAveraged && settings_.debug == "none";
-    const bool beside_rests = !drawing_beside_ || beside_ == Beside::truth ? beside_ != Beside::truth || truth_done_
-                                                                           : drawing_beside_->isStill();
-    return !changed_ && drawing_->isStill() && beside_rests && !averages;
+    return !changed_ && drawing_->isStill() && restsBeside() && !averages();
 }
 
 void Viewer::passTime(double elapsed_s)
@@ -152,11 +164,11 @@ bool Viewer::drawDue(double now_s)
     if (now_s - changed_s_ < kRest_s) {
         return false;
     }
-    if (!drawing_->isStill() || (drawing_beside_ && beside_ == Beside::technique && !drawing_beside_->isStill())) {
+    if (!drawing_->isStill() || (beside_ == Beside::technique && !restsBeside())) {
         drawBoth(true);
         return true;
     }
-    if (converges(settings_) && settings_.converge < kMostAveraged && drawing_->settings().debug == "none") {
+    if (averages()) {
         drawing_->drawOnce();
         applySetting(settings_, "converge", fmt::format("{}", settings_.converge + 1));
         pacing_.push(drawing_->times().frame_ms);

@@ -171,16 +171,17 @@ void Widgets::choice(Viewer& viewer, const Setting& setting)
         names.emplace_back(name);
     }
     const Settings& settings = viewer.settings();
+    const auto now = settings.values.find(key);
     const int picked = pick(
-        key.c_str(), settings.values.at(key), names,
+        key.c_str(), now != settings.values.end() ? now->second : std::string(), names,
         [&](std::size_t i) {
             return edited(settings, {{setting.key, names[i]}}).refusal;
         },
         [&](std::size_t i) {
             const ChoiceValue* const row = findChoice(setting.key, names[i]);
-            return row == nullptr ? std::string("Gnomon chooses by what each would err")
-                                  : fmt::format("{}\n{}", row->summary, row->source);
+            return row != nullptr ? fmt::format("{}\n{}", row->summary, row->source) : aboutOf(setting);
         });
+    explain(aboutOf(setting));
     if (picked >= 0) {
         viewer.change({{setting.key, names[static_cast<std::size_t>(picked)]}});
     }
@@ -261,20 +262,9 @@ void Widgets::setting(Viewer& viewer, const Setting& setting)
         }
         break;
     }
-    case SettingType::choice: {
-        std::vector<std::string> names;
-        for (const std::string_view name : setting.choices()) {
-            names.emplace_back(name);
-        }
-        const int picked = pick(key.c_str(), now, names, [&](std::size_t i) {
-            return edited(viewer.settings(), {{setting.key, names[i]}}).refusal;
-        });
-        explain(aboutOf(setting));
-        if (picked >= 0) {
-            viewer.change({{setting.key, names[static_cast<std::size_t>(picked)]}});
-        }
+    case SettingType::choice:
+        choice(viewer, setting);
         break;
-    }
     case SettingType::integer:
     case SettingType::real:
         fitsASlider(setting) && !now.empty() ? number(viewer, setting, now) : textSetting(viewer, setting, now);

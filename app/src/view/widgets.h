@@ -20,7 +20,7 @@ public:
 
     /// A row for a setting: as what it is, with unit, range and what it does where the pointer rests.
     void setting(Viewer& viewer, const Setting& setting);
-    /// One of the six choices, with why a value cannot be had.
+    /// A setting that takes one of several names, with why one cannot be had and where it comes from.
     void choice(Viewer& viewer, const Setting& setting);
     /// A line of text; true when the person has ended it. `hint` while it is empty.
     bool text(const char* label, std::string& value, const char* hint);
