@@ -16,7 +16,8 @@ namespace gnomon::app {
 
 /// Opens the device, one that draws in `window` where that is given; says on stderr when it is a software rasteriser
 /// that nobody asked for. Throws Error, also when the picture or the map is larger than the device can draw.
-[[nodiscard]] std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window = nullptr);
+[[nodiscard]] std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window = nullptr,
+                                                 const vulkan::ShaderHook& shaders = {});
 /// With --validate: throws Error with the first validation message, when there is one.
 void requireSilence(const host::Gpu& gpu);
 /// [0, 1] to 0 .. 65535, to nearest; NaN becomes 0, so that it shows.

@@ -38,7 +38,8 @@ endfunction()
 
 # gnomon_shaders(TARGET [NAMESPACE NAME] ENTRIES...): makes an object library that embeds each entry as `const std::span<const
 # std::uint32_t> NAME::ENTRY` (with dots as underscores), declared in the generated header "TARGET.h", which also has all of
-# them in `NAME::all_of_TARGET`. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
+# them in `NAME::all_of_TARGET` and their names ("pass.frag") in `NAME::names_of_TARGET`. Target TARGET_modules makes the SPIR-V files
+# TARGET/NAME.spv alone. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
 # Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
 # with sanitizers, which look at C++ alone.
 # GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are for gnomon's own sources.
@@ -57,6 +58,7 @@ function(gnomon_shaders target)
     set(spans)
     set(incs)
     set(ids)
+    set(names)
     foreach(entry IN LISTS arg_UNPARSED_ARGUMENTS)
         set(defines)
         if(entry MATCHES "^([^:]+):([^:]+):(.*)$")
@@ -69,6 +71,7 @@ function(gnomon_shaders target)
         endif()
         string(MAKE_C_IDENTIFIER ${name} id)
         list(APPEND ids ${id})
+        list(APPEND names "\"${name}\"")
         string(APPEND header "extern const std::span<const std::uint32_t> ${id};\n")
         string(APPEND words "constexpr std::uint32_t words_${id}[] =\n#include \"${name}.inc\"\n;\n")
         string(APPEND spans "const std::span<const std::uint32_t> ${id}{words_${id}};\n")
@@ -78,12 +81,17 @@ function(gnomon_shaders target)
     list(JOIN ids ", &" all)
     list(LENGTH ids count)
     string(APPEND header "inline constexpr const std::span<const std::uint32_t>* all_of_${target}[${count}] = {&${all}};\n")
+    list(JOIN names ", " names)
+    string(APPEND header "inline constexpr const char* names_of_${target}[${count}] = {${names}};\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.h CONTENT "${header}}\n" @ONLY)
     # One source for all: a compiler takes longer to start than to read a module's words.
     set(cpp "#include \"${target}.h\"\n${begin}namespace {\n${words}}\n${spans}}\n")
     file(CONFIGURE OUTPUT ${dir}/${target}.cpp CONTENT "${cpp}" @ONLY)
     set_source_files_properties(${dir}/${target}.cpp PROPERTIES OBJECT_DEPENDS "${incs}")
     add_library(${target} OBJECT ${dir}/${target}.cpp)
+    # The modules alone: for a program that takes them while it runs.
+    add_custom_target(${target}_modules DEPENDS ${incs})
+    add_dependencies(${target} ${target}_modules)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_include_directories(${target} PUBLIC ${dir})

@@ -26,6 +26,7 @@ struct GpuOptions {
     /// host/window/interface.h fills them in. Empty: no window is.
     std::vector<const char*> surface_extensions;
     bool (*presents)(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family) = nullptr;
+    vulkan::ShaderHook shaders; // for the host's shaders too
 };
 
 class Gpu {

@@ -16,7 +16,8 @@ int runView(const Settings& settings)
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds kSoon{10}; // a device that is lost again so soon will be lost once more
     Settings last = settings;
-    auto window = std::make_unique<view::ViewWindow>(last);
+    const std::optional<view::ShaderBuild> shaders = view::findShaderBuild();
+    auto window = std::make_unique<view::ViewWindow>(last, shaders);
     Clock::time_point begun = Clock::now();
     for (;;) {
         try {
@@ -33,7 +34,7 @@ int runView(const Settings& settings)
             last = window->viewer().settings();
             last.subcommand = kView;
             window.reset();
-            window = std::make_unique<view::ViewWindow>(last);
+            window = std::make_unique<view::ViewWindow>(last, shaders);
             window->viewer().hold(holding);
             window->viewer().say({"the GPU was lost, and everything was made anew", true});
             begun = Clock::now();

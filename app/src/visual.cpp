@@ -36,10 +36,11 @@ void noteLevels(const Settings& technique)
 
 } // namespace
 
-std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window)
+std::unique_ptr<host::Gpu> openGpu(const Settings& settings, const host::Window* window,
+                                   const vulkan::ShaderHook& shaders)
 {
     host::GpuOptions options{
-        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted};
+        .gpu = settings.gpu, .validate = settings.validate, .while_waiting = requireNotInterrupted, .shaders = shaders};
     if (window != nullptr) {
         options = host::forWindow(options, *window);
     }

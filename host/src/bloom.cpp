@@ -120,7 +120,7 @@ void Bloom::makeSteps(const BloomOptions& options, const Image& light, bool aver
 
 VkPipeline Bloom::makePipeline(const char* name, std::string_view shader, std::span<const std::uint32_t> constants)
 {
-    const std::span<const std::uint32_t> words = shaderWords(shader);
+    const std::span<const std::uint32_t> words = shaderWords(gpu_.view().shaders, shader);
     VkDevice device = gpu_.view().device;
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module.codeSize = words.size_bytes();

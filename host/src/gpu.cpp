@@ -310,6 +310,7 @@ Gpu::Gpu(const GpuOptions& options) : impl_(std::make_unique<Impl>())
 {
     impl_->while_waiting = options.while_waiting;
     impl_->patience_s = options.patience_s;
+    impl_->view.shaders = options.shaders;
     impl_->makeInstance(options);
     if (options.validate) {
         impl_->makeMessenger();

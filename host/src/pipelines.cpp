@@ -171,7 +171,7 @@ OwnedPipelineLayout Pipelines::makeLayout(std::span<const VkDescriptorSetLayout>
 
 OwnedShader Pipelines::module(std::string_view name) const
 {
-    const std::span<const std::uint32_t> words = shaderWords(name);
+    const std::span<const std::uint32_t> words = shaderWords(gpu_.view().shaders, name);
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = words.size_bytes();
     info.pCode = words.data();

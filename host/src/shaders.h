@@ -2,14 +2,16 @@
 // The host's shaders by name. The one place that knows where their words come from.
 #pragma once
 
+#include <gnomon/vulkan/device_view.h>
+
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 namespace gnomon::host {
 
-/// SPIR-V of a file of host/shaders, by its name ("tone.frag"); for as long as the program runs. Precondition: there is
+/// SPIR-V of a file of host/shaders, by its name ("tone.frag"), or what `hook` has in its place. Precondition: there is
 /// one.
-[[nodiscard]] std::span<const std::uint32_t> shaderWords(std::string_view name);
+[[nodiscard]] std::span<const std::uint32_t> shaderWords(const vulkan::ShaderHook& hook, std::string_view name);
 
 } // namespace gnomon::host

@@ -94,8 +94,9 @@ Image8 drawnBy(const std::string& command)
     return image;
 }
 
-User::User(Desktop& desktop, const std::vector<std::string>& arguments)
-    : desktop_(desktop), window_(settingsOf(arguments))
+User::User(Desktop& desktop, const std::vector<std::string>& arguments,
+           const std::optional<app::view::ShaderBuild>& shaders)
+    : desktop_(desktop), window_(settingsOf(arguments), shaders)
 {
     desktop_.focus(glfwGetX11Window(window_.window().handle()));
     wait();

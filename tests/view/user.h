@@ -16,7 +16,8 @@ namespace gnomon::test {
 class User {
 public:
     /// Opens the window as the command line would: `arguments` behind "gnomon view".
-    User(Desktop& desktop, const std::vector<std::string>& arguments);
+    User(Desktop& desktop, const std::vector<std::string>& arguments,
+         const std::optional<app::view::ShaderBuild>& shaders = std::nullopt);
 
     /// Turns of the window, until it has followed what was done.
     void wait(int turns = 3);

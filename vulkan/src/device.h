@@ -41,6 +41,7 @@ public:
     [[nodiscard]] bool depthBounds() const { return view_.depth_bounds; }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
+    [[nodiscard]] const ShaderHook& shaderHook() const { return view_.shaders; }
     [[nodiscard]] const MemoryAccount& account() const { return account_; }
 
     /// Throws Error when there is none.

@@ -2,7 +2,13 @@
 // Images, buffers and shader modules.
 #include "device.h"
 
+#include "gnomon_spirv.h"
+
 #include <gnomon/error.h>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
 
 namespace gnomon::vulkan {
 namespace {
@@ -136,8 +142,27 @@ DeviceBuffer::DeviceBuffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlag
 {
 }
 
+namespace {
+
+/// What the host puts in a module's place, or the module.
+std::span<const std::uint32_t> hooked(const ShaderHook& hook, std::span<const std::uint32_t> spirv)
+{
+    const auto* const found =
+        std::find_if(std::begin(spirv::all_of_gnomon_spirv), std::end(spirv::all_of_gnomon_spirv),
+                     [&spirv](const std::span<const std::uint32_t>* one) { return one->data() == spirv.data(); });
+    assert(found != std::end(spirv::all_of_gnomon_spirv));
+    const std::span<const std::uint32_t> other =
+        hook.words(hook.user, spirv::names_of_gnomon_spirv[found - std::begin(spirv::all_of_gnomon_spirv)]);
+    return other.empty() ? spirv : other;
+}
+
+} // namespace
+
 ShaderModule makeShader(Device& device, std::span<const std::uint32_t> spirv)
 {
+    if (device.shaderHook().words != nullptr) {
+        spirv = hooked(device.shaderHook(), spirv);
+    }
     const VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, spirv.size_bytes(),
                                           spirv.data()};
     VkShaderModule module = VK_NULL_HANDLE;

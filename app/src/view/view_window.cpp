@@ -5,6 +5,8 @@
 #include "interrupt.h"
 #include "view/overlays.h"
 
+#include <gnomon/error.h>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -29,8 +31,10 @@ glm::uvec2 windowSize(const Settings& settings)
 
 } // namespace
 
-ViewWindow::ViewWindow(const Settings& settings)
-    : window_({.title = "gnomon", .size = windowSize(settings)}), gpu_(openGpu(settings, &window_)),
+ViewWindow::ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders)
+    : window_({.title = "gnomon", .size = windowSize(settings)}),
+      shaders_(shaders ? std::make_unique<ShaderReload>(*shaders) : nullptr),
+      gpu_(openGpu(settings, &window_, shaders_ ? shaders_->hook() : vulkan::ShaderHook{})),
       interface_(std::make_unique<host::Interface>(window_, *gpu_)), validates_(settings.validate)
 {
     viewer_ = std::make_unique<Viewer>(*gpu_, settings);
@@ -118,6 +122,61 @@ void ViewWindow::status()
                  nullptr, width);
 }
 
+/// What the compiler of shaders said, over the picture until they compile.
+void ViewWindow::shaderFaults()
+{
+    if (!shaders_ || shaders_->faults().empty()) {
+        return;
+    }
+    const float margin = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({static_cast<float>(area_.least.x) + margin, margin});
+    ImGui::SetNextWindowSize({static_cast<float>(area_.size.x) - 2.0F * margin, 0.0F});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("shaders do not compile", nullptr, kFlags)) {
+        ImGui::PushTextWrapPos(0.0F);
+        ImGui::TextUnformatted(shaders_->faults().c_str());
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
+}
+
+/// Draws with the new ones, or with the old ones where that cannot be.
+void ViewWindow::takeShaders()
+{
+    if (viewer_->remake()) {
+        viewer_->say({fmt::format("shaders as their sources are: {} modules are new", shaders_->count()), false});
+        return;
+    }
+    const Message why = viewer_->message();
+    shaders_->goBack();
+    if (!viewer_->remake()) {
+        throw Error("going back to the last shaders", viewer_->message().text);
+    }
+    viewer_->say(why);
+}
+
+void ViewWindow::followShaders(double now_s)
+{
+    switch (shaders_ ? shaders_->turn(now_s) : ShaderNews::none) {
+    case ShaderNews::none:
+        return;
+    case ShaderNews::compiling:
+        viewer_->say({"compiling shaders", false});
+        break;
+    case ShaderNews::unchanged:
+        viewer_->say({"the shaders are what they were", false});
+        break;
+    case ShaderNews::failed:
+        viewer_->say({"shaders do not compile; the picture has the last ones that did", true});
+        break;
+    case ShaderNews::compiled:
+        takeShaders();
+        break;
+    }
+    quiet_turns_ = 0;
+}
+
 void ViewWindow::build(double elapsed_s)
 {
     widgets_.begin();
@@ -125,6 +184,7 @@ void ViewWindow::build(double elapsed_s)
     if (shown_.panel) {
         panel();
     }
+    shaderFaults();
     pointer_.turn(*viewer_, shown_, area_, window_.takeLetters(), elapsed_s);
     status();
 }
@@ -238,6 +298,7 @@ bool ViewWindow::prepare()
         viewer_->open(file);
         typed_.scene = file;
     }
+    followShaders(std::chrono::duration<double>(Clock::now() - start_).count());
     is_hidden_ = !interface_->begin();
     if (is_hidden_) {
         return false;

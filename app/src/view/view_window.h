@@ -7,6 +7,7 @@
 #include "view/map_inset.h"
 #include "view/panels.h"
 #include "view/pointer.h"
+#include "view/shader_reload.h"
 
 #include <chrono>
 #include <memory>
@@ -16,8 +17,9 @@ namespace gnomon::app::view {
 
 class ViewWindow {
 public:
-    /// Opens the window, so that the picture has --size, and loads the scene. Throws UsageError and Error.
-    explicit ViewWindow(const Settings& settings);
+    /// Opens the window, so that the picture has --size, and loads the scene. `shaders`: whose sources are followed, if
+    /// any's are. Throws UsageError and Error.
+    explicit ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders = std::nullopt);
     ~ViewWindow();
     ViewWindow(const ViewWindow&) = delete;
     ViewWindow& operator=(const ViewWindow&) = delete;
@@ -30,6 +32,8 @@ public:
     /// The same, and what the window shows then; empty where it shows nothing.
     [[nodiscard]] Image8 turnAndRead();
 
+    /// Null where none are followed.
+    [[nodiscard]] const ShaderReload* shaders() const { return shaders_.get(); }
     [[nodiscard]] Viewer& viewer() { return *viewer_; }
     [[nodiscard]] host::Window& window() { return window_; }
     [[nodiscard]] Widgets& widgets() { return widgets_; }
@@ -44,6 +48,9 @@ public:
 
 private:
     bool prepare();
+    void followShaders(double now_s);
+    void takeShaders();
+    void shaderFaults();
     void build(double elapsed_s);
     void panel();
     void status();
@@ -58,6 +65,7 @@ private:
 
     // In this order: the window goes last.
     host::Window window_;
+    std::unique_ptr<ShaderReload> shaders_;
     std::unique_ptr<host::Gpu> gpu_;
     std::unique_ptr<host::Interface> interface_;
     std::unique_ptr<Viewer> viewer_;

@@ -239,6 +239,21 @@ bool Viewer::open(const std::string& scene)
     return true;
 }
 
+bool Viewer::remake()
+{
+    const Settings same = settings_;
+    try {
+        dropScenery();
+        makeScenery(same);
+        makeBeside();
+    } catch (const UsageError& error) {
+        return refuse(error.what());
+    } catch (const Error& error) {
+        return refuseUnlessLost(error);
+    }
+    return true;
+}
+
 bool Viewer::loadPreset(const std::string& name_or_file)
 {
     try {

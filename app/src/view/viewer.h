@@ -74,6 +74,9 @@ public:
     bool frameAll();
     /// A file or the name of a built-in world; camera, lights and time are its own from then on.
     bool open(const std::string& scene);
+    /// Everything anew, by the same settings. False: it cannot be, message() says why, and there is nothing to draw
+    /// until it could.
+    bool remake();
     /// A built-in preset's name or a file.
     bool loadPreset(const std::string& name_or_file);
     /// What `--preset` takes to draw the same.

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace gnomon::vulkan {
 
@@ -42,6 +43,17 @@ struct MemoryHooks {
     void (*release)(void* user, const MemoryBlock& block) = nullptr;
 };
 
+/// Lets a host put other modules in the place of the library's shaders, to work on them while it runs. It is asked for
+/// each module whenever a pipeline is made of it: pipelines that are there stay as they are, so a host makes its
+/// ShadowRenderer and its drawers anew after a change. The interface (bindings, constants, locations) has to stay.
+struct ShaderHook {
+    void* user = nullptr;
+    /// `name` is that of the SPIR-V file in a build of the library: the source with the variant in it
+    /// ("mask_vsm.frag"). Gives SPIR-V for Vulkan 1.3 that stays where it is until the next call of this thread, or
+    /// nothing: then the library's own is taken. May be called by several threads at once; does not throw.
+    std::span<const std::uint32_t> (*words)(void* user, const char* name) = nullptr;
+};
+
 /// Precondition: the device was made with the features that requiredFeatures() names. Whatever takes one throws Error
 /// when a handle or the function is null, or one memory hook is given without the other.
 struct DeviceView {
@@ -52,6 +64,7 @@ struct DeviceView {
     /// Not null.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     MemoryHooks memory;        // empty: a dedicated allocation per resource
+    ShaderHook shaders;        // empty: the library's own
     bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes
     bool layered = false;      // the device has the feature shaderOutputLayer on, for CascadePass::layered
     bool depth_bounds = false; // the device has depthBounds on: filter volumes counts no farther than lamps reach
