@@ -2,6 +2,8 @@
 // What the window of `gnomon view` shows beside the picture, and what it refuses and keeps.
 #include "window_fixture.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -90,6 +92,40 @@ TEST_F(ViewWindow, ShowsDebugViewsFrustaAndMaps)
     }
     user.pick("debug", "views");
     expectAsRendered(user);
+}
+
+/// --sun of what is shown; empty where it is not given.
+std::string sunSetting(User& user)
+{
+    const app::Settings& settings = user.viewer().settings();
+    const auto found = settings.values.find("sun");
+    return found != settings.values.end() ? found->second : "";
+}
+
+TEST_F(ViewWindow, LetsTheSunMove)
+{
+    User user(*desktop_, kSmall);
+    ASSERT_TRUE(user.rest());
+    EXPECT_EQ(sunSetting(user), "");
+    user.click("the sun moves");
+    user.wait(5);
+    const std::string first = sunSetting(user);
+    EXPECT_NE(first, "");
+    EXPECT_TRUE(user.viewer().isBusy());
+    user.wait();
+    EXPECT_NE(sunSetting(user), first);
+    ASSERT_TRUE(user.viewer().change({{"sun", "1,-1,0"}})); // a hand leads it elsewhere, and it goes on from there
+    user.wait();
+    const glm::dvec3 sun = user.viewer().shot().lights.front().caster.direction_ws;
+    EXPECT_GT(glm::dot(sun, glm::normalize(glm::dvec3(1.0, -1.0, 0.0))), 0.8);
+    EXPECT_NE(sunSetting(user), "1,-1,0");
+    user.click("the sun moves");
+    expectAsRendered(user);
+    ASSERT_TRUE(user.viewer().change({{"sun", ""}, {"point", "0,3,0,20"}}));
+    user.click("the sun moves");
+    user.wait();
+    EXPECT_FALSE(user.viewer().movesSun()) << "there is none";
+    EXPECT_TRUE(user.viewer().message().is_refusal);
 }
 
 TEST_F(ViewWindow, RefusesWhatRenderRefuses)

@@ -234,6 +234,11 @@ void lightPanel(Viewer& viewer, PanelState& state)
     if (turned || raised) {
         viewer.change({{"sun", textOf(directionOf(angles))}});
     }
+    bool moves = viewer.movesSun();
+    if (widgets.checkbox("the sun moves", moves)) {
+        viewer.moveSun(moves);
+    }
+    explain("A day in two minutes, as by --path day; where it stands is its noon");
     if (settings.placesLights()) {
         if (widgets.button("The scene's own lights")) {
             viewer.change({{"sun", ""}, {"spot", ""}, {"point", ""}});

@@ -9,6 +9,7 @@
 #include <gnomon/error.h>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
@@ -50,6 +51,13 @@ struct Pacing {
         ms[next] = static_cast<float>(frame_ms);
         next = (next + 1) % kFrames;
     }
+};
+
+/// The sun on its way (sunAt()): from where it stood, and how far.
+struct SunCourse {
+    glm::dvec3 noon_ws{0.0, -1.0, 0.0};
+    double angle_rad = 0.0;
+    std::string at; // --sun as it was set last; another one begins a new course
 };
 
 class Viewer {
@@ -97,6 +105,9 @@ public:
     [[nodiscard]] truth::Kind truthKind() const { return truth_kind_; }
     void play(bool plays) { plays_ = plays; }
     [[nodiscard]] bool plays() const { return plays_; }
+    /// The sun goes on by itself, a day in two minutes, as by `--path day`. Where it stands is its noon.
+    void moveSun(bool moves) { course_ = moves ? std::optional(SunCourse()) : std::nullopt; }
+    [[nodiscard]] bool movesSun() const { return course_.has_value(); }
 
     /// The shell command that draws what the picture shows.
     [[nodiscard]] std::string command() const;
@@ -112,7 +123,7 @@ public:
     /// Nothing moves, and all that is to be seen is as `render` draws it.
     [[nodiscard]] bool isAtRest() const;
     /// Will there be anything to draw though nobody does anything?
-    [[nodiscard]] bool isBusy() const { return plays_ || !isAtRest(); }
+    [[nodiscard]] bool isBusy() const { return plays_ || movesSun() || !isAtRest(); }
 
     /// Both of the picture's size; the second one null while there is nothing to show beside it. The first is the
     /// difference of both where that is wanted.
@@ -135,6 +146,7 @@ private:
     void dropScenery();
     void makeBeside();
     void passTime(double elapsed_s);
+    void passSun(double elapsed_s);
     bool drawDue(double now_s);
     void drawBoth(bool still);
     [[nodiscard]] bool averages() const;
@@ -166,6 +178,7 @@ private:
     std::optional<double> rmse_;
     std::optional<host::Canvas> difference_;
     bool plays_ = false;
+    std::optional<SunCourse> course_;
     double last_s_ = 0.0;    // update()
     double changed_s_ = 0.0; // the last change, at an update()
     bool changed_ = true;    // since the last picture

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a viewer draws, and when: at once while something moves, as `render` draws once nothing does, and more rays for
 // as long as it rests.
+#include "app/scripted_path.h"
 #include "lab/compare.h"
 #include "streams.h"
 #include "view/viewer.h"
@@ -8,6 +9,8 @@
 #include <gnomon/error.h>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +68,25 @@ void Viewer::passTime(double elapsed_s)
     const bool wraps = !(time_s < findSetting("time")->max);
     if (!change({{"time", wraps ? "0" : fmt::format("{}", time_s)}})) {
         plays_ = false;
+    }
+}
+
+void Viewer::passSun(double elapsed_s)
+{
+    const host::ShadedLight* const sun = sunOf(shot());
+    if (sun == nullptr) {
+        moveSun(false);
+        (void)refuse("there is no sun that could move");
+        return;
+    }
+    const auto set = settings_.values.find("sun");
+    if (course_->at.empty() || set == settings_.values.end() || course_->at != set->second) {
+        course_ = SunCourse{glm::normalize(sun->caster.direction_ws), 0.0, ""};
+    }
+    course_->angle_rad += glm::radians(kSunDeg) * elapsed_s;
+    course_->at = textOf(sunAt(course_->noon_ws, course_->angle_rad));
+    if (!change({{"sun", course_->at}})) {
+        moveSun(false);
     }
 }
 
@@ -185,6 +207,9 @@ bool Viewer::update(double now_s)
     last_s_ = now_s;
     if (plays_) {
         passTime(elapsed_s);
+    }
+    if (course_) {
+        passSun(elapsed_s);
     }
     try {
         return drawDue(now_s);
