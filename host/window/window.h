@@ -35,8 +35,9 @@ public:
     /// Throws Error. The caller destroys it, before the instance and the window.
     [[nodiscard]] VkSurfaceKHR makeSurface(VkInstance instance) const;
 
-    /// Hears what was done since the last time. Waits `seconds` for something to be done at most; 0: not at all.
-    void listen(double seconds = 0.0);
+    /// Hears what was done since the last time. Waits `seconds` for something to be done at most; 0: not at all. True:
+    /// something was.
+    bool listen(double seconds = 0.0);
     [[nodiscard]] bool isClosing() const;
     /// Of its inside, in pixels of the screen; 0 while it is minimised.
     [[nodiscard]] glm::uvec2 size_px() const;

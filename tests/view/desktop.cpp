@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "desktop.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/extensions/XTest.h>
 
@@ -80,6 +81,15 @@ std::unique_ptr<Desktop> Desktop::open()
 }
 
 Desktop::~Desktop() = default;
+
+void Desktop::setDensity(int dpi)
+{
+    const std::string resources = "Xft.dpi:\t" + std::to_string(dpi) + "\n"; // as desktops say it
+    XChangeProperty(impl_->display, DefaultRootWindow(impl_->display), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XSync(impl_->display, False);
+}
 
 void Desktop::point(const glm::dvec2& at)
 {

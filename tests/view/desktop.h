@@ -16,6 +16,8 @@ public:
     /// Null where Xvfb is not installed.
     [[nodiscard]] static std::unique_ptr<Desktop> open();
     ~Desktop();
+    /// Of the screen, dots per inch; 96 on a common one. For windows that are opened from then on.
+    void setDensity(int dpi);
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
 

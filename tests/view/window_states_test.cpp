@@ -94,6 +94,22 @@ TEST_F(ViewWindow, ShowsDebugViewsFrustaAndMaps)
     expectAsRendered(user);
 }
 
+TEST_F(ViewWindow, IsTwiceAsLargeOnADenseScreen)
+{
+    desktop_->setDensity(192);
+    User user(*desktop_, {"planes", "--size=180x200", "--gpu=software", "--validate", "--set=texels=262144"});
+    EXPECT_EQ(user.window().window().contentScale(), 2.0);
+    ASSERT_TRUE(user.rest());
+    const glm::uvec2 size = user.viewer().settings().size_px;
+    EXPECT_EQ(size.y, 400U) << "the desktop's units are two pixels there";
+    EXPECT_NEAR(double(size.x), 360.0, 8.0);
+    user.click("play"); // widgets are where they are seen
+    EXPECT_TRUE(user.viewer().plays());
+    user.click("play");
+    ASSERT_TRUE(user.rest());
+    expectAsRendered(user);
+}
+
 /// --sun of what is shown; empty where it is not given.
 std::string sunSetting(User& user)
 {

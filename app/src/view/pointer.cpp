@@ -12,7 +12,16 @@
 namespace gnomon::app::view {
 namespace {
 
-constexpr double kReach = 11.0; // of a handle, in the desktop's units
+/// So many times a fifteenth of a letter's height: a pixel on a common screen, more on a dense one.
+float fine(float count)
+{
+    return count * ImGui::GetFontSize() / 15.0F;
+}
+
+double reach() // of a handle
+{
+    return static_cast<double>(fine(11.0F));
+}
 constexpr double kPerPixel_rad = 0.0055;
 
 glm::dvec2 pointerAt()
@@ -69,12 +78,12 @@ void Pointer::placeSun(const Viewer& viewer, const Shown& shown, const PictureAr
 Pointer::Grip Pointer::gripAt(const Viewer& viewer, const Shown& shown, const PictureArea& area) const
 {
     const glm::dvec2 at = pointerAt();
-    if (sun_at_ && glm::distance(at, *sun_at_) < kReach) {
+    if (sun_at_ && glm::distance(at, *sun_at_) < reach()) {
         return Grip::sun;
     }
     const double divider = area.least.x + static_cast<double>(shown.divider) * area.size.x;
     const bool has_divider = viewer.beside() != Beside::nothing && viewer.held() == Held::split;
-    return has_divider && std::abs(at.x - divider) < kReach / 2.0 ? Grip::divider : Grip::camera;
+    return has_divider && std::abs(at.x - divider) < reach() / 2.0 ? Grip::divider : Grip::camera;
 }
 
 void Pointer::moveCamera(Viewer& viewer, const PictureArea& area)
@@ -155,18 +164,18 @@ void Pointer::drawHandles(const Viewer& viewer, const Shown& shown, const Pictur
     constexpr ImU32 kDark = IM_COL32(0, 0, 0, 150);
     constexpr ImU32 kLight = IM_COL32(255, 255, 255, 220);
     if (sun_at_ && isInside(area, *sun_at_)) {
-        list.AddLine(imgui(dome_at_), imgui(*sun_at_), kDark, 3.0F);
-        list.AddLine(imgui(dome_at_), imgui(*sun_at_), kSun, 1.5F);
-        list.AddCircleFilled(imgui(*sun_at_), 8.0F, kDark, 24);
-        list.AddCircleFilled(imgui(*sun_at_), 6.5F, kSun, 24);
+        list.AddLine(imgui(dome_at_), imgui(*sun_at_), kDark, fine(3.0F));
+        list.AddLine(imgui(dome_at_), imgui(*sun_at_), kSun, fine(1.5F));
+        list.AddCircleFilled(imgui(*sun_at_), fine(8.0F), kDark, 24);
+        list.AddCircleFilled(imgui(*sun_at_), fine(6.5F), kSun, 24);
     }
     if (viewer.canvasBeside() != nullptr && viewer.held() == Held::split) {
         const auto x = static_cast<float>(area.least.x + static_cast<double>(shown.divider) * area.size.x);
         const auto top = static_cast<float>(area.least.y);
         const auto bottom = static_cast<float>(area.least.y + area.size.y);
-        list.AddLine({x, top}, {x, bottom}, kDark, 4.0F);
-        list.AddLine({x, top}, {x, bottom}, kLight, 2.0F);
-        list.AddCircleFilled({x, (top + bottom) / 2.0F}, 7.0F, kLight, 24);
+        list.AddLine({x, top}, {x, bottom}, kDark, fine(4.0F));
+        list.AddLine({x, top}, {x, bottom}, kLight, fine(2.0F));
+        list.AddCircleFilled({x, (top + bottom) / 2.0F}, fine(7.0F), kLight, 24);
     }
 }
 

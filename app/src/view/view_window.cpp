@@ -18,7 +18,8 @@ namespace {
 
 // A widget needs a few turns to follow what was done; after them the window waits for more.
 constexpr int kQuietTurns = 4;
-constexpr double kNap_s = 0.1;
+constexpr double kNap_s = 0.1; // between two looks for an interrupt
+constexpr int kNaps = 10;      // and then a turn all the same: a word that has stood long enough goes
 
 /// Before there are letters to measure by.
 constexpr std::uint32_t kPanel_px = 390;
@@ -247,7 +248,9 @@ void ViewWindow::addPictures(std::vector<host::PicturePlace>& places, const host
 void ViewWindow::nap()
 {
     if (is_hidden_ || (quiet_turns_ > kQuietTurns && !viewer_->isBusy())) {
-        window_.listen(kNap_s);
+        for (int i = 0; i < kNaps && !window_.listen(kNap_s); ++i) {
+            requireNotInterrupted();
+        }
     }
 }
 

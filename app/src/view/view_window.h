@@ -24,7 +24,7 @@ public:
     ViewWindow(const ViewWindow&) = delete;
     ViewWindow& operator=(const ViewWindow&) = delete;
 
-    /// Waits for something to be done, for a moment, where nothing else is due.
+    /// Waits for something to be done, for a second, where nothing else is due.
     void nap();
     /// Hears what was done, changes what that changes, draws and shows. False: the window was closed. Throws Error;
     /// of the kind device_lost, and then there is nothing more to do with this window.

@@ -44,8 +44,10 @@ struct Window::Impl {
     std::vector<std::string> dropped;
     std::string letters;
     bool exposed = true;
+    bool heard = false; // something, since listen() began
 
     static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
+    void hearAll();
     ~Impl()
     {
         if (window != nullptr) {
@@ -68,19 +70,35 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
         throw Error(kTried, lastError());
     }
     glfwSetWindowUserPointer(impl_->window, impl_.get());
-    glfwSetDropCallback(impl_->window, [](GLFWwindow* window, int count, const char** paths) {
-        std::vector<std::string>& dropped = Impl::of(window).dropped;
+    impl_->hearAll();
+}
+
+/// Interface adds its own to these and calls them, too.
+void Window::Impl::hearAll()
+{
+    glfwSetDropCallback(window, [](GLFWwindow* window, int count, const char** paths) {
+        of(window).heard = true;
+        std::vector<std::string>& dropped = of(window).dropped;
         dropped.insert(dropped.end(), paths, paths + count);
     });
-    glfwSetKeyCallback(impl_->window, [](GLFWwindow* window, int key, int, int action, int mods) {
+    glfwSetKeyCallback(window, [](GLFWwindow* window, int key, int, int action, int mods) {
+        of(window).heard = true;
         const bool is_plain = (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
         if (action == GLFW_PRESS && is_plain && key >= GLFW_KEY_A && key <= GLFW_KEY_Z) {
-            Impl::of(window).letters += static_cast<char>('A' + (key - GLFW_KEY_A));
+            of(window).letters += static_cast<char>('A' + (key - GLFW_KEY_A));
         }
     });
-    glfwSetWindowRefreshCallback(impl_->window, [](GLFWwindow* window) { Impl::of(window).exposed = true; });
-    glfwSetFramebufferSizeCallback(impl_->window,
-                                   [](GLFWwindow* window, int, int) { Impl::of(window).exposed = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* window) { of(window).heard = of(window).exposed = true; });
+    glfwSetFramebufferSizeCallback(window,
+                                   [](GLFWwindow* window, int, int) { of(window).heard = of(window).exposed = true; });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* window) { of(window).heard = true; });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* window, double, double) { of(window).heard = true; });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* window, int, int, int) { of(window).heard = true; });
+    glfwSetScrollCallback(window, [](GLFWwindow* window, double, double) { of(window).heard = true; });
+    glfwSetCharCallback(window, [](GLFWwindow* window, unsigned) { of(window).heard = true; });
 }
 
 Window::~Window() = default;
@@ -106,13 +124,15 @@ VkSurfaceKHR Window::makeSurface(VkInstance instance) const
     return surface;
 }
 
-void Window::listen(double seconds)
+bool Window::listen(double seconds)
 {
+    impl_->heard = false;
     if (seconds > 0.0) {
         glfwWaitEventsTimeout(seconds);
     } else {
         glfwPollEvents();
     }
+    return impl_->heard;
 }
 
 bool Window::isClosing() const
