@@ -2,6 +2,7 @@
 #include "wait.h"
 
 #include "check.h"
+#include "owned.h"
 
 #include <gnomon/error.h>
 
@@ -69,6 +70,18 @@ Clock::time_point endOfGrace()
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(kGrace);
 }
 
+/// Signalled once the queue has done all that it was given so far.
+OwnedFence fenceBehindAll(const Gpu& gpu)
+{
+    constexpr const char* kTried = "asking the GPU when it is done";
+    const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence handle = VK_NULL_HANDLE;
+    check(vkCreateFence(gpu.view().device, &info, nullptr, &handle), kTried);
+    OwnedFence fence(gpu, handle);
+    check(vkQueueSubmit(gpu.queue(), 0, nullptr, handle), kTried);
+    return fence;
+}
+
 void settleBefore(const Gpu& gpu, VkFence fence, Clock::time_point end) noexcept
 {
     if (gpu.abandoned()) {
@@ -121,6 +134,25 @@ void waitFor(const Gpu& gpu, VkFence fence)
 void settle(const Gpu& gpu, VkFence fence) noexcept
 {
     settleBefore(gpu, fence, Clock::time_point::max());
+}
+
+void waitForQueue(const Gpu& gpu)
+{
+    const OwnedFence fence = fenceBehindAll(gpu);
+    waitFor(gpu, fence.get());
+}
+
+void settleQueue(const Gpu& gpu) noexcept
+{
+    if (gpu.abandoned()) {
+        return;
+    }
+    try {
+        const OwnedFence fence = fenceBehindAll(gpu);
+        settle(gpu, fence.get());
+    } catch (const Error&) { // no memory for a fence, or the device is lost
+        (void)vkQueueWaitIdle(gpu.queue());
+    }
 }
 
 } // namespace gnomon::host

@@ -15,4 +15,8 @@ void waitFor(const Gpu& gpu, VkFence fence);
 /// not enough, or where the GPU hangs, the device is abandoned.
 void settle(const Gpu& gpu, VkFence fence) noexcept;
 
+/// The same for all that the queue was given, which is nobody else's meanwhile.
+void waitForQueue(const Gpu& gpu);
+void settleQueue(const Gpu& gpu) noexcept;
+
 } // namespace gnomon::host

@@ -4,6 +4,7 @@
 #include "abandoned.h"
 #include "canvas_image.h"
 #include "commands.h"
+#include "wait.h"
 
 #include <algorithm>
 #include <cassert>
@@ -49,7 +50,7 @@ void Canvas::Impl::makeRoom(VkExtent2D extent)
                  VK_IMAGE_USAGE_SAMPLED_BIT; // without which an image has no view
     made->image = made->memory.image(wish);
     if (held) {
-        check(vkQueueWaitIdle(gpu.queue()), "taking a picture of another size");
+        waitForQueue(gpu);
     }
     held = std::move(made);
 }
@@ -64,10 +65,9 @@ Canvas::Canvas(Gpu& gpu) : impl_(std::make_unique<Impl>(gpu)) {}
 
 Canvas::~Canvas()
 {
+    settleQueue(impl_->gpu);
     if (impl_->gpu.abandoned()) {
         keepForGood(std::move(impl_));
-    } else {
-        (void)vkQueueWaitIdle(impl_->gpu.queue());
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "abandoned.h"
 #include "swap_chain.h"
+#include "wait.h"
 
 #include <gnomon/error.h>
 
@@ -197,11 +198,9 @@ struct Interface::Impl {
 Interface::Impl::~Impl()
 {
     keys.reset(); // before the callbacks that it calls go
-    if (!gpu.abandoned()) {
-        (void)vkQueueWaitIdle(gpu.queue());
-        if (has_vulkan) {
-            ImGui_ImplVulkan_Shutdown();
-        }
+    settleQueue(gpu);
+    if (has_vulkan && !gpu.abandoned()) {
+        ImGui_ImplVulkan_Shutdown();
     }
     if (has_glfw) {
         ImGui_ImplGlfw_Shutdown();
@@ -279,6 +278,7 @@ Interface::Interface(Window& window, Gpu& gpu) : impl_(std::make_unique<Impl>(wi
 
 Interface::~Interface()
 {
+    settleQueue(impl_->gpu);
     if (impl_->gpu.abandoned()) {
         keepForGood(std::move(impl_));
     }

@@ -2,6 +2,7 @@
 #include "swap_chain.h"
 
 #include "canvas_image.h"
+#include "wait.h"
 
 #include <gnomon/error.h>
 
@@ -50,7 +51,7 @@ SwapChain::SwapChain(Window& window, Gpu& gpu, const DebugNames& names)
 
 SwapChain::~SwapChain()
 {
-    commands_.settle();
+    settleQueue(gpu_);
     if (!gpu_.abandoned()) {
         (void)vkQueueWaitIdle(gpu_.queue()); // showing has no fence to wait for
         dropImages();
@@ -208,7 +209,8 @@ bool SwapChain::prepare()
     }
     if (stale_ || size.x != extent_.width || size.y != extent_.height) {
         commands_.wait();
-        check(vkQueueWaitIdle(gpu_.queue()), kTried);
+        waitForQueue(gpu_);
+        check(vkQueueWaitIdle(gpu_.queue()), kTried); // showing has no fence to wait for
         makeImages();
         stale_ = false;
     }

@@ -40,7 +40,7 @@ struct Desktop {
 
 struct Window::Impl {
     Desktop desktop;
-    GLFWwindow* window = nullptr;
+    GLFWwindow* handle = nullptr;
     std::vector<std::string> dropped;
     std::string letters;
     bool exposed = true;
@@ -50,8 +50,8 @@ struct Window::Impl {
     void hearAll();
     ~Impl()
     {
-        if (window != nullptr) {
-            glfwDestroyWindow(window);
+        if (handle != nullptr) {
+            glfwDestroyWindow(handle);
         }
     }
 };
@@ -64,41 +64,41 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    impl_->window = glfwCreateWindow(static_cast<int>(options.size.x), static_cast<int>(options.size.y),
+    impl_->handle = glfwCreateWindow(static_cast<int>(options.size.x), static_cast<int>(options.size.y),
                                      options.title.c_str(), nullptr, nullptr);
-    if (impl_->window == nullptr) {
+    if (impl_->handle == nullptr) {
         throw Error(kTried, lastError());
     }
-    glfwSetWindowUserPointer(impl_->window, impl_.get());
+    glfwSetWindowUserPointer(impl_->handle, impl_.get());
     impl_->hearAll();
 }
 
 /// Interface adds its own to these and calls them, too.
 void Window::Impl::hearAll()
 {
-    glfwSetDropCallback(window, [](GLFWwindow* window, int count, const char** paths) {
+    glfwSetDropCallback(handle, [](GLFWwindow* window, int count, const char** paths) {
         of(window).heard = true;
-        std::vector<std::string>& dropped = of(window).dropped;
-        dropped.insert(dropped.end(), paths, paths + count);
+        std::vector<std::string>& all = of(window).dropped;
+        all.insert(all.end(), paths, paths + count);
     });
-    glfwSetKeyCallback(window, [](GLFWwindow* window, int key, int, int action, int mods) {
+    glfwSetKeyCallback(handle, [](GLFWwindow* window, int key, int, int action, int mods) {
         of(window).heard = true;
         const bool is_plain = (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
         if (action == GLFW_PRESS && is_plain && key >= GLFW_KEY_A && key <= GLFW_KEY_Z) {
             of(window).letters += static_cast<char>('A' + (key - GLFW_KEY_A));
         }
     });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* window) { of(window).heard = of(window).exposed = true; });
-    glfwSetFramebufferSizeCallback(window,
+    glfwSetWindowRefreshCallback(handle, [](GLFWwindow* window) { of(window).heard = of(window).exposed = true; });
+    glfwSetFramebufferSizeCallback(handle,
                                    [](GLFWwindow* window, int, int) { of(window).heard = of(window).exposed = true; });
-    glfwSetWindowCloseCallback(window, [](GLFWwindow* window) { of(window).heard = true; });
-    glfwSetWindowFocusCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
-    glfwSetWindowIconifyCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
-    glfwSetCursorEnterCallback(window, [](GLFWwindow* window, int) { of(window).heard = true; });
-    glfwSetCursorPosCallback(window, [](GLFWwindow* window, double, double) { of(window).heard = true; });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* window, int, int, int) { of(window).heard = true; });
-    glfwSetScrollCallback(window, [](GLFWwindow* window, double, double) { of(window).heard = true; });
-    glfwSetCharCallback(window, [](GLFWwindow* window, unsigned) { of(window).heard = true; });
+    glfwSetWindowCloseCallback(handle, [](GLFWwindow* window) { of(window).heard = true; });
+    glfwSetWindowFocusCallback(handle, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetWindowIconifyCallback(handle, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetCursorEnterCallback(handle, [](GLFWwindow* window, int) { of(window).heard = true; });
+    glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double, double) { of(window).heard = true; });
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* window, int, int, int) { of(window).heard = true; });
+    glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double) { of(window).heard = true; });
+    glfwSetCharCallback(handle, [](GLFWwindow* window, unsigned) { of(window).heard = true; });
 }
 
 Window::~Window() = default;
@@ -118,7 +118,7 @@ bool Window::canShow(VkInstance instance, VkPhysicalDevice device, std::uint32_t
 VkSurfaceKHR Window::makeSurface(VkInstance instance) const
 {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    if (glfwCreateWindowSurface(instance, impl_->window, nullptr, &surface) != VK_SUCCESS) {
+    if (glfwCreateWindowSurface(instance, impl_->handle, nullptr, &surface) != VK_SUCCESS) {
         throw Error(kTried, "Vulkan cannot draw in it (" + lastError() + ")");
     }
     return surface;
@@ -137,15 +137,15 @@ bool Window::listen(double seconds)
 
 bool Window::isClosing() const
 {
-    return glfwWindowShouldClose(impl_->window) == GLFW_TRUE;
+    return glfwWindowShouldClose(impl_->handle) == GLFW_TRUE;
 }
 
 glm::uvec2 Window::size_px() const
 {
     int width = 0;
     int height = 0;
-    glfwGetFramebufferSize(impl_->window, &width, &height);
-    const bool is_minimised = glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED) == GLFW_TRUE;
+    glfwGetFramebufferSize(impl_->handle, &width, &height);
+    const bool is_minimised = glfwGetWindowAttrib(impl_->handle, GLFW_ICONIFIED) == GLFW_TRUE;
     return is_minimised ? glm::uvec2(0) : glm::uvec2(std::max(width, 0), std::max(height, 0));
 }
 
@@ -153,7 +153,7 @@ double Window::contentScale() const
 {
     float x = 1.0F;
     float y = 1.0F;
-    glfwGetWindowContentScale(impl_->window, &x, &y);
+    glfwGetWindowContentScale(impl_->handle, &x, &y);
     constexpr float kLeast = 0.5F; // what a desktop without a notion of it says may be anything
     constexpr float kMost = 4.0F;
     return x >= kLeast && x <= kMost ? static_cast<double>(x) : 1.0;
@@ -161,13 +161,13 @@ double Window::contentScale() const
 
 void Window::setTitle(const std::string& title)
 {
-    glfwSetWindowTitle(impl_->window, title.c_str());
+    glfwSetWindowTitle(impl_->handle, title.c_str());
 }
 
 void Window::resize(glm::uvec2 size)
 {
     assert(size.x > 0 && size.y > 0);
-    glfwSetWindowSize(impl_->window, static_cast<int>(size.x), static_cast<int>(size.y));
+    glfwSetWindowSize(impl_->handle, static_cast<int>(size.x), static_cast<int>(size.y));
 }
 
 std::vector<std::string> Window::takeDropped()
@@ -187,18 +187,18 @@ bool Window::takeExposed()
 
 void Window::toClipboard(const std::string& text)
 {
-    glfwSetClipboardString(impl_->window, text.c_str());
+    glfwSetClipboardString(impl_->handle, text.c_str());
 }
 
 std::string Window::clipboard() const
 {
-    const char* const text = glfwGetClipboardString(impl_->window);
+    const char* const text = glfwGetClipboardString(impl_->handle);
     return text != nullptr ? text : "";
 }
 
 GLFWwindow* Window::handle() const
 {
-    return impl_->window;
+    return impl_->handle;
 }
 
 } // namespace gnomon::host
