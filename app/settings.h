@@ -59,6 +59,7 @@ struct Sweep {
 struct Settings {
     std::uint32_t subcommand = 0; // kRender ...; 0: none, as where no command line was read
     std::string scene = "rts";
+    std::vector<std::string> scenes; // compare: all of them, where there are several; `scene` is the first
     std::string scene_hash; // of the scene that a preset's result was measured on; empty: no preset was a result
     // picture
     glm::uvec2 size_px{0};

@@ -149,3 +149,48 @@ function sweepClassCharts() {
       ...kClasses.map((name) => ({ name, values: line[name].map((value) => (value === null ? null : Math.sqrt(value))),
         look: { borderColor: data.legends.classes[name], backgroundColor: data.legends.classes[name], pointBorderColor: colour("ink"), pointBorderWidth: 0.6, borderDash: [] } }))] }));
 }
+
+/// A group of bars for each technique, a bar for each scene.
+function sceneBars() {
+  const names = data.names;
+  const scenes = result.scenes.map((one) => one.name);
+  return chartPanel({ title: "Error in every scene", height: Math.max(260, 90 + names.length * (14 * scenes.length + 10)), wide: true,
+    note: "The techniques with the least mean first. A click on a scene takes its bars away.",
+    label: `Error of ${names.length} techniques in ${scenes.join(", ")}. The table has all numbers.` }, () => ({
+    type: "bar",
+    data: { labels: names, datasets: scenes.map((scene, k) => ({ label: scene, data: result.techniques.map((one) => one.rmse[k]),
+      ...seriesLook(k), borderWidth: 0, borderDash: [] })) },
+    options: {
+      indexAxis: "y",
+      scales: { x: axis("rmse: distance from the truth", { beginAtZero: true }), y: { grid: { display: false }, ticks: rowTicks() } },
+      plugins: { legend: { position: "bottom", labels: { boxWidth: 14 } },
+        tooltip: { mode: "index", callbacks: { label: (item) => `${item.dataset.label}: ${number(item.raw, 4)}` } } },
+      onClick: (_, hits) => {
+        if (hits.length > 0) {
+          choose({ technique: hits[0].index });
+        }
+      }
+    }
+  }));
+}
+
+/// Where the error of the chosen technique comes from in each scene.
+function sceneClasses() {
+  const errors = result.scenes.map(() => null);
+  const find = () => result.scenes.forEach((scene, k) => {
+    const technique = result.techniques[chosen.technique].technique;
+    errors[k] = scene.result.results.find((one) => one.technique === technique)?.error ?? null;
+  });
+  find();
+  const box = classBars("Where the error comes from", result.scenes.map((one) => one.name), errors);
+  const name = el("p");
+  box?.querySelector("h3").after(name);
+  whenChosen(() => {
+    find();
+    name.replaceChildren("Of ", nameParts(data.names[chosen.technique]), ". A row of the table chooses another technique.");
+    if (box?.entry.chart) {
+      drawChart(box.entry);
+    }
+  });
+  return box;
+}

@@ -57,7 +57,13 @@ function fillBench() {
   enliven(document.getElementById("passes"), null);
 }
 
-({ compare: fillCompare, sweep: fillSweep, bench: fillBench })[document.body.dataset.kind]();
+function fillScenes() {
+  fill("charts", chartSection("All scenes", [sceneBars(), sceneClasses()]));
+  [...result.scenes.map((one) => one.name), "mean"].forEach((name) => kBestIsLeast.add(name));
+  enliven(document.getElementById("techniques"), null);
+}
+
+({ compare: fillCompare, sweep: fillSweep, bench: fillBench, scenes: fillScenes })[document.body.dataset.kind]();
 if (panes.size > 0) {
   showView();
 }

@@ -239,7 +239,9 @@ void applyWords(Settings& settings, const Parsed& parsed, const Subcommand& subc
         return;
     }
     const bool is_scene = (subcommand.bit & kFrames) != 0;
-    if (parsed.words.size() > 1) {
+    if (subcommand.bit == kCompare && parsed.words.size() > 1) {
+        settings.scenes = parsed.words;
+    } else if (parsed.words.size() > 1) {
         throw UsageError(fmt::format("\"{}\" is one argument too many: the {} is \"{}\"", parsed.words[1],
                                      is_scene                        ? "scene"
                                      : subcommand.bit == kCompletion ? "shell"

@@ -5,6 +5,7 @@
 #include "compare_folder.h"
 #include "compare_json.h"
 #include "compare_path.h"
+#include "compare_scenes.h"
 #include "compare_text.h"
 #include "contestants.h"
 #include "findings.h"
@@ -285,9 +286,10 @@ int runCompare(const Settings& settings)
     if (!settings.json.empty() && settings.json != "-") {
         requireWritable(settings.json);
     }
-    const Json json = findByComparing(settings);
+    const bool is_one = settings.scenes.empty();
+    const Json json = is_one ? findByComparing(settings) : compareScenes(settings);
     if (settings.json.empty()) {
-        writeStdout(compareText(json));
+        writeStdout(is_one ? compareText(json) : scenesText(json));
     } else {
         writeResult(settings.json, jsonText(json));
     }

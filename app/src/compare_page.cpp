@@ -97,8 +97,9 @@ std::string colourText(const std::array<std::uint8_t, 3>& rgb)
     return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// The colours that pictures have, by what they stand for: scales from end to end, and classes.
-Json legends()
+} // namespace
+
+Json pageLegends()
 {
     constexpr int kSteps = 16;
     constexpr double kOctaves = 4.0;
@@ -122,11 +123,9 @@ Json legends()
     return {{"error", error}, {"density", density}, {"classes", classes}};
 }
 
-} // namespace
-
 std::string comparePage(const Json& result, const Json& pictures)
 {
-    Json data{{"result", result}, {"legends", legends()}, {"names", Json::array()}};
+    Json data{{"result", result}, {"legends", pageLegends()}, {"names", Json::array()}};
     const std::vector<std::string> names = namesOf(linesOf(result));
     const std::string common = commonParts(names) + "+" + commonBlurPath(names);
     for (const std::string& name : names) {

@@ -12,4 +12,7 @@ namespace gnomon::app {
 /// of `pictures` (pagePictures()), which may be null. Every text in it is escaped.
 [[nodiscard]] std::string comparePage(const Json& result, const Json& pictures);
 
+/// The colours that pictures have, by what they stand for: scales from end to end, and classes.
+[[nodiscard]] Json pageLegends();
+
 } // namespace gnomon::app

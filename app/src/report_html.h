@@ -33,7 +33,7 @@ struct TableHtml {
 [[nodiscard]] std::string dataUri(std::string_view png);
 
 struct Page {
-    std::string kind;  // what report_page.js is to make of it: "compare", "sweep" or "bench"
+    std::string kind;  // what report_page.js is to make of it: "compare", "sweep", "scenes" or "bench"
     std::string title; // and first heading
     std::string lead;  // one line below it
     std::string body;  // HTML: sections

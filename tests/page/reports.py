@@ -17,6 +17,7 @@ RUNS = {
     "path": ["compare", "planes", *SMALL, "--truth", "hard", "--map-size", "128", "--techniques", "hard,pcf", "--path", "orbit", "--frames", "3-6"],
     "sweep": ["compare", "planes", *SMALL, "--samples", "16", "--techniques", "hard,pcf", "--sweep", "map-size=64:256:3:log"],
     "bench": ["bench", "planes", "--size", "160x90", *QUICK, "--techniques", "hard,vsm,pcf+cascades"],
+    "scenes": ["compare", "planes", "canopies", *SMALL, *QUICK, "--samples", "16", "--techniques", "hard,pcf,esm"],
     # No pixel counts, so there is no error; and one technique alone, with a column more.
     "nothing": ["compare", "planes", "--size", "64x36", *QUICK, "--sun", "0,1,0", "--truth", "hard", "--techniques", "hard,pcf"],
     "alone": ["compare", "planes", "--size", "64x36", "--light", "sun", "--samples", "16", *QUICK, "--techniques", "pcf+pcf.kernel=5x5+map-size=64+bias.slope=2", "--equal-error"],

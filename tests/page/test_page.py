@@ -55,7 +55,7 @@ class Pages(unittest.TestCase):
     def show(self, name: str, size: tuple[int, int] = DESKTOP, **screen) -> Browser:
         self.browser.screen(*size, phone=size == PHONE, **screen)
         self.browser.open(self.reports.page(name))
-        if name != "bench":
+        if name not in ("bench", "scenes"):
             self.browser.wait_for(READY)
         return self.browser
 
@@ -271,6 +271,23 @@ class Pages(unittest.TestCase):
                          [[list(point) for point in zip(sweep["values"], line["rmse"])] for line in sweep["results"]])
         self.assertEqual(browser.run("document.querySelectorAll('#techniques tbody tr').length"), 6)
         self.assertEqual(browser.run("charts.length"), 1 + len(sweep["results"]))
+
+    def test_several_scenes(self):
+        browser = self.show("scenes")
+        result = self.reports.result("scenes")
+        self.assertEqual(browser.run("charts[0].chart.data.datasets.map(s => s.data)"),
+                         [[one["rmse"][k] for one in result["techniques"]] for k in range(2)])
+        self.assertEqual(browser.run("charts[1].chart.data.labels"), ["planes", "canopies"])
+        for i, one in enumerate(result["techniques"]):
+            browser.run(f"document.querySelectorAll('#techniques tbody th button')[{i}].click()")
+            edges = [next(r for r in scene["result"]["results"] if r["technique"] == one["technique"])["error"]["edge"] for scene in result["scenes"]]
+            self.assertEqual(browser.run("charts[1].chart.data.datasets[0].data"), edges)
+        best = [min(result["techniques"], key=lambda one: one["rmse"][k])["rmse"][k] for k in range(2)]
+        self.assertEqual(browser.run("[...document.querySelectorAll('#techniques td.best')].map(c => c.textContent)").__len__(), 3)
+        for k, least in enumerate(best):
+            self.assertIn(f"{least:.4f}", browser.run(f"[...document.querySelectorAll('#techniques tr > :nth-child({k + 2}).best')].map(c => c.textContent)"))
+        links = browser.run("[...document.querySelectorAll('#scenes a')].map(a => decodeURIComponent(new URL(a.href).pathname))")
+        self.assertEqual([Path(link).exists() for link in links], [True, True], links)
 
     def test_passes_of_a_bench(self):
         browser = self.show("bench")
