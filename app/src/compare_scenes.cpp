@@ -65,16 +65,17 @@ Json errorOf(const Json& result, const std::string& technique)
     return {};
 }
 
-/// The geometric mean, in which a scene counts as much as any other, however large its errors are. Null where an error
-/// is not known, or 0.
+/// The geometric mean, in which a scene counts as much as any other, however large its errors are; errors that nobody
+/// sees all alike, so that an exact one is not worth more than all others. Null where an error is not known.
 Json meanOf(const Json& errors)
 {
+    constexpr double kUnseen = 0.001;
     double sum = 0.0;
     for (const Json& error : errors) {
-        if (!error.is_number() || error.get<double>() <= 0.0) {
+        if (!error.is_number()) {
             return {};
         }
-        sum += std::log(error.get<double>());
+        sum += std::log(std::max(error.get<double>(), kUnseen));
     }
     return std::exp(sum / static_cast<double>(errors.size()));
 }
@@ -123,7 +124,8 @@ TextTable tableOf(const Json& scenes)
         table.meanings.push_back("rmse in " + textAt(scene, "/name"));
     }
     table.columns.emplace_back("mean");
-    table.meanings.emplace_back("geometric mean of the errors: each scene counts as much as any other");
+    table.meanings.emplace_back(
+        "geometric mean of the errors, those below 0.001 as 0.001: each scene counts as much as any other");
     const std::vector<std::string> names = namesOf(scenes);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Json& one = scenes.at("techniques")[i];

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -47,7 +48,7 @@ TEST(CompareScenes, HoldsTheSameTechniquesInEach)
             for (const Json& one : all["scenes"][i]["result"]["results"]) {
                 if (one["technique"] == technique["technique"]) {
                     EXPECT_EQ(technique["rmse"][i], one["error"]["rmse"]);
-                    product *= one["error"]["rmse"].get<double>();
+                    product *= std::max(one["error"]["rmse"].get<double>(), 0.001);
                 }
             }
         }
