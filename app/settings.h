@@ -66,6 +66,8 @@ struct Settings {
     host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
     host::BloomOptions bloom;
     host::Reflection reflection = host::Reflection::materials;
+    host::SkyModel sky = host::SkyModel::physical;
+    double exposure_ev = 0.0;
     host::Shading shading = host::Shading::deferred;
     pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"

@@ -34,6 +34,13 @@ enum class Reflection : std::uint8_t { materials, phong_2005 };
 /// (door 2 of docs/integrating.md), so that there is neither G-buffer nor mask.
 enum class Shading : std::uint8_t { deferred, forward };
 
+/// What is behind everything, and what light comes from there. `plain`: a gradient of the scene's colours
+/// (scene::Environment), whatever its lights do. `physical`: the air under the scene's sun and moon at their heights
+/// above the horizon, +y being up. Their colour, ambient light, stars, lit windows and the exposure follow from it. The
+/// sun is the directional light that says so (scene::Body), or the brightest that shines from above; a scene without
+/// one has the plain sky.
+enum class SkyModel : std::uint8_t { plain, physical };
+
 /// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
 /// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
 struct BloomOptions {
@@ -50,6 +57,8 @@ struct RenderOptions {
     std::uint32_t height = 720;
     AntiAliasing anti_aliasing = AntiAliasing::none;
     BloomOptions bloom;
+    SkyModel sky = SkyModel::plain;
+    double exposure_ev = 0.0; // stops by which the picture is brighter than its light asks for; [-16, 16]
     Reflection reflection = Reflection::materials;
     /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
     /// same.

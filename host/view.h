@@ -35,6 +35,7 @@ struct ShadedLight {
     double inner_half_angle_rad = 0.0;   // spot
     glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
     std::uint32_t cookie = scene::kNone; // image of the scene
+    scene::Body body = scene::Body::none; // directional: what it stands for in a physical sky
 };
 /// Takes the light's brightness among others from its colour and strength: their luminance.
 void setBrightness(ShadedLight& light);

@@ -65,6 +65,9 @@ struct Material {
     float metallic = 1.0F;
     float roughness = 1.0F;
     float phong_exponent = 8.0F; // for ShadingModel::phong only
+    /// Of opaque materials: windows that are lit when it is dark outside, by a physical sky. How brightly; where the
+    /// vertex colours' alpha is 0, not at all where it is 1.
+    float lit_by_night = 0.0F;
     glm::vec3 emissive{0.0F};    // linear, KHR_materials_emissive_strength multiplied in
     float normal_scale = 1.0F;
     float occlusion_strength = 1.0F;
@@ -185,6 +188,11 @@ struct Camera {
 
 enum class LightType : std::uint8_t { directional, spot, point };
 
+/// What a directional light stands for where the sky is a physical one. `sun` and `moon` have the colour and strength
+/// that the air leaves them at their height; Light::colour is what they give from above, of the moon the hue alone.
+/// `none`: it keeps both, as lights of files do.
+enum class Body : std::uint8_t { none, sun, moon };
+
 /// KHR_lights_punctual, shining down the node's -z, with what shadows need besides.
 struct Light {
     std::string name;
@@ -198,6 +206,7 @@ struct Light {
     float radius_m = 0.0F;                    // spot and point: sphere radius of the emitter
     std::uint32_t cookie = kNone;             // spot: an image projected down its cone, or kNone
     bool casts_shadow = true;
+    Body body = Body::none;
 };
 
 /// Sky and ambient of a world; files get the defaults.
@@ -207,6 +216,7 @@ struct Environment {
     glm::vec3 ground{0.22F, 0.20F, 0.17F};
     float ambient = 0.35F; // multiplies the hemisphere light
     float exposure = 1.0F;
+    glm::vec3 ground_albedo{0.22F, 0.20F, 0.17F}; // under a physical sky, which has no use for the others
 };
 
 /// A view by name: a camera that is not part of the node tree (built-in worlds).

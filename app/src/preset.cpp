@@ -48,14 +48,15 @@ constexpr std::array kPresets{
   "scene": "rts", "camera": "camp", "partition": "single", "fit": "lispsm-simple", "filter": "lvsm",
   "map-size": 1024, "map-format": "rgba16", "lvsm.world": [6.5, 12, 10, 40], "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
   "map-sampling": "bilinear", "min-variance": 0.01, "bleeding.power": 1.3, "lighten": 0.39, "lighten.as": "add",
-  "bloom": true
+  "bloom": true, "sky": "plain"
 })"},
     // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
     // world's clock is the document's: one minute a second.
     Preset{"icefall-2010", "P. Fortier, shadows of a moving sun, 2010: two positions blended, two maps a texel", R"({
   "scene": "sundial", "camera": "meadow", "size": "1280x720", "partition": "single", "fit": "uniform",
   "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "rgba8",
-  "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth"
+  "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth",
+  "sky": "plain"
 })"},
     // The article ends with exponential maps after those of variance leaked; of its settings it names depth that is
     // linear, a blur, mip levels and full floats. The exponent, the kernel and the size are chosen.

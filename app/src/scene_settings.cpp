@@ -109,6 +109,17 @@ bool isPicture(const Settings& s)
 }
 constexpr std::array<std::string_view, 2> kReflections{"materials", "phong-2005"};
 
+constexpr std::array<std::string_view, 2> kSkies{"physical", "plain"};
+
+std::vector<std::string_view> skyNames()
+{
+    return {kSkies.begin(), kSkies.end()};
+}
+void applySky(Settings& s, const Value& v)
+{
+    s.sky = v.text == kSkies[1] ? host::SkyModel::plain : host::SkyModel::physical;
+}
+
 constexpr std::array<std::string_view, 2> kShadings{"deferred", "forward"};
 
 std::vector<std::string_view> shadingNames()
@@ -190,6 +201,12 @@ const std::vector<Setting>& rows()
         {.key = "bloom.levels", .group = Group::picture, .type = integer, .form = "N", .default_text = "6", .min = 1, .max = 8,
          .doc = "halvings; each doubles the glow's reach", .subcommands = kPictures, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.levels = static_cast<std::uint32_t>(v.integer); }},
+        {.key = "sky", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "physical", .choices = skyNames,
+         .doc = "physical: air, light and exposure by the sun's height, where there is a sun; or plain: a gradient",
+         .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applySky},
+        {.key = "exposure", .group = Group::picture, .type = real, .form = "STOPS", .unit = "stops", .default_text = "0", .min = -16, .max = 16,
+         .doc = "how much brighter than by the light of the hour; 1 is twice as bright", .subcommands = kPictures, .used = isPicture, .used_when = "a picture, not --mask",
+         .apply = [](Settings& s, const Value& v) { s.exposure_ev = v.real; }},
         {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = shadingNames,
          .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kPictures, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
         {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,

@@ -40,6 +40,7 @@ host::ShadedLight sunLight(const glm::dvec3& direction_ws)
     light.caster.type = LightType::directional;
     light.caster.direction_ws = direction_ws;
     light.colour = kWarmWhite * kSunLux;
+    light.body = scene::Body::sun;
     light.up_ws = perpendicular(direction_ws);
     setBrightness(light);
     return light;
@@ -351,6 +352,8 @@ host::RenderOptions renderOptions(const Settings& settings)
     options.anti_aliasing = settings.anti_aliasing;
     options.bloom = settings.bloom;
     options.reflection = settings.reflection;
+    options.sky = settings.sky;
+    options.exposure_ev = settings.exposure_ev;
     options.shading = settings.shading;
     if (isUsed(*findSetting("compact-mask"), settings)) { // beside others it changes nothing, as people are told
         options.compact_mask = settings.compact_mask;

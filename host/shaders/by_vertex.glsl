@@ -6,6 +6,7 @@
 #define HOST_BY_VERTEX_GLSL
 
 layout(constant_id = 19) const bool kInSoftware = false;
+layout(constant_id = 20) const bool kDrawsSky = false; // of screen.vert
 
 // Of scene.vert, from location 5 on.
 const int kSceneRayX = 0;
@@ -23,13 +24,11 @@ const int kScreenRayX = 0;
 const int kScreenRayY = 1;
 const int kScreenRay0 = 2;
 const int kScreenDepth = 3;
-const int kScreenZenith = 4;
-const int kScreenHorizon = 5;
-const int kScreenGround = 6;
-const int kScreenPlace = 7; // of the first light
-const int kScreenColour = 8;
-const int kScreenRight = 9;
-const int kScreenNumberCount = 10;
-const int kScreenPixel = 10; // location of a pixel's place in the picture: 0 .. 1
+const int kScreenSky = 4;    // FrameData::skylight, or for the pass that draws the sky FrameData::sky
+const int kScreenPlace = 11; // of the first light
+const int kScreenColour = 12;
+const int kScreenRight = 13;
+const int kScreenNumberCount = 14;
+const int kScreenPixel = 14; // location of a pixel's place in the picture: 0 .. 1
 
 #endif

@@ -24,9 +24,8 @@ uint receiver_piece;
 #include "frame.glsl"
 #include "scene_numbers.glsl"
 #include "ray.glsl"
-#define FRAME_ZENITH frame.sky_zenith
-#define FRAME_HORIZON frame.sky_horizon
-#define FRAME_GROUND frame.ground
+#define FRAME_SKYLIGHT(I) frame.skylight[I]
+#define FRAME_DEPTH frame.depth
 #include "material.glsl"
 #include "shaded_lights.glsl"
 #include "shown.glsl"
@@ -69,7 +68,7 @@ void main()
     receiver_object = ids.x - 1u;
     receiver_piece = ids.y >> 20; // scene.vert
 #endif
-    vec3 emitted = emission(uvs) * FRAME_HORIZON.w;
+    vec3 emitted = emission(uvs) * FRAME_SKYLIGHT(6).w;
     if (kEmissiveOnly) {
         out_light = vec4(emitted, 0.0);
         return;
@@ -80,7 +79,7 @@ void main()
     Surface surface = surfaceAt(p, normal.xyz, tangent, uvs, base);
     float model = kPhysicalOnly ? 0.0 : surface.model;
     if (model == 2.0) {
-        out_light = shown(base.rgb * FRAME_HORIZON.w, alpha);
+        out_light = shown(base.rgb * FRAME_SKYLIGHT(6).w, alpha);
         return;
     }
     bool phong_2005 = kOpaque && kPhong2005;
@@ -88,7 +87,7 @@ void main()
     Lit s = litSurface(p, surface.shading_normal, base.rgb, phong_2005 ? 0.0 : surface.metallic, second,
                        phong_2005 ? 1.0 : model);
     vec3 own_tint = ownTint();
-    vec3 sum = emitted;
+    vec3 sum = emitted + (kOpaque ? lampLight(surface.lit) : vec3(0.0));
     if (!phong_2005) {
         sum += ambient(s, model == 1.0 ? 1.0 : second, surface.occlusion);
     }

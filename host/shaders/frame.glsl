@@ -19,10 +19,11 @@ layout(set = 0, binding = 0, std140) uniform FrameData
     vec4 ray_x; // eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d
     vec4 ray_y;
     vec4 ray_0;
-    vec4 depth;       // 1 / view depth = x * stored depth + y; z: 1 when there is a mask
-    vec4 sky_zenith;  // w: strength of the hemisphere light
-    vec4 sky_horizon; // w: exposure of what is emitted
-    vec4 ground;
+    vec4 depth; // 1 / view depth = x * stored depth + y; z: 1 when there is a mask; w: light of lit windows
+    // Of a surface's normal: for red, green and blue a row of (x, y, z, 1), for each one of (xy, yz, yy, xz), and times
+    // xx - zz; w of the last: exposure of what is emitted.
+    vec4 skylight[7];
+    vec4 sky[7];  // what the pass that draws the sky reads: sky_numbers.glsl
     uvec4 counts; // x: lights
     LightData lights[kMaxLights];
 }

@@ -6,7 +6,7 @@
 // Mobile", 2014 (the hemisphere's specular share); KHR_lights_punctual, 2018 (cone and range).
 #ifndef HOST_LIGHTING_GLSL
 #define HOST_LIGHTING_GLSL
-// The includer defines FRAME_ZENITH, FRAME_HORIZON and FRAME_GROUND: screen_numbers.glsl.
+// The includer defines FRAME_SKYLIGHT: screen_numbers.glsl.
 
 const float kPi = 3.14159265358979;
 
@@ -97,11 +97,19 @@ vec3 arriving(LightData light, vec3 p, sampler2DArray cookies, out vec3 l)
     return e;
 }
 
-vec3 hemisphere(vec3 direction)
+// What sky and ground give a white surface that faces this way (Skylight::on).
+vec3 hemisphere(vec3 n)
 {
-    vec3 sky = mix(FRAME_HORIZON.rgb, FRAME_ZENITH.rgb, 0.5);
-    return mix(FRAME_GROUND.rgb, sky, 0.5 + 0.5 * direction.y) * FRAME_ZENITH.w;
+    vec4 linear = vec4(n, 1.0);
+    vec4 square = n.xyyx * n.yzyz;
+    vec3 light = vec3(dot(FRAME_SKYLIGHT(0), linear) + dot(FRAME_SKYLIGHT(3), square),
+                      dot(FRAME_SKYLIGHT(1), linear) + dot(FRAME_SKYLIGHT(4), square),
+                      dot(FRAME_SKYLIGHT(2), linear) + dot(FRAME_SKYLIGHT(5), square));
+    return max(light + FRAME_SKYLIGHT(6).rgb * (n.x * n.x - n.z * n.z), 0.0);
 }
+
+// Behind a pane when it is dark outside; `lit`: StoredSurface::lit.
+vec3 lampLight(float lit) { return vec3(1.0, 0.56, 0.22) * (lit * FRAME_DEPTH.w); }
 
 vec3 ambient(Lit s, float roughness, float occlusion)
 {

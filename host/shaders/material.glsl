@@ -32,6 +32,7 @@ struct Surface {
     float metallic;
     float roughness; // or the Phong exponent
     float occlusion;
+    float lit; // a window, when it is dark outside
     float model;
 };
 
@@ -66,6 +67,7 @@ Surface surfaceAt(vec3 p, vec3 normal, vec4 tangent, vec4 uvs, vec4 base)
     s.roughness = MATERIAL_NUMBERS.y;
     s.occlusion = 1.0;
     s.model = MATERIAL_MODEL.x;
+    s.lit = MATERIAL_MODEL.z * (1.0 - base.a);
     if (kAllTextures) {
         if (tangent.w != 0.0) {
             vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));

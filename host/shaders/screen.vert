@@ -18,9 +18,9 @@ void main()
         numbers[kScreenRayY] = frame.ray_y;
         numbers[kScreenRay0] = frame.ray_0;
         numbers[kScreenDepth] = frame.depth;
-        numbers[kScreenZenith] = frame.sky_zenith;
-        numbers[kScreenHorizon] = frame.sky_horizon;
-        numbers[kScreenGround] = frame.ground;
+        for (int i = 0; i < 7; ++i) {
+            numbers[kScreenSky + i] = kDrawsSky ? frame.sky[i] : frame.skylight[i];
+        }
         numbers[kScreenPlace] = frame.lights[0].place;
         numbers[kScreenColour] = frame.lights[0].colour;
         numbers[kScreenRight] = frame.lights[0].right;

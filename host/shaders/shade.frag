@@ -47,7 +47,7 @@ void main()
     vec4 base = stored.base;
     float model = kPhysicalOnly ? 0.0 : stored.model;
     if (model == 2.0) {
-        out_light = shown(base.rgb * FRAME_HORIZON.w, 1.0);
+        out_light = shown(base.rgb * FRAME_SKYLIGHT(6).w, 1.0);
         return;
     }
     float depth = texelHere(depths).r;
@@ -56,6 +56,7 @@ void main()
     Lit s = litSurface(p, stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
                        kPhong2005 ? 1.0 : model);
     vec3 sum = kPhong2005 ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : stored.second, base.a);
+    sum += lampLight(stored.lit);
 #ifdef HOST_COMPACT_MASK
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     GnomonTileLights tile = gnomonTileLights(pixel);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "screen_numbers.glsl"
+#include "sky_numbers.glsl"
 #include "ray.glsl"
 #include "shown.glsl"
 
@@ -12,9 +13,9 @@ layout(location = 0) out vec4 out_light;
 void main()
 {
     vec3 d = normalize(rayOf(gl_FragCoord.xy));
-    vec3 sky = mix(FRAME_HORIZON.rgb, FRAME_ZENITH.rgb, pow(clamp(d.y, 0.0, 1.0), 0.4));
+    vec3 sky = mix(SKY_HORIZON, SKY_ZENITH, pow(clamp(d.y, 0.0, 1.0), 0.4));
     // Haze: what is below the horizon takes on the ground's colour slowly and never wholly.
-    sky = mix(sky, FRAME_GROUND.rgb, 0.65 * smoothstep(0.0, 0.8, -d.y));
+    sky = mix(sky, SKY_GROUND, 0.65 * smoothstep(0.0, 0.8, -d.y));
     sky *= 0.75; // as a backdrop it would outshine what it lights, whose colours are mostly dark
     for (uint i = 0; i < min(frame.counts.x, 2u); ++i) {
         if (frame.lights[i].place.w > 0.5) {

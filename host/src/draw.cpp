@@ -76,7 +76,7 @@ void FrameRenderer::Impl::drawFrame(const scene::State& state, const Eye& eye, c
         writeInstead(*masks_instead);
     }
     describeFrame();
-    writeFrameData(state, lights);
+    writeFrameData(lights);
     if (ForwardShadows* const lookup = forwardShadows()) {
         lookup->describe(slot, frame, *plan, shadows->renderer);
     }
@@ -100,6 +100,9 @@ void FrameRenderer::Impl::forgetBroken()
     if (!whole && shadows) {
         shadows->renderer.reset();
     }
+    if (!whole && sky_table) {
+        sky_table->forget();
+    }
     plan = nullptr;
     finished = {};
 }
@@ -111,6 +114,7 @@ void FrameRenderer::Impl::prepareFrame(const scene::State& state, const Eye& eye
     beginSlot();
     update(state);
     look(state, eye, lights, maps);
+    lookAtSky(state, lights);
     times.advance_ms = millisecondsSince(start);
     const Clock::time_point plan_start = Clock::now();
     forward.on = options.shading == Shading::forward && masks_instead == nullptr;
@@ -221,7 +225,7 @@ void FrameRenderer::Impl::choosePipelines()
                                      [](const Light& l) { return l.type == LightType::directional; });
     by.phong_2005 = options.reflection == Reflection::phong_2005;
     by.toned = toned;
-    sky = pipelines.skyFor(toned);
+    sky = pipelines.skyFor({.toned = toned, .physical = all_light->physical});
     if (forward.on) {
         chooseForward(by);
         return;
@@ -267,16 +271,21 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
     (void)shadows->renderer.prepare(*plan, forward.on ? VkExtent2D{} : screen->targets.drawn);
 }
 
-void FrameRenderer::Impl::writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights)
+void FrameRenderer::Impl::lookAtSky(const scene::State& state, const std::vector<ShadedLight>& lights)
+{
+    all_light = &daylight.at(options.sky, options.exposure_ev, lights, state.bounds_ws, state.environment);
+    brings_sky = sky_table && sky_table->bring(slot, *all_light);
+}
+
+void FrameRenderer::Impl::writeFrameData(const std::vector<ShadedLight>& lights)
 {
     cookie_layers.clear();
     for (const ShadedLight& light : lights) {
         cookie_layers.push_back(light.cookie == scene::kNone ? -1 : scene.textures.cookieLayer(light.cookie));
     }
-    const double exposure = exposureOf(lights, state.bounds_ws, state.environment);
     auto& data = *static_cast<FrameData*>(now().frame_data.mapped);
     const VkExtent2D drawn = screen->targets.drawn;
-    fillFrameData(data, sight, drawn.width, drawn.height, lights, cookie_layers, exposure, state.environment,
+    fillFrameData(data, sight, drawn.width, drawn.height, lights, cookie_layers, *all_light,
                   finished.masks.image != VK_NULL_HANDLE);
     for (std::size_t i = 0; plan != nullptr && i < lights.size(); ++i) {
         const LightPlan& planned = plan->lights[i];

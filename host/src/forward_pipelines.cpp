@@ -83,12 +83,13 @@ const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
     return forward_.emplace_back(facts, made).second;
 }
 
-VkPipeline Pipelines::skyFor(bool toned)
+VkPipeline Pipelines::skyFor(const SkyFacts& facts)
 {
-    if (toned && toned_sky_ == VK_NULL_HANDLE) {
-        toned_sky_ = makeSky(true);
+    if (facts == SkyFacts{}) {
+        return sky;
     }
-    return toned ? toned_sky_ : sky;
+    const auto found = std::ranges::find(sky_, facts, &std::pair<SkyFacts, VkPipeline>::first);
+    return found != sky_.end() ? found->second : sky_.emplace_back(facts, makeSky(facts)).second;
 }
 
 } // namespace gnomon::host

@@ -12,26 +12,7 @@
 namespace gnomon::host {
 namespace {
 
-// Where a light of a file is that shines from a place: what it gives in the middle of the scene stands for it, but
-// never as if it were nearer than a twentieth of the scene or farther than half its reach.
-double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
-{
-    // A cookie is taken to let half of the light through.
-    const double passed = light.cookie == scene::kNone ? 1.0 : 0.5;
-    const double strength = passed * glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
-    if (light.caster.type == LightType::directional) {
-        return strength;
-    }
-    const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
-    const glm::dvec3 centre = bounds.empty() ? light.caster.position_ws : glm::dvec3(bounds.centre());
-    double distance = std::max(glm::length(light.caster.position_ws - centre), diagonal / 20.0);
-    if (light.caster.range_m > 0.0) {
-        distance = std::min(distance, light.caster.range_m * 0.5);
-    }
-    return strength / std::max(distance * distance, 1e-30);
-}
-
-void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, double scale, int cookie_layer)
+void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, const glm::dvec3& colour, int cookie_layer)
 {
     const Light& caster = light.caster;
     const glm::dvec3 towards = -caster.direction_ws;
@@ -40,8 +21,7 @@ void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, dou
     const float type = directional ? 0.0F : (caster.type == LightType::spot ? 1.0F : 2.0F);
     out.place = glm::vec4(glm::vec3(directional ? towards : place), type);
     const double inverse_range = caster.range_m > 0.0 ? 1.0 / caster.range_m : 0.0;
-    out.colour =
-        glm::vec4(glm::vec3(glm::dvec3(light.colour * light.strength) * scale), static_cast<float>(inverse_range));
+    out.colour = glm::vec4(glm::vec3(colour), static_cast<float>(inverse_range));
     out.axis = glm::vec4(glm::vec3(caster.direction_ws), static_cast<float>(cookie_layer));
     // KHR_lights_punctual: (cos a - cos outer) / (cos inner - cos outer), clamped, squared.
     const double cos_outer = std::cos(caster.outer_half_angle_rad);
@@ -51,6 +31,35 @@ void fillLight(LightData& out, const ShadedLight& light, const Sight& sight, dou
     const glm::dvec3 right = glm::cross(caster.direction_ws, glm::dvec3(light.up_ws));
     const double length = glm::length(right);
     out.right = glm::vec4(glm::vec3(length > 0.0 ? right / length : glm::dvec3(1.0, 0.0, 0.0)), 0.0F);
+}
+
+void fillSkylight(FrameData& data, const FrameLight& light)
+{
+    for (std::size_t c = 0; c < 3; ++c) {
+        data.skylight[c] = glm::vec4(light.skylight.linear[c]);
+        data.skylight[3 + c] = glm::vec4(light.skylight.square[c]);
+    }
+    data.skylight[6] = glm::vec4(glm::vec3(light.skylight.across), static_cast<float>(light.emission));
+}
+
+/// As sky_numbers.glsl reads it.
+void fillSky(FrameData& data, const FrameLight& light)
+{
+    data.sky = {};
+    data.sky[0] = glm::vec4(glm::vec3(light.zenith), 0.0F);
+    data.sky[1] = glm::vec4(glm::vec3(light.horizon), 0.0F);
+    for (std::size_t i = 0; light.physical && i < kSkyBodies; ++i) {
+        const SkyBody& body = light.bodies[i];
+        data.sky[3 * i] = glm::vec4(glm::vec3(body.towards_ws), 0.0F);
+        data.sky[3 * i + 1] = glm::vec4(glm::vec3(body.disc), static_cast<float>(body.cos_radius));
+    }
+    const auto times = [&](std::size_t i) {
+        const SkyBody& body = light.bodies[i];
+        return body.under != nullptr ? glm::vec3(body.times * body.under->largest) : glm::vec3(0.0F);
+    };
+    data.sky[6] = glm::vec4(times(0).x, times(1)); // the sun's are all one
+    data.sky[2] = glm::vec4(glm::vec3(light.ground), static_cast<float>(light.stars));
+    data.sky[5] = glm::vec4(glm::vec3(light.night), 0.0F);
 }
 
 } // namespace
@@ -120,26 +129,14 @@ Camera cameraOf(const Sight& sight, const glm::dvec2& drawn_px)
     return camera;
 }
 
-double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
-{
-    double brightest = 0.0;
-    for (const ShadedLight& light : lights) {
-        brightest = std::max(brightest, illuminanceOf(light, bounds));
-    }
-    // What a white surface square to the brightest light comes out as, before the tone curve, where the sky is about
-    // 0.6: the curve then takes it to 0.85 of its range, and a grey of 18 % to a middle tone.
-    constexpr double kKey = 1.35;
-    return brightest > 0.0 ? kKey * environment.exposure / brightest : environment.exposure;
-}
-
 float maskSlot(std::uint32_t layer, std::uint32_t channel, bool coloured)
 {
     return static_cast<float>(layer * 8 + (coloured ? 4 : 0) + channel);
 }
 
 void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
-                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,
-                   const scene::Environment& environment, bool has_mask)
+                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, const FrameLight& light,
+                   bool has_mask)
 {
     data.clip_from_eye = glm::mat4(clipFromEye(sight));
     const glm::dvec3 step_x = sight.right_ws * (2.0 * sight.tan_x / width);
@@ -150,15 +147,12 @@ void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std
     data.ray_y = glm::vec4(glm::vec3(step_y), 0.0F);
     data.ray_0 = glm::vec4(glm::vec3(corner), 0.0F);
     const double span = (sight.far_m - sight.near_m) / (sight.near_m * sight.far_m);
-    data.depth = {span, 1.0 / sight.far_m, has_mask ? 1.0 : 0.0, 0.0};
-    // Light that has bounced off the surroundings is nowhere else accounted for.
-    constexpr float kBounced = 1.5F;
-    data.sky_zenith = glm::vec4(environment.sky_zenith * environment.exposure, environment.ambient * kBounced);
-    data.sky_horizon = glm::vec4(environment.sky_horizon * environment.exposure, environment.exposure);
-    data.ground = glm::vec4(environment.ground * environment.exposure, 0.0F);
+    data.depth = {span, 1.0 / sight.far_m, has_mask ? 1.0 : 0.0, light.lamps};
+    fillSkylight(data, light);
+    fillSky(data, light);
     data.counts = {lights.size(), 0, 0, 0};
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        fillLight(data.lights[i], lights[i], sight, exposure, cookie_layers[i]);
+        fillLight(data.lights[i], lights[i], sight, light.colours[i], cookie_layers[i]);
         const auto index = static_cast<std::uint32_t>(i);
         data.lights[i].right.w = maskSlot(index / 4, index % 4, false);
     }

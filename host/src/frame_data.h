@@ -2,6 +2,8 @@
 // The uniform buffer of a frame, and what it is made from: camera, lights, exposure, sky.
 #pragma once
 
+#include "daylight.h"
+
 #include "host/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -25,13 +27,12 @@ struct FrameData {
     glm::vec4 ray_y;
     glm::vec4 ray_0;
     glm::vec4 depth;
-    glm::vec4 sky_zenith;
-    glm::vec4 sky_horizon;
-    glm::vec4 ground;
+    std::array<glm::vec4, 7> skylight;
+    std::array<glm::vec4, 7> sky;
     glm::uvec4 counts;
     std::array<LightData, kMaxLights> lights;
 };
-static_assert(sizeof(FrameData) == 64 + 7 * 16 + 16 + kMaxLights * 80);
+static_assert(sizeof(FrameData) == 64 + 18 * 16 + 16 + kMaxLights * 80);
 
 /// An Eye with everything worked out: axes and distances.
 struct Sight {
@@ -52,18 +53,12 @@ struct Sight {
 /// The camera of a picture of `drawn_px` pixels.
 [[nodiscard]] Camera cameraOf(const Sight& sight, const glm::dvec2& drawn_px);
 
-/// What brings the brightest light, at its full strength, to the range that the tone curve is made for; multiplies all
-/// light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only
-/// scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
-[[nodiscard]] double exposureOf(std::span<const ShadedLight> lights, const Aabb& scene_bounds_ws,
-                                const scene::Environment& environment);
-
 /// LightData::right.w: where in the masks a light's is.
 [[nodiscard]] float maskSlot(std::uint32_t layer, std::uint32_t channel, bool coloured);
 
 /// Fills everything but the lights' cookie layers and mask slots from the arguments; `cookie_layers` has one per light.
 void fillFrameData(FrameData& data, const Sight& sight, std::uint32_t width, std::uint32_t height,
-                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, double exposure,
-                   const scene::Environment& environment, bool has_mask);
+                   std::span<const ShadedLight> lights, std::span<const int> cookie_layers, const FrameLight& light,
+                   bool has_mask);
 
 } // namespace gnomon::host

@@ -54,6 +54,9 @@ FrameRenderer::Impl::Impl(SceneData& the_scene, const RenderOptions& the_options
     }
     visible.reserve(scene.table.objects.size());
     by_distance.reserve(scene.table.objects.size());
+    if (options.sky == SkyModel::physical) {
+        sky_table.emplace(scene, memory, slots.size());
+    }
     screen = makeScreen(options);
     shadows = makeShadows(scene, options);
 }
@@ -64,7 +67,7 @@ std::shared_ptr<Screen> FrameRenderer::Impl::makeScreen(const RenderOptions& wis
     for (const Slot& one : slots) {
         frame_data.push_back(one.frame_data);
     }
-    return std::make_shared<Screen>(scene, wish, frame_data);
+    return std::make_shared<Screen>(scene, wish, frame_data, sky_table ? sky_table->descriptor() : scene.textures.cookies());
 }
 
 void FrameRenderer::Impl::settle() noexcept

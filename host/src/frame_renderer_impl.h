@@ -5,6 +5,7 @@
 #include "scene_draws.h"
 #include "screen.h"
 #include "shadows.h"
+#include "sky_table.h"
 
 #include <chrono>
 #include <utility>
@@ -46,7 +47,12 @@ struct FrameRenderer::Impl {
     std::shared_ptr<Screen> screen;
     std::shared_ptr<Shadows> shadows; // null: none are wanted
 
+    Daylight daylight;
+    std::optional<SkyTable> sky_table; // null: no sky is physical
+
     // This frame, until the next one.
+    const FrameLight* all_light = nullptr;
+    bool brings_sky = false;
     std::uint32_t slot = 0;
     const Plan* plan = nullptr;     // null: without shadows
     const Image* instead = nullptr; // masks of someone else's
@@ -109,7 +115,8 @@ struct FrameRenderer::Impl {
     void nameContent();
     void sortNearestFirst();
     void makePlan(Maps maps, bool masked_instead);
-    void writeFrameData(const scene::State& state, const std::vector<ShadedLight>& lights);
+    void lookAtSky(const scene::State& state, const std::vector<ShadedLight>& lights);
+    void writeFrameData(const std::vector<ShadedLight>& lights);
     void writeInstead(const std::vector<ImageF>& masks);
     void describeFrame();
     /// Is this frame's mask compact?

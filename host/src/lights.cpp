@@ -55,6 +55,7 @@ std::vector<ShadedLight> lightsOf(const scene::Scene& scene, const scene::State&
         light.inner_half_angle_rad = source.inner_cone_rad;
         light.up_ws = placed.up_ws;
         light.cookie = source.cookie;
+        light.body = source.body;
         setBrightness(light);
         lights.push_back(light);
     }

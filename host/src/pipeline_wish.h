@@ -20,10 +20,11 @@ enum Constant : std::uint32_t {
     kTints,
     kTechnique,                                                      // pack::TechniqueConstants
     kInSoftware = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
+    kDrawsSky,                                                       // screen.vert
     kMostConstants
 };
 
-static_assert(kTechnique == 11 && kInSoftware == 19); // forward.frag, by_vertex.glsl
+static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20); // forward.frag, by_vertex.glsl
 
 struct Pipelines::Wish {
     const char* name = "";

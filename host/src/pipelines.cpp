@@ -95,13 +95,13 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
     makeShadowedLayout(materials.layout());
     makeScene(materials);
     makeDepthAlone();
-    sky = makeSky(false);
+    sky = makeSky({});
 }
 
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
 {
     VkDevice device = gpu_.view().device;
-    std::array<VkDescriptorSetLayoutBinding, 8> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, 9> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
@@ -333,16 +333,17 @@ Pipelines::Wish Pipelines::blendedWish()
     return wish;
 }
 
-VkPipeline Pipelines::makeSky(bool toned)
+VkPipeline Pipelines::makeSky(const SkyFacts& facts)
 {
     Wish wish;
     wish.vertex = "screen.vert";
-    wish.colours = {toned ? &kPictureFormat : &kLightFormat, 1};
+    wish.colours = {facts.toned ? &kPictureFormat : &kLightFormat, 1};
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_EQUAL;
     wish.name = "sky";
-    wish.fragment = "sky.frag";
-    wish.constants[kToned] = toned ? VK_TRUE : VK_FALSE;
+    wish.fragment = facts.physical ? "sky_physical.frag" : "sky.frag";
+    wish.constants[kToned] = facts.toned ? VK_TRUE : VK_FALSE;
+    wish.constants[kDrawsSky] = VK_TRUE;
     return make(wish);
 }
 

@@ -98,6 +98,13 @@ struct ForwardFacts {
 /// The shader for maps of these options.
 [[nodiscard]] std::string forwardFragment(const ResolvedOptions& options, bool orthographic);
 
+struct SkyFacts {
+    bool toned = false;
+    bool physical = false;
+
+    bool operator==(const SkyFacts&) const = default;
+};
+
 class Pipelines {
 public:
     Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table);
@@ -121,7 +128,7 @@ public:
     [[nodiscard]] VkPipeline shadeCompact(const ShadedBy& by);
     /// Opaque surfaces, and the sky beside them.
     [[nodiscard]] const KindPipelines& forwardFor(const ForwardFacts& facts);
-    [[nodiscard]] VkPipeline skyFor(bool toned);
+    [[nodiscard]] VkPipeline skyFor(const SkyFacts& facts);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
 
@@ -151,7 +158,7 @@ private:
     /// `cut`: some are.
     SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
-    [[nodiscard]] VkPipeline makeSky(bool toned);
+    [[nodiscard]] VkPipeline makeSky(const SkyFacts& facts);
 
     const Gpu& gpu_;
     const DebugNames& names_;
@@ -159,7 +166,7 @@ private:
     std::array<Kind, static_cast<std::size_t>(SurfaceKind::count)> opaque_kinds_{}; // that the scene has
     std::deque<std::pair<ForwardFacts, KindPipelines>> forward_;                    // references to them stay
     std::array<std::optional<KindPipelines>, 4> gbuffer_;                           // by shape
-    VkPipeline toned_sky_ = VK_NULL_HANDLE;
+    std::vector<std::pair<SkyFacts, VkPipeline>> sky_;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_compact_;
     struct Shadowed {

@@ -13,6 +13,9 @@ void FrameRenderer::Impl::record(Present* present)
     frame_set = screen->frameSet(slot, finished.masks.view);
     VkCommandBuffer cmd = now().commands->begin();
     profiler.beginFrame(cmd, slot);
+    if (brings_sky) {
+        sky_table->record(cmd, slot);
+    }
     if (deform_now) {
         profiler.beginPass(cmd, "deform");
         scene.geometry.recordDeformed(cmd, now().deformed);

@@ -70,7 +70,8 @@ VkExtent2D drawnExtent(const RenderOptions& options)
     return {options.width * scale, options.height * scale};
 }
 
-Screen::Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data)
+Screen::Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data,
+               const VkDescriptorImageInfo& sky_tables)
     : scene_(scene), memory_(scene.gpu),
       targets(memory_, drawnExtent(checked(scene.gpu, options)), {options.width, options.height},
               options.anti_aliasing == AntiAliasing::fxaa)
@@ -82,15 +83,15 @@ Screen::Screen(SceneData& scene, const RenderOptions& options, std::span<const B
     }
     tone = scene.pipelines.toneFor(tone_facts);
     fxaa = options.anti_aliasing == AntiAliasing::fxaa ? scene.pipelines.fxaa() : VK_NULL_HANDLE;
-    makeSets(frame_data);
+    makeSets(frame_data, sky_tables);
 }
 
-void Screen::makeSets(std::span<const Buffer> frame_data)
+void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImageInfo& sky_tables)
 {
     VkDevice device = scene_.gpu.view().device;
     const auto count = static_cast<std::uint32_t>(frame_data.size());
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 7 * count}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * count}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = sizes.size();
@@ -111,17 +112,18 @@ void Screen::makeSets(std::span<const Buffer> frame_data)
     const VkDescriptorImageInfo cookies = scene_.textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
     const VkImageView glow = bloom ? bloom->result().view : targets.light.view; // not read then
-    const std::array<VkDescriptorImageInfo, 7> images{{{nearest, targets.depth.view, kDepthRead.layout},
+    const std::array<VkDescriptorImageInfo, 8> images{{{nearest, targets.depth.view, kDepthRead.layout},
                                                        cookies, // in the place of surfaces
                                                        cookies, // in the mask's place
                                                        cookies,
                                                        {nearest, targets.light.view, kSampled.layout},
                                                        {scene_.textures.plainSampler(), toned, kSampled.layout},
-                                                       {scene_.textures.plainSampler(), glow, kSampled.layout}}};
+                                                       {scene_.textures.plainSampler(), glow, kSampled.layout},
+                                                       sky_tables}};
     for (std::uint32_t slot = 0; slot < count; ++slot) {
         memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[slot], "frame");
         const VkDescriptorBufferInfo buffer{frame_data[slot].handle, 0, sizeof(FrameData)};
-        std::array<VkWriteDescriptorSet, 8> writes{};
+        std::array<VkWriteDescriptorSet, 9> writes{};
         for (std::uint32_t i = 0; i < writes.size(); ++i) {
             writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
             writes[i].dstSet = sets_[slot];

@@ -16,9 +16,10 @@ namespace gnomon::host {
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
 class Screen {
 public:
-    /// `frame_data`: the uniform buffer of each slot. Throws Error for sizes and options beyond their range or the
+    /// `frame_data`: the uniform buffer of each slot. `sky_tables`: any array where there are none. Throws Error for sizes and options beyond their range or the
     /// device's limits, or when memory runs out.
-    Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data);
+    Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data,
+           const VkDescriptorImageInfo& sky_tables);
     ~Screen() = default;
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
@@ -43,7 +44,7 @@ public:
     VkPipeline fxaa = VK_NULL_HANDLE; // null without it
 
 private:
-    void makeSets(std::span<const Buffer> frame_data);
+    void makeSets(std::span<const Buffer> frame_data, const VkDescriptorImageInfo& sky_tables);
 
     Image instead_;
     OwnedDescriptorPool pool_;

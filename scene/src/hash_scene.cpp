@@ -99,9 +99,10 @@ private:
     void add(const Material& material)
     {
         const auto& [name, model, alpha_mode, alpha_cutoff, double_sided, base_colour, metallic, roughness,
-                     phong_exponent, emissive, normal_scale, occlusion_strength, base_colour_texture,
+                     phong_exponent, lit_by_night, emissive, normal_scale, occlusion_strength, base_colour_texture,
                      metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture] = material;
         addEach(model, alpha_mode, alpha_cutoff, double_sided, base_colour, metallic, roughness, phong_exponent);
+        add(lit_by_night);
         addEach(emissive, normal_scale, occlusion_strength, base_colour_texture, metallic_roughness_texture);
         addEach(normal_texture, occlusion_texture, emissive_texture);
     }
@@ -172,15 +173,15 @@ private:
     void add(const Light& light)
     {
         const auto& [name, type, colour, intensity, range_m, inner_cone_rad, outer_cone_rad, angular_diameter_rad,
-                     radius_m, cookie, casts_shadow] = light;
+                     radius_m, cookie, casts_shadow, body] = light;
         addEach(type, colour, intensity, range_m, inner_cone_rad, outer_cone_rad, angular_diameter_rad, radius_m);
-        addEach(cookie, casts_shadow);
+        addEach(cookie, casts_shadow, body);
     }
 
     void add(const Environment& environment)
     {
-        const auto& [sky_zenith, sky_horizon, ground, ambient, exposure] = environment;
-        addEach(sky_zenith, sky_horizon, ground, ambient, exposure);
+        const auto& [sky_zenith, sky_horizon, ground, ambient, exposure, ground_albedo] = environment;
+        addEach(sky_zenith, sky_horizon, ground, ambient, exposure, ground_albedo);
     }
 
     void add(const NamedView& view)

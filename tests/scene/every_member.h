@@ -132,6 +132,7 @@ inline const std::vector<Change<Material>> kMaterialChanges{
     of("metallic", &Material::metallic),
     of("roughness", &Material::roughness),
     of("phong_exponent", &Material::phong_exponent),
+    of("lit_by_night", &Material::lit_by_night),
     of("emissive", &Material::emissive),
     of("normal_scale", &Material::normal_scale),
     of("occlusion_strength", &Material::occlusion_strength),
@@ -215,6 +216,7 @@ inline const std::vector<Change<Light>> kLightChanges{
     of("radius_m", &Light::radius_m),
     of("cookie", &Light::cookie),
     of("casts_shadow", &Light::casts_shadow),
+    of("body", &Light::body),
 };
 inline const std::vector<Change<NamedView>> kNamedViewChanges{
     of("eye", &NamedView::eye),
@@ -225,6 +227,7 @@ inline const std::vector<Change<Environment>> kEnvironmentChanges{
     of("sky_zenith", &Environment::sky_zenith), of("sky_horizon", &Environment::sky_horizon),
     of("ground", &Environment::ground),         of("ambient", &Environment::ambient),
     of("exposure", &Environment::exposure),
+    of("ground_albedo", &Environment::ground_albedo),
 };
 inline const std::vector<Change<Scene>> kSceneChanges{
     more("images", &Scene::images),

@@ -83,6 +83,7 @@ void addLights(Scene& scene)
 {
     Light sun;
     sun.name = "sun";
+    sun.body = Body::sun;
     sun.colour = {1.0F, 0.95F, 0.86F};
     sun.intensity = 2.8F;
     addLight(scene, sun, {0.0F, 30.0F, 0.0F}, CanopiesWorld::sun_direction);

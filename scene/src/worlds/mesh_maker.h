@@ -12,6 +12,11 @@ namespace gnomon::scene::worlds {
 
 /// Linear colour from sRGB 0xRRGGBB.
 [[nodiscard]] glm::vec4 rgb(std::uint32_t srgb);
+/// Of a pane behind which there is light by night, in a material that says so (Material::lit_by_night).
+[[nodiscard]] inline glm::vec4 litByNight(const glm::vec4& colour)
+{
+    return {colour.r, colour.g, colour.b, 0.0F};
+}
 
 /// Matrices in the order they read: move, turn, then scale.
 [[nodiscard]] glm::mat4 at(const glm::vec3& position);

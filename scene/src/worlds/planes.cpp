@@ -47,6 +47,7 @@ Scene makePlanes(std::uint64_t /*seed*/)
 
     Light sun;
     sun.name = "sun";
+    sun.body = Body::sun;
     sun.colour = {1.0F, 0.95F, 0.86F};
     sun.intensity = 2.8F;
     addLight(scene, sun, {0.0F, 10.0F, 0.0F}, PlanesWorld::sun_direction);

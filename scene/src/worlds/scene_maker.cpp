@@ -31,6 +31,7 @@ std::uint32_t addMaterial(Scene& scene, const std::string& name, const Finish& f
     material.alpha_mode = finish.alpha_mode;
     material.double_sided = finish.double_sided;
     material.emissive = finish.emissive;
+    material.lit_by_night = finish.lit_by_night;
     if (finish.phong_exponent > 0.0F) {
         material.model = ShadingModel::phong;
         material.phong_exponent = finish.phong_exponent;

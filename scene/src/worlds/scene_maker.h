@@ -21,6 +21,7 @@ struct Finish {
     bool double_sided = false;
     glm::vec3 emissive{0.0F};
     float phong_exponent = 0.0F; // above 0 the material is ShadingModel::phong
+    float lit_by_night = 0.0F;   // Material::lit_by_night
 };
 
 std::uint32_t addTexture(Scene& scene, Image image, Wrap wrap = Wrap::repeat);

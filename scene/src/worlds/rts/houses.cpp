@@ -58,9 +58,10 @@ void window(MeshMaker& maker, const Palette& palette, const glm::vec3& centre, c
     const glm::vec3 side = glm::vec3(outward.z, 0, -outward.x) * 0.38F;
     const glm::vec3 up(0, 0.48F, 0);
     Part& pane = maker.with(palette.plain);
-    pane.colour = rgb(0x3C3A3A);
+    pane.colour = litByNight(rgb(0x3C3A3A));
     const glm::vec3 c = centre + outward * 0.05F;
     pane.quad(c - side - up, c + side - up, c + side + up, c - side + up);
+    pane.colour.a = 1.0F;
     Part& wood = maker.with(palette.wood);
     wood.colour = rgb(kTimber);
     wood.beam(c - side * 1.3F - up, c + side * 1.3F - up, 0.16F);

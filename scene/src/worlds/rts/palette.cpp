@@ -26,7 +26,7 @@ Palette addPalette(Scene& scene)
     palette.wood = surface("wood", addTexture(scene, planks()), 0.85F);
     palette.shingle = surface("shingle", addTexture(scene, shingles()), 0.8F);
     palette.thatch = surface("thatch", addTexture(scene, straw()), 0.95F);
-    palette.plain = addMaterial(scene, "plain", {.roughness = 0.75F});
+    palette.plain = addMaterial(scene, "plain", {.roughness = 0.75F, .lit_by_night = 1.0F});
     palette.cloth = addMaterial(scene, "cloth", {.roughness = 0.9F, .double_sided = true});
     palette.rock = surface("rock", detail, 0.9F);
     palette.fire =

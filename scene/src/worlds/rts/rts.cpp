@@ -44,6 +44,7 @@ void addSun(Scene& scene)
 {
     Light sun;
     sun.name = "sun";
+    sun.body = Body::sun;
     sun.colour = {1.0F, 0.86F, 0.66F};
     sun.intensity = 3.6F;
     addLight(scene, sun, {0.0F, 120.0F, 0.0F}, {0.74F, -0.60F, -0.30F});

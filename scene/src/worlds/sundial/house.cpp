@@ -163,7 +163,7 @@ void addWindow(const SundialPalette& palette, MeshMaker& maker, const glm::vec3&
     const glm::mat4 frame = at(centre) * turnedY(facing_rad); // outward is +z
     Part& pane = maker.with(palette.common.plain);
     pane.frame = frame;
-    pane.colour = rgb(0x39424B);
+    pane.colour = litByNight(rgb(0x39424B));
     pane.quad({-0.42F, -0.62F, 0.02F}, {0.42F, -0.62F, 0.02F}, {0.42F, 0.62F, 0.02F}, {-0.42F, 0.62F, 0.02F});
     Part& wood = maker.with(palette.common.wood);
     wood.frame = frame;
@@ -185,6 +185,7 @@ void addWindow(const SundialPalette& palette, MeshMaker& maker, const glm::vec3&
         }
     }
     wood.frame = pane.frame = glm::mat4(1.0F);
+    pane.colour.a = 1.0F;
 }
 
 void addDoor(const SundialPalette& palette, MeshMaker& maker, const glm::vec3& foot)

@@ -256,11 +256,13 @@ Lamps addSunAndMoon(Scene& scene)
 {
     Light sun;
     sun.name = "sun";
+    sun.body = Body::sun;
     sun.colour = {1.0F, 0.95F, 0.87F};
     sun.intensity = 3.6F;
     sun.angular_diameter_rad = SundialWorld::sun_angular_diameter_rad;
     Light moon;
     moon.name = "moon";
+    moon.body = Body::moon;
     moon.colour = {0.55F, 0.72F, 1.0F};
     moon.intensity = 0.95F; // a real one gives a 400,000th of the sun's light; eyes get used to that
     moon.angular_diameter_rad = SundialWorld::moon_angular_diameter_rad;

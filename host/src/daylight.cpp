@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photometry is absolute here: lux and candela per square metre, until the exposure makes a picture of them. Illuminance
+// of the full moon: S. Urban, P. Seidelmann (ed.), "Explanatory Supplement to the Astronomical Almanac", 2013.
+// Compiled alone: adaptation.h in double precision.
+#define GNOMON_REAL double
+#include "host/shaders/adaptation.h"
+
+#include "daylight.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace gnomon::host {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSun_lx = 128000.0; // outside the air
+constexpr double kMoon_lx = 0.32;    // full, likewise
+constexpr double kStars_lx = 0.002;  // with airglow, on level ground
+constexpr double kDarkest_lx = 0.03; // eyes get used to no less light than that
+const glm::dvec3 kStarlight{0.8, 1.0, 1.3};
+/// What a white surface square to the brightest light comes out as, before the tone curve, where the sky is about 0.6:
+/// the curve then takes it to 0.85 of its range, and a grey of 18 % to a middle tone. Under a physical sky that is so
+/// on a sunny day.
+constexpr double kKey = 1.35;
+constexpr double kMeanAlbedo = 0.2; // of what an eye gets used to
+/// Light that has bounced off the surroundings is nowhere else accounted for by the plain sky.
+constexpr double kBounced = 1.5;
+
+double luminance(const glm::dvec3& c)
+{
+    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+double brightest(const glm::dvec3& c)
+{
+    return std::max({c.x, c.y, c.z});
+}
+
+double smoothStep(double from, double to, double x)
+{
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// Where a light of a file is that shines from a place: what it gives in the middle of the scene stands for it, but
+// never as if it were nearer than a twentieth of the scene or farther than half its reach.
+double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
+{
+    // A cookie is taken to let half of the light through.
+    const double passed = light.cookie == scene::kNone ? 1.0 : 0.5;
+    const double strength = passed * luminance(light.colour);
+    if (light.caster.type == LightType::directional) {
+        return strength;
+    }
+    const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
+    const glm::dvec3 centre = bounds.empty() ? light.caster.position_ws : glm::dvec3(bounds.centre());
+    double distance = std::max(glm::length(light.caster.position_ws - centre), diagonal / 20.0);
+    if (light.caster.range_m > 0.0) {
+        distance = std::min(distance, light.caster.range_m * 0.5);
+    }
+    return strength / std::max(distance * distance, 1e-30);
+}
+
+double sineOf(const ShadedLight& light)
+{
+    return std::clamp(-light.caster.direction_ws.y, -1.0, 1.0);
+}
+
+/// The light that the sky is the sky of: the sun, or else the brightest that comes from above.
+const ShadedLight* sunAmong(std::span<const ShadedLight> lights)
+{
+    const ShadedLight* best = nullptr;
+    for (const ShadedLight& light : lights) {
+        if (light.caster.type != LightType::directional || light.body == scene::Body::moon) {
+            continue;
+        }
+        if (light.body == scene::Body::sun) {
+            return &light;
+        }
+        constexpr double kLowest = 0.02; // a degree: what comes from lower is no sun
+        const bool is_sun = sineOf(light) > kLowest && luminance(light.colour) > 0.0;
+        if (is_sun && (best == nullptr || luminance(light.colour) > luminance(best->colour))) {
+            best = &light;
+        }
+    }
+    return best;
+}
+
+const ShadedLight* moonAmong(std::span<const ShadedLight> lights)
+{
+    const auto found = std::find_if(lights.begin(), lights.end(), [](const ShadedLight& light) {
+        return light.caster.type == LightType::directional && light.body == scene::Body::moon;
+    });
+    return found != lights.end() ? &*found : nullptr;
+}
+
+/// How much of a body's light its world lets through, whatever colour it gives it: of the colour the air knows more.
+double fadeOf(const ShadedLight& light)
+{
+    return brightest(light.strength);
+}
+
+/// A dome stands for all surfaces that see the sky: the mean illuminance of a hemisphere, by its projected area for the
+/// light itself, and by how much of the sky each part sees.
+double onDome(double direct, double sine, double diffuse)
+{
+    return (sine > 0.0 ? direct * (1.0 + sine) / 4.0 : 0.0) + 0.75 * diffuse;
+}
+
+/// Picture value of 1 cd/m2 for an eye that is used to `dome_lx`.
+double exposureFor(double dome_lx)
+{
+    constexpr double kNoon_lx = 52000.0;  // of the dome, under a sun at 50 degrees,
+    constexpr double kNoonSun_lx = 101000.0; // which gives so much
+    using shared::of_double::adaptedKey;
+    const double noon = adaptedKey(kNoon_lx * kMeanAlbedo / kPi);
+    const double used_to = std::max(dome_lx, kDarkest_lx);
+    const double key = adaptedKey(used_to * kMeanAlbedo / kPi) / noon;
+    return kKey * key * (kNoon_lx / kNoonSun_lx) * kPi / used_to;
+}
+
+} // namespace
+
+double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
+{
+    double most = 0.0;
+    for (const ShadedLight& light : lights) {
+        most = std::max(most, illuminanceOf(light, bounds));
+    }
+    return most > 0.0 ? kKey * environment.exposure / most : environment.exposure;
+}
+
+const FrameLight& Daylight::at(SkyModel sky, double exposure_ev, std::span<const ShadedLight> lights,
+                               const Aabb& scene_bounds_ws, const scene::Environment& environment)
+{
+    light_.bodies = {};
+    light_.skylight = {};
+    light_.physical = sky == SkyModel::physical && sunAmong(lights) != nullptr;
+    if (light_.physical) {
+        fillPhysical(lights, scene_bounds_ws, environment, exposure_ev);
+    } else {
+        scene::Environment exposed = environment;
+        exposed.exposure *= static_cast<float>(std::exp2(exposure_ev));
+        fillPlain(lights, scene_bounds_ws, exposed);
+    }
+    return light_;
+}
+
+void Daylight::fillPlain(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
+{
+    const double exposure = exposureOf(lights, bounds, environment);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        light_.colours[i] = glm::dvec3(lights[i].colour * lights[i].strength) * exposure;
+    }
+    light_.emission = environment.exposure;
+    light_.lamps = 0.0;
+    light_.stars = 0.0;
+    light_.zenith = glm::dvec3(environment.sky_zenith) * light_.emission;
+    light_.horizon = glm::dvec3(environment.sky_horizon) * light_.emission;
+    light_.ground = glm::dvec3(environment.ground) * light_.emission;
+    const glm::dvec3 above = 0.5 * (light_.zenith + light_.horizon);
+    const double strength = environment.ambient * kBounced;
+    for (int c = 0; c < 3; ++c) { // from the ground's below to the sky's above, by the height of the normal
+        light_.skylight.linear[c] = strength * glm::dvec4(0.0, 0.5 * (above[c] - light_.ground[c]), 0.0,
+                                                          0.5 * (above[c] + light_.ground[c]));
+    }
+}
+
+void Daylight::placeBody(std::size_t body, const ShadedLight& light)
+{
+    Kept& kept = kept_[body];
+    const double sine = sineOf(light);
+    if (kept.sine != sine) {
+        fillSkyUnder(sine, kept.under);
+        kept.sine = sine;
+        ++kept.version;
+    }
+    SkyBody& placed = light_.bodies[body];
+    placed.towards_ws = -light.caster.direction_ws;
+    placed.under = &kept.under;
+    placed.version = kept.version;
+    // Twice its size, or one would hardly see it; of a light as large as one likes a part.
+    constexpr double kLargest_rad = 0.02;
+    placed.cos_radius = std::cos(std::clamp(light.caster.angular_diameter_rad, 0.008, kLargest_rad));
+}
+
+void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bounds,
+                            const scene::Environment& environment, double exposure_ev)
+{
+    const ShadedLight& sun = *sunAmong(lights);
+    const ShadedLight* const moon = moonAmong(lights);
+    constexpr double kDeepNight = -0.32; // sine: 18.7 degrees below the horizon
+    constexpr double kMoonlit = -0.05;   // while the sun is higher, nobody sees the moon's sky
+    if (sineOf(sun) > kDeepNight) {
+        placeBody(0, sun);
+    }
+    if (moon != nullptr && sineOf(*moon) > kMoonlit && sineOf(sun) < kMoonlit) {
+        placeBody(1, *moon);
+    }
+    const glm::dvec3 moon_colour = moon != nullptr ? glm::dvec3(moon->colour) / luminance(moon->colour) : glm::dvec3(1.0);
+    const std::array<glm::dvec3, kSkyBodies> outside{glm::dvec3(kSun_lx), kMoon_lx * moon_colour};
+    const glm::dvec3 stars = kStars_lx * kStarlight;
+
+    // What level ground gets, and a dome.
+    glm::dvec3 level = stars;
+    double dome_lx = 0.75 * kStars_lx;
+    for (std::size_t i = 0; i < kSkyBodies; ++i) {
+        const SkyBody& body = light_.bodies[i];
+        if (body.under != nullptr) {
+            const double sine = body.towards_ws.y;
+            const glm::dvec3 direct = outside[i] * body.under->direct;
+            const glm::dvec3 diffuse = outside[i] * body.under->diffuse;
+            level += direct * std::max(sine, 0.0) + diffuse;
+            dome_lx += onDome(luminance(direct), sine, luminance(diffuse));
+        }
+    }
+
+    // Lux per unit of the scene's lights. A sun of ours says what it gives from above, one of a file what arrives.
+    const bool own = sun.body == scene::Body::sun;
+    const double sun_lx = kSun_lx * luminance(own ? lightThroughAir(1.0) : lightThroughAir(sineOf(sun)));
+    const double unit_lx = sun_lx / std::max(luminance(sun.colour), 1e-30);
+    double others_lx = 0.0;
+    for (const ShadedLight& light : lights) {
+        if (&light != &sun && &light != moon) {
+            others_lx = std::max(others_lx, unit_lx * illuminanceOf(light, bounds));
+        }
+    }
+    const double camera = std::exp2(exposure_ev);
+    const double exposure = camera * exposureFor(dome_lx + 0.25 * others_lx);
+
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const ShadedLight& light = lights[i];
+        glm::dvec3 given = unit_lx * glm::dvec3(light.colour * light.strength);
+        if (&light == &sun && own) {
+            given = outside[0] * lightThroughAir(sineOf(sun)) * fadeOf(sun);
+        } else if (&light == moon) {
+            given = outside[1] * lightThroughAir(sineOf(light)) * fadeOf(light);
+        }
+        light_.colours[i] = given * (exposure / kPi);
+    }
+    const glm::dvec3 ground = glm::dvec3(environment.ground_albedo) * level / kPi;
+    light_.ground = ground * exposure;
+    light_.night = stars * (exposure / kPi);
+    light_.skylight.addGround(light_.ground);
+    light_.skylight.addSky(light_.night);
+    for (std::size_t i = 0; i < kSkyBodies; ++i) {
+        SkyBody& body = light_.bodies[i];
+        if (body.under != nullptr) {
+            body.times = outside[i] * exposure;
+            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z), body.times);
+            const glm::dvec3 colour = body.under->direct * (i == 0 ? glm::dvec3(1.0) : moon_colour);
+            // A disc is far beyond what a screen shows: it has the colour, and is as bright as a lamp.
+            const double bright = i == 0 ? 12.0 : 1.6;
+            body.disc = colour * (camera * bright / std::max(brightest(colour), 1e-30));
+        }
+    }
+    light_.emission = camera;
+    light_.lamps = camera * smoothStep(3.2, 1.5, std::log10(dome_lx));
+    light_.stars = camera * smoothStep(0.5, -1.3, std::log10(dome_lx));
+}
+
+} // namespace gnomon::host
