@@ -4,8 +4,11 @@
 // table 1: molecules, dust, ozone); E. Bruneton and F. Neyret, "Precomputed Atmospheric Scattering", 2008 (where the
 // numbers come from, and why dust has a table of its own: its phase is then exact about the sun).
 //
-// Departure: five times the paper's dust, an optical depth of 0.03, still a very clear day. With the paper's the sky
-// about a low sun hardly glows. Lengths are kilometres, coefficients 1 / km, colours linear red, green, blue.
+// Departures: four times the paper's dust, an optical depth of 0.02, still a very clear day; with the paper's the sky
+// about a low sun hardly glows. And molecules and ozone at 620, 550 and 450 nm, nearer to a screen's primaries, where the
+// paper has 680, 550 and 440 nm: ozone takes most at 600 nm, which is what makes dusk blue and not purple. Molecules go
+// by the fourth power of the wavelength, ozone by its cross-section in the Chappuis band.
+// Lengths are kilometres, coefficients 1 / km, colours linear red, green, blue.
 #ifndef HOST_ATMOSPHERE_H
 #define HOST_ATMOSPHERE_H
 #include "gnomon/shared/portability.h"
@@ -25,13 +28,13 @@ struct Air {
 GN_FN Air airAt(real height_km)
 {
     real molecules = exp(-height_km / real(8.0));
-    real dust = exp(-height_km / real(1.2)) * real(5.0);
+    real dust = exp(-height_km / real(1.2)) * real(4.0);
     real ozone = max(real(1.0) - abs(height_km - real(25.0)) / real(15.0), real(0.0));
     Air air;
-    air.molecules = real3(real(8.90e-3), real(13.66e-3), real(26.76e-3)) * molecules;
+    air.molecules = real3(real(8.40e-3), real(13.56e-3), real(30.25e-3)) * molecules;
     air.dust = real(3.996e-3) * dust;
     air.lost = air.molecules + real3(air.dust + real(0.444e-3) * dust) +
-               real3(real(2.60e-3), real(1.85e-3), real(0.22e-3)) * ozone;
+               real3(real(2.25e-3), real(1.88e-3), real(0.10e-3)) * ozone;
     return air;
 }
 

@@ -62,7 +62,7 @@ vec3 starsAt(vec3 d)
     vec2 off = fract(at) - (0.2 + 0.6 * random.xy);
     float width = 0.5 * pixel;
     float seen = exp(-dot(off, off) / max(width * width, 1e-6));
-    float bright = 0.03 / max(1.02 - random.z, 0.02); // few are bright
+    float bright = 0.02 / max(1.015 - random.z, 0.015); // few are bright
     vec3 tint = mix(vec3(1.0, 0.80, 0.62), vec3(0.72, 0.83, 1.0), fract(random.z * 61.0));
     return tint * (seen * bright * smoothstep(0.0, 0.25, d.y));
 }

@@ -28,9 +28,11 @@ const glm::dvec3 kStarlight{0.8, 1.0, 1.3};
 /// the curve then takes it to 0.85 of its range, and a grey of 18 % to a middle tone. Under a physical sky that is so
 /// on a sunny day.
 constexpr double kKey = 1.35;
-constexpr double kMeanAlbedo = 0.2; // of what an eye gets used to
-/// Light that has bounced off the surroundings is nowhere else accounted for by the plain sky.
+/// What an eye gets used to is the sky, and things of a mean albedo.
+constexpr double kMeanAlbedo = 0.2;
+/// Light that has bounced off the surroundings is nowhere else accounted for. The physical sky has a ground.
 constexpr double kBounced = 1.5;
+constexpr double kBouncedToo = 1.25;
 
 double luminance(const glm::dvec3& c)
 {
@@ -113,16 +115,28 @@ double onDome(double direct, double sine, double diffuse)
     return (sine > 0.0 ? direct * (1.0 + sine) / 4.0 : 0.0) + 0.75 * diffuse;
 }
 
-/// Picture value of 1 cd/m2 for an eye that is used to `dome_lx`.
-double exposureFor(double dome_lx)
+/// Light that an eye gets used to.
+struct Surroundings {
+    double dome_lx = 0.0;
+    double sky_lx = 0.0; // of level ground, by the sky alone
+
+    [[nodiscard]] double luminance() const
+    {
+        return std::max(kMeanAlbedo * dome_lx + sky_lx, kMeanAlbedo * kDarkest_lx) / kPi;
+    }
+};
+
+/// Picture value of 1 cd/m2 for an eye in them.
+double exposureFor(const Surroundings& around)
 {
-    constexpr double kNoon_lx = 52000.0;  // of the dome, under a sun at 50 degrees,
-    constexpr double kNoonSun_lx = 101000.0; // which gives so much
+    constexpr Surroundings kNoon{52000.0, 10600.0}; // under a sun at 50 degrees,
+    constexpr double kNoonSun_lx = 101000.0;        // which gives so much
     using shared::of_double::adaptedKey;
-    const double noon = adaptedKey(kNoon_lx * kMeanAlbedo / kPi);
-    const double used_to = std::max(dome_lx, kDarkest_lx);
-    const double key = adaptedKey(used_to * kMeanAlbedo / kPi) / noon;
-    return kKey * key * (kNoon_lx / kNoonSun_lx) * kPi / used_to;
+    const double used_to = around.luminance();
+    const double noon = kNoon.luminance();
+    // The tone curve darkens what is dark by about another third of its stops, which the article's does not.
+    const double key = std::pow(adaptedKey(used_to) / adaptedKey(noon), 0.75);
+    return kKey * key * (noon / used_to) * (kPi / kNoonSun_lx);
 }
 
 } // namespace
@@ -209,7 +223,7 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
 
     // What level ground gets, and a dome.
     glm::dvec3 level = stars;
-    double dome_lx = 0.75 * kStars_lx;
+    Surroundings around{0.75 * kStars_lx, kStars_lx};
     for (std::size_t i = 0; i < kSkyBodies; ++i) {
         const SkyBody& body = light_.bodies[i];
         if (body.under != nullptr) {
@@ -217,7 +231,8 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
             const glm::dvec3 direct = outside[i] * body.under->direct;
             const glm::dvec3 diffuse = outside[i] * body.under->diffuse;
             level += direct * std::max(sine, 0.0) + diffuse;
-            dome_lx += onDome(luminance(direct), sine, luminance(diffuse));
+            around.dome_lx += onDome(luminance(direct), sine, luminance(diffuse));
+            around.sky_lx += luminance(diffuse);
         }
     }
 
@@ -232,7 +247,7 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
         }
     }
     const double camera = std::exp2(exposure_ev);
-    const double exposure = camera * exposureFor(dome_lx + 0.25 * others_lx);
+    const double exposure = camera * exposureFor({around.dome_lx + 0.25 * others_lx, around.sky_lx});
 
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const ShadedLight& light = lights[i];
@@ -247,13 +262,13 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
     const glm::dvec3 ground = glm::dvec3(environment.ground_albedo) * level / kPi;
     light_.ground = ground * exposure;
     light_.night = stars * (exposure / kPi);
-    light_.skylight.addGround(light_.ground);
-    light_.skylight.addSky(light_.night);
+    light_.skylight.addGround(light_.ground * kBouncedToo);
+    light_.skylight.addSky(light_.night * kBouncedToo);
     for (std::size_t i = 0; i < kSkyBodies; ++i) {
         SkyBody& body = light_.bodies[i];
         if (body.under != nullptr) {
             body.times = outside[i] * exposure;
-            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z), body.times);
+            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z), body.times * kBouncedToo);
             const glm::dvec3 colour = body.under->direct * (i == 0 ? glm::dvec3(1.0) : moon_colour);
             // A disc is far beyond what a screen shows: it has the colour, and is as bright as a lamp.
             const double bright = i == 0 ? 12.0 : 1.6;
@@ -261,8 +276,8 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
         }
     }
     light_.emission = camera;
-    light_.lamps = camera * smoothStep(3.2, 1.5, std::log10(dome_lx));
-    light_.stars = camera * smoothStep(0.5, -1.3, std::log10(dome_lx));
+    light_.lamps = camera * smoothStep(3.2, 1.5, std::log10(around.dome_lx));
+    light_.stars = camera * smoothStep(0.5, -1.3, std::log10(around.dome_lx));
 }
 
 } // namespace gnomon::host
