@@ -29,12 +29,12 @@ struct Eye {
 /// A light as it is shaded and as it casts. Made from the scene's placed lights (lightsOf) or from the command line.
 struct ShadedLight {
     std::string name;
-    Light caster;                        // gnomon/frame.h
-    glm::vec3 colour{1.0F};              // linear, times intensity at full strength: lux (directional) or candela
-    glm::vec3 strength{1.0F};            // what it gives now, as a share of that; the exposure is chosen for all of it
-    double inner_half_angle_rad = 0.0;   // spot
-    glm::vec3 up_ws{0.0F, 0.0F, 1.0F};   // orients the cookie
-    std::uint32_t cookie = scene::kNone; // image of the scene
+    Light caster;                         // gnomon/frame.h
+    glm::vec3 colour{1.0F};               // linear, times intensity at full strength: lux (directional) or candela
+    glm::vec3 strength{1.0F};             // what it gives now, as a share of that; the exposure is chosen for all of it
+    double inner_half_angle_rad = 0.0;    // spot
+    glm::vec3 up_ws{0.0F, 0.0F, 1.0F};    // orients the cookie
+    std::uint32_t cookie = scene::kNone;  // image of the scene
     scene::Body body = scene::Body::none; // directional: what it stands for in a physical sky
 };
 /// Takes the light's brightness among others from its colour and strength: their luminance.

@@ -68,7 +68,7 @@ struct Material {
     /// Of opaque materials: windows that are lit when it is dark outside, by a physical sky. How brightly; where the
     /// vertex colours' alpha is 0, not at all where it is 1.
     float lit_by_night = 0.0F;
-    glm::vec3 emissive{0.0F};    // linear, KHR_materials_emissive_strength multiplied in
+    glm::vec3 emissive{0.0F}; // linear, KHR_materials_emissive_strength multiplied in
     float normal_scale = 1.0F;
     float occlusion_strength = 1.0F;
     TextureUse base_colour_texture;

@@ -27,6 +27,7 @@ PROJECT_KINDS = [
     (r"^lab/metrics", "metrics"),
     (r"^lab/score/(?!src/)", "score"),
     (r"^lab/score/", "private"),
+    (r"^host/shaders/.*\.h$", "host-shared"),
     (r"^(files|scene|image|host|truth|lab|app)/", r"\1"),
 ]
 # What any other header is, by its name.
@@ -72,7 +73,7 @@ RULES = [
      "a scene knows core's geometry.h, world_range.h and error.h only"),
     ("truth/", STD | {"glm", "core-geometry", "files", "scene", "image", "embree"}, "the judge shares no shadow code with the judged"),
     ("host/shaders/", {"shared", "shader-lib"}, "the host's shaders include the library's, as an engine would"),
-    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "spirv"},
+    ("host/", STD | PUBLIC | {"glm", "vulkan-api", "files", "scene", "image", "shared", "host-shared", "spirv"},
      "the host knows the library by its public headers, and no window"),
     ("host/window/", STD | PUBLIC | {"glm", "vulkan-api", "files", "image", "host", "private", "window", "imgui"},
      "windows are the host's, and show images"),

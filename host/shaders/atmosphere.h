@@ -5,10 +5,10 @@
 // numbers come from, and why dust has a table of its own: its phase is then exact about the sun).
 //
 // Departures: four times the paper's dust, an optical depth of 0.02, still a very clear day; with the paper's the sky
-// about a low sun hardly glows. And molecules and ozone at 620, 550 and 450 nm, nearer to a screen's primaries, where the
-// paper has 680, 550 and 440 nm: ozone takes most at 600 nm, which is what makes dusk blue and not purple. Molecules go
-// by the fourth power of the wavelength, ozone by its cross-section in the Chappuis band.
-// Lengths are kilometres, coefficients 1 / km, colours linear red, green, blue.
+// about a low sun hardly glows. And molecules and ozone at 620, 550 and 450 nm, nearer to a screen's primaries, where
+// the paper has 680, 550 and 440 nm: ozone takes most at 600 nm, which is what makes dusk blue and not purple.
+// Molecules go by the fourth power of the wavelength, ozone by its cross-section in the Chappuis band. Lengths are
+// kilometres, coefficients 1 / km, colours linear red, green, blue.
 #ifndef HOST_ATMOSPHERE_H
 #define HOST_ATMOSPHERE_H
 #include "gnomon/shared/portability.h"
@@ -48,8 +48,7 @@ GN_FN real dustPhase(real c)
 {
     real g2 = kDustForward * kDustForward;
     real base = max(real(1.0) + g2 - real(2.0) * kDustForward * c, real(1e-4));
-    return real(1.5) * kQuarterOverPi * (real(1.0) - g2) / (real(2.0) + g2) * (real(1.0) + c * c) /
-           (base * sqrt(base));
+    return real(1.5) * kQuarterOverPi * (real(1.0) - g2) / (real(2.0) + g2) * (real(1.0) + c * c) / (base * sqrt(base));
 }
 
 // A ray from `radius_km` from the earth's centre, upwards by the sine `up`, to where it leaves the air.
@@ -71,7 +70,8 @@ GN_FN real toTheGround_km(real radius_km, real up)
 // [0, 1], finer about the horizon and the light.
 GN_FN real2 skyTablePlace(real up, real along)
 {
-    return real2(sqrt(clamp(real(0.5) - real(0.5) * along, real(0.0), real(1.0))), sqrt(clamp(up, real(0.0), real(1.0))));
+    return real2(sqrt(clamp(real(0.5) - real(0.5) * along, real(0.0), real(1.0))),
+                 sqrt(clamp(up, real(0.0), real(1.0))));
 }
 // (up, along) of a place.
 GN_FN real2 skyTableDirection(real2 place)

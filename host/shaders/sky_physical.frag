@@ -12,6 +12,8 @@
 
 // For each body what molecules and many scatterings give, and what dust gives but for its phase.
 layout(set = 0, binding = 8) uniform sampler2DArray sky_tables;
+// There are a moon or stars. A software rasteriser goes through all that a shader might do.
+layout(constant_id = 21) const bool kNight = false;
 layout(location = 0) out vec4 out_light;
 
 vec3 skyOf(int body, vec3 d)
@@ -70,16 +72,11 @@ vec3 starsAt(vec3 d)
 void main()
 {
     vec3 d = normalize(rayOf(gl_FragCoord.xy));
-    vec3 sky = SKY_NIGHT;
-    vec3 high = vec3(0.0);
-    for (int body = 0; body < 2; ++body) {
-        if (SKY_TIMES(body).x > 0.0) {
-            sky += skyOf(body, d);
-            high += discOf(body, d);
-        }
-    }
-    if (SKY_STARS > 0.0) {
-        high += starsAt(d) * SKY_STARS;
+    vec3 sky = SKY_NIGHT + skyOf(0, d);
+    vec3 high = discOf(0, d);
+    if (kNight) {
+        sky += skyOf(1, d);
+        high += discOf(1, d) + starsAt(d) * SKY_STARS;
     }
     sky = mix(sky, SKY_GROUND, groundShare(d.y));
     out_light = shown(sky + high * smoothstep(-0.002, 0.002, d.y), 1.0);

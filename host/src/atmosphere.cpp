@@ -120,7 +120,8 @@ private:
     {
         for (std::size_t j = 0; j < manifold_.height; ++j) {
             const double radius =
-                kEarth_km + std::max(kAir_km * squared(static_cast<double>(j) / static_cast<double>(manifold_.height - 1)), 0.01);
+                kEarth_km +
+                std::max(kAir_km * squared(static_cast<double>(j) / static_cast<double>(manifold_.height - 1)), 0.01);
             for (std::size_t i = 0; i < manifold_.width; ++i) {
                 const double s =
                     kLowest + (1.0 - kLowest) * static_cast<double>(i) / static_cast<double>(manifold_.width - 1);

@@ -35,9 +35,9 @@ struct SkyUnder {
     static constexpr std::size_t across = 32; // azimuths, of skyTablePlace().x
     static constexpr std::size_t up = 40;     // heights, of .y
     using Table = std::array<glm::vec3, across * up>;
-    Table molecules; // radiance but for what dust scatters once
-    Table dust;      // that, but for its phase; per steradian
-    double largest = 1.0; // number in both
+    Table molecules;         // radiance but for what dust scatters once
+    Table dust;              // that, but for its phase; per steradian
+    double largest = 1.0;    // number in both
     glm::dvec3 direct{0.0};  // illuminance of a surface that is square to the light
     glm::dvec3 diffuse{0.0}; // of level ground, by the sky alone
     Skylight light;          // by the sky alone, with the light's azimuth along +x

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photometry is absolute here: lux and candela per square metre, until the exposure makes a picture of them. Illuminance
-// of the full moon: S. Urban, P. Seidelmann (ed.), "Explanatory Supplement to the Astronomical Almanac", 2013.
-// Compiled alone: adaptation.h in double precision.
+// Photometry is absolute here: lux and candela per square metre, until the exposure makes a picture of them.
+// Illuminance of the full moon: S. Urban, P. Seidelmann (ed.), "Explanatory Supplement to the Astronomical Almanac",
+// 2013. Compiled alone: adaptation.h in double precision.
 #define GNOMON_REAL double
 #include "host/shaders/adaptation.h"
 
@@ -175,14 +175,15 @@ void Daylight::fillPlain(std::span<const ShadedLight> lights, const Aabb& bounds
     light_.emission = environment.exposure;
     light_.lamps = 0.0;
     light_.stars = 0.0;
+    light_.night_sky = false;
     light_.zenith = glm::dvec3(environment.sky_zenith) * light_.emission;
     light_.horizon = glm::dvec3(environment.sky_horizon) * light_.emission;
     light_.ground = glm::dvec3(environment.ground) * light_.emission;
     const glm::dvec3 above = 0.5 * (light_.zenith + light_.horizon);
     const double strength = environment.ambient * kBounced;
     for (int c = 0; c < 3; ++c) { // from the ground's below to the sky's above, by the height of the normal
-        light_.skylight.linear[c] = strength * glm::dvec4(0.0, 0.5 * (above[c] - light_.ground[c]), 0.0,
-                                                          0.5 * (above[c] + light_.ground[c]));
+        light_.skylight.linear[c] =
+            strength * glm::dvec4(0.0, 0.5 * (above[c] - light_.ground[c]), 0.0, 0.5 * (above[c] + light_.ground[c]));
     }
 }
 
@@ -217,7 +218,8 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
     if (moon != nullptr && sineOf(*moon) > kMoonlit && sineOf(sun) < kMoonlit) {
         placeBody(1, *moon);
     }
-    const glm::dvec3 moon_colour = moon != nullptr ? glm::dvec3(moon->colour) / luminance(moon->colour) : glm::dvec3(1.0);
+    const glm::dvec3 moon_colour =
+        moon != nullptr ? glm::dvec3(moon->colour) / luminance(moon->colour) : glm::dvec3(1.0);
     const std::array<glm::dvec3, kSkyBodies> outside{glm::dvec3(kSun_lx), kMoon_lx * moon_colour};
     const glm::dvec3 stars = kStars_lx * kStarlight;
 
@@ -268,7 +270,8 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
         SkyBody& body = light_.bodies[i];
         if (body.under != nullptr) {
             body.times = outside[i] * exposure;
-            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z), body.times * kBouncedToo);
+            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z),
+                                body.times * kBouncedToo);
             const glm::dvec3 colour = body.under->direct * (i == 0 ? glm::dvec3(1.0) : moon_colour);
             // A disc is far beyond what a screen shows: it has the colour, and is as bright as a lamp.
             const double bright = i == 0 ? 12.0 : 1.6;
@@ -278,6 +281,7 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
     light_.emission = camera;
     light_.lamps = camera * smoothStep(3.2, 1.5, std::log10(around.dome_lx));
     light_.stars = camera * smoothStep(0.5, -1.3, std::log10(around.dome_lx));
+    light_.night_sky = light_.stars > 0.0 || light_.bodies[1].under != nullptr;
 }
 
 } // namespace gnomon::host

@@ -18,7 +18,7 @@ struct SkyBody {
     glm::dvec3 towards_ws{0.0, 1.0, 0.0};
     glm::dvec3 times{0.0}; // exposed radiance of the sky per unit of SkyUnder's tables
     glm::dvec3 disc{0.0};  // exposed radiance of its disc
-    double cos_radius = 1.0;
+    double cos_radius = 0.9999;
     /// The tables, and a number that says which they are: another one when they have changed. 0: there is no body.
     const SkyUnder* under = nullptr;
     std::uint64_t version = 0;
@@ -36,8 +36,9 @@ struct FrameLight {
     glm::dvec3 horizon{0.0};
     glm::dvec3 ground{0.0}; // what is seen below the horizon, in either sky
     std::array<SkyBody, kSkyBodies> bodies;
-    double stars = 0.0; // how bright they are
-    glm::dvec3 night{0.0}; // radiance of a sky without sun and moon
+    bool night_sky = false; // there are a moon or stars
+    double stars = 0.0;     // how bright they are
+    glm::dvec3 night{0.0};  // radiance of a sky without sun and moon
 };
 
 /// What brings the brightest light, at its full strength, to the range that the tone curve is made for; multiplies all

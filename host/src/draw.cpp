@@ -225,7 +225,7 @@ void FrameRenderer::Impl::choosePipelines()
                                      [](const Light& l) { return l.type == LightType::directional; });
     by.phong_2005 = options.reflection == Reflection::phong_2005;
     by.toned = toned;
-    sky = pipelines.skyFor({.toned = toned, .physical = all_light->physical});
+    sky = pipelines.skyFor({.toned = toned, .physical = all_light->physical, .night = all_light->night_sky});
     if (forward.on) {
         chooseForward(by);
         return;

@@ -67,7 +67,8 @@ std::shared_ptr<Screen> FrameRenderer::Impl::makeScreen(const RenderOptions& wis
     for (const Slot& one : slots) {
         frame_data.push_back(one.frame_data);
     }
-    return std::make_shared<Screen>(scene, wish, frame_data, sky_table ? sky_table->descriptor() : scene.textures.cookies());
+    return std::make_shared<Screen>(scene, wish, frame_data,
+                                    sky_table ? sky_table->descriptor() : scene.textures.cookies());
 }
 
 void FrameRenderer::Impl::settle() noexcept

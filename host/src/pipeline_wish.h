@@ -21,10 +21,11 @@ enum Constant : std::uint32_t {
     kTechnique,                                                      // pack::TechniqueConstants
     kInSoftware = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
     kDrawsSky,                                                       // screen.vert
+    kNight,                                                          // sky_physical.frag
     kMostConstants
 };
 
-static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20); // forward.frag, by_vertex.glsl
+static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21); // forward.frag, by_vertex.glsl
 
 struct Pipelines::Wish {
     const char* name = "";

@@ -344,6 +344,7 @@ VkPipeline Pipelines::makeSky(const SkyFacts& facts)
     wish.fragment = facts.physical ? "sky_physical.frag" : "sky.frag";
     wish.constants[kToned] = facts.toned ? VK_TRUE : VK_FALSE;
     wish.constants[kDrawsSky] = VK_TRUE;
+    wish.constants[kNight] = facts.night ? VK_TRUE : VK_FALSE;
     return make(wish);
 }
 

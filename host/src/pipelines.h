@@ -101,6 +101,7 @@ struct ForwardFacts {
 struct SkyFacts {
     bool toned = false;
     bool physical = false;
+    bool night = false; // with a moon or stars
 
     bool operator==(const SkyFacts&) const = default;
 };

@@ -16,8 +16,8 @@ namespace gnomon::host {
 /// Frames that the GPU has not finished share one, so it lives until the last of them is done.
 class Screen {
 public:
-    /// `frame_data`: the uniform buffer of each slot. `sky_tables`: any array where there are none. Throws Error for sizes and options beyond their range or the
-    /// device's limits, or when memory runs out.
+    /// `frame_data`: the uniform buffer of each slot. `sky_tables`: any array where there are none. Throws Error for
+    /// sizes and options beyond their range or the device's limits, or when memory runs out.
     Screen(SceneData& scene, const RenderOptions& options, std::span<const Buffer> frame_data,
            const VkDescriptorImageInfo& sky_tables);
     ~Screen() = default;

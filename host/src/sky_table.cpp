@@ -62,6 +62,12 @@ bool SkyTable::bring(std::uint32_t slot, const FrameLight& light)
 void SkyTable::record(VkCommandBuffer cmd, std::uint32_t slot)
 {
     barrier(cmd, image_, ever_ ? kSampled : discardAfter(kSampled), kCopyTarget);
+    if (!ever_) { // tables that are not there yet are read as nothing
+        const VkClearColorValue nothing{};
+        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, image_.layers};
+        vkCmdClearColorImage(cmd, image_.handle, kCopyTarget.layout, &nothing, 1, &all);
+        barrier(cmd, image_, kCopyTarget, kCopyTarget);
+    }
     ever_ = true;
     for (std::uint32_t i = 0; i < kSkyBodies; ++i) {
         if (fresh_[i]) {

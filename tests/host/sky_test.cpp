@@ -284,7 +284,8 @@ TEST(Daylight, KeepsThePlainSky)
     const glm::dvec3 above = 0.5 * glm::dvec3(environment.sky_zenith + environment.sky_horizon);
     const double strength = environment.ambient * 1.5;
     EXPECT_NEAR(glm::distance(light.skylight.on({0.0, 1.0, 0.0}), above * strength), 0.0, 1e-9);
-    EXPECT_NEAR(glm::distance(light.skylight.on({0.0, -1.0, 0.0}), glm::dvec3(environment.ground) * strength), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(light.skylight.on({0.0, -1.0, 0.0}), glm::dvec3(environment.ground) * strength), 0.0,
+                1e-9);
 }
 
 TEST(Adaptation, IsTheArticles)

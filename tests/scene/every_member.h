@@ -226,8 +226,7 @@ inline const std::vector<Change<NamedView>> kNamedViewChanges{
 inline const std::vector<Change<Environment>> kEnvironmentChanges{
     of("sky_zenith", &Environment::sky_zenith), of("sky_horizon", &Environment::sky_horizon),
     of("ground", &Environment::ground),         of("ambient", &Environment::ambient),
-    of("exposure", &Environment::exposure),
-    of("ground_albedo", &Environment::ground_albedo),
+    of("exposure", &Environment::exposure),     of("ground_albedo", &Environment::ground_albedo),
 };
 inline const std::vector<Change<Scene>> kSceneChanges{
     more("images", &Scene::images),
