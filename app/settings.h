@@ -63,8 +63,12 @@ struct Settings {
     std::string scene_hash; // of the scene that a preset's result was measured on; empty: no preset was a result
     // picture
     glm::uvec2 size_px{0};
-    host::AntiAliasing anti_aliasing = host::AntiAliasing::none;
+    std::optional<host::AntiAliasing> anti_aliasing; // nothing: antiAliasingOf() chooses
     host::BloomOptions bloom;
+    std::optional<bool> ambient_occlusion;           // nothing: hasOcclusion() chooses
+    std::optional<double> occlusion_radius_m;        // else found from the scene
+    host::ToneCurve tone = host::ToneCurve::neutral;
+    bool dither = true;
     host::Reflection reflection = host::Reflection::materials;
     host::SkyModel sky = host::SkyModel::physical;
     double exposure_ev = 0.0;
@@ -200,6 +204,11 @@ struct Setting {
 [[nodiscard]] bool isUsed(const Setting& setting, const Settings& settings);
 /// What one types for it: "--size", "--set pcf.taps".
 [[nodiscard]] std::string spelled(const Setting& setting);
+
+/// What --aa auto is: fxaa for a picture that is looked at, none for one that is measured or a mask.
+[[nodiscard]] host::AntiAliasing antiAliasingOf(const Settings& settings);
+/// Likewise of ambient-occlusion, which a mask and forward shading have none of.
+[[nodiscard]] bool hasOcclusion(const Settings& settings);
 
 /// All defaults applied.
 [[nodiscard]] Settings defaultSettings();

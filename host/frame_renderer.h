@@ -24,6 +24,11 @@ namespace gnomon::host {
 /// side) and averages them.
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
+/// How light becomes what a screen can show. `neutral`: Khronos PBR Neutral, 2024, which keeps hues. `filmic`: K.
+/// Narkowicz, 2015, of each channel by itself, which has more contrast and turns bright orange to yellow. Both show a grey
+/// of 18 % in full light alike.
+enum class ToneCurve : std::uint8_t { neutral, filmic };
+
 /// How surfaces reflect. `phong_2005`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
 /// ambient light, a diffuse and a specular term of the base colour, the latter by the angle between eye and reflected
 /// ray to the power of 8. Blended surfaces stay as they are.
@@ -52,6 +57,13 @@ struct BloomOptions {
     std::uint32_t levels = 6; // halvings, each of which doubles the glow's reach; 1 to 8, and no more than the size has
 };
 
+/// Ambient occlusion: where surfaces near by hide part of the sky, its light is less. It is found from depths on the
+/// screen, so what is not in the picture hides nothing. Of light that no lamp or sun gives alone.
+struct AmbientOcclusionOptions {
+    bool on = false;       // nothing where a frame is shaded forward, or Reflection has no ambient light
+    float radius_m = 0.0F; // how far what hides may be; [0, 1e6]. 0: found from the scene, see occlusionRadius()
+};
+
 struct RenderOptions {
     std::uint32_t width = 1280; // pixels; changed by FrameRenderer::resize()
     std::uint32_t height = 720;
@@ -59,6 +71,9 @@ struct RenderOptions {
     BloomOptions bloom;
     SkyModel sky = SkyModel::plain;
     double exposure_ev = 0.0; // stops by which the picture is brighter than its light asks for; [-16, 16]
+    AmbientOcclusionOptions ambient_occlusion;
+    ToneCurve tone = ToneCurve::neutral;
+    bool dither = false; // noise of one step at most, the same for ever at a pixel, before the picture is rounded to 8 bits
     Reflection reflection = Reflection::materials;
     /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
     /// same.

@@ -14,7 +14,7 @@ using enum SettingType;
 using Group = SettingGroup;
 using Value = SettingValue;
 
-constexpr std::array<std::string_view, 3> kAntiAliasing{"none", "fxaa", "ssaa4"};
+constexpr std::array<std::string_view, 4> kAntiAliasing{"auto", "none", "fxaa", "ssaa4"};
 
 std::vector<std::string_view> antiAliasingNames()
 {
@@ -38,11 +38,46 @@ glm::dvec3 direction(std::string_view key, const glm::dvec3& vector)
 
 void applyAntiAliasing(Settings& s, const Value& v)
 {
-    for (std::size_t i = 0; i < kAntiAliasing.size(); ++i) {
+    s.anti_aliasing.reset();
+    for (std::size_t i = 1; i < kAntiAliasing.size(); ++i) {
         if (kAntiAliasing[i] == v.text) {
-            s.anti_aliasing = static_cast<host::AntiAliasing>(i);
+            s.anti_aliasing = static_cast<host::AntiAliasing>(i - 1);
         }
     }
+}
+
+/// Else it is measured, and is to stay comparable with what was measured before.
+bool isLookedAt(const Settings& s)
+{
+    return (s.subcommand & (kRender | kView)) != 0 && !s.mask;
+}
+
+constexpr std::array<std::string_view, 3> kOcclusion{"auto", "off", "on"};
+
+std::vector<std::string_view> occlusionNames()
+{
+    return {kOcclusion.begin(), kOcclusion.end()};
+}
+void applyOcclusion(Settings& s, const Value& v)
+{
+    s.ambient_occlusion = v.text == "auto" ? std::nullopt : std::optional(v.text == "on");
+}
+/// Of a G-buffer and light of the sky. With the ray tracer's masks shading is deferred whatever is said.
+bool mayBeOccluded(const Settings& s)
+{
+    const bool deferred = s.shading == host::Shading::deferred || s.truth.has_value();
+    return !s.mask && deferred && s.reflection == host::Reflection::materials;
+}
+
+constexpr std::array<std::string_view, 2> kToneCurves{"neutral", "filmic"};
+
+std::vector<std::string_view> toneNames()
+{
+    return {kToneCurves.begin(), kToneCurves.end()};
+}
+void applyTone(Settings& s, const Value& v)
+{
+    s.tone = v.text == kToneCurves[1] ? host::ToneCurve::filmic : host::ToneCurve::neutral;
 }
 
 constexpr std::array<std::string_view, 3> kCompactMasks{"none", "4", "8"};
@@ -177,8 +212,18 @@ const std::vector<Setting>& rows()
         // clang-format off
         {.key = "size", .group = Group::picture, .type = size, .form = "WxH", .unit = "pixels", .default_text = "1280x720", .min = 1, .max = 1e6,
          .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
-        {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "none", .choices = antiAliasingNames,
-         .doc = "anti-aliasing of the picture: none, fxaa or ssaa4", .subcommands = kPictures, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+        {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = antiAliasingNames,
+         .doc = "anti-aliasing: none, fxaa, ssaa4; auto: fxaa, but none in bench", .subcommands = kPictures, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+        {.key = "ambient-occlusion", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = occlusionNames,
+         .doc = "less of the sky's light where surfaces near by hide it: off or on; auto: on, but off in bench", .subcommands = kPictures, .own_option = false, .used = mayBeOccluded,
+         .used_when = "a picture (not --mask), shading deferred and reflection materials", .apply = applyOcclusion},
+        {.key = "ambient-occlusion.radius", .group = Group::picture, .type = real, .form = "METRES", .unit = "m", .min = 1e-6, .max = 1e6,
+         .doc = "how far what hides the sky may be; else found from the sizes of what is in the scene", .subcommands = kPictures, .own_option = false, .used = hasOcclusion,
+         .used_when = "ambient occlusion", .apply = [](Settings& s, const Value& v) { s.occlusion_radius_m = v.real; }},
+        {.key = "tone", .group = Group::picture, .type = choice, .form = "CURVE", .default_text = "neutral", .choices = toneNames,
+         .doc = "from light to what a screen shows: neutral keeps hues, filmic has more contrast and turns bright orange to yellow", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyTone},
+        {.key = "dither", .group = Group::picture, .type = flag, .default_text = "1", .doc = "noise of a step of 255 at most, so that gradients have no contours",
+         .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.dither = v.flag; }},
         {.key = "compact-mask", .group = Group::picture, .type = choice, .form = "CHANNELS", .default_text = "none", .choices = compactMaskNames,
          .doc = "channels of the mask for each tile of the picture, 4 or 8, instead of one for each light: none, 4 or 8", .subcommands = kPictures, .own_option = false, .used = mayBeCompact,
          .used_when = "a picture with shadows from maps (not --mask, --debug, --truth), soften=none, motion free or snap, translucent=grey and mask-size=full", .apply = applyCompactMask},
@@ -254,6 +299,17 @@ const std::vector<Setting>& rows()
 }
 
 } // namespace
+
+host::AntiAliasing antiAliasingOf(const Settings& settings)
+{
+    const auto chosen = isLookedAt(settings) ? host::AntiAliasing::fxaa : host::AntiAliasing::none;
+    return settings.anti_aliasing.value_or(chosen);
+}
+
+bool hasOcclusion(const Settings& settings)
+{
+    return mayBeOccluded(settings) && settings.ambient_occlusion.value_or(isLookedAt(settings));
+}
 
 void addSceneRows(std::vector<Setting>& table)
 {

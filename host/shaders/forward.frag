@@ -7,6 +7,7 @@
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
+#include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #ifdef GNOMON_FILTER
 #define GNOMON_SET 2
 #define GNOMON_TINTS kTints
@@ -28,7 +29,6 @@ uint receiver_piece;
 #define FRAME_DEPTH frame.depth
 #include "material.glsl"
 #include "shaded_lights.glsl"
-#include "shown.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2DArray cookies;
 
@@ -89,7 +89,7 @@ void main()
     vec3 own_tint = ownTint();
     vec3 sum = emitted + (kOpaque ? lampLight(surface.lit) : vec3(0.0));
     if (!phong_2005) {
-        sum += ambient(s, model == 1.0 ? 1.0 : second, surface.occlusion);
+        sum += ambient(s, model == 1.0 ? 1.0 : second, vec3(surface.occlusion), surface.occlusion);
     }
     if (kFixedLights > 0) {
         for (uint i = 0; i < kFixedLights; ++i) {

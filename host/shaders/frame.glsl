@@ -16,7 +16,9 @@ const int kMaxLights = 128;
 layout(set = 0, binding = 0, std140) uniform FrameData
 {
     mat4 clip_from_eye;
-    vec4 ray_x; // eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d
+    // Eye-relative position of pixel p at view depth d: (ray_x * p.x + ray_y * p.y + ray_0) * d. w of the first: radius of
+    // ambient occlusion, m.
+    vec4 ray_x;
     vec4 ray_y;
     vec4 ray_0;
     vec4 depth; // 1 / view depth = x * stored depth + y; z: 1 when there is a mask; w: light of lit windows

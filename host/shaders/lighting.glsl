@@ -111,13 +111,14 @@ vec3 hemisphere(vec3 n)
 // Behind a pane when it is dark outside; `lit`: StoredSurface::lit.
 vec3 lampLight(float lit) { return vec3(1.0, 0.56, 0.22) * (lit * FRAME_DEPTH.w); }
 
-vec3 ambient(Lit s, float roughness, float occlusion)
+// `seen`: the share of the sky that is not hidden, of each colour; `mirrored`: of what is reflected.
+vec3 ambient(Lit s, float roughness, vec3 seen, float mirrored)
 {
     vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a004 = min(r.x * r.x, exp2(-9.28 * s.n_v)) * r.x + r.y;
     vec2 ab = vec2(-1.04, 1.04) * a004 + r.zw;
     vec3 specular = (s.f0 * ab.x + ab.y) * hemisphere(reflect(-s.v, s.n));
-    return (s.diffuse * hemisphere(s.n) + specular) * occlusion;
+    return s.diffuse * hemisphere(s.n) * seen + specular * mirrored;
 }
 
 #endif

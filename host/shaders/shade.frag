@@ -9,7 +9,10 @@
 #include "shaded_lights.glsl"
 #include "gbuffer_surface.glsl"
 #include "shown.glsl"
+#include "ambient_occlusion.h"
+#include "occlusion_here.glsl"
 
+layout(constant_id = 22) const bool kOccluded = false;
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform usampler2D surfaces;
 layout(set = 0, binding = 3) uniform sampler2DArray mask;
@@ -41,6 +44,18 @@ vec3 seenOf(uint i)
     return (slot & 4) != 0 ? texel.rgb : vec3(texel[slot & 3]);
 }
 
+// Light of the sky. What the material says of its own creases and what the picture shows of them is often the same.
+vec3 ambientHere(Lit s, float roughness, float own_occlusion, float view_depth)
+{
+    if (!kOccluded) {
+        return ambient(s, roughness, vec3(own_occlusion), own_occlusion);
+    }
+    float seen = min(own_occlusion, seenHere(s.p, view_depth));
+    vec3 bounced = vec3(bouncedOcclusion(seen, s.diffuse.r), bouncedOcclusion(seen, s.diffuse.g),
+                        bouncedOcclusion(seen, s.diffuse.b));
+    return ambient(s, roughness, bounced, specularOcclusion(seen, s.n_v, roughness));
+}
+
 void main()
 {
     StoredSurface stored = unpackSurface(texelHere(surfaces).xyz);
@@ -51,11 +66,12 @@ void main()
         return;
     }
     float depth = texelHere(depths).r;
-    vec3 p = rayOf(gl_FragCoord.xy) / (FRAME_DEPTH.x * depth + FRAME_DEPTH.y);
+    float near = FRAME_DEPTH.x * depth + FRAME_DEPTH.y; // 1 / view depth
+    vec3 p = rayOf(gl_FragCoord.xy) / near;
     float second = model == 1.0 ? exp2(stored.second * 16.0) - 1.0 : stored.second;
     Lit s = litSurface(p, stored.shading_normal, base.rgb, kPhong2005 ? 0.0 : stored.metallic, second,
                        kPhong2005 ? 1.0 : model);
-    vec3 sum = kPhong2005 ? vec3(0.0) : ambient(s, model == 1.0 ? 1.0 : stored.second, base.a);
+    vec3 sum = kPhong2005 ? vec3(0.0) : ambientHere(s, model == 1.0 ? 1.0 : stored.second, base.a, 1.0 / near);
     sum += lampLight(stored.lit);
 #ifdef HOST_COMPACT_MASK
     ivec2 pixel = ivec2(gl_FragCoord.xy);

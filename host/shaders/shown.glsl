@@ -9,8 +9,7 @@ layout(constant_id = 9) const bool kToned = false; // the light goes through the
 vec4 shown(vec3 light, float alpha)
 {
     if (kToned) {
-        vec3 c = encodeSrgb(filmic(light));
-        return vec4(c, luma(c)); // as tone.frag
+        return encoded(toneOf(light), gl_FragCoord.xy); // as tone.frag
     }
     return vec4(light * alpha, alpha); // premultiplied
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tone curve, on the light with what glows added; with supersampling also the average of four samples, after the curve, so that edges against bright
-// surfaces stay smooth. Alpha holds the luma, for the pass that smooths edges.
+// The tone curve, on the light with what glows added; with supersampling also the average of four samples, after the
+// curve, so that edges against bright surfaces stay smooth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "bloom_tent.glsl"
@@ -18,7 +18,7 @@ layout(location = 0) out vec4 out_colour;
 vec3 shown(ivec2 sample_at, vec3 added)
 {
     vec3 light = texelFetch(radiance, sample_at, 0).rgb;
-    return filmic(kBloom ? light + added : light);
+    return toneOf(kBloom ? light + added : light);
 }
 
 void main()
@@ -37,6 +37,5 @@ void main()
     } else {
         c = shown(pixel, added);
     }
-    c = encodeSrgb(c);
-    out_colour = vec4(c, luma(c));
+    out_colour = encoded(c, gl_FragCoord.xy);
 }

@@ -2,12 +2,12 @@
 // From linear radiance to what a screen is sent.
 #ifndef HOST_TONE_GLSL
 #define HOST_TONE_GLSL
+#include "tone_curve.h"
 
-// Filmic curve: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015. Exposure is chosen for this curve (frame_data.cpp).
-vec3 filmic(vec3 x)
-{
-    return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
+layout(constant_id = 23) const bool kFilmic = false; // ToneCurve
+layout(constant_id = 24) const bool kDither = false;
+
+vec3 toneOf(vec3 light) { return kFilmic ? filmicTone(light) : neutralTone(light); }
 
 // IEC 61966-2-1.
 vec3 encodeSrgb(vec3 c)
@@ -18,5 +18,18 @@ vec3 encodeSrgb(vec3 c)
 }
 
 float luma(vec3 encoded) { return dot(encoded, vec3(0.2126, 0.7152, 0.0722)); }
+
+// What is written for a pixel; alpha holds the luma, for the pass that smooths edges. Each channel has noise of its own.
+vec4 encoded(vec3 toned, vec2 pixel)
+{
+    vec3 c = encodeSrgb(toned);
+    float bright = luma(c);
+    if (kDither) {
+        c.r = dithered(c.r, gradientNoise(pixel));
+        c.g = dithered(c.g, gradientNoise(pixel + vec2(47.0, 17.0)));
+        c.b = dithered(c.b, gradientNoise(pixel + vec2(13.0, 83.0)));
+    }
+    return vec4(c, bright);
+}
 
 #endif

@@ -165,6 +165,8 @@ void FrameRenderer::Impl::update(const scene::State& state)
 {
     if (objects.size() == 0) {
         fillObjectSet(state, objects, scene.table.closed, scene.table.pieces);
+        const float radius_m = options.ambient_occlusion.radius_m;
+        occlusion_radius_m = radius_m > 0.0F ? radius_m : occlusionRadius(state);
     }
     const bool deforms = scene.geometry.deforms();
     const bool deformed = deforms && deformed_at_s != state.time_s;
@@ -216,9 +218,10 @@ void FrameRenderer::Impl::choosePipelines()
 {
     Pipelines& pipelines = scene.pipelines;
     // What blends, emits or glows is added to light, and supersampling averages it.
-    toned = !options.keeps_light && pipelines.blended.whole == VK_NULL_HANDLE &&
-            pipelines.emissive.whole == VK_NULL_HANDLE && !screen->bloom &&
-            options.anti_aliasing != AntiAliasing::ssaa4;
+    const bool at_once = !options.keeps_light && pipelines.blended.whole == VK_NULL_HANDLE &&
+                         pipelines.emissive.whole == VK_NULL_HANDLE && !screen->bloom &&
+                         options.anti_aliasing != AntiAliasing::ssaa4;
+    toned = at_once ? Toning{true, options.tone, options.dither} : Toning{};
     ShadedBy by;
     by.fixed_lights = frame_lights.size() <= kMostFixedLights ? static_cast<std::uint32_t>(frame_lights.size()) : 0;
     by.all_directional = std::all_of(frame_lights.begin(), frame_lights.end(),
@@ -233,6 +236,11 @@ void FrameRenderer::Impl::choosePipelines()
     gbuffer.shape = plan != nullptr ? shadows->reads : GBufferShape{};
     gbuffer.pipelines = &pipelines.gbufferFor(gbuffer.shape);
     screen->needGBuffer(gbuffer.shape);
+    occluded = options.ambient_occlusion.on && options.reflection == Reflection::materials;
+    by.occluded = occluded;
+    if (occluded) {
+        screen->needOcclusion();
+    }
     shade = pipelines.shadeFor(by);
     by.fixed_lights = 0; // tiles have any number
     by.all_directional = false;
@@ -287,6 +295,7 @@ void FrameRenderer::Impl::writeFrameData(const std::vector<ShadedLight>& lights)
     const VkExtent2D drawn = screen->targets.drawn;
     fillFrameData(data, sight, drawn.width, drawn.height, lights, cookie_layers, *all_light,
                   finished.masks.image != VK_NULL_HANDLE);
+    data.ray_x.w = static_cast<float>(occlusion_radius_m);
     for (std::size_t i = 0; plan != nullptr && i < lights.size(); ++i) {
         const LightPlan& planned = plan->lights[i];
         data.lights[i].right.w = maskSlot(planned.mask_layer, planned.mask_channel, planned.mask_coloured);
@@ -344,7 +353,7 @@ void FrameRenderer::Impl::describeFrame()
     finished.drawn = targets.drawn;
     finished.shown = targets.shown;
     finished.picture = refOf(targets.picture, kCopySource);
-    finished.light = toned ? vulkan::ImageRef{} : refOf(targets.light, kSampled);
+    finished.light = toned.on ? vulkan::ImageRef{} : refOf(targets.light, kSampled);
     finished.glow = screen->bloom ? refOf(screen->bloom->result(), kSampled) : vulkan::ImageRef{};
     finished.depth = refOf(targets.depth, kDepthRead);
     finished.light_count = frame_lights.size();

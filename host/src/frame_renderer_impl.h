@@ -69,7 +69,8 @@ struct FrameRenderer::Impl {
         GBufferShape shape;
         const KindPipelines* pipelines = nullptr;
     } gbuffer;
-    bool toned = false; // what shades goes through the tone curve at once
+    bool occluded = false; // shaded deferred, with ambient occlusion
+    Toning toned;          // what shades
     VkPipeline sky = VK_NULL_HANDLE;
     VkPipeline shade = VK_NULL_HANDLE;
     VkPipeline shade_compact = VK_NULL_HANDLE; // in its place where the mask is compact
@@ -98,6 +99,7 @@ struct FrameRenderer::Impl {
     std::uint64_t next_index = 0;
     std::uint64_t next_sample = 0;       // with RenderOptions::average_pixels
     std::optional<double> deformed_at_s; // as `objects` has been told
+    double occlusion_radius_m = 0.0;
     Plan no_plan;
 
     [[nodiscard]] std::shared_ptr<Screen> makeScreen(const RenderOptions& wish) const;
@@ -137,6 +139,7 @@ struct FrameRenderer::Impl {
     void recordMaps(VkCommandBuffer cmd, const vulkan::MaskInputs& inputs);
     void recordShadows(VkCommandBuffer cmd);
     void recordInstead(VkCommandBuffer cmd);
+    void recordOcclusion(VkCommandBuffer cmd);
     void recordLight(VkCommandBuffer cmd);
     std::uint32_t recordBlended(VkCommandBuffer cmd);
     void recordBloom(VkCommandBuffer cmd);

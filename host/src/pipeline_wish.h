@@ -22,10 +22,14 @@ enum Constant : std::uint32_t {
     kInSoftware = kTechnique + sizeof(pack::TechniqueConstants) / 4, // set by make()
     kDrawsSky,                                                       // screen.vert
     kNight,                                                          // sky_physical.frag
+    kOccluded,
+    kFilmic,
+    kDither,
     kMostConstants
 };
 
-static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21); // forward.frag, by_vertex.glsl
+// forward.frag, by_vertex.glsl, shade.frag, tone.glsl
+static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21 && kOccluded == 22 && kDither == 24);
 
 struct Pipelines::Wish {
     const char* name = "";

@@ -101,7 +101,7 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
 void Pipelines::makeLayouts(VkDescriptorSetLayout material)
 {
     VkDevice device = gpu_.view().device;
-    std::array<VkDescriptorSetLayoutBinding, 9> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, kFrameBindings> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
@@ -337,12 +337,11 @@ VkPipeline Pipelines::makeSky(const SkyFacts& facts)
 {
     Wish wish;
     wish.vertex = "screen.vert";
-    wish.colours = {facts.toned ? &kPictureFormat : &kLightFormat, 1};
+    setToning(wish, facts.toned);
     wish.depth = true;
     wish.compare = VK_COMPARE_OP_EQUAL;
     wish.name = "sky";
     wish.fragment = facts.physical ? "sky_physical.frag" : "sky.frag";
-    wish.constants[kToned] = facts.toned ? VK_TRUE : VK_FALSE;
     wish.constants[kDrawsSky] = VK_TRUE;
     wish.constants[kNight] = facts.night ? VK_TRUE : VK_FALSE;
     return make(wish);
@@ -361,6 +360,8 @@ VkPipeline Pipelines::toneFor(const ToneFacts& facts)
     wish.colours = {&kPictureFormat, 1};
     wish.constants = {facts.average_four, facts.bloom > 0.0F, std::bit_cast<VkBool32>(facts.bloom),
                       std::bit_cast<VkBool32>(facts.bloom_radius)};
+    wish.constants[kFilmic] = facts.curve == ToneCurve::filmic;
+    wish.constants[kDither] = facts.dither;
     return tone_.emplace_back(facts, make(wish)).second;
 }
 
@@ -377,6 +378,32 @@ VkPipeline Pipelines::fxaa()
     return fxaa_;
 }
 
+VkPipeline Pipelines::makeOcclusion(const char* name, std::string_view fragment)
+{
+    Wish wish;
+    wish.name = name;
+    wish.vertex = "screen.vert";
+    wish.fragment = fragment;
+    wish.colours = {&kOcclusionFormat, 1};
+    return make(wish);
+}
+
+VkPipeline Pipelines::occlusionSearch()
+{
+    if (occlusion_search_ == VK_NULL_HANDLE) {
+        occlusion_search_ = makeOcclusion("occlusion search", "occlusion_search.frag");
+    }
+    return occlusion_search_;
+}
+
+VkPipeline Pipelines::occlusionSmooth()
+{
+    if (occlusion_smooth_ == VK_NULL_HANDLE) {
+        occlusion_smooth_ = makeOcclusion("occlusion smooth", "occlusion_smooth.frag");
+    }
+    return occlusion_smooth_;
+}
+
 void Pipelines::setKind(Wish& wish, SurfaceKind kind)
 {
     wish.constants[kBaseTexture] = kind != SurfaceKind::plain;
@@ -389,8 +416,16 @@ void Pipelines::setLights(Wish& wish, const ShadedBy& by) const
     wish.constants[kDirectionalOnly] = by.all_directional ? VK_TRUE : VK_FALSE;
     wish.constants[kPhysicalOnly] = physical_only_ ? VK_TRUE : VK_FALSE;
     wish.constants[kPhong2005] = by.phong_2005 ? VK_TRUE : VK_FALSE;
-    wish.constants[kToned] = by.toned ? VK_TRUE : VK_FALSE;
-    wish.colours = {by.toned ? &kPictureFormat : &kLightFormat, 1};
+    wish.constants[kOccluded] = by.occluded ? VK_TRUE : VK_FALSE;
+    setToning(wish, by.toned);
+}
+
+void Pipelines::setToning(Wish& wish, const Toning& toned)
+{
+    wish.constants[kToned] = toned.on ? VK_TRUE : VK_FALSE;
+    wish.constants[kFilmic] = toned.curve == ToneCurve::filmic ? VK_TRUE : VK_FALSE;
+    wish.constants[kDither] = toned.dither ? VK_TRUE : VK_FALSE;
+    wish.colours = {toned.on ? &kPictureFormat : &kLightFormat, 1};
 }
 
 VkPipeline Pipelines::makeShade(const ShadedBy& by, bool compact)

@@ -4,6 +4,8 @@
 
 #include "draw_table.h"
 
+#include "host/frame_renderer.h"
+
 #include <gnomon/pack/technique_constants.h>
 
 #include <array>
@@ -20,6 +22,8 @@ namespace gnomon::host {
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kLightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
+inline constexpr VkFormat kOcclusionFormat = VK_FORMAT_R32_UINT; // host/shaders/occlusion_texel.glsl
+inline constexpr std::uint32_t kFrameBindings = 12;              // of set 0: numbers, and images from 1 on
 /// What shading reads, with the object's id (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
 inline constexpr std::array<VkFormat, 4> kGBufferFormats{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R16G16_SNORM,
                                                          VK_FORMAT_R32_UINT, VK_FORMAT_R16G16B16A16_SNORM};
@@ -55,8 +59,19 @@ struct InstanceData {
 };
 static_assert(sizeof(InstanceData) == 64);
 
-/// What the tone pass does beside its curve.
+/// Whether what shades or draws the sky writes the finished picture at once, and how.
+struct Toning {
+    bool on = false;
+    ToneCurve curve = ToneCurve::neutral;
+    bool dither = false;
+
+    bool operator==(const Toning&) const = default;
+};
+
+/// What the tone pass does.
 struct ToneFacts {
+    ToneCurve curve = ToneCurve::neutral;
+    bool dither = false;
     bool average_four = false;
     float bloom = 0.0F; // what the bloom's sum is multiplied by; 0: none
     float bloom_radius = 1.0F;
@@ -80,7 +95,8 @@ struct ShadedBy {
     std::uint32_t fixed_lights = 0; // how many lights the frame has, at most kMostFixedLights; 0: any number
     bool all_directional = false;
     bool phong_2005 = false; // Reflection
-    bool toned = false;      // to the finished picture, by the tone curve
+    Toning toned;
+    bool occluded = false;   // deferred: with ambient occlusion
 
     bool operator==(const ShadedBy&) const = default;
 };
@@ -99,7 +115,7 @@ struct ForwardFacts {
 [[nodiscard]] std::string forwardFragment(const ResolvedOptions& options, bool orthographic);
 
 struct SkyFacts {
-    bool toned = false;
+    Toning toned;
     bool physical = false;
     bool night = false; // with a moon or stars
 
@@ -132,6 +148,9 @@ public:
     [[nodiscard]] VkPipeline skyFor(const SkyFacts& facts);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
+    /// The passes of ambient occlusion.
+    [[nodiscard]] VkPipeline occlusionSearch();
+    [[nodiscard]] VkPipeline occlusionSmooth();
 
     OwnedSetLayout frame_layout;
     OwnedPipelineLayout scene_layout;    // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
@@ -151,6 +170,7 @@ private:
     struct Wish;
     enum class Kind : std::uint8_t { none, whole, cut };
     static void setKind(Wish& wish, SurfaceKind kind);
+    static void setToning(Wish& wish, const Toning& toned);
     void setLights(Wish& wish, const ShadedBy& by) const;
     VkPipeline makeShade(const ShadedBy& by, bool compact);
     void makeDepthAlone();
@@ -160,6 +180,7 @@ private:
     SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
     [[nodiscard]] VkPipeline makeSky(const SkyFacts& facts);
+    [[nodiscard]] VkPipeline makeOcclusion(const char* name, std::string_view fragment);
 
     const Gpu& gpu_;
     const DebugNames& names_;
@@ -179,6 +200,8 @@ private:
     bool blended_is_cut_ = false; // somewhere
     std::vector<std::pair<ToneFacts, VkPipeline>> tone_;
     VkPipeline fxaa_ = VK_NULL_HANDLE;
+    VkPipeline occlusion_search_ = VK_NULL_HANDLE;
+    VkPipeline occlusion_smooth_ = VK_NULL_HANDLE;
     bool physical_only_ = false;
     std::vector<OwnedPipeline> all_;
 };

@@ -44,6 +44,9 @@ void FrameRenderer::Impl::recordDeferred(VkCommandBuffer cmd)
     } else if (plan != nullptr) {
         recordShadows(cmd);
     }
+    if (occluded) {
+        recordOcclusion(cmd);
+    }
     recordLight(cmd);
 }
 
@@ -161,6 +164,15 @@ void FrameRenderer::Impl::recordInstead(VkCommandBuffer cmd)
     barrier(cmd, *instead, kCopyTarget, kSampled);
 }
 
+void FrameRenderer::Impl::recordOcclusion(VkCommandBuffer cmd)
+{
+    const Occlusion& occlusion = *screen->occlusion;
+    screenPass(cmd, "ambient occlusion", occlusion.search, occlusion.searched);
+    barrier(cmd, occlusion.searched, kColourWrite, kSampled);
+    screenPass(cmd, "occlusion blur", occlusion.smoothen, occlusion.smooth);
+    barrier(cmd, occlusion.smooth, kColourWrite, kSampled);
+}
+
 void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
 {
     const Targets& targets = screen->targets;
@@ -198,7 +210,7 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
 const Image& FrameRenderer::Impl::shadedTo() const
 {
     const Targets& targets = screen->targets;
-    if (!toned) {
+    if (!toned.on) {
         return targets.light;
     }
     return screen->fxaa != VK_NULL_HANDLE ? targets.toned : targets.picture;
@@ -206,7 +218,7 @@ const Image& FrameRenderer::Impl::shadedTo() const
 
 void FrameRenderer::Impl::endShading(VkCommandBuffer cmd)
 {
-    if (!toned) {
+    if (!toned.on) {
         barrier(cmd, screen->targets.light, kColourWrite, screen->bloom ? kSampledByAll : kSampled);
     }
 }
@@ -254,7 +266,7 @@ void FrameRenderer::Impl::recordPicture(VkCommandBuffer cmd)
 {
     const Targets& targets = screen->targets;
     const bool smooth = screen->fxaa != VK_NULL_HANDLE;
-    if (!toned) {
+    if (!toned.on) {
         screenPass(cmd, "tone", screen->tone, smooth ? targets.toned : targets.picture);
     }
     if (smooth) {

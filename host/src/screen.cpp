@@ -14,10 +14,15 @@ namespace {
 
 constexpr std::uint32_t kSurfacesBinding = 2;
 constexpr std::uint32_t kMaskBinding = 3;
+constexpr std::uint32_t kNormalsBinding = 9;
+constexpr std::uint32_t kSearchedBinding = 10;
+constexpr std::uint32_t kOcclusionBinding = 11;
 
 ToneFacts toneFacts(const RenderOptions& options)
 {
     ToneFacts facts;
+    facts.curve = options.tone;
+    facts.dither = options.dither;
     facts.average_four = options.anti_aliasing == AntiAliasing::ssaa4;
     if (options.bloom.on) {
         const std::uint32_t levels = bloomLevels({options.width, options.height}, options.bloom.levels);
@@ -91,7 +96,7 @@ void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImag
     VkDevice device = scene_.gpu.view().device;
     const auto count = static_cast<std::uint32_t>(frame_data.size());
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * count}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (kFrameBindings - 1) * count}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = sizes.size();
@@ -112,18 +117,21 @@ void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImag
     const VkDescriptorImageInfo cookies = scene_.textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
     const VkImageView glow = bloom ? bloom->result().view : targets.light.view; // not read then
-    const std::array<VkDescriptorImageInfo, 8> images{{{nearest, targets.depth.view, kDepthRead.layout},
+    const std::array<VkDescriptorImageInfo, kFrameBindings - 1> images{{{nearest, targets.depth.view, kDepthRead.layout},
                                                        cookies, // in the place of surfaces
                                                        cookies, // in the mask's place
                                                        cookies,
                                                        {nearest, targets.light.view, kSampled.layout},
                                                        {scene_.textures.plainSampler(), toned, kSampled.layout},
                                                        {scene_.textures.plainSampler(), glow, kSampled.layout},
-                                                       sky_tables}};
+                                                       sky_tables,
+                                                       cookies, // in the place of normals and occlusion
+                                                       cookies,
+                                                       cookies}};
     for (std::uint32_t slot = 0; slot < count; ++slot) {
         memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[slot], "frame");
         const VkDescriptorBufferInfo buffer{frame_data[slot].handle, 0, sizeof(FrameData)};
-        std::array<VkWriteDescriptorSet, 9> writes{};
+        std::array<VkWriteDescriptorSet, kFrameBindings> writes{};
         for (std::uint32_t i = 0; i < writes.size(); ++i) {
             writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
             writes[i].dstSet = sets_[slot];
@@ -138,6 +146,13 @@ void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImag
     }
 }
 
+void Screen::needOcclusion()
+{
+    if (!occlusion) {
+        occlusion.emplace(memory_, scene_.pipelines, targets.drawn);
+    }
+}
+
 VkDescriptorSet Screen::frameSet(std::uint32_t slot, VkImageView mask) const
 {
     // Written every time: a view may have the handle of one that is gone.
@@ -145,20 +160,30 @@ VkDescriptorSet Screen::frameSet(std::uint32_t slot, VkImageView mask) const
     if (mask != VK_NULL_HANDLE) {
         image = {scene_.textures.nearestSampler(), mask, kSampled.layout};
     }
-    const VkDescriptorImageInfo surfaces{scene_.textures.nearestSampler(), targets.surfaces().view, kSampled.layout};
-    std::array<VkWriteDescriptorSet, 2> writes{};
-    for (VkWriteDescriptorSet& write : writes) {
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = sets_[slot];
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    VkSampler nearest = scene_.textures.nearestSampler();
+    const VkDescriptorImageInfo surfaces{nearest, targets.surfaces().view, kSampled.layout};
+    const VkDescriptorImageInfo normals{nearest, targets.normals().view, kSampled.layout};
+    // Where it is not wanted, whole numbers that are not read.
+    const auto occluded = [&](Image Occlusion::*which) {
+        return occlusion ? VkDescriptorImageInfo{nearest, ((*occlusion).*which).view, kSampled.layout} : surfaces;
+    };
+    const std::array<std::pair<std::uint32_t, VkDescriptorImageInfo>, 5> images{
+        {{kMaskBinding, image},
+         {kSurfacesBinding, surfaces},
+         {kNormalsBinding, normals},
+         {kSearchedBinding, occluded(&Occlusion::searched)},
+         {kOcclusionBinding, occluded(&Occlusion::smooth)}}};
+    std::array<VkWriteDescriptorSet, images.size()> writes{};
+    for (std::size_t i = 0; i < writes.size(); ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = sets_[slot];
+        writes[i].dstBinding = images[i].first;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pImageInfo = &images[i].second;
     }
-    writes[0].dstBinding = kMaskBinding;
-    writes[0].pImageInfo = &image;
-    writes[1].dstBinding = kSurfacesBinding;
-    writes[1].pImageInfo = &surfaces;
     const bool shaded_deferred = targets.surfaces().view != VK_NULL_HANDLE;
-    vkUpdateDescriptorSets(scene_.gpu.view().device, shaded_deferred ? 2 : 1, writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(scene_.gpu.view().device, shaded_deferred ? writes.size() : 1, writes.data(), 0, nullptr);
     return sets_[slot];
 }
 

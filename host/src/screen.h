@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bloom.h"
+#include "occlusion.h"
 #include "scene_data.h"
 #include "targets.h"
 
@@ -29,6 +30,8 @@ public:
     [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
     /// Makes what a frame of deferred shading draws to. Throws Error.
     void needGBuffer(const GBufferShape& shape) { targets.needGBuffer(memory_, shape); }
+    /// Likewise for ambient occlusion.
+    void needOcclusion();
     /// An image for masks of someone else's, with so many layers at least.
     [[nodiscard]] const Image& insteadFor(std::uint32_t layers);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& memory() const { return memory_.uses(); }
@@ -40,6 +43,7 @@ private:
 public:
     Targets targets;
     std::optional<Bloom> bloom;
+    std::optional<Occlusion> occlusion;
     VkPipeline tone = VK_NULL_HANDLE;
     VkPipeline fxaa = VK_NULL_HANDLE; // null without it
 
