@@ -20,6 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Presets of what others published stay as they were held against it: the older tone curve, and neither dither nor
+// anti-aliasing nor ambient occlusion.
 constexpr std::array kPresets{
     Preset{"demo", "the built-in rts world at its best: what `make demo` draws", R"({
   "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa", "quality": "best", "map-size": 4096
@@ -28,14 +30,15 @@ constexpr std::array kPresets{
   "quality": "fast", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
 })"},
     Preset{"plain", "one uniform map and 3x3 PCF: what everybody has, and techniques are held against", R"({
-  "partition": "single", "fit": "uniform", "filter": "pcf", "map-size": 2048
+  "partition": "single", "fit": "uniform", "filter": "pcf", "map-size": 2048, "ambient-occlusion": "off"
 })"},
     // All of the article: a floating-point map, one constant bias for the scene, nine comparisons with offsets that a
     // projective fetch divides by w, a Gaussian over the screen by its own taps, and its shading. Its depth before the
     // division, z (f / (f - n)) - n f / (f - n), is metres along the axis but for a factor of 1.001.
     Preset{"shastry-2005", "A. S. Shastry, Soft-Edged Shadows, 2005: 3x3 PCF, then a blur on the screen", R"({
   "scene": "spotlit", "camera": "stage", "spot.cone": 30, "spot.near": 1, "spot.range": 1024,
-  "reflection": "phong-2005", "partition": "single", "fit": "uniform", "filter": "pcf",
+  "reflection": "phong-2005", "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false,
+  "partition": "single", "fit": "uniform", "filter": "pcf",
   "pcf.kernel": "3x3-projected", "map-size": 1024, "map-format": "r32f", "bias": "constant=0.1",
   "soften": "blur", "soften.kernel": "gaussian", "soften.edges": "plain", "soften.taps": "published"
 })"},
@@ -48,7 +51,8 @@ constexpr std::array kPresets{
   "scene": "rts", "camera": "camp", "partition": "single", "fit": "lispsm-simple", "filter": "lvsm",
   "map-size": 1024, "map-format": "rgba16", "lvsm.world": [6.5, 12, 10, 40], "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
   "map-sampling": "bilinear", "min-variance": 0.01, "bleeding.power": 1.3, "lighten": 0.39, "lighten.as": "add",
-  "bloom": true, "sky": "plain"
+  "bloom": true, "sky": "plain",
+  "bloom": true, "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
     // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
     // world's clock is the document's: one minute a second.
@@ -56,7 +60,8 @@ constexpr std::array kPresets{
   "scene": "sundial", "camera": "meadow", "size": "1280x720", "partition": "single", "fit": "uniform",
   "filter": "pcf", "pcf.kernel": "3x3", "map-size": 1024, "map-format": "rgba8",
   "motion": "step-blend", "step.by": "time", "step.interval": 2, "step.fade": "smooth",
-  "sky": "plain"
+  "sky": "plain",
+  "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
     // The article ends with exponential maps after those of variance leaked; of its settings it names depth that is
     // linear, a blur, mip levels and full floats. The exponent, the kernel and the size are chosen.
@@ -64,14 +69,16 @@ constexpr std::array kPresets{
            R"({
   "scene": "spotlit", "camera": "stage", "size": "1920x1080", "partition": "single", "fit": "uniform",
   "filter": "esm", "map-size": 1024, "map-format": "r32f", "esm.exponent": 80, "depth-metric": "linear",
-  "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "trilinear"
+  "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "trilinear",
+  "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
     // Frustums as the receivers ask for them, each with the talk's simplified warp. Its densities lie between one and
     // four times what is needed, and 2 is the middle. The four nearest texels of a depth map stand for the ids that the
     // talk turns to after that (filter depth-id).
     Preset{"startopia-2006", "T. Forsyth, Extremely Practical Shadows, 2006: many frustums a lamp, a warp in each", R"({
   "scene": "ring", "camera": "deck", "partition": "multi", "multi.texels-per-pixel": 2, "fit": "lispsm-simple",
-  "filter": "pcf", "pcf.kernel": "2x2", "map-format": "d32f", "bias": "auto"
+  "filter": "pcf", "pcf.kernel": "2x2", "map-format": "d32f", "bias": "auto",
+  "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
 };
 

@@ -4,9 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <cstddef>
 #include <vector>
 
 namespace gnomon::host {
@@ -33,17 +31,25 @@ Occlusion::Occlusion(Memory& memory, Pipelines& pipelines, VkExtent2D drawn)
 
 double occlusionRadius(const scene::State& state)
 {
+    // A quarter of what is of middling size, so that crowds have it as trees have; and little of the whole, where one
+    // mesh is all there is.
+    constexpr double kOfMedian = 0.25;
+    constexpr double kOfWhole = 0.03;
+    const auto diagonal = [](const Aabb& box) {
+        return glm::length(glm::dvec3(box.max) - glm::dvec3(box.min));
+    };
     std::vector<double> sizes;
     for (const scene::Object& object : state.objects) {
-        if (object.bounds_ws.min.x > object.bounds_ws.max.x) continue;
-        sizes.push_back(glm::length(glm::dvec3(object.bounds_ws.max - object.bounds_ws.min)));
+        if (object.bounds_ws.min.x <= object.bounds_ws.max.x) { // planes may have left nothing
+            sizes.push_back(diagonal(object.bounds_ws));
+        }
     }
-    std::sort(sizes.begin(), sizes.end());
-    const double whole = glm::length(glm::dvec3(state.bounds_ws.max - state.bounds_ws.min));
-    const double median = sizes.empty() ? whole : sizes[sizes.size() / 2];
-    if (std::getenv("AO_DEBUG")) std::fprintf(stderr, "whole %g median %g q75 %g q90 %g n %zu\n", whole, median, sizes[sizes.size()*3/4], sizes[sizes.size()*9/10], sizes.size());
-    if (std::getenv("AO_RADIUS")) return std::atof(std::getenv("AO_RADIUS"));
-    return std::min(0.25 * median, 0.03 * whole);
+    if (sizes.empty()) {
+        return 1.0;
+    }
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return std::max(std::min(kOfMedian * *middle, kOfWhole * diagonal(state.bounds_ws)), 1e-6);
 }
 
 } // namespace gnomon::host

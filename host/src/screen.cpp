@@ -47,6 +47,16 @@ void checkBloom(const BloomOptions& bloom)
     within("its number of levels", static_cast<float>(bloom.levels), 1.0F, 8.0F);
 }
 
+void checkOcclusion(const AmbientOcclusionOptions& occlusion)
+{
+    constexpr float kFarthest_m = 1e6F;
+    if (!(occlusion.radius_m >= 0.0F && occlusion.radius_m <= kFarthest_m)) {
+        throw Error("making a picture with ambient occlusion",
+                    "its radius is " + std::to_string(occlusion.radius_m) + " m",
+                    "choose one up to 1000000 m, or 0 to have it found");
+    }
+}
+
 const RenderOptions& checked(const Gpu& gpu, const RenderOptions& options)
 {
     const std::uint32_t limit = gpu.properties().limits.maxImageDimension2D;
@@ -63,6 +73,9 @@ const RenderOptions& checked(const Gpu& gpu, const RenderOptions& options)
     }
     if (options.bloom.on) {
         checkBloom(options.bloom);
+    }
+    if (options.ambient_occlusion.on) {
+        checkOcclusion(options.ambient_occlusion);
     }
     return options;
 }

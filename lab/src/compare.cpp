@@ -54,6 +54,7 @@ host::RenderOptions judgedOptions(const host::RenderOptions& options, glm::uvec2
     judged.width = size_px.x;
     judged.height = size_px.y;
     judged.anti_aliasing = host::AntiAliasing::none;
+    judged.ambient_occlusion.on = false; // masks know nothing of it, and times are to stay comparable
     judged.shadows = true;
     return judged;
 }
