@@ -13,14 +13,17 @@ layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 9) uniform sampler2D normals;
 layout(location = 0) out uint out_seen;
 
-const float kMostReach = 0.2;       // of the picture's height: nearer to the eye the radius is less
+const float kMostReach = 0.3;       // of the picture's height: nearer to the eye the radius is less
 const float kLeastReachPixels = 1.0; // what is smaller on the screen fades away
 
 vec2 pictureSize() { return vec2(textureSize(depths, 0)); }
 
+// The sky hides nothing, though the far plane may be near.
 float viewDepthAt(vec2 middle)
 {
-    return 1.0 / (FRAME_DEPTH.x * textureLod(depths, middle / pictureSize(), 0.0).r + FRAME_DEPTH.y);
+    const float kSky_m = 1e9;
+    float stored = textureLod(depths, middle / pictureSize(), 0.0).r;
+    return stored > 0.0 ? 1.0 / (FRAME_DEPTH.x * stored + FRAME_DEPTH.y) : kSky_m;
 }
 
 // A point and what its slices share.
@@ -28,13 +31,14 @@ struct Seen {
     vec2 middle; // pixels
     vec3 p;
     vec3 v; // towards the eye
+    vec3 normal;
     float radius;
     float reach; // the radius in pixels
     float shift; // of the steps
 };
 
 // Steps grow with their distance, for what is near hides most.
-float horizonTo(Seen s, vec2 direction, float own)
+float horizonTo(Seen s, vec2 direction, float own, float part)
 {
     float horizon = own;
     for (int i = 0; i < kOcclusionSteps; ++i) {
@@ -44,20 +48,22 @@ float horizonTo(Seen s, vec2 direction, float own)
         float distance = length(to);
         bool outside = any(lessThan(at, vec2(0.0))) || any(greaterThan(at, pictureSize()));
         float weight = outside ? 0.0 : occluderWeight(distance, s.radius);
-        float cosine = mix(own, dot(to, s.v) / max(distance, 1e-9), weight);
+        float risen = risenHorizon(own, dot(to, s.normal) / max(distance * part, 1e-9));
+        float cosine = mix(own, risen, weight);
         horizon = raisedHorizon(horizon, cosine, kOcclusionThickness * weight);
     }
     return horizon;
 }
 
-vec2 slice(Seen s, vec3 normal, vec2 direction)
+vec2 slice(Seen s, vec2 direction)
 {
     vec3 along = FRAME_RAY_X.xyz * direction.x + FRAME_RAY_Y.xyz * direction.y;
     along = normalize(along - s.v * dot(along, s.v));
-    float n_along = dot(normal, along);
-    float n_up = dot(normal, s.v);
-    vec2 cosines = vec2(horizonTo(s, direction, ownHorizon(n_along, n_up)),
-                        horizonTo(s, -direction, ownHorizon(-n_along, n_up)));
+    float n_along = dot(s.normal, along);
+    float n_up = dot(s.normal, s.v);
+    float part = length(vec2(n_along, n_up));
+    vec2 cosines = vec2(horizonTo(s, direction, ownHorizon(n_along, n_up), part),
+                        horizonTo(s, -direction, ownHorizon(-n_along, n_up), part));
     return sliceLight(n_along, n_up, cosines);
 }
 
@@ -72,13 +78,13 @@ void main()
     float pixel_m = length(FRAME_RAY_X.xyz) * view_depth;
     s.reach = min(FRAME_RAY_X.w / pixel_m, kMostReach * pictureSize().y);
     s.radius = s.reach * pixel_m;
-    vec3 normal = octahedralDecode(textureLod(normals, s.middle / pictureSize(), 0.0).xy);
+    s.normal = octahedralDecode(textureLod(normals, s.middle / pictureSize(), 0.0).xy);
     vec2 pattern = occlusionPattern(at.x, at.y);
     s.shift = pattern.y;
     vec2 light = vec2(0.0);
     for (int i = 0; i < kOcclusionSlices; ++i) {
         float turn = (pattern.x + float(i)) * (2.0 / float(kOcclusionSlices)) * kOcclusionHalfPi;
-        light += slice(s, normal, vec2(cos(turn), sin(turn)));
+        light += slice(s, vec2(cos(turn), sin(turn)));
     }
     float seen = light.x / max(light.y, 1e-4);
     out_seen = packSeen(view_depth, mix(1.0, seen, clamp(s.reach - kLeastReachPixels, 0.0, 1.0)));

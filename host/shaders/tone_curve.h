@@ -13,17 +13,19 @@ GN_FN real3 filmicTone(real3 x)
     return clamp(curve, real(0.0), real(1.0));
 }
 
-GN_CONST real kNeutralGain = real(1.4);  // brings a lit grey to where filmicTone() has it
-GN_CONST real kNeutralStart = real(0.76); // of the compression: 0.8 less the reflectance of a dielectric
+GN_CONST real kNeutralGain = real(1.3);   // brings a lit grey to where filmicTone() has it
+GN_CONST real kNeutralToe = real(0.02);   // what is taken off, so that haze does not make shade grey
+GN_CONST real kNeutralStart = real(0.76); // of the compression
 GN_CONST real kNeutralPale = real(0.15);  // how fast what is too bright loses its colour
 
 // ToneCurve::neutral: Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024. The largest channel goes through a curve and
-// takes the others along, so a hue stays what it is; what is very bright goes to white. The gain is ours.
+// takes the others along, so a hue stays what it is; what is very bright goes to white. Two departures: the gain, and half
+// of the toe, which is 0.04 there for rooms of white light and makes colours garish in the shade of a scene with a sun.
 GN_FN real3 neutralTone(real3 light)
 {
     real3 x = light * kNeutralGain;
     real least = min(x.x, min(x.y, x.z));
-    x -= least < real(0.08) ? least - real(6.25) * least * least : real(0.04);
+    x -= least < real(2.0) * kNeutralToe ? least - least * least / (real(4.0) * kNeutralToe) : kNeutralToe;
     real peak = max(x.x, max(x.y, x.z));
     if (peak < kNeutralStart) {
         return x;

@@ -65,6 +65,32 @@ TEST(Settings, CompareIsAgainstAreaTruthUnlessTold)
     EXPECT_EQ(settingsOf({"compare", "--light", "sun"}).light, "sun"); // without --mask
 }
 
+TEST(Settings, PicturesThatAreLookedAtAreSmoothAndThoseThatAreMeasuredAreNot)
+{
+    const auto of = [](const std::vector<std::string>& arguments) {
+        const host::RenderOptions options = app::renderOptions(settingsOf(arguments));
+        return std::pair(options.anti_aliasing, options.ambient_occlusion.on);
+    };
+    using enum host::AntiAliasing;
+    for (const char* shows : {"render", "view"}) {
+        EXPECT_EQ(of({shows}), std::pair(fxaa, true)) << shows;
+        EXPECT_EQ(of({shows, "--aa", "none", "--set", "ambient-occlusion=off"}), std::pair(none, false)) << shows;
+    }
+    for (const char* measures : {"bench", "compare"}) {
+        EXPECT_EQ(of({measures}), std::pair(none, false)) << measures;
+    }
+    EXPECT_EQ(of({"bench", "--aa", "ssaa4", "--set", "ambient-occlusion=on"}), std::pair(ssaa4, true));
+    EXPECT_EQ(of({"render", "--mask"}), std::pair(none, false)) << "a mask is no picture";
+    EXPECT_EQ(of({"render", "--shading", "forward"}), std::pair(fxaa, false));
+    EXPECT_EQ(of({"render", "--preset", "plain"}), std::pair(fxaa, false));
+    for (const char* published : {"shastry-2005", "rts-2011", "icefall-2010", "esm-2008", "startopia-2006"}) {
+        const host::RenderOptions options = app::renderOptions(settingsOf({"render", "--preset", published}));
+        EXPECT_EQ(options.anti_aliasing, none) << published;
+        EXPECT_FALSE(options.ambient_occlusion.on || options.dither) << published;
+        EXPECT_EQ(options.tone, host::ToneCurve::filmic) << published;
+    }
+}
+
 TEST(Settings, SweepsAreTakenApart)
 {
     const auto sweep = settingsOf({"compare", "--sweep", "map-size=256:4096:5:log"}).sweep;

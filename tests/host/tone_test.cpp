@@ -100,7 +100,7 @@ ImageF edgeOf(AntiAliasing smooth)
     static Gpu gpu({.gpu = "software", .validate = true});
     scene::Scene scene;
     scene::Material white;
-    white.unlit = true;
+    white.model = scene::ShadingModel::unlit;
     scene.materials.push_back(white);
     scene::Primitive half;
     half.positions = {{-4.0F, -4.0F, 0.0F}, {4.0F, -4.0F, 0.0F}, {4.0F, 0.31F, 0.0F}, {-4.0F, -0.28F, 0.0F}};
