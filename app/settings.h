@@ -40,6 +40,10 @@ struct PointLight {
     glm::dvec3 position_ws{0.0};
     double range_m = 1.0;
 };
+/// Whether a ground is put under the scene; automatic: under a file that has none of its own.
+enum class Ground : std::uint8_t { automatic, on, off };
+/// Of a file.
+enum class UpAxis : std::uint8_t { y, z };
 struct FrameRange {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
@@ -75,7 +79,8 @@ struct Settings {
     host::Shading shading = host::Shading::deferred;
     pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"
-    bool ground = false;
+    Ground ground = Ground::automatic;
+    UpAxis up_axis = UpAxis::y;
     // camera
     std::string camera;
     std::optional<glm::dvec3> eye_ws;
@@ -185,15 +190,16 @@ struct Setting {
     char between = ',';                                   // numbers: what stands between them
     std::uint32_t multiple_of = 1;                        // integer: only multiples of it
     std::vector<std::string_view> (*choices)() = nullptr; // choice: what is allowed
-    std::string_view none_text;                           // how one writes that there is no value; empty: one cannot
-    std::string_view doc;                                 // one line
-    std::uint32_t subcommands = kFrames;                  // which have it
-    bool own_option = true;                               // false: only --set, presets and techniques
-    bool command_line_only = false;                       // no part of what is done: what is written, or only read
-    bool repeatable = false;                              // each use adds to the ones before
-    std::string_view separator = " ";                     // between the uses of a repeatable one in `values`
-    bool (*used)(const Settings&) = nullptr;              // null: always has an effect
-    std::string_view used_when;                           // the sentence for it: "filter pcf"
+    std::string_view bare_text;          // choice: what the option stands for that has no value; empty: it needs one
+    std::string_view none_text;          // how one writes that there is no value; empty: one cannot
+    std::string_view doc;                // one line
+    std::uint32_t subcommands = kFrames; // which have it
+    bool own_option = true;              // false: only --set, presets and techniques
+    bool command_line_only = false;      // no part of what is done: what is written, or only read
+    bool repeatable = false;             // each use adds to the ones before
+    std::string_view separator = " ";    // between the uses of a repeatable one in `values`
+    bool (*used)(const Settings&) = nullptr; // null: always has an effect
+    std::string_view used_when;              // the sentence for it: "filter pcf"
     void (*apply)(Settings&, const SettingValue&) = nullptr;
     const OptionRow* option = nullptr; // a setting of the library's own: then neither `used` nor `apply`
 };

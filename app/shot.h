@@ -15,9 +15,19 @@
 
 namespace gnomon::app {
 
+/// From where a scene is looked at that has no camera, and where its sun stands if it has no light. Of the scene at
+/// rest alone, so that neither changes while it moves.
+struct Outlook {
+    double azimuth_rad = 0.6; // of the eye, seen from the scene: 0 is +z, and it grows towards +x
+    double elevation_rad = 0.4;
+    double sun_azimuth_rad = 0.0;
+};
+
 struct Shot {
     scene::Scene scene;
     scene::State state;
+    std::optional<std::uint32_t> ground; // the node of the ground that was put in
+    Outlook outlook;
     std::string camera; // name of the view, or how it was chosen
     host::Eye eye;
     bool has_target = true; // eye.target_ws is a place of its own, not only a direction
@@ -54,7 +64,10 @@ void noteSizesWithoutEffect(Shot& shot, const Settings& settings, std::span<cons
 /// The frame that the library plans, over objects filled from the state (host::fillObjectSet).
 [[nodiscard]] std::vector<Light> castersOf(const Shot& shot);
 
-/// A three-quarter view from which all of `bounds_ws` is in the picture.
-[[nodiscard]] host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect);
+/// Of what is drawn, without a ground that was put in.
+[[nodiscard]] Aabb modelBounds(const Shot& shot);
+/// The shot's outlook, from as near as all of the model is in the picture, with its shadow on a ground that was put in
+/// if the first light is a sun; of a low sun's long shadow a part.
+[[nodiscard]] host::Eye framedEye(const Shot& shot, double fov_y_rad, double aspect);
 
 } // namespace gnomon::app

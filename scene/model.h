@@ -53,7 +53,9 @@ struct TextureUse {
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
-enum class ShadingModel : std::uint8_t { metallic_roughness, phong, unlit };
+/// `horizon`: metallic-roughness, and where the alpha of an opaque surface falls below 1 it takes on the colour of the
+/// sky behind it. So a ground ends without an edge. It is there all the same, in every mask.
+enum class ShadingModel : std::uint8_t { metallic_roughness, phong, unlit, horizon };
 
 struct Material {
     std::string name;

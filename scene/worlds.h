@@ -41,7 +41,7 @@ struct PlanesWorld {
     }
 };
 
-/// One box over one plane. Views `top` (straight down) and `side`. The seed changes nothing.
+/// One box over one plane. Views `box`, `top` (straight down) and `side`. The seed changes nothing.
 [[nodiscard]] Scene makePlanes(std::uint64_t seed);
 
 /// A strategy game's map, after Marinescu 2011. Views `camp` (the usual three-quarter view), `unit` (on the ground
@@ -117,7 +117,7 @@ struct CanopiesWorld {
 };
 
 /// Three roofs over each other: a pergola of slats, a sail and an awning. A sun, "sun", and a spot light, "spot". Views
-/// `side` and `top`. The seed changes nothing.
+/// `roofs`, `side` and `top`. The seed changes nothing.
 [[nodiscard]] Scene makeCanopies(std::uint64_t seed);
 
 /// The sky over the world `sundial`: a sun and a full moon on their daily courses over a place at `latitude_rad` north.

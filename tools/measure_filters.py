@@ -52,11 +52,11 @@ VIEWS = [
      ["--eye", "0.1,0.25,0.4", "--target=-0.02,0.05,0", "--fov", "45", "--sun", "0.3,-1,-0.3"], True),
     # Sails, yards and ropes at all heights over the deck.
     ("dutch_ship, deck", "scenes/dutch_ship/dutch_ship_medium_1k.gltf",
-     ["--eye=-9,13,8", "--target", "1,3,0", "--fov", "45", "--sun=-0.2,-1,0.3"], True),
+     ["--eye=-9,13,8", "--target", "1,3,0", "--fov", "45", "--sun=-0.2,-1,0.3", "--ground", "off"], True),
     # Arches over rails, walls and stairs.
     ("zdm2, arches", "scenes/zdm2/zdm2.glb",
      ["--override-material", "diffuse", "--eye", "45,30,25", "--target", "20,5,-15", "--fov", "40",
-      "--sun=-0.5,-0.8,-0.6"], True),
+      "--sun=-0.5,-0.8,-0.6", "--ground", "off"], True),
 ]
 # Label and technique. The first is what all others are held against.
 FILTERS = [

@@ -168,6 +168,25 @@ std::vector<std::string> takeJson(std::span<const std::string> arguments, const 
     return rest;
 }
 
+/// An option that may be given without its value, which no parser can tell from a scene that follows: the next word is
+/// its value only if it is one of those that it takes.
+std::vector<std::string> withBareValues(std::vector<std::string> arguments)
+{
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const Setting* const setting =
+            arguments[i].starts_with("--") ? findSetting(std::string_view(arguments[i]).substr(2)) : nullptr;
+        if (setting == nullptr || setting->bare_text.empty()) {
+            continue;
+        }
+        const auto values = setting->choices();
+        const bool has_value = i + 1 < arguments.size() && std::ranges::find(values, arguments[i + 1]) != values.end();
+        if (!has_value) {
+            arguments[i] += fmt::format("={}", setting->bare_text);
+        }
+    }
+    return arguments;
+}
+
 /// What comes after "--" is no option, whatever it looks like.
 void takeWords(std::span<const std::string> words, const Subcommand& subcommand, Parsed& parsed)
 {
@@ -210,7 +229,7 @@ Parsed parse(std::span<const std::string> arguments, const Subcommand& subcomman
     const auto end = std::find(arguments.begin(), arguments.end(), "--");
     const auto count = static_cast<std::size_t>(end - arguments.begin());
     Parsed parsed;
-    parseWithCli(subcommand, takeJson(arguments.first(count), subcommand, json), parsed);
+    parseWithCli(subcommand, withBareValues(takeJson(arguments.first(count), subcommand, json)), parsed);
     if (end != arguments.end()) {
         takeWords(arguments.subspan(count + 1), subcommand, parsed);
     }

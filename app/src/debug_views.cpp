@@ -3,6 +3,7 @@
 
 #include "debug_drawn.h"
 #include "files/files.h"
+#include "lab/map_picture.h"
 #include "lab/tint.h"
 #include "layer_depths.h"
 #include "streams.h"
@@ -18,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace gnomon::app {
 namespace {
@@ -93,47 +93,80 @@ Image8 layersPicture(const Drawn& drawn)
     return lab::tintedPicture(drawn.picture.colour, layersOfPixels(drawn, layers), legend);
 }
 
-/// The depth that each texel of the light's first map stands for, of filter id the id, as it is read: of lvsm its first
-/// layer, of others blurred if they blur. Of a sun between two positions, of the stronger one's first map, which is
-/// drawn for certain.
-Image8 mapPicture(const Drawn& drawn)
+/// What each texel of a map stands for, as it is read: metres along the light, of filter id the id; of lvsm its first
+/// layer, of others blurred if they blur.
+lab::MapPanel panelOf(const Drawn& drawn, const ResolvedOptions& options, const View& view)
+{
+    const Tile& tile = view.tile;
+    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(options.filter(), options.moments()));
+    const bool has_ids = options.filter() == Filter::id;
+    lab::MapPanel panel{"", ImageF(tile.width, tile.height, 1)};
+    for (std::uint32_t y = 0; y < tile.height; ++y) {
+        for (std::uint32_t x = 0; x < tile.width; ++x) {
+            const float stored = pack::mapDepth(options, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
+            *panel.values.pixel(x, y) =
+                has_ids ? stored * static_cast<float>(idsOf(options.format()))
+                        : static_cast<float>(metresOf(view, options.moments(), static_cast<double>(stored)));
+        }
+    }
+    return panel;
+}
+
+/// A parallel light has no place to measure from: the nearest texel is its 0.
+void measureFromNearest(std::vector<lab::MapPanel>& panels)
+{
+    const float least = lab::rangeOf(panels).least;
+    for (lab::MapPanel& panel : panels) {
+        for (float& value : panel.values.values) {
+            value -= least;
+        }
+    }
+}
+
+/// All of the light's maps; of a sun between two positions, the stronger one's, which are drawn for certain.
+Image8 mapsPicture(const Drawn& drawn)
 {
     requireMap(drawn, "map");
     const ResolvedOptions options = resolvedOrThrow(drawn.settings.shadow);
     const LightPlan& light = drawn.plan.lights[drawn.light];
-    const auto views = viewsOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), strongerPosition(light.steps));
-    const View& view = views.empty() ? drawn.plan.views[light.first_view] : views.front(); // a position may have none
-    const Tile& tile = view.tile;
-    const ImageF map = drawn.renderer.readMap(tile.layer * imageLayersPerMap(options.filter(), options.moments()));
-    ImageF depths(tile.width, tile.height, 1);
-    float least = std::numeric_limits<float>::infinity();
-    float most = -least;
-    for (std::uint32_t y = 0; y < tile.height; ++y) {
-        for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float depth = pack::mapDepth(options, {map.pixel(tile.x + x, tile.y + y), map.channels}, view.part);
-            *depths.pixel(x, y) = depth;
-            if (std::isfinite(depth)) {
-                least = std::min(least, depth);
-                most = std::max(most, depth);
-            }
+    auto views = viewsOf(drawn.plan, static_cast<std::uint32_t>(drawn.light), strongerPosition(light.steps));
+    if (views.empty()) { // a position may have none
+        views = std::span(drawn.plan.views).subspan(light.first_view, 1);
+    }
+    const std::string& name = drawn.shot.lights[drawn.light].name;
+    const bool has_ids = options.filter() == Filter::id;
+    std::vector<lab::MapPanel> panels;
+    for (const View& view : views) {
+        if (view.tile.width > 0) {
+            panels.push_back(panelOf(drawn, options, view));
+            panels.back().name = fmt::format("{}, map {} of {}", name, panels.size(), views.size());
         }
     }
-    Image8 grey(tile.width, tile.height, 3);
-    for (std::uint32_t y = 0; y < tile.height; ++y) {
-        for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const float depth = *depths.pixel(x, y);
-            // A map of one depth alone is black; so is what is no number.
-            const float share = most > least && std::isfinite(depth) ? (depth - least) / (most - least) : 0.0F;
-            std::fill_n(grey.pixel(x, y), 3, static_cast<std::uint8_t>(std::lround(share * 255.0F)));
+    lab::MapLegend legend;
+    legend.title = fmt::format("Map{} of light {:.30}", panels.size() > 1 ? "s" : "", name);
+    if (has_ids) {
+        legend.subtitle = "the object that is nearest to the light; 0: none";
+        legend.low = "ids";
+    } else {
+        const bool is_parallel = views.front().parallel;
+        if (is_parallel) {
+            measureFromNearest(panels);
         }
+        legend.subtitle =
+            is_parallel ? "how far along its rays, from the nearest texel" : "how far along the map's axis";
+        legend.low = "near";
+        legend.high = "far, or nothing there";
     }
-    if (most >= least) {
-        const bool has_ids = options.filter() == Filter::id;
-        const float unit = has_ids ? static_cast<float>(idsOf(options.format())) : 1.0F;
-        notice(fmt::format("light {}: its map's {} is {:.6g} where black and {:.6g} where white",
-                           drawn.shot.lights[drawn.light].name, has_ids ? "id" : "depth", least * unit, most * unit));
+    const std::string_view unit = has_ids ? "" : " m";
+    legend.text_of = [has_ids](double value) {
+        return has_ids ? fmt::format("{:.0f}", value) : fmt::format("{:.3g} m", value);
+    };
+    const lab::ValueRange range = lab::rangeOf(panels);
+    if (range.greatest >= range.least) {
+        notice(fmt::format("light {}: its map's {} is {:.6g}{} where black and {:.6g}{} where white", name,
+                           has_ids ? "id" : "depth", range.least, unit, range.greatest, unit));
     }
-    return grey;
+    return lab::mapPicture(panels, legend);
 }
 
 struct DebugView {
@@ -171,7 +204,7 @@ constexpr std::array kViews{
     DebugView{"layers", [](const Settings& s) { return s.shadow.technique.filter == Filter::lvsm; },
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"light-count", always, "a technique that has a map", lightCountView},
-    DebugView{"map", isMapped, "a technique that has a map", mapPicture},
+    DebugView{"map", isMapped, "a technique that has a map", mapsPicture},
     DebugView{"rays",
               [](const Settings& s) {
                   return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none &&

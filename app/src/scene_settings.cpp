@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace gnomon::app {
@@ -170,6 +171,21 @@ bool isShadedPicture(const Settings& s)
     return !s.mask && !s.truth.has_value() && (s.debug.empty() || s.debug == "none");
 }
 
+constexpr std::array<std::string_view, 3> kGrounds{"auto", "on", "off"};
+
+std::vector<std::string_view> groundNames()
+{
+    return {kGrounds.begin(), kGrounds.end()};
+}
+void applyGround(Settings& s, const Value& v)
+{
+    s.ground = static_cast<Ground>(std::ranges::find(kGrounds, v.text) - kGrounds.begin());
+}
+std::vector<std::string_view> upAxisNames()
+{
+    return {"y", "z"};
+}
+
 std::vector<std::string_view> reflectionNames()
 {
     return {kReflections.begin(), kReflections.end()};
@@ -256,8 +272,10 @@ const std::vector<Setting>& rows()
          .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kPictures, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
         {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,
          .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyReflection},
-        {.key = "ground", .group = Group::picture, .type = flag, .default_text = "0", .doc = "put a ground plane under the scene",
-         .apply = [](Settings& s, const Value& v) { s.ground = v.flag; }},
+        {.key = "ground", .group = Group::picture, .type = choice, .form = "WHEN", .default_text = "auto", .choices = groundNames, .bare_text = "on",
+         .doc = "a ground under the scene that fades into the sky; auto: under a file that has none", .apply = applyGround},
+        {.key = "up-axis", .group = Group::picture, .type = choice, .form = "AXIS", .default_text = "y", .choices = upAxisNames,
+         .doc = "which axis of a file is up: y, as glTF has it, or z", .apply = [](Settings& s, const Value& v) { s.up_axis = v.text == "z" ? UpAxis::z : UpAxis::y; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
          .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",
          .subcommands = kDraw, .apply = [](Settings& s, const Value& v) { s.material_override = v.text == "none" ? "" : v.text; }},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/shot.h"
 
+#include "framing.h"
 #include "shot_camera.h"
+#include "shot_ground.h"
 #include "shot_notices.h"
 #include "shot_range.h"
 #include "shot_volumes.h"
@@ -128,7 +130,7 @@ void placeLights(Shot& shot, const Settings& settings)
         }
     }
     if (shot.lights.empty()) {
-        shot.lights.push_back(sunLight(glm::normalize(glm::dvec3(0.65, -0.75, -0.12))));
+        shot.lights.push_back(sunLight(sunOf(shot.outlook)));
     }
     for (host::ShadedLight& light : shot.lights) {
         if (light.caster.type == LightType::directional) {
@@ -141,36 +143,6 @@ void placeLights(Shot& shot, const Settings& settings)
             shapeSpot(light, settings);
         }
     }
-}
-
-void addGround(scene::Scene& scene, const Aabb& bounds)
-{
-    const glm::vec3 centre = bounds.centre();
-    // Wide enough that its edge is behind what stands on it, from where one looks at that.
-    const float half = 3.0F * std::max({bounds.extent().x, bounds.extent().z, bounds.extent().y});
-    const float y = bounds.min.y;
-    scene::Primitive quad;
-    quad.positions = {{centre.x - half, y, centre.z + half},
-                      {centre.x + half, y, centre.z + half},
-                      {centre.x + half, y, centre.z - half},
-                      {centre.x - half, y, centre.z - half}};
-    quad.normals.assign(4, glm::vec3(0.0F, 1.0F, 0.0F));
-    quad.indices = {0, 1, 2, 0, 2, 3};
-    quad.material = static_cast<std::uint32_t>(scene.materials.size());
-    scene::Material material;
-    material.name = "ground";
-    material.base_colour = {0.42F, 0.41F, 0.38F, 1.0F};
-    material.metallic = 0.0F;
-    scene.materials.push_back(material);
-    scene::Mesh mesh;
-    mesh.name = "ground";
-    mesh.primitives.push_back(std::move(quad));
-    scene::Node node;
-    node.name = "ground";
-    node.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-    scene.meshes.push_back(std::move(mesh));
-    scene.nodes.push_back(std::move(node));
-    scene::finishScene(scene);
 }
 
 void overrideMaterials(scene::Scene& scene)
@@ -219,9 +191,9 @@ double focusOf(const Shot& shot)
     if (shot.has_target) {
         return glm::length(look);
     }
-    const glm::dvec3 to_middle = glm::dvec3(shot.state.bounds_ws.centre()) - shot.eye.position_ws;
-    return std::max(glm::dot(to_middle, glm::normalize(look)),
-                    kNearest * glm::length(glm::dvec3(shot.state.bounds_ws.extent())));
+    const Aabb model = modelBounds(shot);
+    const glm::dvec3 to_middle = glm::dvec3(model.centre()) - shot.eye.position_ws;
+    return std::max(glm::dot(to_middle, glm::normalize(look)), kNearest * glm::length(glm::dvec3(model.extent())));
 }
 
 namespace {
@@ -282,12 +254,57 @@ void requireAnimation(const scene::Scene& scene, const std::string& name)
 
 } // namespace
 
+namespace {
+
+bool isFile(const Settings& settings)
+{
+    const auto worlds = scene::worlds();
+    return std::none_of(worlds.begin(), worlds.end(),
+                        [&](const scene::World& world) { return world.name == settings.scene; });
+}
+
+void turnFile(Shot& shot, const Settings& settings)
+{
+    if (settings.up_axis == UpAxis::y) {
+        return;
+    }
+    if (isFile(settings)) {
+        standUp(shot.scene);
+    } else {
+        tellNoEffect(settings, shot.notices, "--up-axis has an effect on files only; built-in worlds have y up");
+    }
+}
+
+/// What the scene is like when nothing has moved decides on outlook and ground, whatever the time and the animation.
+/// True: a ground was put in, and the state is to be made anew.
+bool furnish(Shot& shot, const Settings& settings)
+{
+    const bool at_rest = shot.state.time_s == 0.0 && settings.animation.empty();
+    const scene::State other = at_rest ? scene::State() : scene::evaluate(shot.scene, 0.0);
+    const scene::State& rest = at_rest ? shot.state : other;
+    shot.outlook = outlookOn(rest.bounds_ws);
+    const bool is_file = isFile(settings);
+    if (is_file && settings.up_axis == UpAxis::y && looksFallen(shot.scene, rest)) {
+        shot.notices.push_back("the model seems to stand on its side, as if z were up; --up-axis z turns it");
+    }
+    const bool wanted = settings.ground == Ground::on ||
+                        (settings.ground == Ground::automatic && is_file && isBottomless(shot.scene, rest));
+    if (wanted) {
+        shot.ground = static_cast<std::uint32_t>(shot.scene.nodes.size());
+        addGround(shot.scene, rest.bounds_ws);
+    }
+    return wanted;
+}
+
+} // namespace
+
 Shot makeShot(const Settings& settings)
 {
     Shot shot;
     shot.path = openPath(settings);
     shot.scene = scene::load(settings.scene, settings.seed, settings.limits);
     shot.notices = shot.scene.notices;
+    turnFile(shot, settings);
     if (settings.material_override == "diffuse") {
         overrideMaterials(shot.scene);
     }
@@ -299,12 +316,11 @@ Shot makeShot(const Settings& settings)
         throw Error("drawing " + settings.scene, "the scene has nothing to draw");
     }
     scene::requireInRange(shot.state, "drawing " + settings.scene); // before anything is measured by it
-    placeEye(shot, settings); // before the ground, which is not what one wants to look at
-    if (settings.ground) {
-        addGround(shot.scene, shot.state.bounds_ws);
+    if (furnish(shot, settings)) {
         shot.state = scene::evaluate(shot.scene, time_s, settings.animation);
     }
     placeLights(shot, settings);
+    placeEye(shot, settings); // after the lights: it makes room for shadows
     if (shot.path) {
         startPath(shot, settings);
         followPath(shot, settings, first);

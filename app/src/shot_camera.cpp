@@ -98,7 +98,7 @@ void useFramed(Shot& shot, const Settings& settings)
 {
     const double aspect = static_cast<double>(settings.size_px.x) / static_cast<double>(settings.size_px.y);
     shot.camera = "fitted";
-    shot.eye = framedEye(shot.state.bounds_ws, fovRad(settings, glm::radians(kDefaultFovDeg)), aspect);
+    shot.eye = framedEye(shot, fovRad(settings, glm::radians(kDefaultFovDeg)), aspect);
 }
 
 } // namespace
@@ -113,30 +113,6 @@ std::vector<std::string> cameraNames(const Shot& shot)
         names.push_back(nameOf(shot, i));
     }
     return names;
-}
-
-host::Eye framedEye(const Aabb& bounds_ws, double fov_y_rad, double aspect)
-{
-    const glm::dvec3 backward = glm::normalize(glm::dvec3(0.55, 0.42, 0.72));
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward));
-    const glm::dvec3 up = glm::cross(backward, right);
-    const glm::dvec3 centre = bounds_ws.empty() ? glm::dvec3(0.0) : glm::dvec3(bounds_ws.centre());
-    const double tan_y = std::tan(fov_y_rad / 2.0);
-    const double tan_x = tan_y * aspect;
-    // The distance at which the last corner is on the picture's edge.
-    double distance = 0.0;
-    for (int i = 0; i < 8 && !bounds_ws.empty(); ++i) {
-        const glm::dvec3 corner = glm::dvec3(bounds_ws.corner(i)) - centre;
-        const double along = glm::dot(corner, backward);
-        distance = std::max({distance, along + std::abs(glm::dot(corner, right)) / tan_x,
-                             along + std::abs(glm::dot(corner, up)) / tan_y});
-    }
-    constexpr double kMargin = 1.03;
-    host::Eye eye;
-    eye.position_ws = centre + backward * (distance * kMargin);
-    eye.target_ws = centre;
-    eye.fov_y_rad = fov_y_rad;
-    return eye;
 }
 
 void placeEye(Shot& shot, const Settings& settings)

@@ -228,7 +228,9 @@ void FrameRenderer::Impl::choosePipelines()
                                      [](const Light& l) { return l.type == LightType::directional; });
     by.phong_2005 = options.reflection == Reflection::phong_2005;
     by.toned = toned;
-    sky = pipelines.skyFor({.toned = toned, .physical = all_light->physical, .night = all_light->night_sky});
+    const SkyFacts facts{.toned = toned, .physical = all_light->physical, .night = all_light->night_sky};
+    sky = pipelines.skyFor(facts);
+    by.sky = pipelines.fades() ? facts : SkyFacts{};
     if (forward.on) {
         chooseForward(by);
         return;

@@ -92,6 +92,8 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
     makeLayouts(materials.layout());
     physical_only_ =
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
+    fades_ =
+        std::any_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.horizon; });
     makeShadowedLayout(materials.layout());
     makeScene(materials);
     makeDepthAlone();
@@ -417,6 +419,8 @@ void Pipelines::setLights(Wish& wish, const ShadedBy& by) const
     wish.constants[kPhysicalOnly] = physical_only_ ? VK_TRUE : VK_FALSE;
     wish.constants[kPhong2005] = by.phong_2005 ? VK_TRUE : VK_FALSE;
     wish.constants[kOccluded] = by.occluded ? VK_TRUE : VK_FALSE;
+    wish.constants[kHorizon] = !fades_ ? 0 : (by.sky.physical ? 2 : 1);
+    wish.constants[kNight] = by.sky.night ? VK_TRUE : VK_FALSE;
     setToning(wish, by.toned);
 }
 

@@ -90,6 +90,14 @@ struct SurfacePipelines {
 /// By SurfaceKind; null where the scene has none of the kind.
 using KindPipelines = std::array<SurfacePipelines, static_cast<std::size_t>(SurfaceKind::count)>;
 
+struct SkyFacts {
+    Toning toned;
+    bool physical = false;
+    bool night = false; // with a moon or stars
+
+    bool operator==(const SkyFacts&) const = default;
+};
+
 /// What pipelines that shade are made for.
 struct ShadedBy {
     std::uint32_t fixed_lights = 0; // how many lights the frame has, at most kMostFixedLights; 0: any number
@@ -97,6 +105,7 @@ struct ShadedBy {
     bool phong_2005 = false; // Reflection
     Toning toned;
     bool occluded = false;   // deferred: with ambient occlusion
+    SkyFacts sky;            // where grounds fade into it; else as it comes
 
     bool operator==(const ShadedBy&) const = default;
 };
@@ -113,14 +122,6 @@ struct ForwardFacts {
 };
 /// The shader for maps of these options.
 [[nodiscard]] std::string forwardFragment(const ResolvedOptions& options, bool orthographic);
-
-struct SkyFacts {
-    Toning toned;
-    bool physical = false;
-    bool night = false; // with a moon or stars
-
-    bool operator==(const SkyFacts&) const = default;
-};
 
 class Pipelines {
 public:
@@ -146,6 +147,8 @@ public:
     /// Opaque surfaces, and the sky beside them.
     [[nodiscard]] const KindPipelines& forwardFor(const ForwardFacts& facts);
     [[nodiscard]] VkPipeline skyFor(const SkyFacts& facts);
+    /// Is there a surface that fades into the sky?
+    [[nodiscard]] bool fades() const { return fades_; }
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
     /// The passes of ambient occlusion.
@@ -203,6 +206,7 @@ private:
     VkPipeline occlusion_search_ = VK_NULL_HANDLE;
     VkPipeline occlusion_smooth_ = VK_NULL_HANDLE;
     bool physical_only_ = false;
+    bool fades_ = false; // some surface into the sky
     std::vector<OwnedPipeline> all_;
 };
 

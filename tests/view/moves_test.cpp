@@ -184,7 +184,7 @@ TEST(CommandOfAPicture, LeadsBackToTheSameSettings)
                                          {"target", "0,0,0"},
                                          {"sun", "-0.3,-0.7,0.123456789012345678"},
                                          {"bloom", "1"},
-                                         {"ground", "1"}});
+                                         {"ground", "on"}});
     ASSERT_TRUE(made.settings) << made.refusal;
     const std::string technique = app::describeTechnique(*made.settings);
     const std::vector<std::string> words = app::commandWords(*made.settings, app::kRender, technique);

@@ -206,11 +206,11 @@ TEST_F(ViewWindow, TechniquesOfPresetsKeepThePicture)
 {
     User user(*desktop_, kSmall);
     user.drag(user.inPicture(0.5, 0.3), user.inPicture(0.7, 0.2));
-    ASSERT_TRUE(user.viewer().change({{"ground", "1"}}));
+    ASSERT_TRUE(user.viewer().change({{"ground", "on"}}));
     const glm::dvec3 eye = user.viewer().shot().eye.position_ws;
     ASSERT_TRUE(user.viewer().loadPreset("fast")) << user.viewer().message().text;
     EXPECT_EQ(user.viewer().shot().eye.position_ws, eye);
-    EXPECT_TRUE(user.viewer().settings().ground);
+    EXPECT_EQ(user.viewer().settings().ground, app::Ground::on);
     EXPECT_EQ(user.viewer().settings().values.at("quality"), "fast");
     ASSERT_TRUE(user.viewer().loadPreset("demo"));
     EXPECT_EQ(user.viewer().settings().scene, "rts") << "which names its scene, and so all of a picture";

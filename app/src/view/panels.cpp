@@ -203,7 +203,7 @@ void scenePanel(Viewer& viewer, PanelState& state)
         if (animation >= 0) {
             viewer.change({{"animation", animations[static_cast<std::size_t>(animation)]}});
         }
-        for (const std::string_view key : {"fov", "ground", "override-material"}) {
+        for (const std::string_view key : {"fov", "ground", "up-axis", "override-material"}) {
             widgets.setting(viewer, *findSetting(key));
         }
         ImGui::TreePop();
@@ -269,7 +269,8 @@ void picturePanel(Viewer& viewer, PanelState& state)
     widgets.checkbox("half size", state.shown.half_size);
     explain("Draws one pixel for each 2 x 2 of the window: quicker on a slow device");
     rowsOf(viewer, widgets, SettingGroup::picture, [](const Setting& setting) {
-        return setting.key == "size" || setting.key == "ground" || setting.key == "override-material";
+        return setting.key == "size" || setting.key == "ground" || setting.key == "up-axis" ||
+               setting.key == "override-material";
     });
     ImGui::Spacing();
 }

@@ -209,7 +209,7 @@ bool Viewer::change(const Changes& changes)
 bool Viewer::frameAll()
 {
     const glm::dvec2 size(settings_.size_px);
-    return look(framedEye(shot().state.bounds_ws, shot().eye.fov_y_rad, size.x / size.y));
+    return look(framedEye(shot(), shot().eye.fov_y_rad, size.x / size.y));
 }
 
 bool Viewer::open(const std::string& scene)

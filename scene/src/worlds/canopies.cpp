@@ -115,6 +115,8 @@ Scene makeCanopies(std::uint64_t /*seed*/)
     addRoofs(scene, palette);
     addLights(scene);
     scene.views = {
+        // All three roofs and what they leave of the light on the ground: stripes beside the lower roofs, none below.
+        {.name = "roofs", .eye = {15.0F, 22.0F, 37.0F}, .target = {-0.3F, 7.7F, 0.5F}, .fov_y_rad = 0.62F},
         {.name = "side", .eye = {8.5F, 5.6F, 19.0F}, .target = {-0.3F, 5.4F, 0.0F}, .fov_y_rad = 0.86F},
         {.name = "top", .eye = {3.5F, 27.0F, 27.0F}, .target = {0.0F, 3.6F, 1.4F}, .fov_y_rad = 0.60F},
     };

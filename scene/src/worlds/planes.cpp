@@ -64,6 +64,8 @@ Scene makePlanes(std::uint64_t /*seed*/)
     addLight(scene, spot, PlanesWorld::spot_position, PlanesWorld::spot_target - PlanesWorld::spot_position);
 
     scene.views = {
+        // Near the box and its two shadows: a hard one of the sun, a faint one of the spot light behind it.
+        {.name = "box", .eye = {4.5F, 6.5F, 8.0F}, .target = {0.5F, 0.7F, -1.4F}, .fov_y_rad = 0.63F},
         // A hair off the vertical, so that "up" is defined; north (-z) is up in the picture.
         {.name = "top", .eye = {1.0F, 16.0F, 0.02F}, .target = {1.0F, 0.0F, 0.0F}, .fov_y_rad = 0.7F},
         {.name = "side", .eye = {6.5F, 5.0F, 9.5F}, .target = {0.6F, 1.0F, 0.0F}, .fov_y_rad = 0.75F},

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// From where a scene is looked at that has no camera, and where its sun stands if it has no light.
+#pragma once
+
+#include "app/shot.h"
+
+namespace gnomon::app {
+
+/// From where a thing with these bounds shows most of itself: obliquely, flat things from higher up, tall ones from
+/// lower, long ones from their longer side. The light comes over the viewer's left shoulder.
+[[nodiscard]] Outlook outlookOn(const Aabb& bounds_ws);
+
+/// Unit, the way the light of the sun travels.
+[[nodiscard]] glm::dvec3 sunOf(const Outlook& outlook);
+
+} // namespace gnomon::app

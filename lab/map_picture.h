@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What maps hold, as greys, with a legend that says what the greys are.
+#pragma once
+
+#include "image/image.h"
+
+#include <functional>
+#include <span>
+#include <string>
+
+namespace gnomon::lab {
+
+/// One map; ASCII, as all text here.
+struct MapPanel {
+    std::string name; // shown above it where there are several
+    ImageF values;    // one channel; what is not finite is black
+};
+struct MapLegend {
+    std::string title;    // at most 43 letters
+    std::string subtitle; // at most 50
+    std::string low;      // what the least value is, and the greatest
+    std::string high;
+    std::function<std::string(double)> text_of; // of a value, with its unit
+};
+/// The least and the greatest finite value; least > greatest where there is none.
+struct ValueRange {
+    float least = 0.0F;
+    float greatest = 0.0F;
+};
+[[nodiscard]] ValueRange rangeOf(std::span<const MapPanel> panels);
+
+/// The panels beside each other, row by row in a square, all from black (the least value of any) to white (the
+/// greatest), with the legend below. A value alone is black. RGB. Precondition: one panel at least, none without a
+/// texel.
+[[nodiscard]] Image8 mapPicture(std::span<const MapPanel> panels, const MapLegend& legend);
+
+} // namespace gnomon::lab
