@@ -38,7 +38,7 @@ enum class CasterCull : std::uint8_t {
 /// `automatic` derives everything from the texel's footprint, the kernel's reach and the receiver's plane, so nothing
 /// needs tuning when the map's size, the fit or the kernel changes; the other fields are then ignored.
 struct BiasOptions {
-    bool automatic = true;
+    bool automatic = true;       // the other fields are ignored
     float constant_m = 0.0F;     // metres towards the light; any finite value (negative to show what goes wrong)
     float slope = 0.0F;          // times the depth that one texel spans on the receiver; 0 .. 16
     float normal_texels = 0.0F;  // receiver moved along its normal by this many texels' width; 0 .. 16

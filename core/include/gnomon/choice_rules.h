@@ -13,7 +13,7 @@ namespace gnomon {
 
 /// A rule that refusal(LightType, Technique) goes by.
 struct ChoiceRule {
-    bool (*applies)(LightType light, const Technique& technique);
+    bool (*applies)(LightType light, const Technique& technique); // is it this combination that the rule refuses?
     std::string_view refuses; // in words: "partition sdsm with every motion but free"
     std::string_view reason;  // a sentence
 };

@@ -12,11 +12,14 @@
 
 namespace gnomon {
 
+/// What a light is, which says what its maps have to cover.
 enum class LightType : std::uint8_t { directional, spot, point };
 /// automatic: of partition and fit the planner chooses, for each light and frame; of the filter resolve(), by quality
 /// (docs/techniques/auto.md).
 enum class Partition : std::uint8_t { single, cascades, sdsm, cube, paraboloid, multi, automatic };
+/// How a frustum's projection is shaped.
 enum class Fit : std::uint8_t { uniform, lispsm, lispsm_simple, tsm, psm, scene, automatic };
+/// What a texel stores and how it is tested: docs/which-technique.md.
 enum class Filter : std::uint8_t {
     hard,
     pcf,
@@ -33,7 +36,9 @@ enum class Filter : std::uint8_t {
     smoothies,
     automatic
 };
+/// What is done to the mask on the screen.
 enum class Soften : std::uint8_t { none, blur, smoothies, converge };
+/// How a map follows a moving camera or sun.
 enum class Motion : std::uint8_t { free, snap, step_jump, step_band, step_blend, step_alternate };
 
 /// The kernel of Filter::pcf, and of Filter::smoothies, whose map is tested as pcf tests it.
@@ -69,11 +74,11 @@ enum class MapFormat : std::uint8_t {
 
 /// One value each of the choices that a user makes (the light brings its own).
 struct Technique {
-    Partition partition = Partition::automatic;
-    Fit fit = Fit::automatic;
-    Filter filter = Filter::automatic;
-    Soften soften = Soften::none;
-    Motion motion = Motion::free;
+    Partition partition = Partition::automatic; // how receivers are divided among frustums
+    Fit fit = Fit::automatic;                   // how each frustum's projection is shaped
+    Filter filter = Filter::automatic;          // what a texel stores and how it is tested
+    Soften soften = Soften::none;               // what is done to the mask on the screen
+    Motion motion = Motion::free;               // how maps follow a moving camera or sun
 
     bool operator==(const Technique&) const = default;
 };
@@ -101,12 +106,14 @@ struct ChoiceValue {
 [[nodiscard]] GNOMON_API std::string_view nameOf(Motion value);
 [[nodiscard]] GNOMON_API std::string_view nameOf(PcfKernel value);
 [[nodiscard]] GNOMON_API std::string_view nameOf(MapFormat value);
+/// The kernel of a name; nothing where there is none.
 [[nodiscard]] GNOMON_API std::optional<PcfKernel> findPcfKernel(std::string_view name);
+/// The format of a name; nothing where there is none.
 [[nodiscard]] GNOMON_API std::optional<MapFormat> findMapFormat(std::string_view name);
 
 /// Facts of a filter that planning and the backend need; one row per filter but automatic.
 struct FilterTraits {
-    Filter filter;
+    Filter filter;                      // whose facts these are
     std::span<const MapFormat> formats; // usable, the default first
     bool depth_only;                    // a bare depth attachment can hold it
     bool clamps_near;                   // a caster before the near plane may be clamped onto it

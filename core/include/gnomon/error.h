@@ -25,12 +25,17 @@ enum class ErrorKind : std::uint8_t {
 /// what() is one line: what was tried, what was found, what to do about it (where there is something to do).
 class GNOMON_API Error : public std::runtime_error {
 public:
+    /// Parts of one sentence each, without a full stop. `todo` may be empty.
     Error(const std::string& tried, const std::string& found, const std::string& todo = {},
           ErrorKind kind = ErrorKind::other);
 
+    /// What a program can do about it by itself.
     [[nodiscard]] ErrorKind kind() const { return kind_; }
+    /// What was tried.
     [[nodiscard]] const std::string& tried() const { return tried_; }
+    /// What was found instead.
     [[nodiscard]] const std::string& found() const { return found_; }
+    /// What to do about it; may be empty.
     [[nodiscard]] const std::string& todo() const { return todo_; }
 
 private:

@@ -24,8 +24,8 @@ enum class ClipDepth : std::uint8_t {
 
 /// The viewer. Any projection, left- or right-handed, near or far first.
 struct Camera {
-    glm::dvec3 eye_ws{0.0};
-    glm::dmat4 clip_from_world{1.0};
+    glm::dvec3 eye_ws{0.0};          // metres, world space
+    glm::dmat4 clip_from_world{1.0}; // from world space to clip space, y up or down
     /// Depth 1 at the near plane, 0 at the far plane and where nothing was drawn. False: the other way round. Where the
     /// matrix says otherwise, all lights get Outcome degenerate.
     bool reversed_z = true;
@@ -47,8 +47,8 @@ struct Camera {
 /// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the
 /// others are drawn anew.
 struct Light {
-    std::uint32_t key = 0;
-    LightType type = LightType::directional;
+    std::uint32_t key = 0;                      // the same as long as it is the same light
+    LightType type = LightType::directional;    // which of the numbers below count
     glm::dvec3 position_ws{0.0};                // spot, point
     glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
     double outer_half_angle_rad = 0.7853981634; // spot: (0, 1.0471] (60 degrees: a single frustum holds 120)
@@ -80,12 +80,13 @@ struct LightExtent {
 /// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
 [[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
+/// All that planning asks of a host.
 struct Frame {
-    std::uint64_t index = 0;
-    double time_s = 0.0;
-    Camera camera;
-    glm::uvec2 size_px{1280, 720}; // of the picture; >= 1
-    std::span<const Light> lights;
+    std::uint64_t index = 0;            // counted by the host; the plan has it as well
+    double time_s = 0.0;                // s, on any clock that does not run back: what steps and fades go by
+    Camera camera;                      // what looks at the scene
+    glm::uvec2 size_px{1280, 720};      // of the picture; >= 1
+    std::span<const Light> lights;      // in any order; kept by the host
     const ObjectSet* objects = nullptr; // null: all lights get Outcome degenerate
     /// Layers of the world for options with LayerPlacement::world that give none themselves: from low to high, as many
     /// as their `layers`; else those lights get Outcome refused. Where they change, what was drawn with them is drawn

@@ -27,18 +27,22 @@ static_assert(sizeof(glm::vec3) == 12 && alignof(glm::vec3) == alignof(float) &&
 
 /// Axis-aligned box. Default-constructed it is empty (min > max) and is the identity of `merge`.
 struct Aabb {
-    glm::vec3 min{std::numeric_limits<float>::infinity()};
-    glm::vec3 max{-std::numeric_limits<float>::infinity()};
+    glm::vec3 min{std::numeric_limits<float>::infinity()};  // the corner of least x, y and z, metres
+    glm::vec3 max{-std::numeric_limits<float>::infinity()}; // the corner of greatest x, y and z, metres
 
+    /// Holds no point; so is a box of numbers that are none.
     [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    /// Its middle; meaningless for an empty box.
     [[nodiscard]] glm::vec3 centre() const { return (min + max) * 0.5F; }
     /// Full edge lengths; meaningless for an empty box.
     [[nodiscard]] glm::vec3 extent() const { return max - min; }
+    /// Have both a point in common? Boxes that touch do.
     [[nodiscard]] bool overlaps(const Aabb& other) const
     {
         return min.x <= other.max.x && max.x >= other.min.x && min.y <= other.max.y && max.y >= other.min.y &&
                min.z <= other.max.z && max.z >= other.min.z;
     }
+    /// Is all of `other` inside, its rim included?
     [[nodiscard]] bool contains(const Aabb& other) const
     {
         return min.x <= other.min.x && max.x >= other.max.x && min.y <= other.min.y && max.y >= other.max.y &&
@@ -53,6 +57,7 @@ struct Aabb {
 
 /// Smallest box around both; an empty argument changes nothing.
 [[nodiscard]] GNOMON_API Aabb merge(const Aabb& a, const Aabb& b);
+/// Smallest box around a box and a point.
 [[nodiscard]] GNOMON_API Aabb merge(const Aabb& a, const glm::vec3& point);
 /// Box around the eight transformed corners, tight for the transformed box (Arvo 1990, "Transforming
 /// axis-aligned bounding boxes"); affine transforms only.
@@ -60,15 +65,16 @@ struct Aabb {
 
 /// Half-space dot(normal, p) + d >= 0 is inside. `normal` is unit length, so the value is a distance in metres.
 struct Plane {
-    glm::dvec3 normal{0.0, 0.0, 1.0};
-    double d = 0.0;
+    glm::dvec3 normal{0.0, 0.0, 1.0}; // unit length, inward
+    double d = 0.0;                   // metres from the plane to the origin, along the normal
 
+    /// Metres from the plane, positive inside.
     [[nodiscard]] double distance(const glm::dvec3& p) const { return glm::dot(normal, p) + d; }
 };
 
 /// Six inward planes, in the order left, right, bottom, top, near, far.
 struct Frustum {
-    std::array<Plane, 6> planes;
+    std::array<Plane, 6> planes; // left, right, bottom, top, near, far
 };
 
 /// Planes of a clip volume -w <= x,y <= w, 0 <= z <= w (Gribb & Hartmann 2001, "Fast extraction of viewing
@@ -76,6 +82,7 @@ struct Frustum {
 /// reversed-z camera has them the other way round). A plane at infinity gets a zero normal and d = 1: all is inside it.
 [[nodiscard]] GNOMON_API Frustum frustumFromClip(const glm::dmat4& clip_from_world);
 
+/// Where a box is against a convex region.
 enum class Containment : std::uint8_t { outside, intersects, inside };
 /// Conservative: `intersects` may be said of a box just outside an edge, never `outside` of one that is not.
 [[nodiscard]] GNOMON_API Containment classify(std::span<const Plane> planes, const Aabb& box);
@@ -85,6 +92,7 @@ enum class Containment : std::uint8_t { outside, intersects, inside };
 class GNOMON_API ConvexBody {
 public:
     ConvexBody() = default;
+    /// The body of a box; empty for an empty box.
     [[nodiscard]] static ConvexBody fromAabb(const Aabb& box);
     /// The eight corners of a clip volume taken to world space. A singular matrix, or a volume without end (a far plane
     /// at infinity), gives an empty body: clip a box by frustumFromClip() then.
@@ -93,12 +101,14 @@ public:
     /// extent of a plane, give an empty body.
     [[nodiscard]] static ConvexBody hull(std::span<const glm::dvec3> points);
 
+    /// It has no face.
     [[nodiscard]] bool empty() const { return face_sizes_.empty(); }
     /// Becomes `box`, keeping its memory.
     void reset(const Aabb& box);
     /// Keeps the part inside `plane`; what is less than 1e-12 of the coordinates' size thick counts as nothing. A plane
     /// with a zero normal keeps all (d >= 0) or nothing. Returns *this, for chaining. Allocates nothing once warm.
     ConvexBody& clip(const Plane& plane);
+    /// Keeps the part inside all of them.
     ConvexBody& clip(std::span<const Plane> planes);
     /// Sweeps the body by `offset`: the convex hull of it and its translate. With the reverse light direction this is
     /// the body from which casters can reach it.
@@ -112,7 +122,9 @@ public:
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
     /// Number of vertices of each face.
     [[nodiscard]] std::span<const std::uint32_t> faceSizes() const { return face_sizes_; }
+    /// Is a point inside, or at most so many metres outside of a face? Never of an empty body.
     [[nodiscard]] bool contains(const glm::dvec3& p, double tolerance_m = 0.0) const;
+    /// Cubic metres; 0 of an empty body.
     [[nodiscard]] double volume() const;
 
 private:

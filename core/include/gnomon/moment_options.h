@@ -34,8 +34,8 @@ enum class LayerPlacement : std::uint8_t { uniform, by_hand, lloyd, gaps, world 
 enum class LayerAxis : std::uint8_t { height, light };
 /// A layer of the world. All zero: none.
 struct WorldLayer {
-    double low_m = 0.0; // -1e6 .. 1e6 each; low_m < high_m
-    double high_m = 0.0;
+    double low_m = 0.0;  // -1e6 .. 1e6 each; low_m < high_m
+    double high_m = 0.0; // where it ends
 
     bool operator==(const WorldLayer&) const = default;
 };
@@ -46,18 +46,19 @@ enum class MomentSolver : std::uint8_t { hamburger, hausdorff };
 enum class MomentPenumbra : std::uint8_t { fixed, light };
 
 inline constexpr std::uint32_t kMaxBlurRadius = 31; // texels
-inline constexpr std::uint32_t kMaxDepthLayers = 8;
+inline constexpr std::uint32_t kMaxDepthLayers = 8; // of MomentOptions::layers
 
+/// How filterable maps are made and read. What a member is for stands before it; for other filters it has no effect.
 struct MomentOptions {
-    DepthMetricKind metric = DepthMetricKind::linear;
+    DepthMetricKind metric = DepthMetricKind::linear; // what depth is stored
     /// Store 2 d' - 1: a float's sign bit is precision too. Refused for unorm formats. Without effect on msm, which
     /// always stores -1 to 1. All other options keep their meaning.
     bool remap = false;
-    std::uint32_t samples = 4; // of the depth pass, 1 or 4; averaged as moments, never as depths
-    BlurKind blur = BlurKind::automatic;
-    float blur_sigma_texels = 1.25F;      // gaussian; 0.3 .. 10
-    std::uint32_t blur_radius_texels = 0; // 1 .. 31; 0: three sigma rounded up (box: 2)
-    BlurPath blur_path = BlurPath::automatic;
+    std::uint32_t samples = 4;                    // of the depth pass, 1 or 4; averaged as moments, never as depths
+    BlurKind blur = BlurKind::automatic;          // done once for all pixels
+    float blur_sigma_texels = 1.25F;              // gaussian; 0.3 .. 10
+    std::uint32_t blur_radius_texels = 0;         // 1 .. 31; 0: three sigma rounded up (box: 2)
+    BlurPath blur_path = BlurPath::automatic;     // no difference but in time, and in rounding
     MapSampling sampling = MapSampling::bilinear; // nearest to the truth at rest; coarser levels spare shimmer
     std::uint32_t anisotropy = 8;                 // anisotropic: most reads a pixel, 2 .. 16
 
@@ -74,8 +75,8 @@ struct MomentOptions {
     float bleeding_power = 1.0F;   // then raised to this; 0.1 .. 16
 
     // lvsm
-    std::uint32_t layers = 2; // 2 .. 8, two to a texel
-    LayerPlacement placement = LayerPlacement::gaps;
+    std::uint32_t layers = 2;                        // 2 .. 8, two to a texel
+    LayerPlacement placement = LayerPlacement::gaps; // where one layer ends and the next begins
     /// by_hand: where layers meet, ascending, (0, 1), in the depths that the map stores (`metric`); the first layers -
     /// 1 count.
     std::array<float, kMaxDepthLayers - 1> splits{};
@@ -93,7 +94,7 @@ struct MomentOptions {
     std::optional<float> evsm_positive; // c+
     std::optional<float> evsm_negative; // c-; of four channels
     // msm
-    MomentSolver solver = MomentSolver::hamburger;
+    MomentSolver solver = MomentSolver::hamburger; // which of the two bounds is taken
     /// How far moments are moved towards those of a known distribution, 0 .. 0.1: hides rounding, and lets a little
     /// light through. Nothing: the least that keeps lit surfaces lit and single precision exact enough: 4e-5 at 16
     /// bits, 3e-6 at 32 bits.

@@ -38,10 +38,11 @@ enum class IdSharing : std::uint8_t {
 /// which of two objects is in front where they are not.
 [[nodiscard]] GNOMON_API IdSharing idSharingOf(Filter filter, IdOf of);
 
+/// How handOutIds() goes about it.
 struct IdHandout {
-    std::uint32_t most = 65535; // ids besides 0
-    IdOf of = IdOf::object;
-    IdSharing sharing = IdSharing::far;
+    std::uint32_t most = 65535;         // ids besides 0
+    IdOf of = IdOf::object;             // what has an id of its own
+    IdSharing sharing = IdSharing::far; // what happens when there are more
 };
 /// Where an object is in the order of ids: how far its box reaches, and its index.
 using IdPlace = std::pair<double, std::uint32_t>;

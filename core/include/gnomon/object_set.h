@@ -17,12 +17,13 @@ namespace gnomon {
 /// Pieces of one object that ids tell apart; more share numbers.
 inline constexpr std::uint32_t kMostPieces = 4096;
 
+/// What an object does to shadows.
 struct ObjectFlags {
     /// Off spares drawing what throws no shadow anyway, such as level ground. Filterable maps
     /// (FilterTraits::filterable) draw it all the same where the camera sees it, because their averages need the
     /// receiver's own depth; then it casts.
     bool casts = true;
-    bool receives = true;
+    bool receives = true; // off: planning takes no notice that the camera sees it
     bool dynamic = false; // a hint: expected to move; kept apart from what stands still
     /// Filter volumes counts faces of what casts, and only of a closed body is the count right: each edge of its
     /// triangles is run along as often one way as the other, by opaque triangles of this object or of others that cast
@@ -37,9 +38,10 @@ struct ObjectFlags {
 /// object is removed, another one may get the index, but not the name. No two objects of a process have one name
 /// before 2^32 were added.
 struct ObjectId {
-    std::uint32_t index = 0xFFFFFFFFU;
-    std::uint32_t generation = 0; // 0: names nothing
+    std::uint32_t index = 0xFFFFFFFFU; // its place in plans and in the host's arrays
+    std::uint32_t generation = 0;      // 0: names nothing
 
+    /// It names an object, alive or gone.
     [[nodiscard]] explicit operator bool() const { return generation != 0; }
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
@@ -62,8 +64,8 @@ class GNOMON_API ObjectSet {
 public:
     ObjectSet();
     ~ObjectSet();
-    ObjectSet(ObjectSet&&) noexcept;
-    ObjectSet& operator=(ObjectSet&&) noexcept;
+    ObjectSet(ObjectSet&&) noexcept;            // the other set is empty then, and may be used again
+    ObjectSet& operator=(ObjectSet&&) noexcept; // the other set is empty then, and may be used again
 
     /// Amortised O(1). Of the 2^30 objects that a set can hold none is left: an id that names nothing.
     ObjectId add(const Aabb& bounds_ws, ObjectFlags flags = {});
@@ -76,18 +78,22 @@ public:
     bool remove(ObjectId object);
 
     [[nodiscard]] std::uint32_t size() const; // one past the largest index of a live object
+    /// Is the object of this name in the set?
     [[nodiscard]] bool alive(ObjectId object) const;
+    /// Has an object this index now?
     [[nodiscard]] bool alive(std::uint32_t index) const;
     /// The object that has an index now; names nothing where none does.
     [[nodiscard]] ObjectId idAt(std::uint32_t index) const;
     /// Empty of an object that is nowhere, or not there.
     [[nodiscard]] Aabb bounds(ObjectId object) const;
+    /// By index, which another object may have got.
     [[nodiscard]] Aabb bounds(std::uint32_t index) const;
     /// The bounds by index, for loops over many; empty where there is no object, or it is nowhere. Holds until the next
     /// add().
     [[nodiscard]] std::span<const Aabb> allBounds() const;
     /// Of an object that is not there: nothing is set.
     [[nodiscard]] ObjectFlags flags(ObjectId object) const;
+    /// By index, which another object may have got.
     [[nodiscard]] ObjectFlags flags(std::uint32_t index) const;
     /// How many live objects are nowhere. In a sound scene: 0.
     [[nodiscard]] std::uint32_t nowhere() const;
@@ -103,6 +109,7 @@ public:
     /// Differs between any two sets of a process, so that a planner notices when it is handed another one.
     [[nodiscard]] std::uint64_t identity() const;
 
+    /// Which objects a query() finds.
     enum class Want : std::uint8_t { casters, receivers, all };
     /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
     /// touch. No object inside is ever left out. `out` is not cleared.

@@ -18,7 +18,7 @@
 
 namespace gnomon {
 
-inline constexpr std::uint32_t kMaxCascades = 6;
+inline constexpr std::uint32_t kMaxCascades = 6; // of CascadeOptions::count
 
 /// How the maps of one light's cascades are drawn. They are the same either way, bit for bit.
 enum class CascadePass : std::uint8_t {
@@ -38,13 +38,14 @@ struct CascadeOptions {
     /// Zeros: the practical split.
     std::array<double, kMaxCascades - 1> ends_m{};
     double blend = 0.1; // share of a cascade's own depth over which it fades into the next: 0 .. 0.5
-    CascadePass pass = CascadePass::automatic;
+    CascadePass pass = CascadePass::automatic; // no difference but in time
     /// With a bound on what a frame draws (ShadowOptions::draw_budget_texels, draw_budget_ms) and Partition::cascades:
     /// how much wider all maps but a light's first are made than what is seen of their slices, on each side: share of
     /// the slice's width and depth, 0 .. 0.5. Then each of them takes turns by itself (View::waited). A map of 1 + 2
     /// room times the width has texels as much larger. 0: a light's maps take turns together.
     double room = 0.0;
 
+    /// Splits are given, not computed.
     [[nodiscard]] bool explicitEnds() const
     {
         return std::ranges::any_of(ends_m, [](double end_m) { return end_m != 0.0; });
@@ -79,7 +80,7 @@ enum class StepWait : std::uint8_t {
 
 /// How the step motions divide a sun's course.
 struct StepOptions {
-    StepBy by = StepBy::angle;
+    StepBy by = StepBy::angle;               // what makes the next step due
     double angle_rad = 0.008726646259971648; // by angle: 0.5 degrees, about the sun's own width; 0.01 .. 28 degrees
     double interval_s = 2.0;                 // by time: 0.01 .. 86400, of Frame::time_s
     bool smooth = false;                     // step-blend, -band, -alternate: the share as a cubic, else linear
@@ -117,9 +118,9 @@ enum class LightenAs : std::uint8_t {
 
 /// The kernel of Filter::pcf.
 struct PcfOptions {
-    PcfKernel kernel = PcfKernel::gaussian_3x3;
-    std::uint32_t taps = 16;    // poisson, vogel: 4 .. 64
-    float radius_texels = 2.5F; // poisson, vogel: 0.5 .. 16
+    PcfKernel kernel = PcfKernel::gaussian_3x3; // which texels are compared, and their weights
+    std::uint32_t taps = 16;                    // poisson, vogel: 4 .. 64
+    float radius_texels = 2.5F;                 // poisson, vogel: 0.5 .. 16
     /// Gaussian kernels: standard deviation, 0.3 .. 4; nothing: a quarter of the kernel's width.
     std::optional<float> sigma_texels;
 
@@ -162,12 +163,12 @@ enum class IdOf : std::uint8_t {
 
 /// Filters id and depth-id.
 struct IdOptions {
-    IdTest test = IdTest::automatic;
+    IdTest test = IdTest::automatic; // which texels are asked
     IdDepth depth = IdDepth::object; // depth-id
     /// depth-id: how far towards the light an object is compared with itself, in shares of its radius, which is half
     /// its box's diagonal: 0 .. 1. A step of what is stored is added. Nothing: BiasOptions say it, as of other filters.
     std::optional<float> bias;
-    IdOf of = IdOf::object;
+    IdOf of = IdOf::object; // what does not shade itself
 
     bool operator==(const IdOptions&) const = default;
 };
@@ -181,6 +182,7 @@ enum class OpenCasters : std::uint8_t {
 
 /// Filter volumes.
 struct VolumeOptions {
+    /// An open caster's count is wrong, and whole streaks of the picture with it.
     OpenCasters open = OpenCasters::refuse;
     bool operator==(const VolumeOptions&) const = default;
 };
@@ -202,8 +204,9 @@ enum class Quality : std::uint8_t {
 };
 [[nodiscard]] GNOMON_API std::string_view nameOf(Quality value);
 
+/// All that decides how a light's shadows are made. What comes without any of it is among the best that there is.
 struct ShadowOptions {
-    Technique technique;
+    Technique technique;                 // one value each of the six choices but the light's own
     Quality quality = Quality::balanced; // what is auto
     std::optional<MapFormat> format;     // what a texel is stored as; nothing: the filter's first format
     /// Texels on a side of one map, 16 .. 16384. Cascades that partition auto chose share so many: four have half.
@@ -215,11 +218,11 @@ struct ShadowOptions {
     std::uint32_t max_texels = 2048 * 2048;
     /// Receivers farther than this from the eye get no shadow, metres; 0: no limit.
     double max_distance_m = 0.0;
-    double fade = 0.1; // share of max_distance_m over which shadows fade away: 0 .. 1
-    CascadeOptions cascades;
-    MultiOptions multi;
-    StepOptions steps;
-    KeepStill keep_still = KeepStill::automatic;
+    double fade = 0.1;                           // share of max_distance_m over which shadows fade away: 0 .. 1
+    CascadeOptions cascades;                     // partitions cascades and sdsm
+    MultiOptions multi;                          // partition multi
+    StepOptions steps;                           // the step motions
+    KeepStill keep_still = KeepStill::automatic; // two images instead of one where it is done
     /// Room around the fitted rectangle for the filter's kernel, texels; 0 .. 64. Nothing: what the kernel needs, at
     /// least 4. At most a quarter of map_size is used, so that half of the map is left.
     std::optional<double> border_texels;
@@ -246,13 +249,13 @@ struct ShadowOptions {
     /// With a bound on what is drawn: frames for which a light, or a cascade by itself, waits at most, 1 .. 64. Then it
     /// is drawn whatever the bound is.
     std::uint32_t longest_wait = 8;
-    PcfOptions pcf; // filters pcf, smoothies
-    SmoothiesOptions smoothies;
-    IdOptions ids; // filters id, depth-id
-    BiasOptions bias;
-    CasterFaces faces = CasterFaces::nearest; // what of its casters a map holds
-    CasterCull cull = CasterCull::none;       // which triangles of all casters are left out
-    Translucent translucent = Translucent::grey;
+    PcfOptions pcf;                              // filters pcf, smoothies
+    SmoothiesOptions smoothies;                  // soften and filter smoothies
+    IdOptions ids;                               // filters id, depth-id
+    BiasOptions bias;                            // of maps that compare depths
+    CasterFaces faces = CasterFaces::nearest;    // what of its casters a map holds
+    CasterCull cull = CasterCull::none;          // which triangles of all casters are left out
+    Translucent translucent = Translucent::grey; // where a host says what is blended
     /// What full shadow becomes, of each map that is read: 0 .. 1. Done to what the filter found, before maps of one
     /// light are joined.
     float lighten = 0.0F;
@@ -270,20 +273,33 @@ class GNOMON_API ResolvedOptions {
 public:
     /// What was asked for, with the filter that is used instead of automatic.
     [[nodiscard]] const ShadowOptions& asked() const { return asked_; }
+    /// One value of each choice; the filter is never automatic.
     [[nodiscard]] const Technique& technique() const { return asked_.technique; }
+    /// Never automatic.
     [[nodiscard]] Filter filter() const { return asked_.technique.filter; }
+    /// The filter's row.
     [[nodiscard]] const FilterTraits& traits() const { return *traits_; }
+    /// What a texel is stored as.
     [[nodiscard]] MapFormat format() const { return format_; }
+    /// FilterTraits::filterable
     [[nodiscard]] bool filterable() const { return traits_->filterable; }
+    /// FilterTraits::has_maps
     [[nodiscard]] bool hasMaps() const { return traits_->has_maps; }
+    /// ShadowOptions::pcf
     [[nodiscard]] const PcfOptions& pcf() const { return asked_.pcf; }
+    /// ShadowOptions::ids
     [[nodiscard]] const IdOptions& ids() const { return asked_.ids; }
     /// IdOptions::test, with what automatic stands for.
     [[nodiscard]] IdTest idTest() const;
+    /// ShadowOptions::bias
     [[nodiscard]] const BiasOptions& bias() const { return asked_.bias; }
+    /// ShadowOptions::moments
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
+    /// ShadowOptions::cascades
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
+    /// ShadowOptions::screen_blur
     [[nodiscard]] const ScreenBlurOptions& screen_blur() const { return asked_.screen_blur; }
+    /// Texels around what is fitted; what was asked for, or what the filter needs.
     [[nodiscard]] double border_texels() const { return border_texels_; }
     /// Texels on a side of the largest map that a light can have, and of a page.
     [[nodiscard]] std::uint32_t largest_side() const { return largest_side_; }
@@ -294,11 +310,13 @@ public:
     /// Receivers between these distances from the eye fade from shadowed to lit, and beyond are lit; metres. End 0:
     /// nothing fades.
     [[nodiscard]] double fadeBegin_m() const { return asked_.max_distance_m * (1.0 - asked_.fade); }
+    /// Where fading ends, metres from the eye; 0: nothing fades.
     [[nodiscard]] double fadeEnd_m() const { return asked_.max_distance_m; }
     /// How far from a receiver's place in the map the filter reads, reachTexels().
     [[nodiscard]] float reach_texels() const { return reach_texels_; }
     /// Of what was asked for, see below.
     [[nodiscard]] bool integratesLight() const;
+    /// Maps are fitted on the GPU to the camera's depth.
     [[nodiscard]] bool fitsOnGpu() const;
     /// Beside its map a light has the edges of casters, made wide (docs/techniques/smoothies.md).
     [[nodiscard]] bool hasSmoothies() const { return hasFins() || asked_.technique.soften == Soften::smoothies; }
@@ -307,6 +325,7 @@ public:
     /// A texel has two maps of 16 bits each: a light's two positions of a stepping sun share their tiles.
     [[nodiscard]] bool paired_maps() const { return paired_maps_; }
 
+    /// The same was asked for.
     bool operator==(const ResolvedOptions& other) const { return asked_ == other.asked_; }
 
 private:
@@ -324,11 +343,14 @@ private:
 
 /// What became of options: a checked value, or the sentence that says why not.
 struct Resolution {
-    std::optional<ResolvedOptions> resolved;
-    std::string refusal; // empty when resolved
+    std::optional<ResolvedOptions> resolved; // nothing where it is refused
+    std::string refusal;                     // empty when resolved
 
+    /// It was not refused.
     [[nodiscard]] explicit operator bool() const { return resolved.has_value(); }
+    /// Precondition: not refused.
     [[nodiscard]] const ResolvedOptions& operator*() const { return *resolved; }
+    /// Precondition: not refused.
     [[nodiscard]] const ResolvedOptions* operator->() const { return &*resolved; }
 };
 /// Refuses what lies outside its range, a combination that no light can have (refusal(LightType, Technique) for a

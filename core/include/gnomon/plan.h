@@ -26,7 +26,7 @@
 
 namespace gnomon {
 
-inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFU; // stands for no index at all
 
 /// What became of a light, as a value with a reason. Never an exception, never a silent fallback.
 enum class OutcomeKind : std::uint8_t {
@@ -39,11 +39,13 @@ enum class OutcomeKind : std::uint8_t {
     refused,          // the combination of choices is refused (refusal())
     atlas_full,       // no room for its maps
 };
+/// As JSON and reports have it; static text.
 [[nodiscard]] GNOMON_API std::string_view nameOf(OutcomeKind kind);
 
+/// What became of a light, and why.
 struct Outcome {
-    OutcomeKind kind = OutcomeKind::ok;
-    std::string_view reason; // a sentence with static lifetime; empty for ok
+    OutcomeKind kind = OutcomeKind::ok; // what, in one word
+    std::string_view reason;            // a sentence with static lifetime; empty for ok
 
     /// Its mask channel comes from a map, or with filter volumes from counts (ok, fallback); otherwise it reads 1
     /// everywhere.
@@ -52,20 +54,21 @@ struct Outcome {
 
 /// A rectangle of one layer of the atlas, in texels.
 struct Tile {
-    std::uint32_t layer = 0;
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t layer = 0;  // page of the atlas
+    std::uint32_t x = 0;      // of its first texel, from the left
+    std::uint32_t y = 0;      // of its first texel, from the top
+    std::uint32_t width = 0;  // texels
+    std::uint32_t height = 0; // texels
 };
 
 /// Some of a tile's texels, counted from its first one. Width 0: none.
 struct TexelRect {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t x = 0;      // from the tile's left
+    std::uint32_t y = 0;      // from the tile's top
+    std::uint32_t width = 0;  // texels
+    std::uint32_t height = 0; // texels
 
+    /// There is no texel in it.
     [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
 };
 
@@ -76,8 +79,9 @@ enum class TexelPart : std::uint8_t { whole, first, second };
 /// that its light gives up takes its name with it; the index is used again, with another generation.
 struct MapId {
     std::uint32_t index = kNoIndex; // small and dense: less than Plan::map_count, so it may index a table
-    std::uint32_t generation = 0;
+    std::uint32_t generation = 0;   // which of those that had the index
 
+    /// It names a map.
     [[nodiscard]] explicit operator bool() const { return index != kNoIndex; }
     friend bool operator==(const MapId&, const MapId&) = default;
 };
@@ -102,9 +106,9 @@ using ContentNumber = std::uint64_t;
 /// along a ray at an angle from that, d' grows by the angle's cosine / (far - near) per metre. Of a paraboloid d is
 /// metres from the light, and no row gives it: depthOnMap() (plan_views.h) does.
 struct DepthMetric {
-    glm::dvec4 metric_ws{0.0};
-    double near_m = 0.0;
-    double far_m = 1.0;
+    glm::dvec4 metric_ws{0.0}; // the row that gives d' of a point of the world
+    double near_m = 0.0;       // where d' is 0
+    double far_m = 1.0;        // where d' is 1
 };
 
 /// The share of what is seen that a view serves. Of most views that is a range of the camera's depth: metres from the
@@ -112,14 +116,15 @@ struct DepthMetric {
 /// depth along the light's axis, dot(over, (p, 1)): the lower, the finer the map has to be. Then the numbers below have
 /// no unit.
 struct ViewSlice {
-    glm::dvec4 axis{0.0};
-    double begin_m = -std::numeric_limits<double>::infinity();
-    double end_m = std::numeric_limits<double>::infinity();
+    glm::dvec4 axis{0.0};                                      // the row that gives metres along the camera's view
+    double begin_m = -std::numeric_limits<double>::infinity(); // where it begins; -infinity: at the eye
+    double end_m = std::numeric_limits<double>::infinity();    // where it ends; infinity: nowhere
     /// Where the view before it, which serves as far as here too, fades over into this one: from begin_m to begin_m +
     /// blend_m. 0: there is none before it.
     double blend_m = 0.0;
     glm::dvec4 over{0.0, 0.0, 0.0, 1.0}; // 1 everywhere, or the row `w` of the view's sector
 
+    /// It is less than everything.
     [[nodiscard]] bool bounded() const { return std::isfinite(begin_m) || std::isfinite(end_m); }
     /// It counts depth over depth.
     [[nodiscard]] bool isRatio() const { return glm::dvec3(over) != glm::dvec3(0.0); }
@@ -141,14 +146,16 @@ struct ViewSlice {
 /// |dot(x, (p, 1))| and |dot(y, (p, 1))| both at most dot(w, (p, 1)), p in world space. A map shows more, for filters
 /// to read, but not all that casts there. By default it is everything. Where w is a lamp's, it is metres along an axis.
 struct ViewSector {
-    glm::dvec4 x{0.0};
-    glm::dvec4 y{0.0};
-    glm::dvec4 w{0.0, 0.0, 0.0, 1.0};
+    glm::dvec4 x{0.0};                // the row across the sector
+    glm::dvec4 y{0.0};                // the other row across
+    glm::dvec4 w{0.0, 0.0, 0.0, 1.0}; // the row that both are held against
 
+    /// It is less than everything.
     [[nodiscard]] bool bounded() const
     {
         return x != glm::dvec4(0.0) || y != glm::dvec4(0.0) || w != glm::dvec4(0.0, 0.0, 0.0, 1.0);
     }
+    /// Is a point of the world in it?
     [[nodiscard]] bool holds(const glm::dvec3& p_ws) const
     {
         const glm::dvec4 p(p_ws, 1.0);
@@ -166,8 +173,8 @@ struct FitReport {
 /// A layer of depth, in the view's own depths: d'' = clamp((d' - near) / (far - near), 0, 1). Both may lie outside of
 /// [0, 1]. Both zero: none.
 struct DepthSpan {
-    double near = 0.0;
-    double far = 0.0;
+    double near = 0.0; // where the layer begins
+    double far = 0.0;  // where it ends
 
     friend bool operator==(const DepthSpan&, const DepthSpan&) = default;
 };
@@ -179,28 +186,28 @@ enum class SunPosition : std::uint8_t { only, earlier, later };
 struct View {
     std::uint32_t light = 0;         // index into Frame::lights
     glm::dmat4 clip_from_world{1.0}; // z in [0, w] beyond the near plane; y down; but see paraboloid
-    DepthMetric metric;
+    DepthMetric metric;              // what the map's depths are
     bool orthographic = true; // neither a lamp's nor warped; then the rasteriser's z is the metric, up to rounding
     bool clamp_near = true;   // casters before the near plane are to be clamped onto it, not cut
     /// Side of a texel: metres across a directional light, or metres at 1 m distance from a light with a place. Of a
     /// warped map it is the longest of what is seen and lit.
     double texel_m = 0.0;
-    Tile tile;
+    Tile tile;                         // where in the light's pages the map is
     TexelPart part = TexelPart::whole; // of the tile's texels
     /// Range of Plan::casters: what is drawn, see ObjectFlags::casts. First those that stand still, then those that
     /// move (ObjectFlags::dynamic), each ascending; without a kept layer, all ascending.
     std::uint32_t first_caster = 0;
-    std::uint32_t caster_count = 0;
-    std::uint32_t still_count = 0; // how many of them stand still; of use with a kept layer only
-    MapId map;
+    std::uint32_t caster_count = 0; // how many there are
+    std::uint32_t still_count = 0;  // how many of them stand still; of use with a kept layer only
+    MapId map;                      // which map it is, from frame to frame
     /// What the map must hold for the drawing below to be enough, and what it holds afterwards. A backend that notes
     /// for each MapId::index what it drew last, and finds another number there than `presumes`, draws all of the tile
     /// from all casters, whatever `redraw` and `dirty` say; it then holds `makes` all the same. So a frame that was
     /// skipped, an image that was lost and a second renderer mend themselves. Presumes 0: all is drawn in any case.
     /// Makes 0: nobody reads the map in this frame; it is to be left as it is.
     ContentNumber presumes = 0;
-    ContentNumber makes = 0;
-    bool redraw = true; // makes != presumes: something is to be drawn
+    ContentNumber makes = 0; // what it holds afterwards; 0: leave it
+    bool redraw = true;      // makes != presumes: something is to be drawn
     /// Layer of the images that hold maps of still casters alone (same size and place there as `tile`), from which the
     /// map is restored before those that move are drawn over it. Of the plan's views no other one has the same texels
     /// of it, or it has another `part` of them. kNoIndex: the map is drawn all at once.
@@ -209,19 +216,19 @@ struct View {
     /// The square of the kept layer is a map like any other, with its own name and contents. Where it does not hold
     /// what it should, the still casters are drawn into it first, and then all of the tile is dirty.
     MapId kept_map;
-    ContentNumber kept_presumes = 0;
-    ContentNumber kept_makes = 0;
+    ContentNumber kept_presumes = 0; // as `presumes`, of the kept map
+    ContentNumber kept_makes = 0;    // as `makes`, of the kept map
     /// With a kept layer and `redraw`: what has to be restored and drawn over, because something that moves is there or
     /// was when the map was drawn last.
     TexelRect dirty;
-    SunPosition sun = SunPosition::only;
-    glm::dvec2 texel_xy_m{0.0}; // both sides of a texel, in x and y of the map; texel_m is the longer one
-    FitReport fit;
+    SunPosition sun = SunPosition::only; // of a stepping sun, which of its positions
+    glm::dvec2 texel_xy_m{0.0};          // both sides of a texel, in x and y of the map; texel_m is the longer one
+    FitReport fit;                       // how good the fit is
     /// Room on all sides for the rays to the rest of the light (integratesLight()), in texel_m's units of
     /// length.
     double light_reach = 0.0;
-    ViewSlice slice;
-    ViewSector sector;
+    ViewSlice slice;   // which depths it serves
+    ViewSector sector; // which directions it serves
     /// How far it has faded in over the light's views before it, where they serve the same place: 0 .. 1. Less than 1
     /// only while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
     double faded_in = 1.0;
@@ -263,16 +270,17 @@ struct View {
 /// What the GPU found for a view with View::gpu_cascade: with (x, y) a place on the base map, in [-1, 1], the view's
 /// own is ((x, y) - centre) * scale.
 struct FittedView {
-    glm::dvec2 scale{1.0};
-    glm::dvec2 centre{0.0};
+    glm::dvec2 scale{1.0};                                     // how many times finer than the base map, by axis
+    glm::dvec2 centre{0.0};                                    // of what the view shows, on the base map
     double begin_m = -std::numeric_limits<double>::infinity(); // as ViewSlice
-    double end_m = std::numeric_limits<double>::infinity();
-    double blend_m = 0.0;
+    double end_m = std::numeric_limits<double>::infinity();    // likewise
+    double blend_m = 0.0;                                      // likewise
     /// Of the base map, the rectangle that the slice's pixels lie in; low > high: there are none, and the view is the
     /// base map.
     glm::dvec2 seen_low{1.0};
-    glm::dvec2 seen_high{-1.0};
+    glm::dvec2 seen_high{-1.0}; // its other corner
 
+    /// No pixel of the picture is in the slice.
     [[nodiscard]] bool empty() const { return seen_low.x > seen_high.x; }
 };
 /// The view as it was drawn: what is known of it beforehand is its base map.
@@ -287,21 +295,21 @@ struct SunSteps {
     /// There are views of two positions (SunPosition); else of one alone, SunPosition::only.
     bool paired = false;
     glm::dvec3 earlier_ws{0.0, -1.0, 0.0}; // unit, the way light travels
-    glm::dvec3 later_ws{0.0, -1.0, 0.0};
-    double share = 0.0; // how far the sun itself has got from one to the other: 0 .. 1
-    bool smooth = false;
-    double band = 0.0; // width, share of the picture's; 0: the weight is the same all over
-    double edge = 0.0; // the band's right end
+    glm::dvec3 later_ws{0.0, -1.0, 0.0};   // likewise
+    double share = 0.0;                    // how far the sun itself has got from one to the other: 0 .. 1
+    bool smooth = false;                   // the weight is a cubic of the share, else linear
+    double band = 0.0;                     // width, share of the picture's; 0: the weight is the same all over
+    double edge = 0.0;                     // the band's right end
     /// Maps by turns (step-alternate): this frame draws and reads those of `read` alone, and joins them with what the
     /// frame before made of the other one.
     bool alternate = false;
-    SunPosition read = SunPosition::earlier;
+    SunPosition read = SunPosition::earlier; // which position's maps are drawn and read now
 };
 
 /// What Partition::automatic and Fit::automatic came to for a light, and why.
 struct AutoChoice {
     bool made = false; // the light leaves one of them to the planner, and something was in sight to choose by
-    Partition partition = Partition::single;
+    Partition partition = Partition::single; // what partition auto came to
     double texels_per_pixel = 0.0; // predicted, before anything is drawn: geometric mean over what is probably seen
     double error = 0.0;            // predicted share of that which is wrong, 0 .. 1; of use for comparing only
     double other_error = 0.0;      // the same for the partition that was not taken; 0: there was no other
@@ -313,15 +321,16 @@ struct AutoChoice {
 /// soften=converge: where a light shines from in this frame, a point of the light itself (convergeSample()). Its maps
 /// are drawn from there, and its mask is joined with those of the frames before.
 struct LightSample {
-    bool joined = false; // false: the light's own place; nothing below counts
-    glm::dvec3 position_ws{0.0};
+    bool joined = false;                     // false: the light's own place; nothing below counts
+    glm::dvec3 position_ws{0.0};             // of a spot or point light, metres
     glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // unit, the way light travels
     std::uint32_t number = 0; // of the frame since the last cut, from 0 on, modulo 1024: what noise goes by
 };
 
+/// What was planned for one light of the frame.
 struct LightPlan {
-    std::uint32_t first_view = 0; // range of Plan::views; of a paired light the earlier position's come first
-    std::uint32_t view_count = 0;
+    std::uint32_t first_view = 0;   // range of Plan::views; of a paired light the earlier position's come first
+    std::uint32_t view_count = 0;   // 0: it has no map
     std::uint32_t mask_layer = 0;   // of the mask image
     std::uint32_t mask_channel = 0; // 0..3: visibility, by which blended casters count as a grey
     /// The layer is this light's alone: red, green and blue are what arrives of each, of 1, and mask_channel is 3.
@@ -337,45 +346,46 @@ struct LightPlan {
     std::uint32_t waited = 0;
     /// Filters id and depth-id: where in Plan::object_ids those of this light begin. kNoIndex: it has none.
     std::uint32_t first_object_id = kNoIndex;
-    Outcome outcome;
-    SunSteps steps;
-    AutoChoice choice;
-    LightSample sample;
+    Outcome outcome;    // drawn as asked, or why not
+    SunSteps steps;     // a sun that moves in steps
+    AutoChoice choice;  // what auto came to
+    LightSample sample; // soften converge
     /// Filter volumes: it has no views. Range of Plan::casters: the objects whose shadow volumes are to be counted,
     /// ascending; all of them ObjectFlags::closed. 0 for every other filter.
     std::uint32_t first_volume = 0;
-    std::uint32_t volume_count = 0;
-    std::uint32_t left_out = 0; // casters that are not closed, with OpenCasters::skip
+    std::uint32_t volume_count = 0; // how many objects that is
+    std::uint32_t left_out = 0;     // casters that are not closed, with OpenCasters::skip
 };
 
 /// The images that the maps of one of the planner's options lie in. None of the numbers falls while a map is in use, so
 /// an image that grows can be copied into the larger one: the plan takes it that what was drawn is still there.
 struct MapPages {
-    std::uint32_t width = 0; // texels; a page is as large as the largest map
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;       // texels; a page is as large as the largest map
+    std::uint32_t height = 0;      // texels
     std::uint32_t layers = 0;      // pages of maps: Tile::layer is less
     std::uint32_t kept_layers = 0; // pages of maps of still casters alone: View::kept_layer is less
     /// Texels of all its lights' maps, in sight or not: as they want them, and as they have them.
     std::uint64_t wanted_texels = 0;
-    std::uint64_t given_texels = 0;
+    std::uint64_t given_texels = 0; // as they have them, never more than they want
     /// Texels of its lights' maps that this plan draws (texelsToDraw()), how many of its lights wait, with how many
     /// maps, and the longest LightPlan::waited.
     std::uint64_t drawn_texels = 0;
-    std::uint32_t waiting_lights = 0;
-    std::uint32_t waiting_maps = 0;
-    std::uint32_t longest_wait = 0;
+    std::uint32_t waiting_lights = 0; // lights whose turn has not come
+    std::uint32_t waiting_maps = 0;   // maps whose turn has not come
+    std::uint32_t longest_wait = 0;   // frames
 };
 
+/// What there is to draw in one frame, and what each light came to.
 struct Plan {
-    std::uint64_t frame = 0;
+    std::uint64_t frame = 0; // Frame::index
     /// Differs between any two planners of a process. Maps of two planners may lie at the same place under different
     /// names, so a backend that is handed another planner's plan forgets what it noted of the last one's maps.
     std::uint64_t planner = 0;
     /// Those of the planner, never null and never empty in a plan that it made: LightPlan::options is the index, also
     /// into `pages`. The defaults stand for options that are refused. They last as long as any copy of the plan.
     std::shared_ptr<const std::vector<ResolvedOptions>> options;
-    std::vector<LightPlan> lights; // one per light of the frame, in its order
-    std::vector<View> views;
+    std::vector<LightPlan> lights;        // one per light of the frame, in its order
+    std::vector<View> views;              // all maps of the frame, light after light
     std::vector<std::uint32_t> casters;   // object indices, view after view; with filter volumes light after light
     std::vector<std::uint32_t> receivers; // object indices that the camera sees, ascending
     std::vector<MapPages> pages = std::vector<MapPages>(1); // one for each of the planner's options
@@ -396,7 +406,7 @@ struct Plan {
     /// where they were; world space. At most kMostMoved.
     std::vector<Aabb> moved_ws;
 };
-inline constexpr std::size_t kMostMoved = 16;
+inline constexpr std::size_t kMostMoved = 16; // of Plan::moved_ws
 
 /// The plan as JSON text, two-space indented, keys and numbers the same on every machine (shortest round-trip form).
 [[nodiscard]] GNOMON_API std::string toJson(const Plan& plan);

@@ -17,6 +17,7 @@ namespace gnomon {
 {
     return plan.lights[view.light].options;
 }
+/// The options themselves.
 [[nodiscard]] inline const ResolvedOptions& optionsOf(const Plan& plan, const View& view)
 {
     return (*plan.options)[optionsIndexOf(plan, view)];

@@ -24,8 +24,8 @@ public:
     /// Several options, of which each light names its own (Light::options). Of none at all every light is refused.
     explicit Planner(std::span<const ShadowOptions> options);
     ~Planner();
-    Planner(Planner&&) noexcept;
-    Planner& operator=(Planner&&) noexcept;
+    Planner(Planner&&) noexcept;            // the other one refuses every light then
+    Planner& operator=(Planner&&) noexcept; // the other one refuses every light then
 
     /// The plan holds until the next call. Allocates nothing once warm (same counts as before). Whatever the frame's
     /// numbers are: what cannot be planned is said by the lights' outcomes (degenerate: not finite, without size, or so

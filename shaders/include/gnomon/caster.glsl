@@ -42,6 +42,7 @@ vec4 gnomonCasterParaboloid(vec4 clip)
 {
     return casterParaboloid(clip);
 }
+// Of the same `clip`, to be interpolated for gnomonCasterRadial().
 vec3 gnomonCasterRim(vec4 clip)
 {
     return casterRim(clip);

@@ -5,12 +5,15 @@
 #ifndef GNOMON_COMPACT_MASK_GLSL
 #define GNOMON_COMPACT_MASK_GLSL
 #ifndef GNOMON_TILES_SET
+// Descriptor set of the buffer.
 #define GNOMON_TILES_SET 0
 #endif
 #ifndef GNOMON_TILES_BINDING
+// Its binding there.
 #define GNOMON_TILES_BINDING 0
 #endif
 
+// What fillMaskTiles() says.
 layout(set = GNOMON_TILES_SET, binding = GNOMON_TILES_BINDING, std430) restrict readonly buffer GnomonMaskTiles
 {
     uvec2 gnomon_mask_tiles[];
@@ -18,10 +21,11 @@ layout(set = GNOMON_TILES_SET, binding = GNOMON_TILES_BINDING, std430) restrict 
 
 // The lights that may reach a pixel, gnomonTileLight(first) to gnomonTileLight(first + count - 1).
 struct GnomonTileLights {
-    uint first;
+    uint first; // of them, for gnomonTileLight()
     uint masked; // how many of them have channels: the first ones
-    uint count;
+    uint count;  // of all
 };
+// Of a pixel of the mask.
 GnomonTileLights gnomonTileLights(ivec2 pixel)
 {
     uvec2 head = gnomon_mask_tiles[0];
@@ -30,11 +34,13 @@ GnomonTileLights gnomonTileLights(ivec2 pixel)
     return GnomonTileLights(here.x, here.y & 0xFFFFu, here.y >> 16);
 }
 
+// One of them.
 struct GnomonTileLight {
     uint light;   // of the frame
     uint channel; // of the tile: layer * 4 + channel of the mask; 255: it has no map and is seen in full
     float weight; // in that channel
 };
+// Number `i` of the buffer, from `first` on.
 GnomonTileLight gnomonTileLight(uint i)
 {
     uvec2 words = gnomon_mask_tiles[i];

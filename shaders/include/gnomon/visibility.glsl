@@ -57,6 +57,7 @@ float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec2 pixel)
 {
     return gnomonLightColour(light, point, normal, pixel).a;
 }
+// The same of a smooth-shaded mesh.
 float gnomonLightVisibility(uint light, vec3 point, vec3 normal, vec4 smooth_surface, vec2 pixel)
 {
     return gnomonLightColour(light, point, normal, smooth_surface, vec3(1.0), pixel).a;

@@ -14,9 +14,9 @@ namespace gnomon::pack {
 
 /// An affine transform: its three rows. p_ws[i] = dot(row i, (p, 1)).
 struct Rows3x4 {
-    glm::vec4 x{1.0F, 0.0F, 0.0F, 0.0F};
-    glm::vec4 y{0.0F, 1.0F, 0.0F, 0.0F};
-    glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F};
+    glm::vec4 x{1.0F, 0.0F, 0.0F, 0.0F}; // row of x
+    glm::vec4 y{0.0F, 1.0F, 0.0F, 0.0F}; // row of y
+    glm::vec4 z{0.0F, 0.0F, 1.0F, 0.0F}; // row of z
 };
 
 /// Rows of a view that an instance brings: x, y and the metric; of any other view x, y, z, w and the metric. Of a
@@ -30,6 +30,7 @@ struct Rows3x4 {
 class GNOMON_API CasterRows {
 public:
     CasterRows() = default;
+    /// The rows of this view; it need not outlive the call.
     explicit CasterRows(const View& view);
     /// Writes casterRowCount() rows, each the view's times the object's transform, composed in double precision:
     /// objects may be as far from the world's origin as they like. Depth is `bias_m` metres, as DepthMetric has them,

@@ -44,14 +44,15 @@ struct TileLight {
 
 /// Which lights each tile has, and in which channels their shadows are.
 struct CompactMask {
-    CompactMaskRule rule;
-    glm::uvec2 tiles{0}; // along x and y; those on the right and at the bottom may be cut
+    CompactMaskRule rule; // by which it was made
+    glm::uvec2 tiles{0};  // along x and y; those on the right and at the bottom may be cut
     /// Tile i = y * tiles.x + x has lights[first[i]] to lights[first[i + 1] - 1]. Its first masked[i] have a channel,
     /// the most important one first; the others have no map.
     std::vector<std::uint32_t> first;
-    std::vector<std::uint32_t> masked;
-    std::vector<TileLight> lights;
+    std::vector<std::uint32_t> masked; // by tile
+    std::vector<TileLight> lights;     // tile after tile
 
+    /// The lights of a tile. Precondition: there is such a tile.
     [[nodiscard]] std::span<const TileLight> of(std::uint32_t x, std::uint32_t y) const
     {
         const std::size_t i = std::size_t{y} * tiles.x + x;

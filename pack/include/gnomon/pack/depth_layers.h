@@ -16,12 +16,13 @@ namespace gnomon::pack {
 /// One layer of depth of an lvsm map, in the depths that the map stores: the view's depth metric, or with
 /// DepthMetricKind::z_over_w that of a perspective projection.
 struct DepthLayer {
-    float near = 0.0F; // what it spans, overlaps included: d'' = (d' - near) / (far - near)
-    float far = 1.0F;
+    float near = 0.0F;   // what it spans, overlaps included: d'' = (d' - near) / (far - near)
+    float far = 1.0F;    // where it ends
     float begins = 0.0F; // receivers from here on are its own, up to where the next layer begins
 };
 /// The layers of every view where they depend neither on what is drawn nor on the view (uniform, by hand); else empty.
 [[nodiscard]] GNOMON_API std::vector<DepthLayer> fixedDepthLayers(const MomentOptions& options);
+/// Layers as the GPU has them, for people to look at: nearest first.
 [[nodiscard]] GNOMON_API std::vector<DepthLayer> describeLayers(const shared::GpuDepthLayers& layers,
                                                                 const MomentOptions& options);
 

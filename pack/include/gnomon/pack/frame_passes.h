@@ -10,6 +10,7 @@
 
 namespace gnomon::pack {
 
+/// What is to be done.
 enum class FramePassKind : std::uint8_t {
     bounds,  // fit views with View::gpu_cascade to the camera's depth: cascade_lights.h
     maps,    // draw the maps of `options`, if there are any; of a filterable filter also make moments, blur, mip levels
@@ -21,13 +22,15 @@ enum class FramePassKind : std::uint8_t {
     blur,     // listSoftenDraws()
 };
 
+/// One thing to do.
 struct FramePass {
-    FramePassKind kind = FramePassKind::mask;
-    std::uint32_t options = 0; // of Plan::options; for maps
+    FramePassKind kind = FramePassKind::mask; // what
+    std::uint32_t options = 0;                // of Plan::options; for maps
 };
 
 /// Keeps what `out` has allocated.
 GNOMON_API void listFramePasses(const Plan& plan, std::vector<FramePass>& out);
+/// Is there a pass of this kind?
 [[nodiscard]] GNOMON_API bool has(const std::vector<FramePass>& passes, FramePassKind kind);
 /// Has the plan a light of these options? Where it has no light at all, the first options stand in, so that there is
 /// something to bind.

@@ -14,11 +14,12 @@ namespace gnomon::pack {
 
 /// Pixels [x0, x1) x [y0, y1) of the picture.
 struct ScreenBounds {
-    std::uint32_t x0 = 0;
-    std::uint32_t y0 = 0;
-    std::uint32_t x1 = 0;
-    std::uint32_t y1 = 0;
+    std::uint32_t x0 = 0; // first column
+    std::uint32_t y0 = 0; // first row
+    std::uint32_t x1 = 0; // one past the last column
+    std::uint32_t y1 = 0; // one past the last row
 
+    /// There is no pixel in it.
     [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
 
     bool operator==(const ScreenBounds&) const = default;
@@ -37,8 +38,9 @@ struct LightLists {
     /// Tile (x, y) has lights[first[i]] to lights[first[i + 1] - 1], i = y * tiles.x + x: indices into Frame::lights,
     /// ascending.
     std::vector<std::uint32_t> first;
-    std::vector<std::uint32_t> lights;
+    std::vector<std::uint32_t> lights; // tile after tile
 
+    /// The lights of a tile. Precondition: there is such a tile.
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t x, std::uint32_t y) const
     {
         const std::size_t i = std::size_t{y} * tiles.x + x;

@@ -42,7 +42,7 @@ struct MaskDraw {
     bool orthographic = true;                              // every view of its lights is
     bool shares = false;                                   // other draws may have further channels of these pixels
     std::uint32_t few_views = 0;                           // fewViewsOf() the only light with views
-    ToldApart told_apart = ToldApart::tests;
+    ToldApart told_apart = ToldApart::tests;               // how a point's view is found
     bool paired = false; // alone: two positions of the sun are seen, by orthographic views
 
     bool operator==(const MaskDraw&) const = default;

@@ -18,8 +18,8 @@ namespace gnomon::pack {
 
 /// The image that has the maps of one of Plan::options. Those of a filterable filter have mipLevels().
 struct MapImage {
-    glm::uvec2 size_px{1};
-    std::uint32_t levels = 1;
+    glm::uvec2 size_px{1};    // texels of a page
+    std::uint32_t levels = 1; // mip levels
 };
 
 /// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture. Throws Error where the plan

@@ -13,8 +13,8 @@ namespace gnomon::pack {
 
 /// One layer of the mask, blurred by one set of options.
 struct SoftenDraw {
-    std::uint32_t layer = 0; // of the mask
-    ScreenBlurOptions blur;
+    std::uint32_t layer = 0;    // of the mask
+    ScreenBlurOptions blur;     // how it is blurred
     std::uint32_t channels = 0; // bit i: channel i is blurred
     bool whole = true;          // no other light with a map has a channel of the layer: all of them may be written
 };

@@ -12,14 +12,14 @@ namespace gnomon::pack {
 
 /// The constants of gnomon/technique_constants.glsl: four bytes each, in their order.
 struct TechniqueConstants {
-    std::int32_t kernel_width = 0;
-    std::int32_t disc_taps = 0;
+    std::int32_t kernel_width = 0;    // kernelWidth()
+    std::int32_t disc_taps = 0;       // of the discs, else 0
     std::uint32_t automatic_bias = 0; // 0 or 1, as a VkBool32
-    std::int32_t moment_flags = 0;
-    std::int32_t moment_sampling = 0;
-    std::int32_t moment_layers = 0;
-    std::int32_t depth_holding = 0;
-    std::uint32_t few_views = 0; // fewViewsOf() of the frame's plan
+    std::int32_t moment_flags = 0;    // flags of shared/moment_rule.h
+    std::int32_t moment_sampling = 0; // MapSampling
+    std::int32_t moment_layers = 0;   // of lvsm, else 0
+    std::int32_t depth_holding = 0;   // what a texel of depth holds
+    std::uint32_t few_views = 0;      // fewViewsOf() of the frame's plan
 
     bool operator==(const TechniqueConstants&) const = default;
 };

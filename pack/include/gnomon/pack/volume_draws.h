@@ -21,6 +21,7 @@
 
 namespace gnomon::pack {
 
+/// One light's volumes.
 struct VolumeDraw {
     std::uint32_t light = 0;    // of Plan::lights, which has the casters
     std::uint32_t layer = 0;    // of the mask
@@ -28,8 +29,8 @@ struct VolumeDraw {
     ScreenBounds pixels;        // that may show a point in the light's reach; never empty
     /// Between which values of the camera's depth buffer that lies: 0 .. 1, the lesser first.
     float least_depth = 0.0F;
-    float most_depth = 1.0F;
-    glm::vec4 place{0.0F}; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
+    float most_depth = 1.0F; // the greater
+    glm::vec4 place{0.0F};   // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
 };
 
 /// Of the lights that have volumes, in their order. Keeps what `out` has allocated.

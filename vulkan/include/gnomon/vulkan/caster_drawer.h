@@ -32,14 +32,14 @@ struct CasterBatch {
     /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
     /// VK_NULL_HANDLE: opaque.
     VkDescriptorSet texture = VK_NULL_HANDLE;
-    float cutoff = 0.5F; // kept where alpha >= cutoff; divide by the material's own alpha factor
-    glm::vec2 uv_scale{1.0F};
-    glm::vec2 uv_offset{0.0F};
+    float cutoff = 0.5F;          // kept where alpha >= cutoff; divide by the material's own alpha factor
+    glm::vec2 uv_scale{1.0F};     // KHR_texture_transform
+    glm::vec2 uv_offset{0.0F};    // likewise
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
     /// Blended: it tints light by 1 - alpha (1 - colour), and is drawn to maps of tints alone. `texture` is its colour,
     /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
-    glm::vec4 tint{1.0F};
+    glm::vec4 tint{1.0F}; // linear colour and alpha; blended batches alone
     /// What cuts its objects, in the space of their vertices, before world_from_object: a point is not drawn where
     /// dot(plane.xyz, p) + plane.w < 0 for either plane. Finite; those here by default cut nothing. A mesh that is cut
     /// is open, so all its triangles cast, whatever `two_sided` says. Bounds in the ObjectSet may be those of what is
@@ -52,9 +52,9 @@ struct CasterBatch {
 
 /// One attribute of the host's vertices.
 struct VertexAttribute {
-    VkFormat format = VK_FORMAT_UNDEFINED;
-    std::uint32_t stride = 0; // bytes from one vertex to the next
-    std::uint32_t offset = 0; // bytes from a vertex's first
+    VkFormat format = VK_FORMAT_UNDEFINED; // UNDEFINED: there is none
+    std::uint32_t stride = 0;              // bytes from one vertex to the next
+    std::uint32_t offset = 0;              // bytes from a vertex's first
 };
 
 /// How the host's vertices and indices are stored. Interleaved vertices have both attributes in one buffer.
@@ -73,16 +73,17 @@ struct CasterVertices {
 /// Buffers that are read while drawing, as CasterDrawerOptions::vertices says. They may differ from slot to slot
 /// (skinned meshes).
 struct CasterGeometry {
-    VkBuffer positions = VK_NULL_HANDLE;
-    VkDeviceSize positions_offset = 0;
-    VkBuffer uvs = VK_NULL_HANDLE; // may be null when no batch is masked
-    VkDeviceSize uvs_offset = 0;
-    VkBuffer indices = VK_NULL_HANDLE;
-    VkDeviceSize indices_offset = 0;
-    VkBuffer pieces = VK_NULL_HANDLE; // of CasterVertices::piece
-    VkDeviceSize pieces_offset = 0;
+    VkBuffer positions = VK_NULL_HANDLE; // of CasterVertices::position
+    VkDeviceSize positions_offset = 0;   // bytes
+    VkBuffer uvs = VK_NULL_HANDLE;       // may be null when no batch is masked
+    VkDeviceSize uvs_offset = 0;         // bytes
+    VkBuffer indices = VK_NULL_HANDLE;   // of CasterVertices::index
+    VkDeviceSize indices_offset = 0;     // bytes
+    VkBuffer pieces = VK_NULL_HANDLE;    // of CasterVertices::piece
+    VkDeviceSize pieces_offset = 0;      // bytes
 };
 
+/// How a CasterDrawer is made.
 struct CasterDrawerOptions {
     std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
     /// Leave out triangles that face away from the light (of batches that are not two-sided), but with
@@ -91,8 +92,8 @@ struct CasterDrawerOptions {
     /// The triangles that face front are clockwise as seen from there, in world space as the frame's numbers are read:
     /// right-handed. Of a host whose world is left-handed these are the ones that it calls counter-clockwise.
     bool clockwise_front = false;
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-    CasterVertices vertices;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
+    CasterVertices vertices;                         // what its buffers hold
 };
 
 /// What becomes of a wrong call, in every build:
@@ -145,6 +146,7 @@ public:
     /// The layout that CasterBatch::texture sets must be compatible with. A layout of the host's own that is defined
     /// alike serves as well.
     [[nodiscard]] VkDescriptorSetLayout textureSetLayout() const;
+    /// What it has allocated, by purpose; valid until it allocates again.
     [[nodiscard]] std::span<const MemoryUse> memory() const;
 
 private:

@@ -14,32 +14,35 @@ namespace gnomon::vulkan {
 
 /// One piece of device memory, as the host's memory policy gave it.
 struct MemoryBlock {
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;
-    void* mapped = nullptr; // host address of the block's first byte when it is host-visible, else null
-    void* token = nullptr;  // for the hooks' own use
+    VkDeviceMemory memory = VK_NULL_HANDLE; // may be shared with other blocks
+    VkDeviceSize offset = 0;                // bytes, aligned as was asked
+    void* mapped = nullptr;                 // host address of the block's first byte when it is host-visible, else null
+    void* token = nullptr;                  // for the hooks' own use
 };
 
 /// What memory is asked for.
 struct MemoryRequest {
-    VkMemoryRequirements needs{};
+    VkMemoryRequirements needs{};         // size, alignment and types, as the driver says
     VkMemoryPropertyFlags properties = 0; // all of them; HOST_VISIBLE ones are to be mapped
     const char* purpose = "";             // a static string ("shadow maps", "mask", "constants" ...) for accounting
     /// The resource that will be bound: one of them, the other one is null. A buffer is linear, an image is not: in one
     /// block of memory they must keep VkPhysicalDeviceLimits::bufferImageGranularity apart.
     VkBuffer buffer = VK_NULL_HANDLE;
-    VkImage image = VK_NULL_HANDLE;
+    VkImage image = VK_NULL_HANDLE; // or null
     /// What the driver says of an allocation for this resource alone (VkMemoryDedicatedAllocateInfo).
     bool prefers_dedicated = false;
-    bool requires_dedicated = false;
+    bool requires_dedicated = false; // likewise, and it must be
 
+    /// It is for a buffer.
     [[nodiscard]] bool linear() const { return buffer != VK_NULL_HANDLE; }
 };
 
 /// The host's memory policy. Both functions or none.
 struct MemoryHooks {
-    void* user = nullptr;
+    void* user = nullptr; // handed to both as it is
+    /// Fills `block`; anything but VK_SUCCESS becomes an Error.
     VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryBlock* block) = nullptr;
+    /// Takes back what `allocate` gave, once the GPU has done with it.
     void (*release)(void* user, const MemoryBlock& block) = nullptr;
 };
 
@@ -57,9 +60,9 @@ struct ShaderHook {
 /// Precondition: the device was made with the features that requiredFeatures() names. Whatever takes one throws Error
 /// when a handle or the function is null, or one memory hook is given without the other.
 struct DeviceView {
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
+    VkInstance instance = VK_NULL_HANDLE;              // not null
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE; // not null
+    VkDevice device = VK_NULL_HANDLE;                  // not null
     /// Where functions come from. All are looked up through it, so a host may hand in a loader, a layer or a mock.
     /// Not null.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;

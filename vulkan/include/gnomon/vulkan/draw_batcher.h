@@ -15,37 +15,38 @@ namespace gnomon::vulkan {
 
 /// One triangle list inside the shared index and vertex buffers.
 struct MeshRange {
-    std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0;
-    std::int32_t vertex_offset = 0;
+    std::uint32_t first_index = 0;  // of the index buffer
+    std::uint32_t index_count = 0;  // three to a triangle
+    std::int32_t vertex_offset = 0; // added to each index
 };
 
 /// A mesh drawn with one material. `batch` is whatever the caller groups by (material, pipeline); batches come out in
 /// ascending order.
 struct DrawPart {
-    MeshRange mesh;
-    std::uint32_t batch = 0;
+    MeshRange mesh;          // what is drawn
+    std::uint32_t batch = 0; // what it is drawn with
 };
 
 /// What an object draws, by its index: a range of parts. Objects that name the same parts become instances of one draw.
 /// A count of 0 draws nothing.
 struct DrawObject {
-    std::uint32_t first_part = 0;
-    std::uint32_t part_count = 0;
+    std::uint32_t first_part = 0; // of setScene()'s parts
+    std::uint32_t part_count = 0; // 0 draws nothing
 };
 
 /// Consecutive commands of one batch: one vkCmdDrawIndexedIndirect.
 struct BatchDraws {
-    std::uint32_t batch = 0;
+    std::uint32_t batch = 0;         // DrawPart::batch
     std::uint32_t first_command = 0; // counted from the first command of the build() call
-    std::uint32_t command_count = 0;
+    std::uint32_t command_count = 0; // at least 1
 };
 
+/// What build() wrote.
 struct DrawLists {
     std::span<const BatchDraws> batches; // ascending by batch; valid until the next call of the batcher
-    std::uint32_t command_count = 0;
-    std::uint32_t instance_count = 0;
-    std::uint64_t index_count = 0; // over all instances: three times the triangles
+    std::uint32_t command_count = 0;     // indirect commands
+    std::uint32_t instance_count = 0;    // objects, each as often as it has parts
+    std::uint64_t index_count = 0;       // over all instances: three times the triangles
 };
 
 /// Deterministic; allocates in setScene() alone. Not thread-safe.

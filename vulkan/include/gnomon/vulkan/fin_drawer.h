@@ -13,9 +13,10 @@
 
 namespace gnomon::vulkan {
 
+/// How a FinDrawer is made.
 struct FinDrawerOptions {
-    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    std::uint32_t frames_in_flight = 2;              // 1 .. kMostFrames
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
 };
 
 /// What becomes of a wrong call, in every build:

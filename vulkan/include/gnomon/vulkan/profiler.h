@@ -11,15 +11,16 @@
 
 namespace gnomon::vulkan {
 
+/// What one pass took.
 struct PassRecord {
-    const char* name = "";       // static
-    double milliseconds = 0.0;   // GPU timestamps
-    bool has_statistics = false; // the fields below hold
-    std::uint64_t vertex_invocations = 0;
-    std::uint64_t primitives = 0; // that reached rasterisation (clipping output)
-    std::uint64_t fragment_invocations = 0;
-    std::uint64_t compute_invocations = 0;
-    std::uint32_t draws = 0; // as counted by addDraws
+    const char* name = "";                  // static
+    double milliseconds = 0.0;              // GPU timestamps
+    bool has_statistics = false;            // the fields below hold
+    std::uint64_t vertex_invocations = 0;   // vertex shaders run
+    std::uint64_t primitives = 0;           // that reached rasterisation (clipping output)
+    std::uint64_t fragment_invocations = 0; // fragment shaders run
+    std::uint64_t compute_invocations = 0;  // compute shaders run
+    std::uint32_t draws = 0;                // as counted by addDraws
 };
 
 /// Not thread-safe. Error for no or too many frames (kMostFrames in shadow_renderer.h), no passes, a slot beyond them,
@@ -36,7 +37,9 @@ public:
     /// First call of a frame, outside rendering. `slot` as in ShadowRenderer.
     void beginFrame(VkCommandBuffer commands, std::uint32_t slot);
     void beginPass(VkCommandBuffer commands, const char* name); // outside rendering; static string
+    /// Counts draws of the pass that is open.
     void addDraws(std::uint32_t count);
+    /// Ends the pass that is open; outside rendering.
     void endPass(VkCommandBuffer commands);
     /// Reads back the passes of a slot whose frame has finished. Valid until the slot's next beginFrame. Empty of a
     /// slot that there is not. Throws Error (lost device, memory).

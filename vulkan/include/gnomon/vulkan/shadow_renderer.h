@@ -29,21 +29,22 @@ namespace gnomon::vulkan {
 
 /// What MaskInputs has besides the camera's depth.
 struct MaskShape {
-    bool normals = false;
-    bool ids = false; // of objects
-    bool smooth = false;
+    bool normals = false; // MaskInputs::normal is given
+    bool ids = false;     // of objects
+    bool smooth = false;  // MaskInputs::smooth is given
 
     bool operator==(const MaskShape&) const = default;
 };
 
 inline constexpr std::uint32_t kMostFrames = 64; // in flight
 
+/// How a ShadowRenderer is made.
 struct ShadowRendererOptions {
     /// Of the inputs to come: then prepare() makes the mask's pipelines, and no recordMask() has to. Nothing: the first
     /// recordMask() makes those that it needs, which takes as long as the driver compiles.
     std::optional<MaskShape> mask_shape;
-    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    std::uint32_t frames_in_flight = 2;              // 1 .. kMostFrames
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
     /// Does the object with this index of the plan's lists draw blended casters, which tint light instead of blocking
     /// it? Then views that have such casters get a map of tints beside their map, and the mask holds the luminance of
     /// what arrives, or its colour as well, as ShadowOptions::translucent says. prepare() asks for each caster of a
@@ -70,17 +71,18 @@ struct ShadowRendererOptions {
 /// write it: GREATER with `reversed_z`, else LESS. Where the test fails they add 1 to the stencil for faces that turn
 /// away from the eye and take 1 away for those that turn to it, wrapping. They write no colour.
 struct VolumePass {
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFormat colour = VK_FORMAT_UNDEFINED; // of the one colour attachment
-    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT;
-    bool reversed_z = true;
-    const Plan* plan = nullptr;
-    std::uint32_t light = 0;                // of the plan
-    std::span<const std::uint32_t> casters; // object indices: all of them must be drawn
-    glm::mat4 clip_from_eye{1.0F};          // the camera's, of points relative to the eye
-    glm::dvec3 eye_ws{0.0};
+    VkCommandBuffer commands = VK_NULL_HANDLE;             // to record into
+    VkFormat colour = VK_FORMAT_UNDEFINED;                 // of the one colour attachment
+    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT; // of that attachment
+    bool reversed_z = true;                                // the camera's depth is 1 at the near plane
+    const Plan* plan = nullptr;                            // never null
+    std::uint32_t light = 0;                               // of the plan
+    std::span<const std::uint32_t> casters;                // object indices: all of them must be drawn
+    glm::mat4 clip_from_eye{1.0F};                         // the camera's, of points relative to the eye
+    glm::dvec3 eye_ws{0.0};                                // metres, world space
     glm::vec4 place{0.0F}; // w = 0: xyz is the unit direction to the light; w = 1: its eye-relative position
 };
+/// Draws one light's volumes.
 using DrawVolumes = std::function<void(const VolumePass&)>;
 
 /// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
@@ -88,7 +90,7 @@ using DrawVolumes = std::function<void(const VolumePass&)>;
 struct MaskInputs {
     VkExtent2D extent{};                // of the mask, and of each image here: no larger ones
     VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
-    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; // or DEPTH_READ_ONLY_OPTIMAL
     /// Geometric world-space normals, octahedral in RG (snorm or float; gnomon/shared/octahedral.h), or
     /// VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
@@ -117,8 +119,8 @@ struct MaskInputs {
 struct MapPassFormats {
     /// UNDEFINED: depth only. Else fragment shaders write casterTexel() to it (caster.glsl).
     VkFormat colour = VK_FORMAT_UNDEFINED;
-    VkFormat depth = VK_FORMAT_D32_SFLOAT;
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    VkFormat depth = VK_FORMAT_D32_SFLOAT;                 // of the depth attachment
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT; // of both attachments
     /// View not orthographic, into a depth-only map: gl_FragDepth = metric (caster.glsl). With more than one sample,
     /// each has its own: give the metric's input the qualifier `sample` and the pipeline sampleShadingEnable with
     /// minSampleShading 1. A depth that is one for all samples of a texel is wrong where surfaces slope.
@@ -154,11 +156,11 @@ struct MapPassFormats {
 /// viewport and scissor are set. The callback binds its pipelines (made for `formats`) and draws the casters; it must
 /// not end rendering.
 struct MapPass {
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    MapPassFormats formats; // mapFormats() of the light's options and View::orthographic
-    const Plan* plan = nullptr;
-    const View* view = nullptr;
-    std::uint32_t view_index = 0;
+    VkCommandBuffer commands = VK_NULL_HANDLE; // to record into
+    MapPassFormats formats;                    // mapFormats() of the light's options and View::orthographic
+    const Plan* plan = nullptr;                // never null
+    const View* view = nullptr;                // the first one that is drawn; never null
+    std::uint32_t view_index = 0;              // its place in Plan::views
     /// What the pipeline must write of the colour attachment; 0 for depth-only maps. All of it unless two maps share
     /// one target (ResolvedOptions::paired_maps): then the two halves of a texel get the same value and a part of them
     /// is kept.
@@ -167,20 +169,20 @@ struct MapPass {
     /// move. Of a filterable map these are receivers, too, whether or not they cast
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
-    glm::mat4 clip_from_world{1.0F};
+    glm::mat4 clip_from_world{1.0F}; // the view's, for vertices in world space
     /// d' = dot(metric_ws, (p, 1)); see gnomon/lib/caster.glsl. Of a paraboloid w alone counts.
     glm::vec4 metric_ws{0.0F};
     /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
     /// written, says which part of it the view shows: casterPlaced() in gnomon/lib/caster.glsl. A vertex buffer (to be
     /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
-    VkDeviceSize placement_offset = 0;
+    VkDeviceSize placement_offset = 0; // bytes
     /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
     /// texel at gl_FragCoord.xy is the depth of the first surface, and what that depth may be rounded by.
     /// With MapPassFormats::fins such a set with the maps, a 2D array whose layer View::tile says, and what their
     /// depths may be off by.
     VkDescriptorSet first_surface = VK_NULL_HANDLE;
-    float first_quantum = 0.0F;
+    float first_quantum = 0.0F; // in depths of the map
     /// How many views this pass draws: 1, or with CascadePass::layered several, from view_index on. Then what casts in
     /// view i of them, castersOf(i), is to be drawn to layer i (gl_Layer) with that view's own clip_from_world and
     /// metric from `plan`; casters, clip_from_world, metric_ws and `view` are those of the first. With
@@ -194,32 +196,35 @@ struct MapPass {
         return std::span(plan->casters).subspan(one.first_caster, one.caster_count);
     }
 };
-inline constexpr VkDeviceSize kPlacementStride = 48;
+inline constexpr VkDeviceSize kPlacementStride = 48; // bytes
+/// Draws one map's casters.
 using DrawCasters = std::function<void(const MapPass&)>;
 
 /// What views of such options are drawn in: of View::orthographic or not. Of CasterFaces::midpoint the first of a map's
 /// two passes; the second has behind_first, too.
 [[nodiscard]] GNOMON_API MapPassFormats mapFormats(const ResolvedOptions& options, bool orthographic);
 
+/// An image of the renderer's. Holds until the next prepare() that says it made others.
 struct ImageRef {
-    VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE; // all layers, 2D array
-    VkFormat format = VK_FORMAT_UNDEFINED;
-    VkExtent2D extent{};
-    std::uint32_t layers = 0;
+    VkImage image = VK_NULL_HANDLE;                   // null: there is none
+    VkImageView view = VK_NULL_HANDLE;                // all layers, 2D array
+    VkFormat format = VK_FORMAT_UNDEFINED;            // of image and view
+    VkExtent2D extent{};                              // texels
+    std::uint32_t layers = 0;                         // array layers
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // after the recording that makes it
     std::uint32_t levels = 1;                         // mip levels
 };
 
 /// A storage buffer, all of it.
 struct BufferRef {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize bytes = 0;
+    VkBuffer buffer = VK_NULL_HANDLE; // null: there is none
+    VkDeviceSize bytes = 0;           // its size
 };
 
+/// Memory that one purpose takes.
 struct MemoryUse {
     const char* purpose = ""; // static
-    VkDeviceSize bytes = 0;
+    VkDeviceSize bytes = 0;   // as allocated
 };
 
 /// What making maps filterable took: counted by the GPU while it worked. Zeros for filters whose maps are not blurred.
@@ -233,17 +238,17 @@ struct FilterCost {
     std::uint64_t bytes_moved = 0; // read from and written to images; a filtered read is of its texels
     /// Depths read once and the map written once, and what the pass along y needs written once and read once between.
     std::uint64_t bytes_minimum = 0;
-    BlurPath path = BlurPath::compute;
+    BlurPath path = BlurPath::compute; // which shaders blurred
 };
 
 /// What one recordMaps() drew and what it did not have to.
 struct MapReuse {
-    std::uint32_t drawn = 0;      // maps drawn at once
-    std::uint32_t together = 0;   // of these, in passes of several (CascadePass::layered)
-    std::uint32_t kept_drawn = 0; // maps of what stands still, drawn into their kept layers
-    std::uint32_t restored = 0;   // maps restored from a kept layer, and what moves drawn over that
-    std::uint32_t held = 0;       // maps left as they were
-    std::uint64_t restored_texels = 0;
+    std::uint32_t drawn = 0;           // maps drawn at once
+    std::uint32_t together = 0;        // of these, in passes of several (CascadePass::layered)
+    std::uint32_t kept_drawn = 0;      // maps of what stands still, drawn into their kept layers
+    std::uint32_t restored = 0;        // maps restored from a kept layer, and what moves drawn over that
+    std::uint32_t held = 0;            // maps left as they were
+    std::uint64_t restored_texels = 0; // copied for that
     std::uint32_t casters_at_once = 0; // in the maps drawn at once; one caster in two maps counts twice
     std::uint32_t still_casters = 0;   // into kept layers
     std::uint32_t moving_casters = 0;  // over what was restored
@@ -251,7 +256,7 @@ struct MapReuse {
 
 /// What warmUp() makes pipelines for. More than will come costs time and nothing else.
 struct WarmUp {
-    MaskShape inputs;
+    MaskShape inputs;             // of the mask to come
     bool perspective = true;      // there may be spots, or warps
     bool several_lights = true;   // and not only one
     bool several_options = false; // lights of other options beside them
@@ -357,6 +362,7 @@ public:
     /// FRAGMENT_SHADER and COMPUTE_SHADER reads. Nothing for plans without such views.
     void recordViews(VkCommandBuffer commands, std::uint32_t slot, const Plan& plan, VkBuffer views,
                      VkDeviceSize offset = 0);
+    /// What it has allocated, by purpose; valid until it allocates again.
     [[nodiscard]] std::span<const MemoryUse> memory() const;
     /// Of the last recordMaps() that was given this slot, once the GPU has finished it. What that counted is made
     /// visible to the host by recordMaps().

@@ -19,9 +19,9 @@ using pack::Rows3x4;
 
 /// The volume of one object: a range of VolumeGeometry::elements. Without elements it casts nothing.
 struct VolumeMesh {
-    std::uint32_t first_element = 0;
-    std::uint32_t element_count = 0;
-    std::uint32_t first_vertex = 0; // of positions; its elements and triangles count from there
+    std::uint32_t first_element = 0; // of VolumeGeometry::elements
+    std::uint32_t element_count = 0; // 0 casts nothing
+    std::uint32_t first_vertex = 0;  // of positions; its elements and triangles count from there
 };
 
 /// Storage buffers that vertex shaders read while drawing. Positions may differ from slot to slot (skinned meshes).
@@ -35,9 +35,10 @@ struct VolumeGeometry {
     BufferRef triangles; // three 32-bit vertices each, counter-clockwise seen from outside
 };
 
+/// How a VolumeDrawer is made.
 struct VolumeDrawerOptions {
-    std::uint32_t frames_in_flight = 2; // 1 .. kMostFrames
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    std::uint32_t frames_in_flight = 2;              // 1 .. kMostFrames
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; // may be null
 };
 
 /// What becomes of a wrong call, in every build:
