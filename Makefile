@@ -33,11 +33,14 @@ help:
 	@echo "make install      build and install library and program under PREFIX (/usr/local); LIBRARY_ONLY=1: the library alone"
 	@echo "make package      the Debian packages libgnomon0, libgnomon-dev and gnomon, in build-package/"
 	@echo "make package-test install them in a bare Debian root, and build and run the examples there (needs root, minutes)"
+	@echo "make site    documents, gallery and API reference as a site, in build/site/; install what it takes"
+	@echo "make gallery draw the gallery and its films anew, into docs/ (minutes)"
+	@echo "make films   the films alone"
 	@echo "make clean   remove build folders and out/"
 
 .PHONY: packages
 packages:
-	@tools/install_packages.sh packages.txt
+	@tools/install_packages.sh --without site packages.txt
 
 .PHONY: configure
 configure: packages
@@ -119,6 +122,25 @@ package: packages
 .PHONY: package-test
 package-test: package
 	@tools/package_test.sh build-package/packages
+
+# Nothing of the site asks a network for anything. To search in it, serve it: python3 -m http.server -d build/site
+.PHONY: site-packages
+site-packages:
+	@tools/install_packages.sh --only site packages.txt
+
+.PHONY: site
+site: site-packages
+	@tools/make_site.py build/site
+
+.PHONY: gallery
+gallery: configure site-packages
+	@cmake --build build --target gnomon -j $(JOBS)
+	@tools/make_gallery.py build/gnomon
+
+.PHONY: films
+films: configure site-packages
+	@cmake --build build --target gnomon -j $(JOBS)
+	@tools/make_gallery.py --films build/gnomon
 
 .PHONY: clean
 clean:

@@ -164,7 +164,8 @@ struct SundialWorld {
 /// A meadow about a sundial, with fences, trees and a house with an arcade, after P. Fortier 2010 ("Shadow maps for
 /// moving light sources"): open ground in which the shadow of a sun that never stands still is seen from afar. Lights
 /// "sun" and "moon" (SundialWorld). One walker, "walker/…", is the only object that moves. Views `meadow` (the usual
-/// one), `long` (at eye height over all of the open ground), `porch` (fence and arcade from nearby) and `overhead`.
+/// one), `long` (at eye height over all of the open ground), `porch` (fence and arcade from nearby), `overhead` and
+/// `face` (the dial with its numerals, the house behind).
 [[nodiscard]] Scene makeSundial(std::uint64_t seed);
 
 /// The world `ring`: a deck bent around an axis that is parallel to z and passes through (0, radius_m, 0), with walls

@@ -1,21 +1,23 @@
 #!/usr/bin/env bash
 # Installs what is missing of packages.txt, and says so. Touches nothing (no apt, no network, no root) when all is there.
-# usage: tools/install_packages.sh [--list] [--only SECTION] [packages.txt]
-# --only: of that section alone, as "= SECTION" begins it. --list: says which packages these are, and installs nothing.
+# usage: tools/install_packages.sh [--list] [--only SECTION | --without SECTION] [packages.txt]
+# --only: of that section alone, as "= SECTION" begins it. --without: of all others. --list: says which packages these are, and installs nothing.
 set -euo pipefail
 only=
+without=
 list_them=0
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --only) only=${2:?--only needs a section}; shift 2 ;;
+        --without) without=${2:?--without needs a section}; shift 2 ;;
         --list) list_them=1; shift ;;
         *) echo "packages: there is no option $1" >&2; exit 2 ;;
     esac
 done
 list=${1:-$(dirname "$0")/../packages.txt}
 
-mapfile -t wanted < <(awk -v only="$only" '/^= / { section = substr($0, 3); next } { sub(/#.*/, "") }
-    NF && (only == "" || section == only) { print $1 }' "$list")
+mapfile -t wanted < <(awk -v only="$only" -v without="$without" '/^= / { section = substr($0, 3); next } { sub(/#.*/, "") }
+    NF && (only == "" || section == only) && (without == "" || section != without) { print $1 }' "$list")
 if [[ ${#wanted[@]} -eq 0 ]]; then
     echo "packages: $list has nothing in section \"$only\"; it has these: $(sed -n 's/^= //p' "$list" | paste -sd, -)" >&2
     exit 2

@@ -135,11 +135,15 @@ class Browser:
 
     def open(self, page: Path) -> None:
         """Shows a file, all of whose scripts have run when this returns."""
-        self.own = page.resolve().as_uri()
+        self.visit(page.resolve().as_uri())
+
+    def visit(self, address: str) -> None:
+        """Likewise."""
+        self.own = address
         self.problems.clear()
         self.requests.clear()
-        self.call("Page.navigate", url=self.own)
-        self.wait_for("location.protocol === 'file:' && document.readyState === 'complete'")
+        self.call("Page.navigate", url=address)
+        self.wait_for("location.protocol !== 'about:' && document.readyState === 'complete'")
 
     def mouse(self, kind: str, x: float, y: float, **more) -> None:
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)

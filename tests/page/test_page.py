@@ -17,6 +17,7 @@ import unittest
 from pathlib import Path
 
 from browser import Browser, find_chromium
+from recorder import run_cases
 from reports import HOSTILE, RUNS, Reports
 
 GNOMON = Path(sys.argv[1]).resolve()
@@ -325,34 +326,11 @@ class Pages(unittest.TestCase):
         self.assertEqual(browser.run("[getComputedStyle(document.documentElement).scrollBehavior, charts[0].chart.options.animation]"), ["auto", False])
 
 
-class Recorder(unittest.TextTestResult):
-    """What became of each case, as googletest writes it."""
-
-    def __init__(self, *arguments, **named):
-        super().__init__(*arguments, **named)
-        self.cases = []
-
-    def startTest(self, test):
-        super().startTest(test)
-        self.began = time.monotonic()
-        self.bad = len(self.failures) + len(self.errors)
-
-    def stopTest(self, test):
-        super().stopTest(test)
-        failures = [{"failure": text} for _, text in (self.failures + self.errors)[self.bad:]][:1]
-        self.cases.append({"name": test.id().split(".")[-1].removeprefix("test_"), "status": "RUN", "result": "COMPLETED",
-                           "time": f"{time.monotonic() - self.began:.2f}s", **({"failures": failures} if failures else {})})
-
-
 def main() -> int:
     if find_chromium() is None:
         print("SKIPPED: there is no Chromium (Debian: chromium), so no page of a report was looked at", file=sys.stderr)
         return 77
-    suite = unittest.defaultTestLoader.loadTestsFromTestCase(Pages)
-    outcome = unittest.TextTestRunner(resultclass=Recorder, verbosity=1).run(suite)
-    if RESULTS and RESULTS.parent.is_dir() and outcome.cases:
-        RESULTS.write_text(json.dumps({"testsuites": [{"name": "Pages", "testsuite": outcome.cases}]}), encoding="utf-8")
-    return 0 if outcome.wasSuccessful() else 1
+    return run_cases(Pages, RESULTS)
 
 
 if __name__ == "__main__":

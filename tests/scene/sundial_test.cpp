@@ -206,7 +206,7 @@ TEST(Sundial, StyleShowsTheHour)
 TEST(Sundial, HasWhatWasPromised)
 {
     const Scene& scene = sundial();
-    std::array<std::string, 4> names{"meadow", "long", "porch", "overhead"};
+    std::array<std::string, 5> names{"meadow", "long", "porch", "overhead", "face"};
     ASSERT_EQ(scene.views.size(), names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(scene.views[i].name, names[i]);

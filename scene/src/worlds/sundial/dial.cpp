@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace gnomon::scene::worlds {
 
@@ -57,10 +58,61 @@ void addPlinth(const SundialPalette& palette, MeshMaker& maker)
     addRing(pale, 0.0F, kR - 0.02F, kY, 64);
 }
 
-/// Bronze strips let into the stone, a few millimetres proud of it: the lines of the hours and a ring.
+constexpr float kProud = 0.004F; // bronze is let into the stone, and stands out of it by this
+
+/// Where numerals stand, from the dial's middle: at their feet, which are turned to it, and at their heads.
+constexpr float kNumeralFoot_m = kR - 0.40F;
+constexpr float kNumeralHead_m = kR - 0.20F;
+
+/// The hours of a face, from 1 to 12.
+constexpr std::array<std::string_view, 12> kNumerals{"I",   "II",   "III", "IV", "V",  "VI",
+                                                     "VII", "VIII", "IX",  "X",  "XI", "XII"};
+
+/// One stroke, level, from a to b, which are to the right of the numeral's middle and outward from the dial's.
+void addStroke(Part& bronze, const glm::vec2& a, const glm::vec2& b, float width)
+{
+    const glm::vec2 along = glm::normalize(b - a);
+    const glm::vec2 side = glm::vec2(along.y, -along.x) * (0.5F * width);
+    const auto on = [](const glm::vec2& p) {
+        return glm::vec3(p.x, kProud, -p.y);
+    };
+    bronze.quad(on(a + side), on(b + side), on(b - side), on(a - side));
+}
+
+/// A numeral of thick and thin strokes, as they are cut: its middle is on the frame's -z axis.
+void addNumeral(Part& bronze, std::string_view numeral)
+{
+    constexpr float kThick = 0.026F;
+    constexpr float kThin = 0.014F;
+    constexpr float kWide = 0.100F;    // of V and X
+    constexpr float kUpright = 0.026F; // of I
+    constexpr float kGap = 0.020F;
+    const auto widthOf = [](char letter) {
+        return letter == 'I' ? kUpright : kWide;
+    };
+    float x = 0.5F * kGap;
+    for (const char letter : numeral) {
+        x -= 0.5F * (widthOf(letter) + kGap);
+    }
+    for (const char letter : numeral) {
+        const float end = x + widthOf(letter);
+        const float middle = 0.5F * (x + end);
+        if (letter == 'I') {
+            addStroke(bronze, {middle, kNumeralFoot_m}, {middle, kNumeralHead_m}, kThick);
+        } else if (letter == 'V') {
+            addStroke(bronze, {middle, kNumeralFoot_m}, {x, kNumeralHead_m}, kThick);
+            addStroke(bronze, {middle, kNumeralFoot_m}, {end, kNumeralHead_m}, kThin);
+        } else {
+            addStroke(bronze, {end, kNumeralFoot_m}, {x, kNumeralHead_m}, kThick);
+            addStroke(bronze, {x, kNumeralFoot_m}, {end, kNumeralHead_m}, kThin);
+        }
+        x = end + kGap;
+    }
+}
+
+/// The lines of the hours with their numerals, and a ring.
 void addLines(const SundialPalette& palette, MeshMaker& maker)
 {
-    constexpr float kProud = 0.004F;
     Part& bronze = maker.with(palette.bronze);
     bronze.colour = rgb(0x5A4A30);
     for (int hour = 5; hour <= 19; ++hour) {
@@ -69,7 +121,8 @@ void addLines(const SundialPalette& palette, MeshMaker& maker)
         const float inner = main ? 0.30F : 0.55F;
         const auto azimuth = static_cast<float>(SundialWorld::hourLineAzimuth(hour));
         bronze.frame = at({0.0F, kY, 0.0F}) * turnedY(-azimuth); // -z turns to (sin a, 0, -cos a)
-        bronze.box({-half, -0.01F, -(kR - 0.16F)}, {half, kProud, -inner});
+        bronze.box({-half, -0.01F, -(kNumeralFoot_m - 0.04F)}, {half, kProud, -inner});
+        addNumeral(bronze, kNumerals[static_cast<std::size_t>((hour + 11) % 12)]);
         bronze.box({-0.055F, -0.01F, -(kR - 0.04F)}, {0.055F, kProud, -(kR - 0.12F)});
     }
     bronze.frame = at({0.0F, kY, 0.0F});
