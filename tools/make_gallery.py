@@ -77,7 +77,7 @@ class Gallery:
     def comparison(self, entry: dict) -> list[str]:
         base = self.views[entry["view"]]["base"]
         both = base if base == entry["technique"] else f"{base},{entry['technique']}"
-        return self.words_of("compare", entry["view"], ["--techniques", both, "--samples", SAMPLES, "--repetitions", "5", *entry.get("arguments", [])])
+        return self.words_of("compare", entry["view"], ["--techniques", both, "--samples", SAMPLES, "--repetitions", "3", *entry.get("arguments", [])])
 
     def figures(self, entry: dict) -> str:
         """How far it is from the truth, and what it costs."""
@@ -113,8 +113,8 @@ class Gallery:
     def film_commands(self, film: dict) -> list[list[str]]:
         return [["render", film["scene"], *film["arguments"], "--size", film["size"], "--technique", technique] for technique in film["techniques"]]
 
-    def film(self, film: dict) -> str:
-        """docs/films/NAME.webm and .png; its part of the page."""
+    def film(self, film: dict) -> None:
+        """docs/films/NAME.webm and .png."""
         with tempfile.TemporaryDirectory() as kept:
             inputs = []
             for i, words in enumerate(self.film_commands(film)):
@@ -130,6 +130,9 @@ class Gallery:
             encode_small(folder / f"{film['name']}.png", [(12, 1.0, 96), (12, 0.75, 64), (8, 0.75, 48), (6, 0.6, 32)], lambda fps, scale, colours: [
                 *inputs, "-filter_complex", f"{beside},fps={fps},scale=trunc(iw*{scale}/2)*2:-2:flags=lanczos,split[a][b];"
                 f"[a]palettegen=max_colors={colours}[p];[b][p]paletteuse=dither=none", "-f", "apng", "-plays", "0", "-bitexact"])
+
+    def film_text(self, film: dict) -> str:
+        """Its part of the page."""
         lines = [f"### {film['words']}", "", f"![{film['words'].replace('`', '')}](films/{film['name']}.png)", "", "```"]
         return "\n".join([*lines, *("build/gnomon " + shlex.join(words) + f" -o out/{film['name']}" for words in self.film_commands(film)), "```", ""])
 
@@ -170,7 +173,7 @@ def main() -> int:
     parser.add_argument("--only", default="", metavar="TEXT", help="entries and films whose names hold TEXT, and nothing of the page")
     parser.add_argument("--size", default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
     films = parser.add_mutually_exclusive_group()
-    films.add_argument("--no-films", action="store_true", help="pictures alone")
+    films.add_argument("--no-films", action="store_true", help="pictures and page, with the films that there are")
     films.add_argument("--films", action="store_true", help="films alone")
     parser.add_argument("gnomon", type=Path, help="the program")
     parser.add_argument("docs", type=Path, nargs="?", default=project_root() / "docs", help="where it goes (docs)")
@@ -180,7 +183,7 @@ def main() -> int:
     listed = json.loads((project_root() / "docs/gallery.json").read_text(encoding="utf-8"))
     gallery = Gallery(options.gnomon.resolve(), options.docs, listed, options.size)
     entries = [] if options.films else [one for one in listed["entries"] if options.only in f"{one['choice']}-{one['name']}"]
-    films = [] if options.no_films else [one for one in listed["films"] if options.only in one["name"]]
+    films = [one for one in listed["films"] if options.only in one["name"]]
     try:
         for view in sorted({one["view"] for one in entries}):
             gallery.picture(f"truth-{view}", gallery.truth(view))
@@ -188,12 +191,12 @@ def main() -> int:
         for entry in entries:
             print(f"{entry['choice']} {entry['name']}", file=sys.stderr)
             parts.setdefault(entry["choice"], []).append(gallery.draw(entry))
-        moving = []
-        for film in films:
+        for film in [] if options.no_films else films:
             print(f"film {film['name']}", file=sys.stderr)
-            moving.append(gallery.film(film))
-        if not (options.only or options.films or options.no_films):
-            made = [*(f"## {CHOICES[choice]}\n\n" + "\n".join(text) for choice, text in parts.items()), "## Films\n\n" + "\n".join(moving)]
+            gallery.film(film)
+        if not (options.only or options.films):
+            made = [*(f"## {CHOICES[choice]}\n\n" + "\n".join(text) for choice, text in parts.items()),
+                    "## Films\n\n" + "\n".join(gallery.film_text(film) for film in films)]
             page = options.docs / "gallery.md"
             page.write_text(page_with(page.read_text(encoding="utf-8"), "\n".join(made)), encoding="utf-8")
     except Failed as failure:

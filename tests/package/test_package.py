@@ -185,6 +185,8 @@ class Configured(Case):
         self.assertIn("libvulkan-dev", library)
         self.assertNotIn("libembree-dev", library)
         self.assertLess(set(library), set(self.passes(run(tool, "--list")).split()))
+        site = self.passes(run(tool, "--list", "--only", "site")).split()
+        self.assertEqual(set(self.passes(run(tool, "--list", "--without", "site")).split()), set(self.passes(run(tool, "--list")).split()) - set(site))
         self.fails(run(tool, "--list", "--only", "volcano"), 'nothing in section "volcano"; it has these: library,')
 
 
