@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace gnomon::host {
 namespace {
@@ -139,6 +138,88 @@ double exposureFor(const Surroundings& around)
     return kKey * key * (noon / used_to) * (kPi / kNoonSun_lx);
 }
 
+/// A physical frame in the making.
+struct Hour {
+    const ShadedLight* sun = nullptr;
+    const ShadedLight* moon = nullptr;                                                     // or none
+    std::array<glm::dvec3, kSkyBodies> outside{glm::dvec3(kSun_lx), glm::dvec3(kMoon_lx)}; // the air
+    glm::dvec3 level = kStars_lx * kStarlight; // illuminance of level ground
+    Surroundings around{0.75 * kStars_lx, kStars_lx};
+    double unit_lx = 1.0;  // lux per unit of the scene's lights
+    double camera = 1.0;   // what its user makes of the exposure
+    double exposure = 1.0; // picture value of 1 cd/m2
+
+    [[nodiscard]] bool ownSun() const { return sun->body == scene::Body::sun; }
+
+    /// What the ground gets from the bodies in the sky.
+    void look(const FrameLight& light)
+    {
+        for (std::size_t i = 0; i < kSkyBodies; ++i) {
+            const SkyBody& body = light.bodies[i];
+            if (body.under == nullptr) {
+                continue;
+            }
+            const double sine = body.towards_ws.y;
+            const glm::dvec3 direct = outside[i] * body.under->direct;
+            const glm::dvec3 diffuse = outside[i] * body.under->diffuse;
+            level += direct * std::max(sine, 0.0) + diffuse;
+            around.dome_lx += onDome(luminance(direct), sine, luminance(diffuse));
+            around.sky_lx += luminance(diffuse);
+        }
+    }
+
+    /// A sun of ours says what it gives from above, one of a file what arrives.
+    void measure(std::span<const ShadedLight> lights, const Aabb& bounds)
+    {
+        const double sun_lx = kSun_lx * luminance(lightThroughAir(ownSun() ? 1.0 : sineOf(*sun)));
+        unit_lx = sun_lx / std::max(luminance(sun->colour), 1e-30);
+        double others_lx = 0.0;
+        for (const ShadedLight& one : lights) {
+            if (&one != sun && &one != moon) {
+                others_lx = std::max(others_lx, unit_lx * illuminanceOf(one, bounds));
+            }
+        }
+        exposure = camera * exposureFor({around.dome_lx + 0.25 * others_lx, around.sky_lx});
+    }
+
+    void exposeLights(std::span<const ShadedLight> lights, FrameLight& out) const
+    {
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const ShadedLight& one = lights[i];
+            glm::dvec3 given_lx = unit_lx * glm::dvec3(one.colour * one.strength);
+            if (&one == moon || (&one == sun && ownSun())) {
+                given_lx = outside[&one == moon ? 1 : 0] * lightThroughAir(sineOf(one)) * fadeOf(one);
+            }
+            out.colours[i] = given_lx * (exposure / kPi);
+        }
+    }
+
+    void exposeSky(const scene::Environment& environment, FrameLight& out) const
+    {
+        out.ground = glm::dvec3(environment.ground_albedo) * level * (exposure / kPi);
+        out.night = kStarlight * (kStars_lx * exposure / kPi);
+        out.skylight.addGround(out.ground * kBouncedToo);
+        out.skylight.addSky(out.night * kBouncedToo);
+        for (std::size_t i = 0; i < kSkyBodies; ++i) {
+            SkyBody& body = out.bodies[i];
+            if (body.under == nullptr) {
+                continue;
+            }
+            body.times = outside[i] * exposure;
+            out.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z), body.times * kBouncedToo);
+            const glm::dvec3 colour = body.under->direct * outside[i];
+            // A disc is far beyond what a screen shows: it has the colour, and is as bright as a lamp.
+            const double bright = i == 0 ? 12.0 : 1.6;
+            body.disc = colour * (camera * bright / std::max(brightest(colour), 1e-30));
+        }
+        const double darkness = std::log10(around.dome_lx);
+        out.emission = camera;
+        out.lamps = camera * smoothStep(3.2, 1.5, darkness);  // from 1600 lx, at sunset, to 30 lx
+        out.stars = camera * smoothStep(0.5, -1.3, darkness); // from 3 lx to 0.05 lx
+        out.night_sky = out.stars > 0.0 || out.bodies[1].under != nullptr;
+    }
+};
+
 } // namespace
 
 double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
@@ -208,80 +289,26 @@ void Daylight::placeBody(std::size_t body, const ShadedLight& light)
 void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bounds,
                             const scene::Environment& environment, double exposure_ev)
 {
-    const ShadedLight& sun = *sunAmong(lights);
-    const ShadedLight* const moon = moonAmong(lights);
+    Hour hour;
+    hour.sun = sunAmong(lights);
+    hour.moon = moonAmong(lights);
+    hour.camera = std::exp2(exposure_ev);
     constexpr double kDeepNight = -0.32; // sine: 18.7 degrees below the horizon
     constexpr double kMoonlit = -0.05;   // while the sun is higher, nobody sees the moon's sky
-    if (sineOf(sun) > kDeepNight) {
-        placeBody(0, sun);
+    if (sineOf(*hour.sun) > kDeepNight) {
+        placeBody(0, *hour.sun);
     }
-    if (moon != nullptr && sineOf(*moon) > kMoonlit && sineOf(sun) < kMoonlit) {
-        placeBody(1, *moon);
+    if (hour.moon != nullptr && sineOf(*hour.moon) > kMoonlit && sineOf(*hour.sun) < kMoonlit) {
+        placeBody(1, *hour.moon);
     }
-    const glm::dvec3 moon_colour =
-        moon != nullptr ? glm::dvec3(moon->colour) / luminance(moon->colour) : glm::dvec3(1.0);
-    const std::array<glm::dvec3, kSkyBodies> outside{glm::dvec3(kSun_lx), kMoon_lx * moon_colour};
-    const glm::dvec3 stars = kStars_lx * kStarlight;
-
-    // What level ground gets, and a dome.
-    glm::dvec3 level = stars;
-    Surroundings around{0.75 * kStars_lx, kStars_lx};
-    for (std::size_t i = 0; i < kSkyBodies; ++i) {
-        const SkyBody& body = light_.bodies[i];
-        if (body.under != nullptr) {
-            const double sine = body.towards_ws.y;
-            const glm::dvec3 direct = outside[i] * body.under->direct;
-            const glm::dvec3 diffuse = outside[i] * body.under->diffuse;
-            level += direct * std::max(sine, 0.0) + diffuse;
-            around.dome_lx += onDome(luminance(direct), sine, luminance(diffuse));
-            around.sky_lx += luminance(diffuse);
-        }
+    if (hour.moon != nullptr) {
+        const glm::dvec3 colour(hour.moon->colour);
+        hour.outside[1] *= colour / std::max(luminance(colour), 1e-30);
     }
-
-    // Lux per unit of the scene's lights. A sun of ours says what it gives from above, one of a file what arrives.
-    const bool own = sun.body == scene::Body::sun;
-    const double sun_lx = kSun_lx * luminance(own ? lightThroughAir(1.0) : lightThroughAir(sineOf(sun)));
-    const double unit_lx = sun_lx / std::max(luminance(sun.colour), 1e-30);
-    double others_lx = 0.0;
-    for (const ShadedLight& light : lights) {
-        if (&light != &sun && &light != moon) {
-            others_lx = std::max(others_lx, unit_lx * illuminanceOf(light, bounds));
-        }
-    }
-    const double camera = std::exp2(exposure_ev);
-    const double exposure = camera * exposureFor({around.dome_lx + 0.25 * others_lx, around.sky_lx});
-
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const ShadedLight& light = lights[i];
-        glm::dvec3 given = unit_lx * glm::dvec3(light.colour * light.strength);
-        if (&light == &sun && own) {
-            given = outside[0] * lightThroughAir(sineOf(sun)) * fadeOf(sun);
-        } else if (&light == moon) {
-            given = outside[1] * lightThroughAir(sineOf(light)) * fadeOf(light);
-        }
-        light_.colours[i] = given * (exposure / kPi);
-    }
-    const glm::dvec3 ground = glm::dvec3(environment.ground_albedo) * level / kPi;
-    light_.ground = ground * exposure;
-    light_.night = stars * (exposure / kPi);
-    light_.skylight.addGround(light_.ground * kBouncedToo);
-    light_.skylight.addSky(light_.night * kBouncedToo);
-    for (std::size_t i = 0; i < kSkyBodies; ++i) {
-        SkyBody& body = light_.bodies[i];
-        if (body.under != nullptr) {
-            body.times = outside[i] * exposure;
-            light_.skylight.add(body.under->light.turned(body.towards_ws.x, body.towards_ws.z),
-                                body.times * kBouncedToo);
-            const glm::dvec3 colour = body.under->direct * (i == 0 ? glm::dvec3(1.0) : moon_colour);
-            // A disc is far beyond what a screen shows: it has the colour, and is as bright as a lamp.
-            const double bright = i == 0 ? 12.0 : 1.6;
-            body.disc = colour * (camera * bright / std::max(brightest(colour), 1e-30));
-        }
-    }
-    light_.emission = camera;
-    light_.lamps = camera * smoothStep(3.2, 1.5, std::log10(around.dome_lx));
-    light_.stars = camera * smoothStep(0.5, -1.3, std::log10(around.dome_lx));
-    light_.night_sky = light_.stars > 0.0 || light_.bodies[1].under != nullptr;
+    hour.look(light_);
+    hour.measure(lights, bounds);
+    hour.exposeLights(lights, light_);
+    hour.exposeSky(environment, light_);
 }
 
 } // namespace gnomon::host
