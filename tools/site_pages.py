@@ -16,6 +16,7 @@ LIST = re.compile(r"^ *(?:[-*]|\d+\.) ")
 FENCE = re.compile(r"^ *(```|~~~)")
 LANGUAGES = {".h": "cpp", ".cpp": "cpp", ".glsl": "glsl", ".comp": "glsl", ".frag": "glsl", ".vert": "glsl", ".py": "python", ".sh": "bash",
              ".json": "json", ".cmake": "cmake"}
+PICTURES = (".png", ".jpg", ".svg", ".webm")
 LARGEST_SHOWN = 200_000  # bytes of a source
 SOURCES = PurePosixPath("source")
 
@@ -63,7 +64,7 @@ class Pages:
             return target
         wanted = PurePosixPath(os.path.normpath(page.parent / target))
         file = self.root / wanted
-        if wanted in self.pages or wanted.parts[0] == "docs" and file.is_file() and file.suffix in (".png", ".svg", ".webm"):
+        if wanted in self.pages or wanted.parts[0] == "docs" and file.is_file() and file.suffix in PICTURES:
             return relative(wanted, place)
         if wanted.as_posix() in self.api:
             return relative(PurePosixPath("api") / self.api[wanted.as_posix()], place)
@@ -105,7 +106,7 @@ class Pages:
         for page, place in {**{page: page for page in sorted(self.pages)}, **extra}.items():
             self.write(place, self.page((self.root / page).read_text(encoding="utf-8"), page, place))
         for file in sorted((self.root / "docs").rglob("*")):
-            if file.suffix in (".png", ".svg", ".webm"):
+            if file.suffix in PICTURES:
                 place = self.folder / file.relative_to(self.root)
                 place.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, place)

@@ -33,6 +33,8 @@ class Gallery(unittest.TestCase):
             self.assertTrue(one["name"] in words or one["name"] in ("auto", "free"), one)
             for part in (one, one["fails"]):
                 self.assertIn(part["view"], LISTED["views"])
+        used = {part["view"] for one in LISTED["entries"] for part in (one, one["fails"])}
+        self.assertEqual(used, set(LISTED["views"]))
 
     def test_what_is_made_goes_between_the_marks(self):
         page = f"before\n{make_gallery.BEGINS}\nold\n{make_gallery.ENDS}\nafter\n"

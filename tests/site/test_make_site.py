@@ -93,7 +93,7 @@ class Reference(Folder):
 
 class Links(Folder):
     def page(self, text: str) -> str:
-        for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/a.md", "docs/images/a.png", "docs/films/f.png", "docs/films/f.webm", "core/x.h", "core/y.h"):
+        for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/a.md", "docs/images/a.png", "docs/images/a.jpg", "docs/films/f.png", "docs/films/f.webm", "core/x.h", "core/y.h"):
             self.write(name, "")
         pages = Pages(self.folder, self.folder / "out", {"core/x.h": "x_8h.html"})
         made = pages.page(text, PurePosixPath("docs/a.md"), PurePosixPath("docs/a.md"))
@@ -101,7 +101,8 @@ class Links(Folder):
         return made
 
     def test_links_lead_to_what_the_site_has(self):
-        self.assertEqual(self.page("[r](../README.md#more) ![p](images/a.png)"), "[r](../README.md#more) ![p](images/a.png)")
+        self.assertEqual(self.page("[r](../README.md#more) ![p](images/a.png) ![j](images/a.jpg)"),
+                         "[r](../README.md#more) ![p](images/a.png) ![j](images/a.jpg)")
         self.assertEqual(self.page("[x](../core/x.h)"), "[x](../api/x_8h.html)")
         self.assertEqual(self.page("[y](../core/y.h#L1) [core](../core)"), "[y](../source/core/y.h.md#L1) [core](../source/core/index.md)")
         self.assertEqual(self.sources, {"core/y.h", "core"})
