@@ -69,8 +69,8 @@ struct Settings {
     glm::uvec2 size_px{0};
     std::optional<host::AntiAliasing> anti_aliasing; // nothing: antiAliasingOf() chooses
     host::BloomOptions bloom;
-    std::optional<bool> ambient_occlusion;           // nothing: hasOcclusion() chooses
-    std::optional<double> occlusion_radius_m;        // else found from the scene
+    std::optional<bool> ambient_occlusion;    // nothing: hasOcclusion() chooses
+    std::optional<double> occlusion_radius_m; // else found from the scene
     host::ToneCurve tone = host::ToneCurve::neutral;
     bool dither = true;
     host::Reflection reflection = host::Reflection::materials;

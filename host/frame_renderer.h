@@ -25,8 +25,8 @@ namespace gnomon::host {
 enum class AntiAliasing : std::uint8_t { none, fxaa, ssaa4 };
 
 /// How light becomes what a screen can show. `neutral`: Khronos PBR Neutral, 2024, which keeps hues. `filmic`: K.
-/// Narkowicz, 2015, of each channel by itself, which has more contrast and turns bright orange to yellow. Both show a grey
-/// of 18 % in full light alike.
+/// Narkowicz, 2015, of each channel by itself, which has more contrast and turns bright orange to yellow. Both show a
+/// grey of 18 % in full light alike.
 enum class ToneCurve : std::uint8_t { neutral, filmic };
 
 /// How surfaces reflect. `phong_2005`: by what A. S. Shastry's "Soft-Edged Shadows", 2005, shades with: no
@@ -73,7 +73,8 @@ struct RenderOptions {
     double exposure_ev = 0.0; // stops by which the picture is brighter than its light asks for; [-16, 16]
     AmbientOcclusionOptions ambient_occlusion;
     ToneCurve tone = ToneCurve::neutral;
-    bool dither = false; // noise of one step at most, the same for ever at a pixel, before the picture is rounded to 8 bits
+    bool dither =
+        false; // noise of one step at most, the same for ever at a pixel, before the picture is rounded to 8 bits
     Reflection reflection = Reflection::materials;
     /// Forward: masks and geometry cannot be asked for (Error). Masks of someone else's are shaded deferred all the
     /// same.

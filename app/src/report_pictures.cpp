@@ -88,7 +88,7 @@ Shades drawShades(const host::SceneOnGpu& scene, const lab::Subject& subject, co
 {
     host::RenderOptions options = lab::judgedOptions(renderOptions(settings), settings.size_px);
     options.shadows = false;
-    options.ambient_occlusion.on = true; // as pictures that are looked at
+    options.ambient_occlusion.on = true;       // as pictures that are looked at
     options.shading = host::Shading::deferred; // masks of someone else's are shaded so
     host::FrameRenderer renderer(scene, options);
     const auto shaded = [&](float visibility) {

@@ -367,8 +367,7 @@ host::RenderOptions renderOptions(const Settings& settings)
         settings.shadow.technique.soften == Soften::converge && settings.truth_pixels == truth::PixelTruth::area;
     options.anti_aliasing = antiAliasingOf(settings);
     options.bloom = settings.bloom;
-    options.ambient_occlusion = {hasOcclusion(settings),
-                                 static_cast<float>(settings.occlusion_radius_m.value_or(0.0))};
+    options.ambient_occlusion = {hasOcclusion(settings), static_cast<float>(settings.occlusion_radius_m.value_or(0.0))};
     options.tone = settings.tone;
     options.dither = settings.dither;
     options.reflection = settings.reflection;

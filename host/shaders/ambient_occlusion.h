@@ -22,8 +22,8 @@ GN_CONST real kOcclusionThickness = real(0.05); // how fast a horizon sinks agai
 GN_CONST int kOcclusionSlices = 2;              // of a pixel; at right angles
 GN_CONST int kOcclusionSteps = 8;               // of a slice, to each side
 
-// Which way the first slice of a pixel goes (x, in quarter turns) and how far its steps are shifted (y, in steps). Every
-// 4 x 4 pixels have 16 directions, so a mean over as many has no pattern left.
+// Which way the first slice of a pixel goes (x, in quarter turns) and how far its steps are shifted (y, in steps).
+// Every 4 x 4 pixels have 16 directions, so a mean over as many has no pattern left.
 GN_FN real2 occlusionPattern(int x, int y)
 {
     int direction = (((x + y) & 3) << 2) + (x & 3);
@@ -51,15 +51,17 @@ GN_FN real ownHorizon(real along, real up)
 }
 
 // The cosine to the view direction of a sample that rises above the surface. `own`: ownHorizon(); `rise`: the cosine
-// between normal and the way to the sample, over the length of the normal's part in the slice. Samples lie at middles of
-// pixels and so beside their slice: by how they rise, and not by where they are, those on a plane are on its horizon.
+// between normal and the way to the sample, over the length of the normal's part in the slice. Samples lie at middles
+// of pixels and so beside their slice: by how they rise, and not by where they are, those on a plane are on its
+// horizon.
 GN_FN real risenHorizon(real own, real rise)
 {
     real up = clamp(rise, real(0.0), real(1.0));
     return own * sqrt(real(1.0) - up * up) + sqrt(max(real(1.0) - own * own, real(0.0))) * up;
 }
 
-// Equation 7: light between the view direction and a horizon, both as signed angles in the slice; `gamma`: the normal's.
+// Equation 7: light between the view direction and a horizon, both as signed angles in the slice; `gamma`: the
+// normal's.
 GN_FN real arcLight(real horizon, real gamma)
 {
     return real(0.25) * (cos(gamma) - cos(real(2.0) * horizon - gamma) + real(2.0) * horizon * sin(gamma));

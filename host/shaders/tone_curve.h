@@ -18,9 +18,10 @@ GN_CONST real kNeutralToe = real(0.02);   // what is taken off, so that haze doe
 GN_CONST real kNeutralStart = real(0.76); // of the compression
 GN_CONST real kNeutralPale = real(0.15);  // how fast what is too bright loses its colour
 
-// ToneCurve::neutral: Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024. The largest channel goes through a curve and
-// takes the others along, so a hue stays what it is; what is very bright goes to white. Two departures: the gain, and half
-// of the toe, which is 0.04 there for rooms of white light and makes colours garish in the shade of a scene with a sun.
+// ToneCurve::neutral: Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024. The largest channel goes through a curve
+// and takes the others along, so a hue stays what it is; what is very bright goes to white. Two departures: the gain,
+// and half of the toe, which is 0.04 there for rooms of white light and makes colours garish in the shade of a scene
+// with a sun.
 GN_FN real3 neutralTone(real3 light)
 {
     real3 x = light * kNeutralGain;
@@ -50,8 +51,8 @@ GN_FN real triangular(real even)
     return sign(x) * (real(1.0) - sqrt(max(real(1.0) - abs(x), real(0.0))));
 }
 
-// An encoded value with noise of up to one of 255 steps, so that its rounding has no pattern. Less near black and white,
-// which stay what they are.
+// An encoded value with noise of up to one of 255 steps, so that its rounding has no pattern. Less near black and
+// white, which stay what they are.
 GN_FN real dithered(real encoded, real even)
 {
     real room = min(encoded, real(1.0) - encoded) * real(255.0);

@@ -104,8 +104,8 @@ struct ShadedBy {
     bool all_directional = false;
     bool phong_2005 = false; // Reflection
     Toning toned;
-    bool occluded = false;   // deferred: with ambient occlusion
-    SkyFacts sky;            // where grounds fade into it; else as it comes
+    bool occluded = false; // deferred: with ambient occlusion
+    SkyFacts sky;          // where grounds fade into it; else as it comes
 
     bool operator==(const ShadedBy&) const = default;
 };

@@ -109,7 +109,8 @@ void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImag
     VkDevice device = scene_.gpu.view().device;
     const auto count = static_cast<std::uint32_t>(frame_data.size());
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (kFrameBindings - 1) * count}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (kFrameBindings - 1) * count}}};
     VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = sizes.size();
@@ -130,17 +131,18 @@ void Screen::makeSets(std::span<const Buffer> frame_data, const VkDescriptorImag
     const VkDescriptorImageInfo cookies = scene_.textures.cookies();
     const VkImageView toned = targets.toned.view != VK_NULL_HANDLE ? targets.toned.view : targets.light.view;
     const VkImageView glow = bloom ? bloom->result().view : targets.light.view; // not read then
-    const std::array<VkDescriptorImageInfo, kFrameBindings - 1> images{{{nearest, targets.depth.view, kDepthRead.layout},
-                                                       cookies, // in the place of surfaces
-                                                       cookies, // in the mask's place
-                                                       cookies,
-                                                       {nearest, targets.light.view, kSampled.layout},
-                                                       {scene_.textures.plainSampler(), toned, kSampled.layout},
-                                                       {scene_.textures.plainSampler(), glow, kSampled.layout},
-                                                       sky_tables,
-                                                       cookies, // in the place of normals and occlusion
-                                                       cookies,
-                                                       cookies}};
+    const std::array<VkDescriptorImageInfo, kFrameBindings - 1> images{
+        {{nearest, targets.depth.view, kDepthRead.layout},
+         cookies, // in the place of surfaces
+         cookies, // in the mask's place
+         cookies,
+         {nearest, targets.light.view, kSampled.layout},
+         {scene_.textures.plainSampler(), toned, kSampled.layout},
+         {scene_.textures.plainSampler(), glow, kSampled.layout},
+         sky_tables,
+         cookies, // in the place of normals and occlusion
+         cookies,
+         cookies}};
     for (std::uint32_t slot = 0; slot < count; ++slot) {
         memory_.names().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[slot], "frame");
         const VkDescriptorBufferInfo buffer{frame_data[slot].handle, 0, sizeof(FrameData)};

@@ -210,9 +210,9 @@ TEST(DebugMap, IsTheMapFromBlackToWhiteAboveItsLegend)
 TEST(DebugMap, HasAllMapsOfALight)
 {
     const test::Folder folder;
-    const test::Ran ran = inFolder(folder, {"render", "planes", "--camera", "side", "--debug", "map", "--filter", "hard",
-                                            "--partition", "cascades", "--set", "cascades.count=3", "--map-size", "256",
-                                            "--size", "32x18", "--out", "map.png"});
+    const test::Ran ran = inFolder(folder, {"render", "planes", "--camera", "side", "--debug", "map", "--filter",
+                                            "hard", "--partition", "cascades", "--set", "cascades.count=3",
+                                            "--map-size", "256", "--size", "32x18", "--out", "map.png"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     const ImageF picture = readImage(folder / "map.png");
     EXPECT_EQ(picture.width, 2U * 256 + 4) << "two columns";

@@ -120,7 +120,8 @@ TEST(AmbientOcclusion, SamplesAreWhereTheyRiseTo)
 {
     // In the slice itself: the same as the cosine to where it is.
     for (const glm::dvec3& v : kViews) {
-        const glm::dvec3 along = glm::normalize(glm::cross(glm::normalize(glm::cross(v, glm::dvec3(0.9, 0.1, 0.4))), v));
+        const glm::dvec3 along =
+            glm::normalize(glm::cross(glm::normalize(glm::cross(v, glm::dvec3(0.9, 0.1, 0.4))), v));
         const glm::dvec2 normal(glm::dot(kUp, along), glm::dot(kUp, v));
         const double own = ownHorizon(normal.x, normal.y);
         for (const double angle : {0.1, 0.5, 1.0}) {

@@ -20,7 +20,9 @@ lab::MapPanel panelOf(std::uint32_t side, float value)
 
 lab::MapLegend legendOf()
 {
-    return {"Maps", "of a test", "near", "far", [](double value) { return std::to_string(value); }};
+    return {"Maps", "of a test", "near", "far", [](double value) {
+                return std::to_string(value);
+            }};
 }
 
 /// The same value is the same grey in each map, whatever else is in it.
