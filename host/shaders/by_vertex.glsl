@@ -30,5 +30,6 @@ const int kScreenColour = 12;
 const int kScreenRight = 13;
 const int kScreenNumberCount = 14;
 const int kScreenPixel = 14; // location of a pixel's place in the picture: 0 .. 1
+const int kScreenShare = kScreenPixel + 1; // location of what a surface leaves to the sky behind it: 0 .. 1
 
 #endif

@@ -7,10 +7,7 @@
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
-layout(constant_id = 25) const int kHorizon = 0;    // see shade.frag
-// First: the library's headers take the macros of portability.h back.
-#include "shown.glsl"
-#include "atmosphere.h"
+#include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #ifdef GNOMON_FILTER
 #define GNOMON_SET 2
 #define GNOMON_TINTS kTints
@@ -32,8 +29,6 @@ uint receiver_piece;
 #define FRAME_DEPTH frame.depth
 #include "material.glsl"
 #include "shaded_lights.glsl"
-#define FRAME_SKY(I) frame.sky[I]
-#include "sky.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2DArray cookies;
 
@@ -104,9 +99,6 @@ void main()
         for (uint i = 0; i < frame.counts.x; ++i) {
             sum += lightFrom(frame.lights[i], s, cookies, seenBy(i, p, surface, own_tint));
         }
-    }
-    if (kOpaque && kHorizon > 0 && model == 3.0) {
-        sum = mix(sum, kHorizon == 1 ? plainSky(normalize(p)) : physicalSky(normalize(p)), 1.0 - base.a);
     }
     out_light = shown(sum, alpha);
 }

@@ -10,7 +10,7 @@
 uvec3 packSurface(Surface s, vec2 shading_normal, float second)
 {
     return uvec3(packUnorm4x8(vec4(sqrt(s.base.rgb), s.occlusion)), packSnorm2x16(shading_normal),
-                 packUnorm4x8(vec4(s.metallic, second, s.model == 3.0 ? 1.0 - s.base.a : s.lit, s.model / 3.0)));
+                 packUnorm4x8(vec4(s.metallic, second, s.lit, s.model * 0.5)));
 }
 #endif
 
@@ -19,8 +19,7 @@ struct StoredSurface {
     vec3 shading_normal;
     float metallic;
     float second;
-    float lit;    // a window, when it is dark outside; model 3: 0
-    float hidden; // model 3: the sky's share; else 0
+    float lit; // a window, when it is dark outside
     float model;
 };
 
@@ -33,9 +32,8 @@ StoredSurface unpackSurface(uvec3 texel)
     vec4 numbers = unpackUnorm4x8(texel.z);
     s.metallic = numbers.r;
     s.second = numbers.g;
-    s.model = floor(numbers.a * 3.0 + 0.5);
-    s.lit = s.model == 3.0 ? 0.0 : numbers.b;
-    s.hidden = s.model == 3.0 ? numbers.b : 0.0;
+    s.lit = numbers.b;
+    s.model = floor(numbers.a * 2.0 + 0.5);
     return s;
 }
 

@@ -12,7 +12,7 @@ layout(set = 1, binding = 0, std140) uniform MaterialData
     vec4 base_colour;
     vec4 emissive; // w: normal scale
     vec4 numbers;  // metallic, roughness, occlusion strength, alpha cutoff
-    vec4 model;    // x: 0 metallic-roughness, 1 phong, 2 unlit, 3 horizon; y: phong exponent; z: scene::Material::lit_by_night
+    vec4 model;    // x: 0 metallic-roughness, 1 phong, 2 unlit; y: phong exponent; z: scene::Material::lit_by_night
     TexturePlace places[5];
 }
 material;

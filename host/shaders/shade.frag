@@ -8,14 +8,11 @@
 #include "ray.glsl"
 #include "shaded_lights.glsl"
 #include "gbuffer_surface.glsl"
-#define FRAME_SKY(I) frame.sky[I]
-#include "sky.glsl"
 #include "shown.glsl"
 #include "ambient_occlusion.h"
 #include "occlusion_here.glsl"
 
 layout(constant_id = 22) const bool kOccluded = false;
-layout(constant_id = 25) const int kHorizon = 0; // surfaces fade into the sky: 1 into the plain one, 2 into the physical one
 layout(set = 0, binding = 1) uniform sampler2D depths;
 layout(set = 0, binding = 2) uniform usampler2D surfaces;
 layout(set = 0, binding = 3) uniform sampler2DArray mask;
@@ -94,8 +91,5 @@ void main()
         }
     }
 #endif
-    if (kHorizon > 0) {
-        sum = mix(sum, kHorizon == 1 ? plainSky(normalize(p)) : physicalSky(normalize(p)), stored.hidden);
-    }
     out_light = shown(sum, 1.0);
 }

@@ -1,15 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sky of air, with the discs of sun and moon, and stars.
+// A sky of air, of the sun and by night of the moon, from the tables of host/src/sky_table.h; their discs, and stars.
+// What is below the horizon is ground in haze. OVER_SURFACE: laid over a surface that fades into it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 #include "screen_numbers.glsl"
+#include "sky_numbers.glsl"
 #include "ray.glsl"
-#define FRAME_SKY(I) SCREEN_NUMBER(kScreenSky + (I), sky[I])
-#include "sky.glsl"
 #include "shown.glsl"
+#include "atmosphere.h"
 
+// For each body what molecules and many scatterings give, and what dust gives but for its phase.
+layout(set = 0, binding = 8) uniform sampler2DArray sky_tables;
+// There are a moon or stars. A software rasteriser goes through all that a shader might do.
+layout(constant_id = 21) const bool kNight = false;
+#ifdef OVER_SURFACE
+layout(location = kScreenShare) in float share;
+#else
+const float share = 1.0;
+#endif
 layout(location = 0) out vec4 out_light;
+
+vec3 skyOf(int body, vec3 d)
+{
+    vec3 towards = SKY_BODY(body).xyz;
+    float level = dot(d.xz, d.xz) * dot(towards.xz, towards.xz);
+    float along = level > 1e-12 ? dot(d.xz, towards.xz) * inversesqrt(level) : 1.0;
+    vec2 texels = vec2(textureSize(sky_tables, 0).xy);
+    vec2 place = (skyTablePlace(d.y, along) * (texels - 1.0) + 0.5) / texels;
+    vec3 molecules = textureLod(sky_tables, vec3(place, 2 * body), 0.0).rgb;
+    vec3 dust = textureLod(sky_tables, vec3(place, 2 * body + 1), 0.0).rgb;
+    vec3 above = vec3(d.x, max(d.y, 0.0), d.z); // haze below the horizon is as at the horizon
+    return (molecules + dust * dustPhase(dot(normalize(above), towards))) * SKY_TIMES(body);
+}
 
 // A disc with a soft rim of a tenth of its radius.
 vec3 discOf(int body, vec3 d)
@@ -54,9 +77,12 @@ vec3 starsAt(vec3 d)
 void main()
 {
     vec3 d = normalize(rayOf(gl_FragCoord.xy));
+    vec3 sky = SKY_NIGHT + skyOf(0, d);
     vec3 high = discOf(0, d);
     if (kNight) {
+        sky += skyOf(1, d);
         high += discOf(1, d) + starsAt(d) * SKY_STARS;
     }
-    out_light = shown(physicalSky(d) + high * smoothstep(-0.002, 0.002, d.y), 1.0);
+    sky = mix(sky, SKY_GROUND, groundShare(d.y));
+    out_light = shown(sky + high * smoothstep(-0.002, 0.002, d.y), share);
 }

@@ -217,9 +217,9 @@ void FrameRenderer::Impl::nameContent()
 void FrameRenderer::Impl::choosePipelines()
 {
     Pipelines& pipelines = scene.pipelines;
-    // What blends, emits or glows is added to light, and supersampling averages it.
+    // What blends, emits, fades or glows is added to light, and supersampling averages it.
     const bool at_once = !options.keeps_light && pipelines.blended.whole == VK_NULL_HANDLE &&
-                         pipelines.emissive.whole == VK_NULL_HANDLE && !screen->bloom &&
+                         pipelines.emissive.whole == VK_NULL_HANDLE && !pipelines.fades() && !screen->bloom &&
                          options.anti_aliasing != AntiAliasing::ssaa4;
     toned = at_once ? Toning{true, options.tone, options.dither} : Toning{};
     ShadedBy by;
@@ -230,7 +230,7 @@ void FrameRenderer::Impl::choosePipelines()
     by.toned = toned;
     const SkyFacts facts{.toned = toned, .physical = all_light->physical, .night = all_light->night_sky};
     sky = pipelines.skyFor(facts);
-    by.sky = pipelines.fades() ? facts : SkyFacts{};
+    fading = pipelines.fades() ? pipelines.fadingFor(facts) : VK_NULL_HANDLE;
     if (forward.on) {
         chooseForward(by);
         return;

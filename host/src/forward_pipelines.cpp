@@ -92,4 +92,10 @@ VkPipeline Pipelines::skyFor(const SkyFacts& facts)
     return found != sky_.end() ? found->second : sky_.emplace_back(facts, makeSky(facts)).second;
 }
 
+VkPipeline Pipelines::fadingFor(const SkyFacts& facts)
+{
+    const auto found = std::ranges::find(fading_, facts, &std::pair<SkyFacts, VkPipeline>::first);
+    return found != fading_.end() ? found->second : fading_.emplace_back(facts, makeSky(facts, true)).second;
+}
+
 } // namespace gnomon::host

@@ -72,6 +72,7 @@ struct FrameRenderer::Impl {
     bool occluded = false; // shaded deferred, with ambient occlusion
     Toning toned;          // what shades
     VkPipeline sky = VK_NULL_HANDLE;
+    VkPipeline fading = VK_NULL_HANDLE; // where a surface fades into the sky
     VkPipeline shade = VK_NULL_HANDLE;
     VkPipeline shade_compact = VK_NULL_HANDLE; // in its place where the mask is compact
     Sight sight;

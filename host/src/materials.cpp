@@ -22,7 +22,6 @@ MaterialData dataOf(const scene::Material& m)
     data.numbers = {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff};
     float model = m.model == scene::ShadingModel::phong ? 1.0F : 0.0F;
     model = m.model == scene::ShadingModel::unlit ? 2.0F : model;
-    model = m.model == scene::ShadingModel::horizon ? 3.0F : model;
     data.model = {model, m.phong_exponent, m.lit_by_night, 0.0F};
     const auto uses = usesOf(m);
     for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -53,8 +52,8 @@ MaterialFacts factsOf(const scene::Material& m)
     }
     facts.two_sided = m.double_sided;
     facts.blended = m.alpha_mode == scene::AlphaMode::blend;
-    facts.physical = m.model == scene::ShadingModel::metallic_roughness;
-    facts.horizon = m.model == scene::ShadingModel::horizon;
+    facts.fades = m.model == scene::ShadingModel::horizon;
+    facts.physical = m.model == scene::ShadingModel::metallic_roughness || facts.fades;
     facts.emits = std::max({m.emissive.x, m.emissive.y, m.emissive.z}) > 0.0F;
     return facts;
 }

@@ -18,7 +18,7 @@ struct MaterialData {
     glm::vec4 base_colour;
     glm::vec4 emissive; // w: normal scale
     glm::vec4 numbers;  // metallic, roughness, occlusion strength, alpha cutoff
-    glm::vec4 model;    // x: 0 metallic-roughness, 1 phong, 2 unlit, 3 horizon; y: phong exponent
+    glm::vec4 model;    // x: 0 metallic-roughness, 1 phong, 2 unlit; y: phong exponent; z: lit_by_night
     std::array<std::array<glm::vec4, 2>, 5> places;
 };
 static_assert(sizeof(MaterialData) == 16 * 14);
@@ -32,7 +32,7 @@ struct MaterialFacts {
     bool blended = false;
     bool emits = false;
     bool physical = true; // metallic-roughness
-    bool horizon = false; // fades into the sky
+    bool fades = false;   // into the sky (ShadingModel::horizon)
     VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorSet caster_set = VK_NULL_HANDLE; // masked and blended materials: the base colour texture alone
 };

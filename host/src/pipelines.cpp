@@ -93,7 +93,7 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
     physical_only_ =
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
     fades_ =
-        std::any_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.horizon; });
+        std::any_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.fades; });
     makeShadowedLayout(materials.layout());
     makeScene(materials);
     makeDepthAlone();
@@ -335,15 +335,19 @@ Pipelines::Wish Pipelines::blendedWish()
     return wish;
 }
 
-VkPipeline Pipelines::makeSky(const SkyFacts& facts)
+VkPipeline Pipelines::makeSky(const SkyFacts& facts, bool over_surface)
 {
     Wish wish;
-    wish.vertex = "screen.vert";
+    wish.vertex = over_surface ? "screen_over_surface.vert" : "screen.vert";
     setToning(wish, facts.toned);
+    wish.scene = over_surface;
+    wish.blend = over_surface;
     wish.depth = true;
-    wish.compare = VK_COMPARE_OP_EQUAL;
-    wish.name = "sky";
-    wish.fragment = facts.physical ? "sky_physical.frag" : "sky.frag";
+    wish.compare = VK_COMPARE_OP_EQUAL; // with nothing's, or with what depth_alone drew
+    wish.name = over_surface ? "fading" : "sky";
+    const std::string shader = facts.physical ? "sky_physical" : "sky";
+    const std::string fragment = shader + (over_surface ? "_over_surface.frag" : ".frag");
+    wish.fragment = fragment;
     wish.constants[kDrawsSky] = VK_TRUE;
     wish.constants[kNight] = facts.night ? VK_TRUE : VK_FALSE;
     return make(wish);
@@ -419,8 +423,6 @@ void Pipelines::setLights(Wish& wish, const ShadedBy& by) const
     wish.constants[kPhysicalOnly] = physical_only_ ? VK_TRUE : VK_FALSE;
     wish.constants[kPhong2005] = by.phong_2005 ? VK_TRUE : VK_FALSE;
     wish.constants[kOccluded] = by.occluded ? VK_TRUE : VK_FALSE;
-    wish.constants[kHorizon] = !fades_ ? 0 : (by.sky.physical ? 2 : 1);
-    wish.constants[kNight] = by.sky.night ? VK_TRUE : VK_FALSE;
     setToning(wish, by.toned);
 }
 

@@ -105,7 +105,6 @@ struct ShadedBy {
     bool phong_2005 = false; // Reflection
     Toning toned;
     bool occluded = false; // deferred: with ambient occlusion
-    SkyFacts sky;          // where grounds fade into it; else as it comes
 
     bool operator==(const ShadedBy&) const = default;
 };
@@ -149,6 +148,8 @@ public:
     [[nodiscard]] VkPipeline skyFor(const SkyFacts& facts);
     /// Is there a surface that fades into the sky?
     [[nodiscard]] bool fades() const { return fades_; }
+    /// The sky over such surfaces, by how much they fade. Precondition: there are some, and the facts are not toned.
+    [[nodiscard]] VkPipeline fadingFor(const SkyFacts& facts);
     [[nodiscard]] VkPipeline toneFor(const ToneFacts& facts);
     [[nodiscard]] VkPipeline fxaa();
     /// The passes of ambient occlusion.
@@ -182,7 +183,7 @@ private:
     /// `cut`: some are.
     SurfacePipelines makeSurface(Wish wish, bool cut);
     void makeScene(const Materials& materials);
-    [[nodiscard]] VkPipeline makeSky(const SkyFacts& facts);
+    [[nodiscard]] VkPipeline makeSky(const SkyFacts& facts, bool over_surface = false);
     [[nodiscard]] VkPipeline makeOcclusion(const char* name, std::string_view fragment);
 
     const Gpu& gpu_;
@@ -192,6 +193,7 @@ private:
     std::deque<std::pair<ForwardFacts, KindPipelines>> forward_;                    // references to them stay
     std::array<std::optional<KindPipelines>, 4> gbuffer_;                           // by shape
     std::vector<std::pair<SkyFacts, VkPipeline>> sky_;
+    std::vector<std::pair<SkyFacts, VkPipeline>> fading_;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_;
     std::vector<std::pair<ShadedBy, VkPipeline>> shade_compact_;
     struct Shadowed {

@@ -199,7 +199,8 @@ void FrameRenderer::Impl::recordLight(VkCommandBuffer cmd)
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,
                             nullptr);
     draws.bindStreams(cmd);
-    profiler.addDraws(2 + draws.recordEmissive(cmd, pipelines) + recordBlended(cmd));
+    const std::uint32_t faded = fading != VK_NULL_HANDLE ? draws.recordFading(cmd, pipelines, fading) : 0;
+    profiler.addDraws(2 + faded + draws.recordEmissive(cmd, pipelines) + recordBlended(cmd));
     vkCmdEndRendering(cmd);
     endShading(cmd);
     profiler.endPass(cmd);

@@ -81,10 +81,11 @@ void FrameRenderer::Impl::recordSurfaces(VkCommandBuffer cmd)
                             nullptr);
     vkCmdDraw(cmd, 3, 1, 0, 0);
     ++count;
-    if (draws.anyBlended()) {
+    if (draws.anyBlended() || fading != VK_NULL_HANDLE) {
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.scene_layout.get(), 0, 1, &frame_set, 0,
                                 nullptr);
         draws.bindStreams(cmd);
+        count += fading != VK_NULL_HANDLE ? draws.recordFading(cmd, pipelines, fading) : 0;
         count += recordBlended(cmd);
     }
     profiler.addDraws(count);

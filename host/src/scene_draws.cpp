@@ -184,6 +184,19 @@ std::uint32_t SceneDraws::recordEmissive(VkCommandBuffer commands, const Pipelin
     return draws;
 }
 
+std::uint32_t SceneDraws::recordFading(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline fading) const
+{
+    std::uint32_t draws = 0;
+    VkPipeline bound = VK_NULL_HANDLE;
+    for (const vulkan::BatchDraws& some : lists_.batches) {
+        if (materials_.all()[table_.batches[some.batch].material].fades) {
+            bind(commands, fading, bound);
+            draws += recordBatch(commands, pipelines, some);
+        }
+    }
+    return draws;
+}
+
 std::uint32_t SceneDraws::recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
                                         const SurfacePipelines& blended) const
 {

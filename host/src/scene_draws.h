@@ -30,6 +30,8 @@ public:
     std::uint32_t recordOpaque(VkCommandBuffer commands, const Pipelines& pipelines, const KindPipelines& of_kinds,
                                VkDescriptorSet frame_set, VkDescriptorSet maps_set = VK_NULL_HANDLE) const;
     std::uint32_t recordEmissive(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    /// What fades into the sky, after it is shaded; by this pipeline.
+    std::uint32_t recordFading(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline fading) const;
     std::uint32_t recordBlended(VkCommandBuffer commands, const Pipelines& pipelines,
                                 const SurfacePipelines& blended) const;
     [[nodiscard]] bool anyBlended() const { return !blended_.empty(); } // in what was built last
