@@ -266,7 +266,7 @@ const std::vector<Setting>& rows()
          .doc = "physical: air, light and exposure by the sun's height, where there is a sun; or plain: a gradient",
          .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applySky},
         {.key = "exposure", .group = Group::picture, .type = real, .form = "STOPS", .unit = "stops", .default_text = "0", .min = -16, .max = 16,
-         .doc = "how much brighter than by the light of the hour; 1 is twice as bright", .subcommands = kPictures, .used = isPicture, .used_when = "a picture, not --mask",
+         .doc = "brighter than by the light of the hour; 1 is twice as bright", .subcommands = kPictures, .used = isPicture, .used_when = "a picture, not --mask",
          .apply = [](Settings& s, const Value& v) { s.exposure_ev = v.real; }},
         {.key = "shading", .group = Group::picture, .type = choice, .form = "ORDER", .default_text = "deferred", .choices = shadingNames,
          .doc = "by a G-buffer and a mask, or forward, by the maps", .subcommands = kPictures, .used = isShadedPicture, .used_when = "a picture (not --mask, --debug, --truth)", .apply = applyShading},
