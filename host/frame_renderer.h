@@ -47,7 +47,7 @@ enum class Shading : std::uint8_t { deferred, forward };
 enum class SkyModel : std::uint8_t { plain, physical };
 
 /// Bloom: what is brighter than a threshold glows into its surroundings, as it does in every lens. Light is measured in
-/// exposed radiance, the unit of Picture::linear: the tone curve shows 1 at 80 % of display white and 7.2 at white.
+/// exposed radiance, the unit of Picture::linear: ToneCurve::neutral shows 1 at 92 % of display white, filmic at 80 %.
 struct BloomOptions {
     bool on = false;
     float threshold = 0.8F;   // exposed radiance of the brightest channel from which on light glows in full; [0, 64]

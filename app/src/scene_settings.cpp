@@ -248,7 +248,7 @@ const std::vector<Setting>& rows()
         {.key = "bloom", .group = Group::picture, .type = flag, .default_text = "0", .doc = "let what is very bright glow into its surroundings",
          .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = [](Settings& s, const Value& v) { s.bloom.on = v.flag; }},
         {.key = "bloom.threshold", .group = Group::picture, .type = real, .form = "LIGHT", .default_text = "0.8", .min = 0, .max = 64,
-         .doc = "brighter light glows; 1 shows at 80 % of white, a sunlit white wall is 1.35", .subcommands = kPictures, .own_option = false, .used = glows, .used_when = "bloom=1",
+         .doc = "brighter light glows; 1 shows at 92 % of white, a sunlit white wall is 1.35", .subcommands = kPictures, .own_option = false, .used = glows, .used_when = "bloom=1",
          .apply = [](Settings& s, const Value& v) { s.bloom.threshold = static_cast<float>(v.real); }},
         {.key = "bloom.knee", .group = Group::picture, .type = real, .form = "SHARE", .default_text = "0.25", .min = 0, .max = 1,
          .doc = "share of the threshold, both ways, over which glowing sets in", .subcommands = kPictures, .own_option = false, .used = glows, .used_when = "bloom=1",

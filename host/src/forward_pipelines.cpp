@@ -83,19 +83,4 @@ const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
     return forward_.emplace_back(facts, made).second;
 }
 
-VkPipeline Pipelines::skyFor(const SkyFacts& facts)
-{
-    if (facts == SkyFacts{}) {
-        return sky;
-    }
-    const auto found = std::ranges::find(sky_, facts, &std::pair<SkyFacts, VkPipeline>::first);
-    return found != sky_.end() ? found->second : sky_.emplace_back(facts, makeSky(facts)).second;
-}
-
-VkPipeline Pipelines::fadingFor(const SkyFacts& facts)
-{
-    const auto found = std::ranges::find(fading_, facts, &std::pair<SkyFacts, VkPipeline>::first);
-    return found != fading_.end() ? found->second : fading_.emplace_back(facts, makeSky(facts, true)).second;
-}
-
 } // namespace gnomon::host

@@ -184,14 +184,15 @@ const std::vector<Claim>& table2011()
          .why = "On a software rasteriser, which has no fixed units for samples and filters. No GPU was measured."},
         {.id = "2011-bloom",
          .claim = "Bloom helps to hide what artefacts remain",
-         .commands = {"gnomon render rts --camera camp --size 320x180 --truth area --samples 64 -o truth.png",
-                      "gnomon render rts --camera camp --size 320x180 --truth area --samples 64 --set bloom=1 -o "
-                      "truth_bloom.png",
-                      "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 -o "
-                      "vsm.png",
-                      "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 --set "
-                      "bloom=1 -o vsm_bloom.png",
-                      "gnomon metrics vsm.png truth.png --json", "gnomon metrics vsm_bloom.png truth_bloom.png --json"},
+         .commands =
+             {"gnomon render rts --preset plain --camera camp --size 320x180 --truth area --samples 64 -o truth.png",
+              "gnomon render rts --preset plain --camera camp --size 320x180 --truth area --samples 64 --set "
+              "bloom=1 -o truth_bloom.png",
+              "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 -o "
+              "vsm.png",
+              "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 --set "
+              "bloom=1 -o vsm_bloom.png",
+              "gnomon metrics vsm.png truth.png --json", "gnomon metrics vsm_bloom.png truth_bloom.png --json"},
          .parts = {{"FLIP to the truth with bloom in both", "of that without",
                     [](const Runs& r) { return r.number(5, "/error/flip") / r.number(4, "/error/flip"); }, 0.0, 0.95}},
          .verdict = Verdict::fails,
