@@ -273,7 +273,7 @@ const std::vector<Setting>& rows()
         {.key = "reflection", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "materials", .choices = reflectionNames,
          .doc = "by the scene's materials, or phong-2005: exponent 8, no ambient light, as A. S. Shastry shaded in 2005", .subcommands = kPictures, .own_option = false, .used = isPicture, .used_when = "a picture, not --mask", .apply = applyReflection},
         {.key = "ground", .group = Group::picture, .type = choice, .form = "WHEN", .default_text = "auto", .choices = groundNames, .bare_text = "on",
-         .doc = "a ground under the scene that fades into the sky; auto: under a file that has none", .apply = applyGround},
+         .doc = "put a ground under the scene; auto: under a file without one", .apply = applyGround},
         {.key = "up-axis", .group = Group::picture, .type = choice, .form = "AXIS", .default_text = "y", .choices = upAxisNames,
          .doc = "which axis of a file is up: y, as glTF has it, or z", .apply = [](Settings& s, const Value& v) { s.up_axis = v.text == "z" ? UpAxis::z : UpAxis::y; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
