@@ -194,7 +194,7 @@ TEST(CommandOfAPicture, LeadsBackToTheSameSettings)
     EXPECT_EQ(*again.eye_ws, *made.settings->eye_ws);
     EXPECT_EQ(*again.sun_ws, *made.settings->sun_ws);
     EXPECT_TRUE(again.bloom.on);
-    EXPECT_TRUE(again.ground);
+    EXPECT_EQ(again.ground, app::Ground::on);
 }
 
 } // namespace
