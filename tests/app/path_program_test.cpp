@@ -372,7 +372,7 @@ const std::vector<Wrong> kWrong{
      2,
      "at frame 1 the sun's direction is zero"},
     {"TooFar",
-     {"render", "planes", "--path", "pan", "--frames", "0-999999", "--fps", "0.001"},
+     {"render", "planes", "--camera", "top", "--path", "pan", "--frames", "0-999999", "--fps", "0.001"},
      2,
      "the camera is farther away"},
 };

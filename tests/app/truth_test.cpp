@@ -47,7 +47,7 @@ TEST(Truth, MaskNeedsNoDriver)
         const test::Ran ran = test::gnomon(maskOf("hard", file), withCache(folder, cache));
         ASSERT_EQ(ran.status, 0) << ran.err;
         EXPECT_EQ(ran.err, "");
-        EXPECT_TRUE(says(ran.out, "truth hard of light sun, 6144 rays")) << ran.out;
+        EXPECT_TRUE(says(ran.out, "truth hard of light sun, 5725 rays")) << ran.out;
         EXPECT_FALSE(says(ran.out, "standard error")) << ran.out;
         const ImageF mask = readImage(folder / file);
         EXPECT_EQ(mask.channels, 1U);
