@@ -51,8 +51,7 @@ constexpr std::array kPresets{
   "scene": "rts", "camera": "camp", "partition": "single", "fit": "lispsm-simple", "filter": "lvsm",
   "map-size": 1024, "map-format": "rgba16", "lvsm.world": [6.5, 12, 10, 40], "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
   "map-sampling": "bilinear", "min-variance": 0.01, "bleeding.power": 1.3, "lighten": 0.39, "lighten.as": "add",
-  "bloom": true, "sky": "plain",
-  "bloom": true, "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
+  "sky": "plain", "bloom": true, "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
     // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
     // world's clock is the document's: one minute a second.

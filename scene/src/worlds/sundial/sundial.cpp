@@ -293,7 +293,7 @@ void addViews(Scene& scene, const Meadow& meadow)
         {.name = "long", .eye = eye({3.0F, 72.0F}, 1.7F), .target = {-1.0F, 1.6F, 0.0F}, .fov_y_rad = 0.75F},
         {.name = "porch", .eye = eye(fromHouse({8.8F, 16.0F}), 1.7F), .target = eye(gate, 2.2F), .fov_y_rad = 0.80F},
         {.name = "overhead", .eye = {6.0F, 78.0F, 44.0F}, .target = {-3.0F, 0.0F, -1.0F}, .fov_y_rad = 0.72F},
-        {.name = "face", .eye = {2.25F, 2.85F, 1.05F}, .target = {-0.45F, 1.74F, -0.42F}, .fov_y_rad = 0.908F},
+        {.name = "face", .eye = {3.05F, 2.75F, -1.05F}, .target = {-1.0F, 1.62F, 0.18F}, .fov_y_rad = 0.86F},
     };
 }
 
