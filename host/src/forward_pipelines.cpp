@@ -12,8 +12,10 @@ namespace gnomon::host {
 std::string forwardFragment(const ResolvedOptions& options, bool orthographic)
 {
     const Filter read_by = options.hasFins() ? Filter::pcf : options.filter(); // the map beside the fins
-    return "forward_" + std::string(nameOf(read_by)) + (options.hasSmoothies() ? "_smoothies" : "") +
-           (orthographic ? "_orthographic" : "") + ".frag";
+    std::string name(nameOf(read_by));
+    std::replace(name.begin(), name.end(), '-', '_'); // as files have it
+    return "forward_" + name + (options.hasSmoothies() ? "_smoothies" : "") + (orthographic ? "_orthographic" : "") +
+           ".frag";
 }
 
 SurfacePipelines Pipelines::shadowedFor(const ResolvedOptions& options)

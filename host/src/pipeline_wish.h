@@ -29,7 +29,8 @@ enum Constant : std::uint32_t {
 };
 
 // forward.frag, by_vertex.glsl, shade.frag, tone.glsl
-static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21 && kOccluded == 22 && kDither == 24);
+static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21 && kOccluded == 22 &&
+              kDither == 24);
 
 struct Pipelines::Wish {
     const char* name = "";

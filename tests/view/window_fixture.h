@@ -16,8 +16,8 @@
 namespace gnomon::test {
 
 /// A small window, with Vulkan validation on.
-inline const std::vector<std::string> kSmall{"planes", "--size=240x300", "--gpu=software", "--validate",
-                                             "--set=texels=262144"};
+inline const std::vector<std::string> kSmall{"planes",         "--camera=top", "--size=240x300",
+                                             "--gpu=software", "--validate",   "--set=texels=262144"};
 
 class ViewWindow : public ::testing::Test {
 protected:
