@@ -19,9 +19,9 @@ const float kLeastReachPixels = 1.0; // what is smaller on the screen fades away
 vec2 pictureSize() { return vec2(textureSize(depths, 0)); }
 
 // The sky hides nothing, though the far plane may be near.
+const float kSky_m = 1e9;
 float viewDepthAt(vec2 middle)
 {
-    const float kSky_m = 1e9;
     float stored = textureLod(depths, middle / pictureSize(), 0.0).r;
     return stored > 0.0 ? 1.0 / (FRAME_DEPTH.x * stored + FRAME_DEPTH.y) : kSky_m;
 }
@@ -87,5 +87,7 @@ void main()
         light += slice(s, vec2(cos(turn), sin(turn)));
     }
     float seen = light.x / max(light.y, 1e-4);
-    out_seen = packSeen(view_depth, mix(1.0, seen, clamp(s.reach - kLeastReachPixels, 0.0, 1.0)));
+    seen = mix(1.0, seen, clamp(s.reach - kLeastReachPixels, 0.0, 1.0));
+    // Where there is no surface its normal is whatever lies there, and neighbours would take it in.
+    out_seen = packSeen(view_depth, view_depth < kSky_m ? seen : 1.0);
 }

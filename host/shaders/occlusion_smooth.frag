@@ -19,7 +19,8 @@ void main()
     vec2 size = vec2(textureSize(depths, 0));
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 middle = clamp(vec2(at * 2) - 0.5, vec2(0.5), size - 0.5);
-    float view_depth = 1.0 / (FRAME_DEPTH.x * textureLod(depths, middle / size, 0.0).r + FRAME_DEPTH.y);
+    float stored = textureLod(depths, middle / size, 0.0).r;
+    float view_depth = 1.0 / (FRAME_DEPTH.x * stored + FRAME_DEPTH.y);
     vec3 p = rayOf(middle) * view_depth;
     vec3 normal = octahedralDecode(textureLod(normals, middle / size, 0.0).xy);
     float tolerance = surfaceTolerance(view_depth);
@@ -34,5 +35,5 @@ void main()
         sum += dot(weights, seenOfTexels(texels));
         weight += dot(weights, vec4(1.0));
     }
-    out_seen = packSeen(view_depth, sum / weight);
+    out_seen = packSeen(view_depth, stored > 0.0 ? sum / weight : 1.0); // the sky has no normal
 }

@@ -205,7 +205,7 @@ TEST_F(ViewWindow, GivesCommandsThatDrawTheSame)
             (void)user.viewer().change({{"sun", std::array{"1,-1,0.3", "-0.2,-1,0.7", "0.9,-0.2,0.1"}[below(3)]}});
         }
         if (below(3) == 0) {
-            (void)user.viewer().change({{"aa", std::array{"none", "fxaa", "ssaa4"}[below(3)]}});
+            (void)user.viewer().change({{"aa", std::array{"none", "fxaa", "ssaa4", "auto"}[below(4)]}});
         }
         if (below(3) == 0) {
             (void)user.viewer().change({{"time", std::array{"0", "1.25", "17"}[below(3)]}});
@@ -264,6 +264,7 @@ TEST_F(ViewWindow, StandsAThousandThingsThatAreDone)
         }
     }
     user.viewer().play(false);
+    user.viewer().moveSun(false);
     EXPECT_TRUE(user.rest()) << user.viewer().message().text;
 }
 
