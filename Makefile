@@ -24,7 +24,7 @@ COMPARISON := $(CURDIR)/out/compare
 
 .PHONY: help
 help:
-	@echo "make demo    install what is missing, build, render the built-in rts world, compare its shadows with the truth"
+	@echo "make demo    install what is missing, build, draw a sundial, hold shadows of a camp against the truth"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "make check   layout, headers that stand alone, include rules, forbidden words"
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
@@ -50,7 +50,7 @@ configure: packages
 demo: configure
 	@cmake --build build --target gnomon -j $(JOBS)
 	@mkdir -p out
-	@build/gnomon render rts --preset demo -o $(PICTURE)
+	@build/gnomon render --preset demo -o $(PICTURE)
 	@echo "The picture is $(PICTURE)"
 	@echo "Holding the techniques against ray-traced truth"
 	@build/gnomon compare rts --camera camp --size 640x360 --samples 64 --repetitions 3 --warmup 1 \

@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 // Presets of what others published stay as they were held against it: the older tone curve, and neither dither nor
 // anti-aliasing nor ambient occlusion.
 constexpr std::array kPresets{
-    Preset{"demo", "the built-in rts world at its best: what `make demo` draws", R"({
-  "scene": "rts", "camera": "camp", "size": "1280x720", "aa": "fxaa", "quality": "best", "map-size": 4096
+    Preset{"demo", "a sundial late in the day, at its best: what `make demo` draws", R"({
+  "scene": "sundial", "camera": "face", "time": 545, "size": "1280x720", "aa": "fxaa", "quality": "best", "map-size": 4096
 })"},
     Preset{"fast", "the least work that still looks right", R"({
   "quality": "fast", "pcf.kernel": "2x2", "map-size": 1024, "bias": "auto"
