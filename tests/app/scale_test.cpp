@@ -82,11 +82,12 @@ constexpr ScaledTechnique kScaledTechniques[]{{"hard", Filter::hard, Partition::
                                               {"evsm up to 20 m", Filter::evsm, Partition::single, Motion::free, 20.0},
                                               {"vsm by sdsm", Filter::vsm, Partition::sdsm}};
 
-app::Settings settingsToScale(const std::string& world)
+app::Settings settingsToScale(const std::string& world, const std::string& camera)
 {
     app::Settings settings = app::defaultSettings();
     settings.subcommand = app::kRender;
     settings.scene = world;
+    settings.camera = camera;
     settings.size_px = {64, 36};
     settings.truth = truth::Kind::area;
     settings.samples = 16;
@@ -121,8 +122,8 @@ struct Pictures {
 /// A built-in world, and what it looks like as it is.
 class ScaledWorld {
 public:
-    explicit ScaledWorld(const std::string& name)
-        : settings_(settingsToScale(name)), gpu_(app::openGpu(settings_)), shot_(app::makeShot(settings_)),
+    ScaledWorld(const std::string& name, const std::string& camera)
+        : settings_(settingsToScale(name, camera)), gpu_(app::openGpu(settings_)), shot_(app::makeShot(settings_)),
           plain_(picturesOf(WorldChange{}))
     {
         EXPECT_TRUE(showsShadow(plain_.truths.front()));
@@ -193,7 +194,7 @@ std::pair<double, double> endsOf(const Aabb& bounds)
 
 TEST(Scale, PowersOfTwoChangeNothing)
 {
-    const ScaledWorld planes("planes");
+    const ScaledWorld planes("planes", "top");
     const auto [smallest, largest] = endsOf(planes.bounds());
     for (const double scale : {smallest, 0x1p-20, 0x1p-7, 0x1p20, largest}) {
         planes.expectSame({scale}, 0.0, 0.0);
@@ -202,7 +203,7 @@ TEST(Scale, PowersOfTwoChangeNothing)
 
 TEST(Scale, PowersOfTwoChangeNothingInALargeWorld)
 {
-    const ScaledWorld rts("rts");
+    const ScaledWorld rts("rts", "camp");
     const auto [smallest, largest] = endsOf(rts.bounds());
     for (const double scale : {smallest, 0x1p20, largest}) {
         rts.expectSame({scale}, 0.0, 0.0);
@@ -217,7 +218,7 @@ constexpr double kEdgesOfMasks = 0.01;
 
 TEST(Scale, OtherFactorsMoveEdgesAlone)
 {
-    const ScaledWorld planes("planes");
+    const ScaledWorld planes("planes", "top");
     for (const double scale : {1e-6, 0.3, 1e6}) {
         planes.expectSame({scale}, kEdgesOfTruths, kEdgesOfMasks);
     }
@@ -225,7 +226,7 @@ TEST(Scale, OtherFactorsMoveEdgesAlone)
 
 TEST(Scale, PlacesAwayFromTheOriginMoveEdgesAlone)
 {
-    const ScaledWorld planes("planes");
+    const ScaledWorld planes("planes", "top");
     for (const double away_m : {1e3, 1e5}) {
         planes.expectSame({1.0, {away_m, 0.0, -0.5 * away_m}}, kEdgesOfTruths, kEdgesOfMasks);
     }
