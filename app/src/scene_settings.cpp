@@ -229,7 +229,7 @@ const std::vector<Setting>& rows()
         {.key = "size", .group = Group::picture, .type = size, .form = "WxH", .unit = "pixels", .default_text = "1280x720", .min = 1, .max = 1e6,
          .doc = "width and height of the picture", .apply = [](Settings& s, const Value& v) { s.size_px = {v.numbers[0], v.numbers[1]}; }},
         {.key = "aa", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = antiAliasingNames,
-         .doc = "anti-aliasing: none, fxaa, ssaa4; auto: fxaa, but none in bench", .subcommands = kPictures, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
+         .doc = "anti-aliasing: none, fxaa, ssaa4; auto: fxaa, none in bench", .subcommands = kPictures, .used = drawsAPicture, .used_when = "something to draw", .apply = applyAntiAliasing},
         {.key = "ambient-occlusion", .group = Group::picture, .type = choice, .form = "MODE", .default_text = "auto", .choices = occlusionNames,
          .doc = "less of the sky's light where surfaces near by hide it: off or on; auto: on, but off in bench", .subcommands = kPictures, .own_option = false, .used = mayBeOccluded,
          .used_when = "a picture (not --mask), shading deferred and reflection materials", .apply = applyOcclusion},

@@ -248,9 +248,10 @@ TEST(Ground, FadesIntoTheSky)
     const test::Folder folder;
     const std::string file = writeBoxes(folder.path(), {{{-1, 0, -1}, {1, 1, 1}}});
     for (const char* const shading : {"deferred", "forward"}) {
-        const test::Ran ran = test::gnomon({"render", file, "--eye", "6,0.6,3", "--target", "0,0.5,-7", "--size",
-                                            "32x240", "--filter", "hard", "--shading", shading, "-o", "a.png"},
-                                           {.folder = folder.path()});
+        const test::Ran ran =
+            test::gnomon({"render", file, "--eye", "6,0.6,3", "--target", "0,0.5,-7", "--size", "32x240", "--filter",
+                          "hard", "--shading", shading, "--set", "dither=0", "-o", "a.png"},
+                         {.folder = folder.path()});
         ASSERT_EQ(ran.status, 0) << ran.err;
         const ImageF picture = readImage(folder.path() / "a.png");
         float most = 0.0F;
