@@ -50,7 +50,7 @@ struct MemoryHooks {
 /// each module whenever a pipeline is made of it: pipelines that are there stay as they are, so a host makes its
 /// ShadowRenderer and its drawers anew after a change. The interface (bindings, constants, locations) has to stay.
 struct ShaderHook {
-    void* user = nullptr;
+    void* user = nullptr; // handed to `words`; the library does not look at it
     /// `name` is that of the SPIR-V file in a build of the library: the source with the variant in it
     /// ("mask_vsm.frag"). Gives SPIR-V for Vulkan 1.3 that stays where it is until the next call of this thread, or
     /// nothing: then the library's own is taken. May be called by several threads at once; does not throw.
