@@ -87,7 +87,8 @@ class Gallery:
         ratio = stages(own) / stages(base)
         texels = own["map"]["texels"]
         maps = f"{texels / 1024 / 1024:.2g} Mi texels" if texels else "no map"
-        return f"rmse {own['error']['rmse']:.3f}, {ratio:.2g} times the time of `hard`, {maps}"
+        times = f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2g}"
+        return f"rmse {own['error']['rmse']:.3f}, {times} times the time of `hard`, {maps}"
 
     def draw(self, entry: dict) -> str:
         """Draws an entry and returns its part of the page."""
