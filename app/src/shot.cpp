@@ -236,6 +236,7 @@ void followPath(Shot& shot, const Settings& settings, std::uint32_t frame)
     if (shot.path->movesSun()) {
         host::ShadedLight& sun = shot.lights[shot.path->sun];
         sun.caster.direction_ws = spot.sun_ws;
+        sun.body = scene::Body::sun; // a light of a file is none, and would be no sun where it sets
         sun.up_ws = perpendicular(spot.sun_ws);
     }
 }

@@ -30,7 +30,7 @@ vec3 skyOf(int body, vec3 d)
     vec2 place = (skyTablePlace(d.y, along) * (texels - 1.0) + 0.5) / texels;
     vec3 molecules = textureLod(sky_tables, vec3(place, 2 * body), 0.0).rgb;
     vec3 dust = textureLod(sky_tables, vec3(place, 2 * body + 1), 0.0).rgb;
-    vec3 above = vec3(d.x, max(d.y, 0.0), d.z); // haze below the horizon is as at the horizon
+    vec3 above = vec3(d.x, max(d.y, 1e-4), d.z); // haze below the horizon is as at the horizon
     return (molecules + dust * dustPhase(dot(normalize(above), towards))) * SKY_TIMES(body);
 }
 

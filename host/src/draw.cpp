@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame, from the scene's state to its submission.
 #include "frame_renderer_impl.h"
+#include "model_bounds.h"
 
 #include <gnomon/converge.h>
 #include <gnomon/error.h>
@@ -166,7 +167,7 @@ void FrameRenderer::Impl::update(const scene::State& state)
     if (objects.size() == 0) {
         fillObjectSet(state, objects, scene.table.closed, scene.table.pieces);
         const float radius_m = options.ambient_occlusion.radius_m;
-        occlusion_radius_m = radius_m > 0.0F ? radius_m : occlusionRadius(state);
+        occlusion_radius_m = radius_m > 0.0F ? radius_m : scene.occlusionRadius_m();
     }
     const bool deforms = scene.geometry.deforms();
     const bool deformed = deforms && deformed_at_s != state.time_s;
@@ -283,7 +284,8 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
 
 void FrameRenderer::Impl::lookAtSky(const scene::State& state, const std::vector<ShadedLight>& lights)
 {
-    all_light = &daylight.at(options.sky, options.exposure_ev, lights, state.bounds_ws, state.environment);
+    const Aabb model_ws = scene.pipelines.fades() ? modelBounds(scene.scene, state) : state.bounds_ws;
+    all_light = &daylight.at(options.sky, options.exposure_ev, lights, model_ws, state.environment);
     brings_sky = sky_table && sky_table->bring(slot, *all_light);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "occlusion.h"
 
+#include "model_bounds.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -29,7 +31,7 @@ Occlusion::Occlusion(Memory& memory, Pipelines& pipelines, VkExtent2D drawn)
 {
 }
 
-double occlusionRadius(const scene::State& state)
+double occlusionRadius(const scene::Scene& scene, const scene::State& state)
 {
     // A quarter of what is of middling size, so that crowds have it as trees have; and little of the whole, where one
     // mesh is all there is.
@@ -40,7 +42,7 @@ double occlusionRadius(const scene::State& state)
     };
     std::vector<double> sizes;
     for (const scene::Object& object : state.objects) {
-        if (object.bounds_ws.min.x <= object.bounds_ws.max.x) { // planes may have left nothing
+        if (!object.bounds_ws.empty() && !fades(scene, object)) { // planes may have left nothing
             sizes.push_back(diagonal(object.bounds_ws));
         }
     }
@@ -49,7 +51,7 @@ double occlusionRadius(const scene::State& state)
     }
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    return std::max(std::min(kOfMedian * *middle, kOfWhole * diagonal(state.bounds_ws)), 1e-6);
+    return std::max(std::min(kOfMedian * *middle, kOfWhole * diagonal(modelBounds(scene, state))), 1e-6);
 }
 
 } // namespace gnomon::host

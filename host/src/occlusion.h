@@ -20,7 +20,8 @@ struct Occlusion {
 };
 
 /// How far what hides the sky may be in this scene, metres: a quarter of the median of its objects' diagonals, and 0.03
-/// of the whole at most. Above 0.
-[[nodiscard]] double occlusionRadius(const scene::State& state);
+/// of the whole at most, grounds that fade into the sky left out. Above 0. `state`: the scene at rest, so that it is
+/// the same in every frame.
+[[nodiscard]] double occlusionRadius(const scene::Scene& scene, const scene::State& state);
 
 } // namespace gnomon::host

@@ -24,6 +24,9 @@ struct SceneData {
     Pipelines pipelines;
     /// Which state the deformed vertices are of once all that was submitted is done.
     std::optional<double> deformed_at_s;
+    std::optional<double> occlusion_radius_m; // occlusionRadius(), once somebody has asked
+
+    [[nodiscard]] double occlusionRadius_m();
 
     /// Waits for the upload, and gives its staging buffer back. Throws as waitFor().
     void finishUpload()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_data.h"
 
+#include "occlusion.h"
+
 #include <algorithm>
 
 namespace gnomon::host {
@@ -12,6 +14,14 @@ SceneData::SceneData(Gpu& the_gpu, const scene::Scene& the_scene, const scene::S
       pipelines(the_gpu, memory.names(), materials, table)
 {
     uploader->submit(); // the GPU has time while the first renderer makes its pipelines
+}
+
+double SceneData::occlusionRadius_m()
+{
+    if (!occlusion_radius_m) {
+        occlusion_radius_m = occlusionRadius(scene, scene::evaluate(scene, 0.0));
+    }
+    return *occlusion_radius_m;
 }
 
 SceneOnGpu::SceneOnGpu(Gpu& gpu, const scene::Scene& scene, const scene::State& state)

@@ -21,7 +21,11 @@ public:
     /// Before anything reads them, outside rendering. Frames before this one have what they need: the queue is one.
     void record(VkCommandBuffer cmd, std::uint32_t slot);
     /// A frame was recorded and not submitted: nobody knows what is there.
-    void forget() { versions_ = {}; }
+    void forget()
+    {
+        versions_ = {};
+        ever_ = false;
+    }
     [[nodiscard]] VkDescriptorImageInfo descriptor() const;
 
 private:

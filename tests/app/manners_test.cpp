@@ -262,6 +262,26 @@ TEST(Ground, FadesIntoTheSky)
     }
 }
 
+/// However wide the ground is, a lamp is as bright as without it, and what is near by hides as much of the sky.
+TEST(Ground, LeavesTheModelAsItIs)
+{
+    const test::Folder folder;
+    const std::string file = writeBoxes(folder.path(), {{{-1, 0, -1}, {1, 1, 1}}});
+    const auto topOf = [&](const char* ground) {
+        const test::Ran ran =
+            test::gnomon({"render", file, "--eye", "2.5,2.5,4", "--target", "0,1,0", "--point", "0.7,2.5,0.9,10",
+                          "--size", "64x36", "--set", "dither=0", "--ground", ground, "-o", "a.png"},
+                         {.folder = folder.path()});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        const ImageF picture = readImage(folder.path() / "a.png");
+        return picture.pixel(32, 18)[1];
+    };
+    const float without = topOf("off");
+    EXPECT_GT(without, 0.2F);
+    EXPECT_LT(without, 0.95F);
+    EXPECT_NEAR(topOf("on"), without, 2.5F / 255.0F);
+}
+
 /// It receives, and what the ray tracer says of it is said of the same ground.
 TEST(Ground, ReceivesAndIsInTheTruth)
 {

@@ -213,7 +213,7 @@ TEST_F(ViewWindow, TechniquesOfPresetsKeepThePicture)
     EXPECT_EQ(user.viewer().settings().ground, app::Ground::on);
     EXPECT_EQ(user.viewer().settings().values.at("quality"), "fast");
     ASSERT_TRUE(user.viewer().loadPreset("demo"));
-    EXPECT_EQ(user.viewer().settings().scene, "rts") << "which names its scene, and so all of a picture";
+    EXPECT_EQ(user.viewer().settings().scene, "sundial") << "which names its scene, and so all of a picture";
     expectAsRendered(user);
 }
 

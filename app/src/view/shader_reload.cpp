@@ -126,7 +126,11 @@ std::string compilerFaults(std::string_view output, const ShaderBuild& build)
 
 ShaderReload::ShaderReload(ShaderBuild build) : build_(std::move(build)), times_(timesOfSources())
 {
-    modules_ = newModules();
+    try {
+        modules_ = newModules();
+    } catch (const Error& error) { // half written: the next compilation makes it anew
+        faults_ = error.what();
+    }
     before_ = modules_;
 }
 

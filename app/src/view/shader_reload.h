@@ -36,7 +36,6 @@ enum class ShaderNews : std::uint8_t { none, compiling, unchanged, compiled, fai
 
 class ShaderReload {
 public:
-    /// Throws Error where a module cannot be read.
     explicit ShaderReload(ShaderBuild build);
 
     /// For GpuOptions::shaders; holds as long as this does, which stays where it is.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/state.h"
+
+namespace gnomon::host {
+
+/// Does an object fade into the sky (ShadingModel::horizon)? Such a ground is as large as it has to be, whatever stands
+/// on it.
+[[nodiscard]] bool fades(const scene::Scene& scene, const scene::Object& object);
+/// Bounds of all objects that do not.
+[[nodiscard]] Aabb modelBounds(const scene::Scene& scene, const scene::State& state);
+
+} // namespace gnomon::host
