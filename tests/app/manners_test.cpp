@@ -268,11 +268,10 @@ TEST(Ground, LeavesTheModelAsItIs)
     const test::Folder folder;
     const std::string file = writeBoxes(folder.path(), {{{-1, 0, -1}, {1, 1, 1}}});
     const auto topOf = [&](const char* ground) {
-        const test::Ran ran =
-            test::gnomon({"render", file, "--eye", "2.5,2.5,4", "--target", "0,1,0", "--point", "0.7,2.5,0.9,10",
-                          "--exposure", "-2", "--size", "64x36", "--set", "dither=0", "--ground", ground, "-o",
-                          "a.png"},
-                         {.folder = folder.path()});
+        const test::Ran ran = test::gnomon({"render", file, "--eye", "2.5,2.5,4", "--target", "0,1,0", "--point",
+                                            "0.7,2.5,0.9,10", "--exposure", "-2", "--size", "64x36", "--set",
+                                            "dither=0", "--ground", ground, "-o", "a.png"},
+                                           {.folder = folder.path()});
         EXPECT_EQ(ran.status, 0) << ran.err;
         const ImageF picture = readImage(folder.path() / "a.png");
         return picture.pixel(32, 18)[1];
