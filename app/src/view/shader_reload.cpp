@@ -9,6 +9,7 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace gnomon::app::view {
 
