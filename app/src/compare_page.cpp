@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is text is made here and read without scripts; pictures and charts are put in by report_page.js.
+// What is text is made here and read without scripts; pictures and charts are put in by pages/page.js.
 #include "compare_page.h"
 
 #include "compare_text.h"

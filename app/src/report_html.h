@@ -19,7 +19,7 @@ namespace gnomon::app {
 /// A list of the notes, or nothing.
 [[nodiscard]] std::string notesHtml(const Json& result);
 
-/// A table as report_table.js sorts and filters it. Its first column names the rows.
+/// A table as pages/table.js sorts and filters it. Its first column names the rows.
 struct TableHtml {
     std::string id;
     std::string caption;
@@ -33,7 +33,7 @@ struct TableHtml {
 [[nodiscard]] std::string dataUri(std::string_view png);
 
 struct Page {
-    std::string kind;  // what report_page.js is to make of it: "compare", "sweep", "scenes" or "bench"
+    std::string kind;  // what pages/page.js is to make of it: "compare", "sweep", "scenes" or "bench"
     std::string title; // and first heading
     std::string lead;  // one line below it
     std::string body;  // HTML: sections

@@ -58,6 +58,25 @@ double radiusAt(double radius, double up, double t)
     return std::sqrt(radius * radius + t * t + 2.0 * radius * up * t);
 }
 
+/// A piece of a ray through the air, by what is in its middle.
+struct Piece {
+    double t_km = 0.0; // of the middle, along the ray
+    double radius_km = 0.0;
+    Air air;
+    glm::dvec3 passed{1.0}; // the share of light that gets through
+};
+
+/// The k-th of `count` pieces that a ray of length `end` has; they grow with their distance.
+Piece pieceOf(double radius, double up, double end, int k, int count)
+{
+    const double from = end * squared(static_cast<double>(k) / count);
+    const double to = end * squared(static_cast<double>(k + 1) / count);
+    const double t = 0.5 * (from + to);
+    const double r = radiusAt(radius, up, t);
+    const Air air = airAt(r - kEarth_km);
+    return {t, r, air, decay(air.lost * (to - from))};
+}
+
 class Atmosphere {
 public:
     Atmosphere()
@@ -157,12 +176,7 @@ private:
         const double towards = up * sun_up + along * std::sqrt((1.0 - up * up) * (1.0 - sun_up * sun_up));
         glm::dvec3 left(1.0);
         for (int k = 0; k < kSteps; ++k) {
-            const double from = end * squared(static_cast<double>(k) / kSteps);
-            const double to = end * squared(static_cast<double>(k + 1) / kSteps);
-            const double t = 0.5 * (from + to);
-            const double r = radiusAt(radius, up, t);
-            const Air air = airAt(r - kEarth_km);
-            const glm::dvec3 passed = decay(air.lost * (to - from));
+            const auto [t, r, air, passed] = pieceOf(radius, up, end, k, kSteps);
             const glm::dvec3 scattered =
                 left * (air.molecules + air.dust) * (1.0 - passed) / glm::max(air.lost, glm::dvec3(1e-12));
             second += scattered * kQuarterOverPi * through(r, (radius * sun_up + t * towards) / r);
@@ -197,12 +211,7 @@ void march(double up, double along, double sun_up, glm::dvec3& molecules, glm::d
     glm::dvec3 left(1.0);
     molecules = dust = glm::dvec3(0.0);
     for (int k = 0; k < kSteps; ++k) {
-        const double from = end * squared(static_cast<double>(k) / kSteps);
-        const double to = end * squared(static_cast<double>(k + 1) / kSteps);
-        const double t = 0.5 * (from + to);
-        const double r = radiusAt(radius, up, t);
-        const Air air = airAt(r - kEarth_km);
-        const glm::dvec3 passed = decay(air.lost * (to - from));
+        const auto [t, r, air, passed] = pieceOf(radius, up, end, k, kSteps);
         const glm::dvec3 seen = left * (1.0 - passed) / glm::max(air.lost, glm::dvec3(1e-12));
         const double sun_there = (radius * sun_up + t * towards) / r;
         const glm::dvec3 lit = air_of.through(r, sun_there);

@@ -24,8 +24,8 @@ constexpr double kStars_lx = 0.002;  // with airglow, on level ground
 constexpr double kDarkest_lx = 0.03; // eyes get used to no less light than that
 const glm::dvec3 kStarlight{0.8, 1.0, 1.3};
 /// What a white surface square to the brightest light comes out as, before the tone curve, where the sky is about 0.6:
-/// the curve then takes it to 0.85 of its range, and a grey of 18 % to a middle tone. Under a physical sky that is so
-/// on a sunny day.
+/// ToneCurve::neutral then takes it to 0.95 of its range, and a grey of 18 % to a middle tone. Under a physical sky
+/// that is so on a sunny day.
 constexpr double kKey = 1.35;
 /// What an eye gets used to is the sky, and things of a mean albedo.
 constexpr double kMeanAlbedo = 0.2;
@@ -133,7 +133,7 @@ double exposureFor(const Surroundings& around)
     using shared::of_double::adaptedKey;
     const double used_to = around.luminance();
     const double noon = kNoon.luminance();
-    // The tone curve darkens what is dark by about another third of its stops, which the article's does not.
+    // Chosen by eye: by all of the article's stops a dusk is too dark to be read on a screen.
     const double key = std::pow(adaptedKey(used_to) / adaptedKey(noon), 0.75);
     return kKey * key * (noon / used_to) * (kPi / kNoonSun_lx);
 }
