@@ -31,10 +31,11 @@ int runView(const Settings& settings)
             }
             notice(std::string(error.what()) + "; the window is opened anew");
             const view::Holding holding = window->viewer().holding();
-            last = window->viewer().settings();
-            last.subcommand = kView;
+            const view::Shown shown = window->shown();
+            last = window->settingsOfWindow();
             window.reset();
             window = std::make_unique<view::ViewWindow>(last, shaders);
+            window->shown() = shown;
             window->viewer().hold(holding);
             window->viewer().say({"the GPU was lost, and everything was made anew", true});
             begun = Clock::now();

@@ -60,7 +60,7 @@ vulkan::Rows3x4 rowsOf(const glm::mat4& m)
 }
 
 DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
-                     const scene::State& state)
+                     const scene::State& state, const std::vector<scene::MeshClosure>& closed_meshes)
 {
     using Key = std::tuple<Batch, std::uint32_t, std::uint32_t, std::uint32_t>; // batch, mesh, primitive, deformed
     std::map<Batch, std::uint32_t> batch_ids;
@@ -81,7 +81,6 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
         batches.push_back(batch);
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
-    const std::vector<scene::MeshClosure> closed_meshes = closures(scene);
     closed = closedObjects(scene, state, closed_meshes);
     outlined = outlinedObjects(scene, state);
     OtherBatches other_batches(caster_batches, cuts);

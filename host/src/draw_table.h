@@ -5,6 +5,8 @@
 #include "geometry.h"
 #include "materials.h"
 
+#include "scene/adjacency.h"
+
 #include <gnomon/vulkan/caster_drawer.h>
 
 #include <vector>
@@ -24,8 +26,9 @@ struct Batch {
 [[nodiscard]] vulkan::Rows3x4 rowsOf(const glm::mat4& m);
 
 struct DrawTable {
+    /// `closed_meshes`: closures().
     DrawTable(const Geometry& geometry, const Materials& materials, const scene::Scene& scene,
-              const scene::State& state);
+              const scene::State& state, const std::vector<scene::MeshClosure>& closed_meshes);
 
     std::vector<Batch> batches;
     std::vector<scene::ClipPlanes> cuts; // the first cuts nothing

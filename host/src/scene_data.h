@@ -6,12 +6,17 @@
 
 #include "host/scene_on_gpu.h"
 
+#include <future>
 #include <optional>
+#include <vector>
 
 namespace gnomon::host {
 
 struct SceneData {
     SceneData(Gpu& gpu, const scene::Scene& scene, const scene::State& state);
+    /// `closed`: closures() of the scene, which are found while the rest is uploaded.
+    SceneData(Gpu& gpu, const scene::Scene& scene, const scene::State& state,
+              std::future<std::vector<scene::MeshClosure>> closed);
 
     Gpu& gpu;
     const scene::Scene& scene;

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_data.h"
 
+#include "closed_meshes.h"
 #include "occlusion.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace gnomon::host {
 
 SceneData::SceneData(Gpu& the_gpu, const scene::Scene& the_scene, const scene::State& state)
+    : SceneData(the_gpu, the_scene, state,
+                std::async(std::launch::async | std::launch::deferred, closures, std::cref(the_scene)))
+{
+}
+
+SceneData::SceneData(Gpu& the_gpu, const scene::Scene& the_scene, const scene::State& state,
+                     std::future<std::vector<scene::MeshClosure>> closed)
     : gpu(the_gpu), scene(the_scene), memory(the_gpu), uploader(std::make_unique<Uploader>(the_gpu, memory)),
       textures(the_gpu, memory, *uploader, the_scene), materials(the_gpu, memory, *uploader, textures, the_scene),
-      geometry(memory, *uploader, the_scene, state), table(geometry, materials, the_scene, state),
+      geometry(memory, *uploader, the_scene, state), table(geometry, materials, the_scene, state, closed.get()),
       pipelines(the_gpu, memory.names(), materials, table)
 {
     uploader->submit(); // the GPU has time while the first renderer makes its pipelines

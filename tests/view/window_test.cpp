@@ -163,6 +163,28 @@ TEST_F(ViewWindow, ResizesAndMinimises)
     EXPECT_TRUE(user.rest());
 }
 
+TEST_F(ViewWindow, StartsAtHalfSizeWhereTheProcessorDraws)
+{
+    User user(*desktop_, {"planes", "--camera=top", "--gpu=software", "--set=texels=262144"});
+    EXPECT_TRUE(user.window().shown().half_size);
+    user.window().window().resize({600, 260});
+    user.wait(6);
+    const glm::uvec2 room{600U - static_cast<std::uint32_t>(user.window().pictureAt().x), 260U};
+    EXPECT_EQ(user.viewer().settings().size_px, room / 2U);
+    EXPECT_EQ(user.window().settingsOfWindow().size_px, room) << "a window that is opened in its place is as large";
+    expectAsRendered(user);
+    user.window().shown().half_size = false;
+    user.wait();
+    EXPECT_EQ(user.viewer().settings().size_px, room);
+}
+
+TEST_F(ViewWindow, HasTheSizeThatWasGivenWhateverDraws)
+{
+    User user(*desktop_, kSmall);
+    EXPECT_FALSE(user.window().shown().half_size);
+    EXPECT_EQ(user.viewer().settings().size_px, glm::uvec2(240, 300));
+}
+
 TEST_F(ViewWindow, SavesAndLoadsPresets)
 {
     User user(*desktop_, kSmall);

@@ -267,7 +267,9 @@ void picturePanel(Viewer& viewer, PanelState& state)
     explain("The pages that hold maps, six at most; near is dark. What has a thick frame was drawn in the last frame, "
             "what has a thin one was left as it is");
     widgets.checkbox("half size", state.shown.half_size);
-    explain("Draws one pixel for each 2 x 2 of the window: quicker on a slow device");
+    explain(
+        "Draws one pixel for each 2 x 2 of the window: quicker on a slow device. On where the processor draws, unless "
+        "--size was given");
     rowsOf(viewer, widgets, SettingGroup::picture, [](const Setting& setting) {
         return setting.key == "size" || setting.key == "ground" || setting.key == "up-axis" ||
                setting.key == "override-material";

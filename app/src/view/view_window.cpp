@@ -30,6 +30,19 @@ glm::uvec2 windowSize(const Settings& settings)
     return {std::min(settings.size_px.x, kMost) + kPanel_px, std::min(settings.size_px.y, kMost)};
 }
 
+/// A processor that draws takes its time for each pixel; whoever asks for a size has it whole.
+bool startsAtHalfSize(const Settings& settings, const host::Gpu& gpu)
+{
+    return gpu.software() && !settings.given.contains("size");
+}
+
+Settings atHalfSize(Settings settings)
+{
+    const glm::uvec2 half = glm::max(settings.size_px / 2U, glm::uvec2(1));
+    applySetting(settings, "size", fmt::format("{}x{}", half.x, half.y));
+    return settings;
+}
+
 } // namespace
 
 ViewWindow::ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders)
@@ -38,11 +51,24 @@ ViewWindow::ViewWindow(const Settings& settings, const std::optional<ShaderBuild
       gpu_(openGpu(settings, &window_, shaders_ ? shaders_->hook() : vulkan::ShaderHook{})),
       interface_(std::make_unique<host::Interface>(window_, *gpu_)), validates_(settings.validate)
 {
-    viewer_ = std::make_unique<Viewer>(*gpu_, settings);
+    shown_.half_size = startsAtHalfSize(settings, *gpu_);
+    viewer_ = std::make_unique<Viewer>(*gpu_, shown_.half_size ? atHalfSize(settings) : settings);
     typed_.technique_beside = viewer_->techniqueBeside();
 }
 
 ViewWindow::~ViewWindow() = default;
+
+Settings ViewWindow::settingsOfWindow() const
+{
+    Settings settings = viewer_->settings();
+    settings.subcommand = kView;
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    const glm::dvec2 size_px = area_.size * glm::dvec2(scale.x, scale.y);
+    if (size_px.x >= 1.0 && size_px.y >= 1.0) { // else nothing was shown yet
+        applySetting(settings, "size", fmt::format("{:.0f}x{:.0f}", std::floor(size_px.x), std::floor(size_px.y)));
+    }
+    return settings;
+}
 
 glm::ivec2 ViewWindow::pictureAt() const
 {

@@ -17,8 +17,9 @@ namespace gnomon::app::view {
 
 class ViewWindow {
 public:
-    /// Opens the window, so that the picture has --size, and loads the scene. `shaders`: whose sources are followed, if
-    /// any's are. Throws UsageError and Error.
+    /// Opens the window, so that the picture has --size, and loads the scene. A software rasteriser starts at half that
+    /// size, enlarged, unless the command line gave one. `shaders`: whose sources are followed, if any's are. Throws
+    /// UsageError and Error.
     explicit ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders = std::nullopt);
     ~ViewWindow();
     ViewWindow(const ViewWindow&) = delete;
@@ -39,6 +40,8 @@ public:
     [[nodiscard]] Widgets& widgets() { return widgets_; }
     [[nodiscard]] Shown& shown() { return shown_; }
     [[nodiscard]] Typed& typed() { return typed_; }
+    /// That open a window like this one: as large, with this picture.
+    [[nodiscard]] Settings settingsOfWindow() const;
     [[nodiscard]] const Pointer& pointer() const { return pointer_; }
     /// Where the picture is, in pixels of the window.
     [[nodiscard]] glm::ivec2 pictureAt() const;

@@ -4,7 +4,18 @@
 #include "../scene_maker.h"
 #include "../textures.h"
 
+#include <future>
+
 namespace gnomon::scene::worlds {
+namespace {
+
+/// Made on another thread, or by whoever asks for it where no thread can be had.
+std::future<Image> begun(Image (*make)())
+{
+    return std::async(std::launch::async | std::launch::deferred, make);
+}
+
+} // namespace
 
 Palette addPalette(Scene& scene)
 {
@@ -18,14 +29,19 @@ Palette addPalette(Scene& scene)
                             .alpha_mode = AlphaMode::mask,
                             .double_sided = double_sided});
     };
+    // Nothing of one image is in another. They are most of what takes time.
+    std::future<Image> ground = begun(groundDetail);
+    std::future<Image> stone = begun(stoneBlocks);
+    std::future<Image> shingle = begun(shingles);
+    std::future<Image> thatch = begun(straw);
     Palette palette;
-    const std::uint32_t detail = addTexture(scene, groundDetail());
+    const std::uint32_t detail = addTexture(scene, ground.get());
     palette.ground = surface("ground", detail, 0.95F);
     palette.water = addMaterial(scene, "water", {.roughness = 0.16F});
-    palette.stone = surface("stone", addTexture(scene, stoneBlocks()), 0.9F);
+    palette.stone = surface("stone", addTexture(scene, stone.get()), 0.9F);
     palette.wood = surface("wood", addTexture(scene, planks()), 0.85F);
-    palette.shingle = surface("shingle", addTexture(scene, shingles()), 0.8F);
-    palette.thatch = surface("thatch", addTexture(scene, straw()), 0.95F);
+    palette.shingle = surface("shingle", addTexture(scene, shingle.get()), 0.8F);
+    palette.thatch = surface("thatch", addTexture(scene, thatch.get()), 0.95F);
     palette.plain = addMaterial(scene, "plain", {.roughness = 0.75F, .lit_by_night = 1.0F});
     palette.cloth = addMaterial(scene, "cloth", {.roughness = 0.9F, .double_sided = true});
     palette.rock = surface("rock", detail, 0.9F);
