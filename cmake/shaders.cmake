@@ -138,8 +138,8 @@ function(_gnomon_compile_shader target name source)
     add_custom_command(
         OUTPUT ${out}.inc
         COMMAND ${GNOMON_GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines} "-I$<JOIN:${includes},;-I>"
-                -MD -MF ${out}.d -MT ${out}.inc -o ${out}.spv ${source}
-        COMMAND ${GNOMON_SPIRV_VAL} --target-env vulkan1.3 ${out}.spv
-        COMMAND ${CMAKE_COMMAND} -DSPIRV=${out}.spv -DINC=${out}.inc -P ${embed}
+                -MD -MF ${out}.d -MT ${out}.inc -o ${out}.new ${source}
+        COMMAND ${GNOMON_SPIRV_VAL} --target-env vulkan1.3 ${out}.new
+        COMMAND ${CMAKE_COMMAND} -DCHECKED=${out}.new -DSPIRV=${out}.spv -DINC=${out}.inc -P ${embed}
         DEPENDS ${source} ${embed} DEPFILE ${out}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
 endfunction()
