@@ -5,7 +5,9 @@
 
 #include <gnomon/error.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <system_error>
 
@@ -25,6 +27,18 @@ constexpr std::array<World, 6> kWorlds{{
      &makeCanopies},
     {"planes", "one box above one plane, a sun and a spot light, with closed-form answers", &makePlanes},
 }};
+
+/// What other models come in, in lower case. A glTF file may have any other name.
+constexpr std::array<std::string_view, 14> kOtherFormats{".3ds", ".abc", ".blend", ".dae", ".fbx", ".jpeg", ".jpg",
+                                                         ".obj", ".ply", ".png",   ".stl", ".usd", ".usdc", ".usdz"};
+
+bool isOfAnotherFormat(const std::filesystem::path& file)
+{
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(kOtherFormats.begin(), kOtherFormats.end(), extension) != kOtherFormats.end();
+}
 
 } // namespace
 
@@ -52,6 +66,10 @@ Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limi
     if (!std::filesystem::exists(status)) {
         throw Error(tried, "it is no built-in world and no such file exists",
                     "give a .gltf or .glb file, or one of the built-in worlds: " + names);
+    }
+    if (isOfAnotherFormat(file)) {
+        throw Error(tried, "a " + file.extension().string() + " file is no glTF",
+                    "export the model as .glb or .gltf; in Blender that is File > Export > glTF 2.0");
     }
     return readGltf(file, limits);
 }

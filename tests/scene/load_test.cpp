@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace gnomon::scene {
@@ -39,6 +40,21 @@ TEST(Load, RefusesADirectory)
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("directory"), std::string::npos) << error.what();
     }
+}
+
+TEST(Load, SaysHowAModelOfAnotherFormatBecomesOne)
+{
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "gnomon_load_test_model.OBJ";
+    std::ofstream(file) << "v 0 0 0\n";
+    std::string text;
+    try {
+        (void)load(file.string(), 1);
+    } catch (const Error& error) {
+        text = error.what();
+    }
+    std::filesystem::remove(file);
+    EXPECT_NE(text.find("a .OBJ file is no glTF"), std::string::npos) << text;
+    EXPECT_NE(text.find(".glb"), std::string::npos) << text;
 }
 
 } // namespace
