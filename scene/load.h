@@ -43,6 +43,9 @@ struct World {
 /// All built-in worlds, in the order shown to people.
 [[nodiscard]] std::span<const World> worlds();
 
+/// Throws Error where load() would find neither a built-in world nor a file that may be glTF. Reads nothing.
+void requireThere(std::string_view name_or_file);
+
 /// `name_or_file`: a built-in world by name or a path. Throws Error when it is neither.
 [[nodiscard]] Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limits = {});
 

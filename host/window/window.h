@@ -22,7 +22,8 @@ struct WindowOptions {
 /// One at a time, on the thread that main() runs on.
 class Window {
 public:
-    /// Throws Error where there is no window system, or none that Vulkan can draw in.
+    /// No larger than the screen has room. Throws Error where there is no window system, or none that Vulkan can draw
+    /// in.
     explicit Window(const WindowOptions& options);
     ~Window();
     Window(const Window&) = delete;

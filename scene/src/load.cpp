@@ -40,6 +40,14 @@ bool isOfAnotherFormat(const std::filesystem::path& file)
     return std::find(kOtherFormats.begin(), kOtherFormats.end(), extension) != kOtherFormats.end();
 }
 
+/// Null where no world has the name.
+const World* worldOf(std::string_view name)
+{
+    const auto* const world =
+        std::find_if(kWorlds.begin(), kWorlds.end(), [&](const World& w) { return w.name == name; });
+    return world != kWorlds.end() ? world : nullptr;
+}
+
 } // namespace
 
 std::span<const World> worlds()
@@ -47,13 +55,13 @@ std::span<const World> worlds()
     return kWorlds;
 }
 
-Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limits)
+void requireThere(std::string_view name_or_file)
 {
+    if (worldOf(name_or_file) != nullptr) {
+        return;
+    }
     std::string names;
     for (const World& world : kWorlds) {
-        if (world.name == name_or_file) {
-            return world.make(seed);
-        }
         names += (names.empty() ? "" : ", ") + std::string(world.name);
     }
     const std::filesystem::path file{std::string(name_or_file)};
@@ -71,7 +79,13 @@ Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limi
         throw Error(tried, "a " + file.extension().string() + " file is no glTF",
                     "export the model as .glb or .gltf; in Blender that is File > Export > glTF 2.0");
     }
-    return readGltf(file, limits);
+}
+
+Scene load(std::string_view name_or_file, std::uint64_t seed, const Limits& limits)
+{
+    requireThere(name_or_file);
+    const World* const world = worldOf(name_or_file);
+    return world != nullptr ? world->make(seed) : readGltf(std::filesystem::path{std::string(name_or_file)}, limits);
 }
 
 } // namespace gnomon::scene

@@ -27,6 +27,16 @@ test::Ran compared(const test::Folder& folder, const std::vector<std::string>& m
     return test::gnomon(arguments, {.folder = folder / ""});
 }
 
+TEST(CompareScenes, LooksForAllOfThemFirst)
+{
+    const test::Folder folder;
+    const test::Ran ran = compared(folder, {"planes", "plains", "--report", "out"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find("'plains'"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("scene 1 of 2"), std::string::npos) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST(CompareScenes, HoldsTheSameTechniquesInEach)
 {
     const test::Folder folder;

@@ -51,7 +51,8 @@ std::string startServer(pid_t& server)
         dup2(quiet, 1);
         dup2(quiet, 2);
         const std::string fd = std::to_string(ends[1]);
-        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "1280x1024x24", "-nolisten", "tcp",
+        const std::string screen = std::to_string(kScreen_px.x) + "x" + std::to_string(kScreen_px.y) + "x24";
+        execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", screen.c_str(), "-nolisten", "tcp",
                static_cast<char*>(nullptr));
         _exit(127);
     }

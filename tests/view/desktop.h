@@ -10,6 +10,8 @@
 
 namespace gnomon::test {
 
+inline constexpr glm::uvec2 kScreen_px{1280, 1024};
+
 /// Starts Xvfb and makes it this process's DISPLAY. One at a time.
 class Desktop {
 public:

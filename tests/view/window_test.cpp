@@ -185,6 +185,12 @@ TEST_F(ViewWindow, HasTheSizeThatWasGivenWhateverDraws)
     EXPECT_EQ(user.viewer().settings().size_px, glm::uvec2(240, 300));
 }
 
+TEST_F(ViewWindow, IsNoLargerThanTheScreen)
+{
+    User user(*desktop_, {"planes", "--camera=top", "--size=3000x2000", "--gpu=software", "--set=texels=262144"});
+    EXPECT_EQ(user.window().size_px(), test::kScreen_px);
+}
+
 TEST_F(ViewWindow, SavesAndLoadsPresets)
 {
     User user(*desktop_, kSmall);

@@ -17,9 +17,9 @@ namespace gnomon::app::view {
 
 class ViewWindow {
 public:
-    /// Opens the window, so that the picture has --size, and loads the scene. A software rasteriser starts at half that
-    /// size, enlarged, unless the command line gave one. `shaders`: whose sources are followed, if any's are. Throws
-    /// UsageError and Error.
+    /// Opens the window, so that the picture has --size where the screen has room, and loads the scene. A software
+    /// rasteriser starts at half that size, enlarged, unless the command line gave one. `shaders`: whose sources are
+    /// followed, if any's are. Throws UsageError and Error.
     explicit ViewWindow(const Settings& settings, const std::optional<ShaderBuild>& shaders = std::nullopt);
     ~ViewWindow();
     ViewWindow(const ViewWindow&) = delete;

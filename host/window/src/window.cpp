@@ -5,9 +5,11 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace gnomon::host {
@@ -35,6 +37,19 @@ struct Desktop {
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
 };
+
+/// What a window may cover of the first screen, by the desktop; without bound where it says nothing.
+glm::ivec2 roomOnScreen()
+{
+    int x = 0;
+    int y = 0;
+    glm::ivec2 size(0);
+    if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor(); monitor != nullptr) {
+        glfwGetMonitorWorkarea(monitor, &x, &y, &size.x, &size.y);
+    }
+    constexpr int kUnbounded = std::numeric_limits<int>::max();
+    return {size.x > 0 ? size.x : kUnbounded, size.y > 0 ? size.y : kUnbounded};
+}
 
 } // namespace
 
@@ -64,8 +79,8 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    impl_->handle = glfwCreateWindow(static_cast<int>(options.size.x), static_cast<int>(options.size.y),
-                                     options.title.c_str(), nullptr, nullptr);
+    const glm::ivec2 size = glm::min(glm::ivec2(options.size), roomOnScreen());
+    impl_->handle = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
     if (impl_->handle == nullptr) {
         throw Error(kTried, lastError());
     }
