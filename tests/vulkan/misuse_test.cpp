@@ -257,6 +257,25 @@ TEST(Misuse, OfFinsIsAnError)
                   [&] { (void)plain.drawer.draw(pass); });
 }
 
+TEST(Misuse, OfTexturesWithoutCoordinatesIsAnError)
+{
+    vulkan::CasterDrawerOptions without;
+    without.vertices.uv = {};
+    Misuser plain({}, without); // no batch has a texture
+    plain.record();
+    plain.batches[1].texture = reinterpret_cast<VkDescriptorSet>(plain.driver.makeBuffer()); // the driver does not mind
+    expectRefused(plain, "fill in CasterVertices::uv",
+                  [&] { plain.drawer.setScene(plain.parts, plain.objects, plain.batches); });
+    plain.record(); // the scene is what it was
+
+    Misuser host;
+    host.batches[1].texture = reinterpret_cast<VkDescriptorSet>(host.driver.makeBuffer());
+    host.drawer.setScene(host.parts, host.objects, host.batches);
+    expectRefused(host, "fill in CasterGeometry::uvs", [&] { host.begin(); });
+    host.geometry.uvs = host.driver.makeBuffer();
+    host.record();
+}
+
 TEST(Misuse, OfPiecesOfObjectsIsAnError)
 {
     ShadowOptions options{.technique = kPlainTechnique};

@@ -40,6 +40,11 @@ bool isFinite(const CasterBatch& batch)
     });
 }
 
+bool readsUvs(const CasterBatch& batch)
+{
+    return batch.texture != VK_NULL_HANDLE;
+}
+
 } // namespace
 
 CasterDrawer::CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options)
@@ -58,6 +63,11 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     if (!std::ranges::all_of(batches, isFinite)) {
         refuseUse("list what objects draw", "a clip plane of a batch is not finite", "give four numbers");
     }
+    const bool reads_uvs = std::ranges::any_of(batches, readsUvs);
+    if (reads_uvs && impl_->options.vertices.uv.format == VK_FORMAT_UNDEFINED) {
+        refuseUse("list what objects draw", "a batch has a texture, and vertices have no texture coordinates",
+                  "fill in CasterVertices::uv");
+    }
     // All of the scene or, when memory runs out, none of it.
     DrawBatcher batcher;
     batcher.setScene(parts, objects);
@@ -70,6 +80,7 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     impl_->batcher = std::move(batcher);
     impl_->batches = std::move(copied);
     impl_->materials = std::move(materials);
+    impl_->reads_uvs = reads_uvs;
     impl_->tints = std::ranges::any_of(impl_->batches, &CasterBatch::blended);
 }
 
@@ -278,6 +289,10 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     }
     if (impl_->object_count > 0 && (geometry.positions == VK_NULL_HANDLE || geometry.indices == VK_NULL_HANDLE)) {
         refuseUse(kBeginning, "the buffer of positions or of indices is null", "fill in CasterGeometry");
+    }
+    if (impl_->reads_uvs && geometry.uvs == VK_NULL_HANDLE) {
+        refuseUse(kBeginning, "a batch has a texture, and the buffer of texture coordinates is null",
+                  "fill in CasterGeometry::uvs");
     }
     if (geometry.pieces == VK_NULL_HANDLE && hasPieces(plan)) {
         refuseUse(kBeginning, "id.of face tells pieces of objects apart, and the buffer of pieces is null",

@@ -70,6 +70,7 @@ struct CasterDrawer::Impl {
     std::vector<std::uint32_t> listed;  // casters of the views of one pass, one list after the other
     std::vector<float> biases_m;        // by object index
     bool tints = false;                 // some batch is blended
+    bool reads_uvs = false;             // some batch has a texture
     bool together = false;              // some of this plan's views may be drawn in passes of several
 
     // This frame's.

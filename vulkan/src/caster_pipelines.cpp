@@ -139,7 +139,8 @@ void checkVertices(const CasterVertices& vertices)
     constexpr std::array kPositions{VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
                                     VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_SNORM,
                                     VK_FORMAT_R16G16B16A16_UNORM};
-    constexpr std::array kUvs{VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R16G16_UNORM};
+    constexpr std::array kUvs{VK_FORMAT_UNDEFINED, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT,
+                              VK_FORMAT_R16G16_UNORM};
     const auto require = [](const auto& list, auto value, const char* what, const char* remedy) {
         if (std::find(list.begin(), list.end(), value) == list.end()) {
             throw Error("create the caster drawer",

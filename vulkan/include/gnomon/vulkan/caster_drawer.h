@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws casters for hosts with ordinary meshes: a ready-made DrawCasters callback. Hosts with vertex formats of their
-// own write their callback and shaders instead (gnomon/lib/caster.glsl).
+// own write their callback and shaders instead (gnomon/caster.glsl).
 #pragma once
 
 #include <gnomon/export.h>
@@ -62,7 +62,8 @@ struct CasterVertices {
     /// R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT, R16G16B16A16_SNORM or R16G16B16A16_UNORM; a fourth
     /// number is not read. Of normalised ones, world_from_object says how large an object is.
     VertexAttribute position{VK_FORMAT_R32G32B32_SFLOAT, 12, 0};
-    /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. Read for masked batches alone.
+    /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. UNDEFINED: there are none. Read for batches with a
+    /// texture alone.
     VertexAttribute uv{VK_FORMAT_R32G32_SFLOAT, 8, 0};
     /// R16_UINT or R32_UINT: which piece of its object a vertex is of, in the lower 12 bits; the three of a triangle
     /// have one. For lights with IdOf::face alone. UNDEFINED: vertices do not say so.
@@ -75,7 +76,7 @@ struct CasterVertices {
 struct CasterGeometry {
     VkBuffer positions = VK_NULL_HANDLE; // of CasterVertices::position
     VkDeviceSize positions_offset = 0;   // bytes
-    VkBuffer uvs = VK_NULL_HANDLE;       // may be null when no batch is masked
+    VkBuffer uvs = VK_NULL_HANDLE;       // may be null when no batch has a texture
     VkDeviceSize uvs_offset = 0;         // bytes
     VkBuffer indices = VK_NULL_HANDLE;   // of CasterVertices::index
     VkDeviceSize indices_offset = 0;     // bytes
@@ -99,6 +100,7 @@ struct CasterDrawerOptions {
 /// What becomes of a wrong call, in every build:
 ///   a part that names no batch, an object that names no part                        Error
 ///   a clip plane that is not finite                                                 Error
+///   a batch with a texture without CasterVertices::uv or CasterGeometry::uvs        Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a plan whose numbers point beyond its own lists or pages                        Error
 ///   a plan with IdOf::face without CasterVertices::piece or CasterGeometry::pieces Error
@@ -116,6 +118,7 @@ class GNOMON_API CasterDrawer {
 public:
     /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
     CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
+    /// Waits for nothing: the GPU has finished whatever it recorded.
     ~CasterDrawer();
     CasterDrawer(const CasterDrawer&) = delete;
     CasterDrawer& operator=(const CasterDrawer&) = delete;
