@@ -8,8 +8,8 @@
 //   0  storage: GpuCascadeLight by light          3  storage: GpuFittedView by view of the plan, a copy for reports
 //   1  storage: GpuCascadeKeys by light           4  sampled image: the camera's depth
 //   2  storage: GpuFittedView by view of the plan 5  sampled image: object ids (variant GNOMON_OBJECT_IDS)
-// Casters are then drawn with the base map's matrix and the view's GpuFittedView::place (casterPlaced() in
-// gnomon/lib/caster.glsl). cascade_constants.comp completes the GpuViews that fillViews() wrote: 0 the fitted views, 1
+// Casters are then drawn with the base map's matrix and the view's GpuFittedView::place (gnomonCasterPlaced() in
+// gnomon/caster.glsl). cascade_constants.comp completes the GpuViews that fillViews() wrote: 0 the fitted views, 1
 // the GpuViews.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes an object's own points to a map, for vertex shaders as gnomon/lib/caster.glsl has them.
+// What takes an object's own points to a map, for vertex shaders as gnomon/caster.glsl has them.
 #pragma once
 
 #include <gnomon/export.h>

@@ -31,6 +31,7 @@ class GNOMON_API FinDrawer {
 public:
     /// Makes its pipelines. Throws Error when a function is missing or memory runs out.
     FinDrawer(const DeviceView& device, const FinDrawerOptions& options);
+    /// Waits for nothing: the GPU has finished whatever it recorded.
     ~FinDrawer();
     FinDrawer(const FinDrawer&) = delete;
     FinDrawer& operator=(const FinDrawer&) = delete;

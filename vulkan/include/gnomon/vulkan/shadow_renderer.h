@@ -85,11 +85,12 @@ struct VolumePass {
 /// Draws one light's volumes.
 using DrawVolumes = std::function<void(const VolumePass&)>;
 
-/// What the host gives for the mask. Images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (depth: also
-/// DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads by the host.
+/// What the host gives for the mask. Images have the usage SAMPLED, are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+/// (depth: also DEPTH_READ_ONLY_OPTIMAL, by `depth_layout`) and their writes are made visible to FRAGMENT_SHADER reads
+/// by the host.
 struct MaskInputs {
     VkExtent2D extent{};                // of the mask, and of each image here: no larger ones
-    VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F or R32F, one sample
+    VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F (of D32F_S8 the aspect DEPTH) or R32F
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; // or DEPTH_READ_ONLY_OPTIMAL
     /// Geometric world-space normals, octahedral in RG (snorm or float; gnomon/shared/octahedral.h), or
     /// VK_NULL_HANDLE: then taken from depth.
@@ -117,7 +118,7 @@ struct MaskInputs {
 
 /// What the host's caster pipelines must be made for.
 struct MapPassFormats {
-    /// UNDEFINED: depth only. Else fragment shaders write casterTexel() to it (caster.glsl).
+    /// UNDEFINED: depth only. Else fragment shaders write gnomonCasterTexel() to it (gnomon/caster.glsl).
     VkFormat colour = VK_FORMAT_UNDEFINED;
     VkFormat depth = VK_FORMAT_D32_SFLOAT;                 // of the depth attachment
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT; // of both attachments
@@ -170,11 +171,11 @@ struct MapPass {
     /// (ObjectFlags::casts): a host that left them out would find bright rims around shadows on them.
     std::span<const std::uint32_t> casters;
     glm::mat4 clip_from_world{1.0F}; // the view's, for vertices in world space
-    /// d' = dot(metric_ws, (p, 1)); see gnomon/lib/caster.glsl. Of a paraboloid w alone counts.
+    /// d' = dot(metric_ws, (p, 1)); see gnomonCasterMetric() in gnomon/caster.glsl. Of a paraboloid w alone counts.
     glm::vec4 metric_ws{0.0F};
     /// A view with View::gpu_cascade: clip_from_world is its base map's, and a vec4 at this offset, which the GPU has
-    /// written, says which part of it the view shows: casterPlaced() in gnomon/lib/caster.glsl. A vertex buffer (to be
-    /// bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
+    /// written, says which part of it the view shows: gnomonCasterPlaced() in gnomon/caster.glsl. A vertex buffer (to
+    /// be bound with stride 0, at the rate of instances) and a storage buffer. VK_NULL_HANDLE: none.
     VkBuffer placement = VK_NULL_HANDLE;
     VkDeviceSize placement_offset = 0; // bytes
     /// With MapPassFormats::behind_first: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose
@@ -290,6 +291,7 @@ class GNOMON_API ShadowRenderer {
 public:
     /// Throws Error when a handle of the device or a function is missing or memory runs out.
     ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
+    /// Waits for nothing: the GPU has finished whatever it recorded.
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;
