@@ -9,7 +9,8 @@ usage: check_docs.py [--write | --write-claims] ROOT [GNOMON]
 - with the program GNOMON: the table of docs/cli.md is what its declarations make (--write puts it there), and every
   option in a `gnomon` command of a document is one of them;
 - docs/claims.md has a row for each of its claims, with the verdict and the commands that are recorded. Their figures take
-  minutes and are not looked at; --write-claims tries all claims and puts the tables there.
+  minutes and are not looked at; --write-claims tries all claims and puts the tables there;
+- the source that `gnomon list` gives of a technique is the first that its page names.
 Exit status 1 when something is not so.
 """
 
@@ -142,6 +143,26 @@ def claim_differences(root: Path, claims: list[dict]) -> list[str]:
     return found
 
 
+AUTHOR = re.compile(r"(?:\b[A-Z]\.[ -]?)+([A-Z]\w+)")  # the surname after initials
+
+
+def source_differences(root: Path, choices: list[dict]) -> list[str]:
+    """`auto` is a value of three choices with one page, and a value without a page names its source in the list alone."""
+    found = []
+    for choice in choices:
+        for value in choice["values"]:
+            page = f"docs/techniques/{value['name']}.md"
+            if value["name"] == "auto" or not (root / page).exists():
+                continue
+            _, _, section = (root / page).read_text(encoding="utf-8").partition("\n## Source")
+            named = AUTHOR.search(section)
+            listed = AUTHOR.search(value["source"])
+            if not named or not listed or named.group(1) != listed.group(1):
+                found.append(f"{page}: its first source is {named.group(1) if named else 'none'}, "
+                             f"and that of `gnomon list {value['name']}` is {value['source']}")
+    return found
+
+
 def unknown_options(root: Path, settings: dict[str, dict]) -> list[str]:
     found = []
     for file in project_files(root):
@@ -167,7 +188,7 @@ def main() -> int:
         found += cli_differences(root, settings, write) + unknown_options(root, settings)
         if "--write-claims" in sys.argv:
             found += write_claims(root, arguments[1])
-        found += claim_differences(root, listed["claims"])
+        found += claim_differences(root, listed["claims"]) + source_differences(root, listed["choices"])
     for line in found:
         print(line, file=sys.stderr)
     print(f"docs: {len(found)} faults")

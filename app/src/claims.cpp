@@ -26,7 +26,7 @@ namespace {
         }
     }
     throw UsageError(
-        fmt::format("there is no claim \"{}\"{}; `gnomon list` has them all", name, suggestion(name, names)));
+        fmt::format("there is no claim \"{}\"{}; `gnomon list claims` has them all", name, suggestion(name, names)));
 }
 
 /// Those that were named, else all; with --quick only quick ones of them.

@@ -21,8 +21,8 @@ constexpr std::string_view kMarinescu =
     "(RTS) game, 2011";
 constexpr std::string_view kForsyth = "T. Forsyth, Extremely Practical Shadows, GDC 2006";
 constexpr std::string_view kShastry = "A. S. Shastry, Soft-Edged Shadows, 2005";
-constexpr std::string_view kKiteLightning = "Kite & Lightning, Variance Shadow Maps, 2014";
 constexpr std::string_view kIceFall = "P. Fortier (IceFall Games), Shadow maps for moving light sources, 2010";
+constexpr std::string_view kLayered = "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008";
 constexpr std::string_view kWilliams = "L. Williams, Casting Curved Shadows on Curved Surfaces, 1978";
 
 // Where texels of a map are compared with the pixels that they are seen by.
@@ -82,11 +82,12 @@ constexpr std::array kValues{
     ChoiceValue{kFilter, "pcss", number(Filter::pcss), "penumbra as wide as the blocker's distance asks",
                 "R. Fernando, Percentage-Closer Soft Shadows, 2005"},
     ChoiceValue{kFilter, "raymarch", number(Filter::raymarch), "rays to points of the light, through the map", kRays},
-    ChoiceValue{kFilter, "vsm", number(Filter::vsm), "two moments and Chebyshev's bound", kKiteLightning},
-    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), "variance maps in layers of depth", kMarinescu},
-    ChoiceValue{kFilter, "esm", number(Filter::esm), "an exponential of depth", kKiteLightning},
-    ChoiceValue{kFilter, "evsm", number(Filter::evsm), "moments of two exponential warps",
-                "A. Lauritzen, M. McCool, Layered Variance Shadow Maps, 2008"},
+    ChoiceValue{kFilter, "vsm", number(Filter::vsm), "two moments and Chebyshev's bound",
+                "W. Donnelly, A. Lauritzen, Variance Shadow Maps, 2006"},
+    ChoiceValue{kFilter, "lvsm", number(Filter::lvsm), "variance maps in layers of depth", kLayered},
+    ChoiceValue{kFilter, "esm", number(Filter::esm), "an exponential of depth",
+                "T. Annen et al., Exponential Shadow Maps, 2008"},
+    ChoiceValue{kFilter, "evsm", number(Filter::evsm), "moments of two exponential warps", kLayered},
     ChoiceValue{kFilter, "msm", number(Filter::msm), "four moments",
                 "C. Peters, R. Klein, Moment Shadow Mapping, 2015"},
     ChoiceValue{kFilter, "id", number(Filter::id), "object ids instead of depth", kForsyth},
@@ -109,7 +110,8 @@ constexpr std::array kValues{
                 "D. Scherzer et al., Real-Time Soft Shadows Using Temporal Coherence, 2009"},
 
     ChoiceValue{kMotion, "free", number(Motion::free), "the map follows camera and sun exactly", kMarinescu},
-    ChoiceValue{kMotion, "snap", number(Motion::snap), "the map moves by whole texels", kIceFall},
+    ChoiceValue{kMotion, "snap", number(Motion::snap), "the map moves by whole texels",
+                "M. Valient, Stable Rendering of Cascaded Shadow Maps, 2008"},
     ChoiceValue{kMotion, "step-jump", number(Motion::step_jump), "the sun steps, the shadows jump", kIceFall},
     ChoiceValue{kMotion, "step-band", number(Motion::step_band), "each step sweeps over the screen in a band",
                 kIceFall},

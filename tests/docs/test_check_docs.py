@@ -23,6 +23,8 @@ TREE = {
     "docs/claims.md": "<!-- claims begin -->\n| name | claim | our figures | verdict | why |\n|---|---|---|---|---|\n"
                       "| `2006-duel` | all do a \\| b | rmse 1.01 | **holds** | No way is left. |\n\n```\n"
                       "# 2006-duel\ngnomon render rts --map-size 64\n```\n<!-- claims end -->\n",
+    "docs/techniques/vsm.md": "# vsm\n\n## Source\nSteps: W. Donnelly, A. Lauritzen, \"Variance\", 2006. A. Marinescu, 2011.\n",
+    "docs/techniques/auto.md": "# auto\n\n## Source\nD. B. Lloyd, 2006.\n",
 }
 # Stands for the program: prints what `gnomon list --json` would.
 PROGRAM = """#!/bin/sh
@@ -33,7 +35,9 @@ cat <<'END'
   {"key": "pcf.kernel", "default": "3x3", "doc": "kernel", "values": ["2x2", "3x3"], "used_with": "filter pcf",
    "option": false, "subcommands": ["render"]}],
  "claims": [{"id": "2006-duel", "document": "2006", "claim": "all do a | b", "commands": ["gnomon render rts --map-size 64"],
-   "quick": true, "recorded": "holds", "why": "No way is left."}]}
+   "quick": true, "recorded": "holds", "why": "No way is left."}],
+ "choices": [{"choice": "filter", "values": [{"name": "vsm", "source": "W. Donnelly, A. Lauritzen, Variance, 2006"},
+   {"name": "hard", "source": "L. Williams, 1978"}, {"name": "auto", "source": "S. Xie, 2007"}]}]}
 END
 """
 FAULTS = [
@@ -51,6 +55,8 @@ FAULTS = [
     ("docs/claims.md", "--map-size 64", "--map-size 65", "the commands of 2006-duel are others"),
     ("docs/claims.md", "| `2006-duel` |", "| `2006-due` |", "there is no claim 2006-due"),
     ("docs/claims.md", "<!-- claims end -->", "", "no tables"),
+    ("docs/techniques/vsm.md", "W. Donnelly, A. Lauritzen, \"Variance\", 2006. ", "", "its first source is Marinescu"),
+    ("docs/techniques/vsm.md", "## Source", "## From", "its first source is none"),
 ]
 
 
