@@ -160,7 +160,10 @@ def main(arguments: list[str]) -> int:
     plots = plots_of(json.loads(Path(arguments[0]).read_text(encoding="utf-8")))
     target = Path(arguments[1])
     if not plots or (len(arguments) == 3 and arguments[2] not in plots):
-        print(f"plot.py: {arguments[0]} has {'no such plot' if plots else 'no plots'}", file=sys.stderr)
+        print(f"plot.py: {arguments[0]} has "
+              + (f"no plot {arguments[2]}; it has {', '.join(plots)}" if plots else
+                 "no plots: those of compare --sweep and --path have; error against time is on a report's page"),
+              file=sys.stderr)
         return 2
     with matplotlib.rc_context(STYLE):
         if target.suffix in (".svg", ".png"):

@@ -44,7 +44,9 @@ class Plots(unittest.TestCase):
     def run_script(self, result: dict, *arguments: str) -> int:
         file = self.folder / "result.json"
         file.write_text(json.dumps(result), encoding="utf-8")
-        run = subprocess.run([PYTHON, SCRIPT, file, *arguments], cwd=self.folder, capture_output=True, check=False)
+        run = subprocess.run([PYTHON, SCRIPT, file, *arguments], cwd=self.folder, capture_output=True, text=True,
+                             check=False)
+        self.said = run.stderr
         return run.returncode
 
     def drawn(self, result: dict, folder: str) -> dict[str, bytes]:
@@ -90,9 +92,11 @@ class Plots(unittest.TestCase):
         self.assertEqual(self.run_script(result, "one.png", "02_sweep"), 0)
         self.assertTrue((self.folder / "one.png").read_bytes().startswith(b"\x89PNG"))
         self.assertEqual(self.run_script(result, "one.svg", "03_sweep"), 2)
+        self.assertIn("no plot 03_sweep; it has sweep, 01_sweep, 02_sweep", self.said)
 
     def test_refuses_what_has_no_plots(self):
         self.assertEqual(self.run_script({"scene": "planes", "results": []}, "."), 2)
+        self.assertIn("--sweep and --path", self.said)
 
 
 if __name__ == "__main__":
