@@ -246,6 +246,6 @@ function pictures() {
     el("div", { class: "grid" }, shadedPane(), picture("Mask", "White is lit, black is in shadow.", null, of("mask")), truthPane(),
       picture("Error", null, scaleLegend(data.legends.error, ["too dark \u22121", "0", "+1 too bright"]), of("error")),
       picture("Classes of the error", null, classLegend(null), of("classes")),
-      picture("Shadow texels per pixel", null, scaleLegend(data.legends.density, ["1/16 blocky", "1", "16 finer than pixels"]),
+      picture("Shadow texels per pixel", "A white line passes through 1.", scaleLegend(data.legends.density, ["1/16 blocky", "1", "16 finer than pixels"]),
         () => frames[chosen.frame].densities[frames[chosen.frame].techniques[chosen.technique].density])));
 }
