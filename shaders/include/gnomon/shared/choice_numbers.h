@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of choices that shaders tell apart. C++ asserts that they are those of choices.h and moment_options.h
-// (vulkan/src/choice_numbers.cpp).
+// (pack/src/choice_numbers.cpp).
 #ifndef GNOMON_CHOICE_NUMBERS_H
 #define GNOMON_CHOICE_NUMBERS_H
 #include "portability.h"
