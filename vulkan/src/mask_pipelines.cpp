@@ -48,9 +48,13 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
         return of(GN_CODES(id));
     case Filter::depth_id:
         return of(GN_CODES(depth_id));
-    default:
-        return of(GN_CODES(pcf));
+    case Filter::pcf:
+    case Filter::volumes:   // counts no texels: what it has of a map is never read
+    case Filter::smoothies: // pcf, and its edges beside it
+    case Filter::automatic: // never comes here: a plan has the one that was chosen
+        break;
     }
+    return of(GN_CODES(pcf));
 #undef GN_CODES
 }
 

@@ -278,7 +278,8 @@ struct WarmUp {
 ///   recordMaps(), recordMask() of views with gpu_cascade before recordBounds()      Error
 ///   questions with a slot, options or a view that there is not                      zeros, or empty
 /// Not found out, because only the driver knows: handles of another device, images in another layout, of another format
-/// or smaller than said, and a slot whose last frame has not finished.
+/// or smaller than said, and a slot whose last frame has not finished. Nor a frame whose recordMaps() was left out: a
+/// host may record it elsewhere. All that its maps cover is then dark.
 ///
 /// Draws what a plan says by the options that the plan carries (Plan::options): it has none of its own, so another
 /// technique, or another for each light, is another plan. Not thread-safe.
