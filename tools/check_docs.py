@@ -147,12 +147,13 @@ AUTHOR = re.compile(r"(?:\b[A-Z]\.[ -]?)+([A-Z]\w+)")  # the surname after initi
 
 
 def source_differences(root: Path, choices: list[dict]) -> list[str]:
-    """`auto` is a value of three choices with one page, and a value without a page names its source in the list alone."""
+    """Where the first author of a value's source is not that of its page. `auto` is a value of three choices with one page; a value
+    without a page of its own names its source in the list alone."""
     found = []
     for choice in choices:
         for value in choice["values"]:
-            page = f"docs/techniques/{value['name']}.md"
-            if value["name"] == "auto" or not (root / page).exists():
+            page = value.get("page") or ""
+            if value["name"] == "auto" or not page.startswith("docs/techniques/"):
                 continue
             _, _, section = (root / page).read_text(encoding="utf-8").partition("\n## Source")
             named = AUTHOR.search(section)

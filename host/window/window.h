@@ -19,6 +19,11 @@ struct WindowOptions {
     glm::uvec2 size{1280, 720}; // of its inside, in the desktop's units: pixels, or larger on a dense screen
 };
 
+/// The size of a window's inside, in the desktop's units, of which `size` are `size_px` pixels: at most what `area_px`
+/// pixels have room for beside a frame of `frame` units. An area of 0 bounds nothing.
+[[nodiscard]] glm::ivec2 sizeOnScreen(const glm::ivec2& size, const glm::ivec2& size_px, const glm::ivec2& frame,
+                                      const glm::ivec2& area_px);
+
 /// One at a time, on the thread that main() runs on.
 class Window {
 public:

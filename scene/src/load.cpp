@@ -29,8 +29,9 @@ constexpr std::array<World, 6> kWorlds{{
 }};
 
 /// What other models come in, in lower case. A glTF file may have any other name.
-constexpr std::array<std::string_view, 14> kOtherFormats{".3ds", ".abc", ".blend", ".dae", ".fbx", ".jpeg", ".jpg",
-                                                         ".obj", ".ply", ".png",   ".stl", ".usd", ".usdc", ".usdz"};
+constexpr std::array<std::string_view, 15> kOtherFormats{".3ds",  ".abc", ".blend", ".dae",  ".fbx",
+                                                         ".jpeg", ".jpg", ".obj",   ".ply",  ".png",
+                                                         ".stl",  ".usd", ".usda",  ".usdc", ".usdz"};
 
 bool isOfAnotherFormat(const std::filesystem::path& file)
 {

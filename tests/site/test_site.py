@@ -100,6 +100,7 @@ class Site(unittest.TestCase):
     def test_films_play(self):
         browser = self.show("docs/gallery.html")
         films = list((self.project / "docs/films").glob("*.webm"))
+        self.assertGreater(len(films), 0)
         self.assertEqual(browser.run("document.querySelectorAll('video').length"), len(films))
         browser.wait_for("[...document.querySelectorAll('video')].every(one => one.duration > 0.5)")
         # A browser plays by itself what it shows.

@@ -171,11 +171,29 @@ TEST_F(ViewWindow, StartsAtHalfSizeWhereTheProcessorDraws)
     user.wait(6);
     const glm::uvec2 room{600U - static_cast<std::uint32_t>(user.window().pictureAt().x), 260U};
     EXPECT_EQ(user.viewer().settings().size_px, room / 2U);
-    EXPECT_EQ(user.window().settingsOfWindow().size_px, room) << "a window that is opened in its place is as large";
     expectAsRendered(user);
     user.window().shown().half_size = false;
     user.wait();
     EXPECT_EQ(user.viewer().settings().size_px, room);
+}
+
+TEST_F(ViewWindow, GivesItsSizeToTheOneThatIsOpenedInItsPlace)
+{
+    for (const int dpi : {96, 192}) {
+        desktop_->setDensity(dpi);
+        app::Settings again;
+        glm::uvec2 size_px(0);
+        {
+            User user(*desktop_, kSmall);
+            ASSERT_TRUE(user.rest());
+            user.press("h"); // without the panel the picture is as wide as the window
+            user.wait();
+            size_px = user.window().size_px();
+            again = user.window().settingsOfWindow();
+        }
+        const app::view::ViewWindow second(again);
+        EXPECT_EQ(second.size_px(), size_px) << dpi;
+    }
 }
 
 TEST_F(ViewWindow, HasTheSizeThatWasGivenWhateverDraws)
@@ -189,6 +207,19 @@ TEST_F(ViewWindow, IsNoLargerThanTheScreen)
 {
     User user(*desktop_, {"planes", "--camera=top", "--size=3000x2000", "--gpu=software", "--set=texels=262144"});
     EXPECT_EQ(user.window().size_px(), test::kScreen_px);
+}
+
+TEST(WindowOnAScreen, HasRoomForItsFrameAndItsPixels)
+{
+    using Size = glm::ivec2;
+    const auto fitting = [](const Size& size, int scale, const Size& frame, const Size& area_px) {
+        return host::sizeOnScreen(size, size * scale, frame, area_px);
+    };
+    EXPECT_EQ(fitting({800, 600}, 1, {0, 0}, {1280, 720}), Size(800, 600));
+    EXPECT_EQ(fitting({1670, 720}, 1, {10, 40}, {1280, 720}), Size(1270, 680));
+    EXPECT_EQ(fitting({1670, 720}, 2, {10, 40}, {1280, 720}), Size(630, 320)) << "pixels half as large";
+    EXPECT_EQ(fitting({1670, 720}, 1, {10, 40}, {0, 0}), Size(1670, 720)) << "a desktop that says nothing";
+    EXPECT_EQ(fitting({1670, 720}, 1, {10, 40}, {8, 8}), Size(1, 1));
 }
 
 TEST_F(ViewWindow, SavesAndLoadsPresets)

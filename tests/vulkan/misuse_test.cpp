@@ -274,6 +274,15 @@ TEST(Misuse, OfTexturesWithoutCoordinatesIsAnError)
     expectRefused(host, "fill in CasterGeometry::uvs", [&] { host.begin(); });
     host.geometry.uvs = host.driver.makeBuffer();
     host.record();
+
+    Misuser empty; // where no object has a batch there is nothing to read
+    empty.batches[1].texture = reinterpret_cast<VkDescriptorSet>(empty.driver.makeBuffer());
+    empty.drawer.setScene(empty.parts, {}, empty.batches);
+    empty.geometry = {};
+    for (View& view : empty.plan.views) {
+        view.caster_count = view.still_count = 0;
+    }
+    empty.begin();
 }
 
 TEST(Misuse, OfPiecesOfObjectsIsAnError)

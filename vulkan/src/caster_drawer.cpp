@@ -290,7 +290,7 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     if (impl_->object_count > 0 && (geometry.positions == VK_NULL_HANDLE || geometry.indices == VK_NULL_HANDLE)) {
         refuseUse(kBeginning, "the buffer of positions or of indices is null", "fill in CasterGeometry");
     }
-    if (impl_->reads_uvs && geometry.uvs == VK_NULL_HANDLE) {
+    if (impl_->object_count > 0 && impl_->reads_uvs && geometry.uvs == VK_NULL_HANDLE) {
         refuseUse(kBeginning, "a batch has a texture, and the buffer of texture coordinates is null",
                   "fill in CasterGeometry::uvs");
     }

@@ -166,7 +166,8 @@ const std::vector<Claim>& projections2006()
                    {"of psm", "of it", [](const Runs& r) { return warpRmse(r, "hard+psm"); }, 0.95, 1.05}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "A warp has no direction left to work along. They err by up to 3 % more, because they turn the grid."},
+         .why = "A warp has no direction left to work along. They err by a few per cent more, because they turn the "
+                "grid."},
         {.id = "2006-field-of-view",
          .claim = "A map's field of view ends at 180 degrees, in practice at about 120",
          .parts = {{"at 120 degrees an edge has", "times the texels per degree of the middle",

@@ -268,8 +268,8 @@ void picturePanel(Viewer& viewer, PanelState& state)
             "what has a thin one was left as it is");
     widgets.checkbox("half size", state.shown.half_size);
     explain(
-        "Draws one pixel for each 2 x 2 of the window: quicker on a slow device. On where the processor draws, unless "
-        "--size was given");
+        "Draws one pixel for each 2 x 2 of the window: quicker on a slow device. It is on at first where the processor "
+        "draws and no --size was given");
     rowsOf(viewer, widgets, SettingGroup::picture, [](const Setting& setting) {
         return setting.key == "size" || setting.key == "ground" || setting.key == "up-axis" ||
                setting.key == "override-material";

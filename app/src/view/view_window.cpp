@@ -62,10 +62,11 @@ Settings ViewWindow::settingsOfWindow() const
 {
     Settings settings = viewer_->settings();
     settings.subcommand = kView;
-    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
-    const glm::dvec2 size_px = area_.size * glm::dvec2(scale.x, scale.y);
-    if (size_px.x >= 1.0 && size_px.y >= 1.0) { // else nothing was shown yet
-        applySetting(settings, "size", fmt::format("{:.0f}x{:.0f}", std::floor(size_px.x), std::floor(size_px.y)));
+    // What windowSize() makes of it is this window's own size, whether its panel is shown or not.
+    const glm::dvec2 inside = glm::dvec2(size_px()) / window_.contentScale();
+    if (inside.y >= 1.0) { // else it is minimised
+        applySetting(settings, "size",
+                     fmt::format("{:.0f}x{:.0f}", std::max(inside.x - kPanel_px, 1.0), std::max(inside.y, 1.0)));
     }
     return settings;
 }

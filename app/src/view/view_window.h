@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Widgets& widgets() { return widgets_; }
     [[nodiscard]] Shown& shown() { return shown_; }
     [[nodiscard]] Typed& typed() { return typed_; }
-    /// That open a window like this one: as large, with this picture.
+    /// That open a window as large as this one, with this picture.
     [[nodiscard]] Settings settingsOfWindow() const;
     [[nodiscard]] const Pointer& pointer() const { return pointer_; }
     /// Where the picture is, in pixels of the window.

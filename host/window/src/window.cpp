@@ -5,11 +5,10 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+#include <cstdint>
 #include <utility>
 
 namespace gnomon::host {
@@ -38,8 +37,8 @@ struct Desktop {
     Desktop& operator=(const Desktop&) = delete;
 };
 
-/// What a window may cover of the first screen, by the desktop; without bound where it says nothing.
-glm::ivec2 roomOnScreen()
+/// Of the first screen what the desktop leaves to windows, in pixels; 0 where it says nothing.
+glm::ivec2 workArea()
 {
     int x = 0;
     int y = 0;
@@ -47,8 +46,23 @@ glm::ivec2 roomOnScreen()
     if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor(); monitor != nullptr) {
         glfwGetMonitorWorkarea(monitor, &x, &y, &size.x, &size.y);
     }
-    constexpr int kUnbounded = std::numeric_limits<int>::max();
-    return {size.x > 0 ? size.x : kUnbounded, size.y > 0 ? size.y : kUnbounded};
+    return size;
+}
+
+/// Only a window that there is knows how large its frame and its pixels are.
+void fitOnScreen(GLFWwindow* window)
+{
+    glm::ivec2 size(0);
+    glm::ivec2 size_px(0);
+    glm::ivec2 before(0);
+    glm::ivec2 behind(0);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    glfwGetFramebufferSize(window, &size_px.x, &size_px.y);
+    glfwGetWindowFrameSize(window, &before.x, &before.y, &behind.x, &behind.y);
+    const glm::ivec2 fitting = sizeOnScreen(size, size_px, before + behind, workArea());
+    if (fitting != size) {
+        glfwSetWindowSize(window, fitting.x, fitting.y);
+    }
 }
 
 } // namespace
@@ -71,6 +85,19 @@ struct Window::Impl {
     }
 };
 
+glm::ivec2 sizeOnScreen(const glm::ivec2& size, const glm::ivec2& size_px, const glm::ivec2& frame,
+                        const glm::ivec2& area_px)
+{
+    glm::ivec2 fitting = size;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (area_px[axis] > 0 && size_px[axis] > 0) {
+            const int room = static_cast<int>(std::int64_t{area_px[axis]} * size[axis] / size_px[axis]) - frame[axis];
+            fitting[axis] = std::clamp(size[axis], 1, std::max(room, 1));
+        }
+    }
+    return fitting;
+}
+
 Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
 {
     if (glfwVulkanSupported() != GLFW_TRUE) {
@@ -79,13 +106,16 @@ Window::Window(const WindowOptions& options) : impl_(std::make_unique<Impl>())
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    const glm::ivec2 size = glm::min(glm::ivec2(options.size), roomOnScreen());
-    impl_->handle = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // until it has its size
+    impl_->handle = glfwCreateWindow(static_cast<int>(options.size.x), static_cast<int>(options.size.y),
+                                     options.title.c_str(), nullptr, nullptr);
     if (impl_->handle == nullptr) {
         throw Error(kTried, lastError());
     }
+    fitOnScreen(impl_->handle);
     glfwSetWindowUserPointer(impl_->handle, impl_.get());
     impl_->hearAll();
+    glfwShowWindow(impl_->handle);
 }
 
 /// Interface adds its own to these and calls them, too.

@@ -29,7 +29,7 @@ Palette addPalette(Scene& scene)
                             .alpha_mode = AlphaMode::mask,
                             .double_sided = double_sided});
     };
-    // Nothing of one image is in another. They are most of what takes time.
+    // Nothing of one image is in another. These four take most of the time.
     std::future<Image> ground = begun(groundDetail);
     std::future<Image> stone = begun(stoneBlocks);
     std::future<Image> shingle = begun(shingles);

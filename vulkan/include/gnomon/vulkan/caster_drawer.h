@@ -118,7 +118,7 @@ class GNOMON_API CasterDrawer {
 public:
     /// Throws Error when a function is missing, a format of the vertices is none of those above or memory runs out.
     CasterDrawer(const DeviceView& device, const CasterDrawerOptions& options);
-    /// Waits for nothing: the GPU has finished whatever it recorded.
+    /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~CasterDrawer();
     CasterDrawer(const CasterDrawer&) = delete;
     CasterDrawer& operator=(const CasterDrawer&) = delete;

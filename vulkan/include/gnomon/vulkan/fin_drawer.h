@@ -31,7 +31,7 @@ class GNOMON_API FinDrawer {
 public:
     /// Makes its pipelines. Throws Error when a function is missing or memory runs out.
     FinDrawer(const DeviceView& device, const FinDrawerOptions& options);
-    /// Waits for nothing: the GPU has finished whatever it recorded.
+    /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~FinDrawer();
     FinDrawer(const FinDrawer&) = delete;
     FinDrawer& operator=(const FinDrawer&) = delete;

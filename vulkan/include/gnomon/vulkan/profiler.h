@@ -30,7 +30,7 @@ class GNOMON_API Profiler {
 public:
     /// Throws Error when a function is missing or memory runs out.
     Profiler(const DeviceView& device, std::uint32_t frames_in_flight, std::uint32_t max_passes);
-    /// Waits for nothing: the GPU has finished whatever it recorded.
+    /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~Profiler();
     Profiler(const Profiler&) = delete;
     Profiler& operator=(const Profiler&) = delete;

@@ -278,8 +278,8 @@ struct WarmUp {
 ///   recordMaps(), recordMask() of views with gpu_cascade before recordBounds()      Error
 ///   questions with a slot, options or a view that there is not                      zeros, or empty
 /// Not found out, because only the driver knows: handles of another device, images in another layout, of another format
-/// or smaller than said, and a slot whose last frame has not finished. Nor a frame whose recordMaps() was left out: a
-/// host may record it elsewhere. All that its maps cover is then dark.
+/// or smaller than said, and a slot whose last frame has not finished.
+/// Not found out either: a frame without recordMaps(). Its mask reads what memory held before.
 ///
 /// Draws what a plan says by the options that the plan carries (Plan::options): it has none of its own, so another
 /// technique, or another for each light, is another plan. Not thread-safe.
@@ -292,7 +292,7 @@ class GNOMON_API ShadowRenderer {
 public:
     /// Throws Error when a handle of the device or a function is missing or memory runs out.
     ShadowRenderer(const DeviceView& device, const ShadowRendererOptions& options);
-    /// Waits for nothing: the GPU has finished whatever it recorded.
+    /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~ShadowRenderer();
     ShadowRenderer(const ShadowRenderer&) = delete;
     ShadowRenderer& operator=(const ShadowRenderer&) = delete;

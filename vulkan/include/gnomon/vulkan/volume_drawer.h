@@ -53,7 +53,7 @@ class GNOMON_API VolumeDrawer {
 public:
     /// Throws Error when a function is missing or memory runs out.
     VolumeDrawer(const DeviceView& device, const VolumeDrawerOptions& options);
-    /// Waits for nothing: the GPU has finished whatever it recorded.
+    /// Does not wait: destroy it when the GPU has finished what it recorded.
     ~VolumeDrawer();
     VolumeDrawer(const VolumeDrawer&) = delete;
     VolumeDrawer& operator=(const VolumeDrawer&) = delete;
