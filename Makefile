@@ -19,7 +19,7 @@ RUN_TESTS = rm -rf $(1)/results && mkdir $(1)/results && status=0 && \
       --output-junit $(CURDIR)/$(1)/results/ctest.xml $(CTEST_FLAGS) || status=$$?; } && \
     tools/cases.py count $(1)/results && exit $$status
 FUZZ_SECONDS ?= 60
-PICTURE := $(CURDIR)/out/rts.png
+PICTURE := $(CURDIR)/out/demo.png
 COMPARISON := $(CURDIR)/out/compare
 
 .PHONY: help

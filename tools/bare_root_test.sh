@@ -32,9 +32,9 @@ for target in "${targets[@]}"; do
     echo "bare root: make $target"
     bare_root_run "$root" "cd /src/gnomon && make $target" || { echo "bare root: make $target FAILED" >&2; exit 1; }
 done
-if [[ -f $root/src/gnomon/out/rts.png ]]; then
+if [[ -f $root/src/gnomon/out/demo.png ]]; then
     mkdir -p out
-    cp "$root/src/gnomon/out/rts.png" out/bare_root_rts.png
-    echo "bare root: its picture is out/bare_root_rts.png"
+    cp "$root/src/gnomon/out/demo.png" out/bare_root_demo.png
+    echo "bare root: its picture is out/bare_root_demo.png"
 fi
 echo "bare root: ${targets[*]} passed"
