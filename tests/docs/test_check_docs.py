@@ -36,8 +36,9 @@ cat <<'END'
    "option": false, "subcommands": ["render"]}],
  "claims": [{"id": "2006-duel", "document": "2006", "claim": "all do a | b", "commands": ["gnomon render rts --map-size 64"],
    "quick": true, "recorded": "holds", "why": "No way is left."}],
- "choices": [{"choice": "filter", "values": [{"name": "vsm", "source": "W. Donnelly, A. Lauritzen, Variance, 2006"},
-   {"name": "hard", "source": "L. Williams, 1978"}, {"name": "auto", "source": "S. Xie, 2007"}]}]}
+ "choices": [{"choice": "filter", "values": [{"name": "vsm", "source": "W. Donnelly, A. Lauritzen, Variance, 2006",
+   "page": "docs/techniques/vsm.md"}, {"name": "hard", "source": "L. Williams, 1978", "page": "docs/conventions.md"},
+   {"name": "auto", "source": "S. Xie, 2007", "page": "docs/techniques/auto.md"}]}]}
 END
 """
 FAULTS = [
