@@ -1,8 +1,10 @@
 # Warnings, sanitizers and the compiler cache, for every target of the project.
 find_program(GNOMON_CCACHE ccache)
 if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    # It goes by the includes that the compiler names, in place of preprocessing each source that it has not.
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true ${GNOMON_CCACHE})
+    # It goes by the includes that the compiler names, in place of preprocessing each source that it has not, and holds
+    # what it has compiled for every checkout, wherever that lies.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true CCACHE_NOHASHDIR=true
+                                    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${GNOMON_CCACHE})
 endif()
 
 add_library(gnomon_options INTERFACE)
