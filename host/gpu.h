@@ -46,6 +46,8 @@ public:
     /// Validation messages so far (warnings and errors), in order. With `validate`, the program fails if any.
     [[nodiscard]] std::vector<std::string> messages() const;
     /// On-disk pipeline cache, loaded from and stored to the user's cache folder; VK_NULL_HANDLE never.
+    /// Whether images of this format can be used in all these ways, with optimal tiling.
+    [[nodiscard]] bool formatCan(VkFormat format, VkFormatFeatureFlags uses) const;
     [[nodiscard]] VkPipelineCache pipelineCache() const;
 
     [[nodiscard]] double patience_s() const;

@@ -24,10 +24,13 @@ inline constexpr std::string_view kSoftenPass = "soften";
 /// All passes of one name of a frame, added up.
 struct PassWork {
     std::string name;
-    Spread ms;              // over the frames; of one that has no such pass: 0 ms
-    vulkan::PassRecord sum; // counts of the last frame, without name and time
+    std::optional<Spread> ms; // over the frames; of one that has no such pass: 0 ms. None without timestamps
+    vulkan::PassRecord sum;   // counts of the last frame, without name and time
     std::optional<PassLeast> least;
 };
+
+/// Adds one part to a sum of milliseconds, which is none once a part is.
+void addTime(std::optional<double>& sum_ms, const std::optional<double>& part_ms);
 
 /// In the order of their first turn. `least` of the passes that it knows.
 [[nodiscard]] std::vector<PassWork> passesOf(std::span<const host::FrameTimes> samples, const LeastByPass& least);

@@ -2,6 +2,7 @@
 // What repeated times come to.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace gnomon::lab {
@@ -12,5 +13,7 @@ struct Spread {
 };
 /// Quartiles by linear interpolation between order statistics (Hyndman & Fan 1996, type 7). Empty: zeros.
 [[nodiscard]] Spread spreadOf(std::vector<double> values);
+/// The same of values that may be missing: nothing as soon as one is.
+[[nodiscard]] std::optional<Spread> spreadOfMeasured(const std::vector<std::optional<double>>& values);
 
 } // namespace gnomon::lab

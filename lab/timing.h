@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,18 +38,20 @@ struct Contestant {
 };
 
 /// Milliseconds of one frame by the stages that results name. `filter` is 0 for filters that need no pass of their own.
+/// None: the device has no timestamps. `plan` and `frame` are the CPU's, and always there.
 struct StageTimes {
-    double plan = 0.0;
-    double maps = 0.0;
-    double filter = 0.0;
-    double mask = 0.0;
-    double frame = 0.0;
+    std::optional<double> plan = 0.0;
+    std::optional<double> maps = 0.0;
+    std::optional<double> filter = 0.0;
+    std::optional<double> mask = 0.0;
+    std::optional<double> frame = 0.0;
 };
 [[nodiscard]] StageTimes stagesOf(const host::FrameTimes& times);
 
 /// Work that does not depend on the machine, of one frame.
 struct Counters {
     std::uint64_t texels_rendered = 0; // of all tiles that were drawn, and of kept layers
+    bool has_statistics = false;       // the device counts: the next four hold
     std::uint64_t vertex_invocations = 0;
     std::uint64_t primitives = 0;
     std::uint64_t fragment_invocations = 0;

@@ -45,7 +45,7 @@ function passBars() {
       }
     };
   };
-  return chartPanel({ title: "Where a frame\u2019s time goes", wide: true, height: 130 + 34 * rows.length, note: "Every map drawn anew in every frame; the first bar is the frame without shadows.",
+  return chartPanel({ title: "Where a frame\u2019s time goes", wide: true, height: 130 + 34 * rows.length, note: ["Every map drawn anew in every frame; the first bar is the frame without shadows.", ...(result.not_measured ?? [])].join(" "),
     label: `Passes of ${rows.length} frames, stacked. The tables have all numbers.` }, config);
 }
 

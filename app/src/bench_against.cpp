@@ -36,7 +36,8 @@ void compareCounts(Json& counters, const std::string& technique, std::string_vie
         const auto was = before.find(name);
         const auto is = now.find(name);
         if (in_both && (was == before.end() || is == now.end())) {
-            continue; // a device that does not count it
+            counters["not_compared"] = true; // one of the devices does not count it
+            continue;
         }
         const std::uint64_t was_count = was == before.end() ? 0 : was->second;
         const std::uint64_t is_count = is == now.end() ? 0 : is->second;
@@ -83,6 +84,7 @@ void compareTechnique(Json& counters, Json& times, const TechniqueFigures& befor
         compareCounts(counters, now.name, pass.name, in_both ? same->counts : kNone.counts, pass.counts, in_both);
         if (in_both) {
             compareTimes(times, now.name, pass.name, same->time, pass.time);
+            times["not_compared"] = times["not_compared"].get<bool>() || !same->time.median || !pass.time.median;
         }
     }
     for (const PassFigures& pass : before.passes) {
@@ -185,7 +187,7 @@ void requireComparable(const BenchFigures& earlier, const Json& head, const std:
 
 Json againstJson(const BenchFigures& earlier, const BenchFigures& now)
 {
-    const Json lists{{"grew", Json::array()}, {"shrank", Json::array()}};
+    const Json lists{{"grew", Json::array()}, {"shrank", Json::array()}, {"not_compared", false}};
     Json counters = lists;
     Json times{{"judged", false}};
     times.update(lists);
@@ -205,8 +207,14 @@ Json againstJson(const BenchFigures& earlier, const BenchFigures& now)
 
 std::string againstText(const Json& against)
 {
+    const auto partial = [&](const char* what, std::string_view sentence) {
+        return against.at(what).at("not_compared").get<bool>() ? fmt::format("{}\n", sentence) : std::string();
+    };
     return fmt::format("\nagainst {}\n", textAt(against, "/file")) + countersTable(against.at("counters")) +
-           timesTable(against.at("times")) + listLine("not in this run", against.at("only_before")) +
+           partial("counters", "some counters are not compared: they are not measured on one of the devices") +
+           timesTable(against.at("times")) +
+           partial("times", "some times of passes are not compared: they are not measured on one of the devices") +
+           listLine("not in this run", against.at("only_before")) +
            listLine("not in the earlier run", against.at("only_now"));
 }
 

@@ -114,12 +114,17 @@ std::string facts(const Json& result)
     for (const Json& light : result.at("lights")) {
         lights += fmt::format("{}{} ({})", lights.empty() ? "" : ", ", textAt(light, "/name"), textAt(light, "/type"));
     }
+    std::string missing;
+    for (const Json& sentence : result.at("not_measured")) {
+        missing += (missing.empty() ? "" : "; ") + sentence.get<std::string>();
+    }
+    missing = missing.empty() ? "nothing" : missing;
     return "<dl class=\"facts\">\n" +
            definition("scene", fmt::format("{} ({})", textAt(result, "/scene"), textAt(result, "/scene_hash"))) +
            definition("camera", textAt(result, "/camera")) + definition("lights", lights) +
            definition("size", textAt(result, "/settings/size")) +
            definition("device", fmt::format("{} ({})", textAt(result, "/device"), textAt(result, "/driver"))) +
-           definition("version", textAt(result, "/version")) +
+           definition("not measured", missing) + definition("version", textAt(result, "/version")) +
            definition("result", "result.json: every number, and the settings to repeat it") + "</dl>\n";
 }
 

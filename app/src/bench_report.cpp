@@ -23,7 +23,8 @@ std::string ratioCell(const lab::Timed& technique)
 
 std::string iqrCell(const std::vector<host::FrameTimes>& samples)
 {
-    return cell(samples.size() > 1 ? std::optional(spreadOfStage(samples, stages().back()).iqr) : std::nullopt, 3);
+    const std::optional<lab::Spread> frame = spreadOfStage(samples, stages().back());
+    return cell(frame && samples.size() > 1 ? std::optional(frame->iqr) : std::nullopt, 3);
 }
 
 /// What making maps filterable took: a line for each technique that blurs.
@@ -67,7 +68,13 @@ std::string passTable(const BenchResult& result)
     const lab::Timed& timed = result.techniques.front().redrawn;
     const std::vector<lab::PassWork> without = lab::passesOf(result.baseline.samples, {});
     const double frame_ms = frameMedian(timed.samples);
-    double outside_ms = frame_ms;
+    std::optional<double> outside_ms = frame_ms;
+    const auto partOf = [](const std::optional<lab::Spread>& ms, double lab::Spread::*part) {
+        return ms ? std::optional(*ms.*part) : std::nullopt;
+    };
+    const auto shareOf = [frame_ms](const std::optional<double>& ms) {
+        return ms && frame_ms > 0.0 ? std::optional(*ms / frame_ms) : std::nullopt;
+    };
     TextTable table{{"pass", "ms", "iqr", "share", "without", "vertices", "fragments", "compute", "draws", "least MiB"},
                     {}};
     const auto count = [](const lab::PassWork& pass, std::uint64_t vulkan::PassRecord::*member) {
@@ -76,19 +83,19 @@ std::string passTable(const BenchResult& result)
     for (const lab::PassWork& pass : lab::passesOf(timed.samples, timed.least)) {
         const auto same = std::ranges::find(without, pass.name, &lab::PassWork::name);
         constexpr double kMiB = 1024.0 * 1024.0;
-        outside_ms -= pass.ms.median;
+        const std::optional<double> median = partOf(pass.ms, &lab::Spread::median);
+        outside_ms = outside_ms && median ? std::optional(*outside_ms - *median) : std::nullopt;
         table.rows.push_back(
-            {pass.name, cell(pass.ms.median, 3),
-             cell(timed.samples.size() > 1 ? std::optional(pass.ms.iqr) : std::nullopt, 3),
-             cell(pass.ms.median / frame_ms, 3),
-             cell(same != without.end() ? std::optional(same->ms.median) : std::nullopt, 3),
+            {pass.name, cell(median, 3),
+             cell(timed.samples.size() > 1 ? partOf(pass.ms, &lab::Spread::iqr) : std::nullopt, 3),
+             cell(shareOf(median), 3),
+             cell(same != without.end() ? partOf(same->ms, &lab::Spread::median) : std::nullopt, 3),
              count(pass, &vulkan::PassRecord::vertex_invocations),
              count(pass, &vulkan::PassRecord::fragment_invocations),
              count(pass, &vulkan::PassRecord::compute_invocations), fmt::format("{}", pass.sum.draws),
              cell(pass.least ? std::optional(static_cast<double>(pass.least->bytes) / kMiB) : std::nullopt, 2)});
     }
-    table.rows.push_back({"outside", cell(outside_ms, 3), std::string(kNoNumber),
-                          cell(frame_ms > 0.0 ? outside_ms / frame_ms : 0.0, 3)});
+    table.rows.push_back({"outside", cell(outside_ms, 3), std::string(kNoNumber), cell(shareOf(outside_ms), 3)});
     table.rows.back().resize(table.columns.size(), std::string(kNoNumber));
     return "\n" + fittedTableText(table);
 }
@@ -171,6 +178,7 @@ Json benchJson(const BenchResult& result, const Shot& shot, const Settings& sett
     baseline["memory_bytes"] = result.baseline_bytes;
     baseline["passes"] = passesJson(result.baseline);
     json["baseline"] = baseline;
+    json["not_measured"] = notMeasured(result.baseline.samples);
     json["results"] = Json::array();
     for (const BenchedTechnique& technique : result.techniques) {
         json["results"].push_back(techniqueJson(technique));
@@ -209,7 +217,8 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
     for (const BenchedTechnique& technique : result.techniques) {
         text += fmt::format("{:<{}}", describeTechnique(technique.settings), width);
         for (const Stage& stage : stages()) {
-            text += fmt::format("{:>9.3f}", spreadOfStage(technique.redrawn.samples, stage).median);
+            const std::optional<lab::Spread> spread = spreadOfStage(technique.redrawn.samples, stage);
+            text += fmt::format("{:>9}", cell(spread ? std::optional(spread->median) : std::nullopt, 3));
         }
         const std::optional<lab::Timed>& still = technique.still;
         text += fmt::format("{:>8}{:>7}{:>9.3f}{:>7}{:>9}{:>7}{:>9.2f}\n", iqrCell(technique.redrawn.samples),
@@ -218,6 +227,9 @@ std::string benchTable(const BenchResult& result, const Shot& shot, const Settin
                             cell(still ? std::optional(frameMedian(still->samples)) : std::nullopt, 3),
                             still ? ratioCell(*still) : std::string(kNoNumber),
                             static_cast<double>(totalBytes(technique.redrawn.added_memory)) / (1024.0 * 1024.0));
+    }
+    for (const std::string& missing : notMeasured(result.techniques.front().redrawn.samples)) {
+        text += missing + "\n";
     }
     return text + passTable(result) + blurTable(result) + cascadeTable(result) +
            (settings.path.empty() ? "" : reuseTable(result));

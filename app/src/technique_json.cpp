@@ -41,14 +41,31 @@ std::span<const Stage> stages()
     return kStages;
 }
 
-lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
+std::optional<lab::Spread> spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage)
 {
-    std::vector<double> values;
+    std::vector<std::optional<double>> values;
     values.reserve(samples.size());
     for (const host::FrameTimes& sample : samples) {
         values.push_back(lab::stagesOf(sample).*stage.member);
     }
-    return lab::spreadOf(std::move(values));
+    return lab::spreadOfMeasured(values);
+}
+
+std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples)
+{
+    std::vector<std::string> missing;
+    const auto lacks = [&](auto&& is_there) {
+        return std::ranges::any_of(samples, [&](const host::FrameTimes& frame) {
+            return std::ranges::any_of(frame.passes, [&](const Record& pass) { return !is_there(pass); });
+        });
+    };
+    if (lacks([](const Record& pass) { return pass.milliseconds.has_value(); })) {
+        missing.emplace_back("times of passes are not measured on this device: its queue has no timestamps");
+    }
+    if (lacks([](const Record& pass) { return pass.has_statistics; })) {
+        missing.emplace_back("invocations are not measured on this device: it has no pipelineStatisticsQuery");
+    }
+    return missing;
 }
 
 Json numberJson(double value)
@@ -68,7 +85,7 @@ Json vectorJson(const glm::dvec3& vector)
 
 double frameMedian(const std::vector<host::FrameTimes>& samples)
 {
-    return spreadOfStage(samples, kStages.back()).median;
+    return spreadOfStage(samples, kStages.back()).value_or(lab::Spread()).median;
 }
 
 std::uint64_t totalBytes(const MemoryByPurpose& memory)
@@ -83,10 +100,10 @@ std::uint64_t totalBytes(const MemoryByPurpose& memory)
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples)
 {
     for (const Stage& stage : kStages) {
-        const lab::Spread spread = spreadOfStage(samples, stage);
-        json[prefix + "time_ms"][std::string(stage.name)] = rounded(spread.median);
+        const std::optional<lab::Spread> spread = spreadOfStage(samples, stage);
+        json[prefix + "time_ms"][std::string(stage.name)] = spread ? Json(rounded(spread->median)) : Json(nullptr);
         json[prefix + "iqr_ms"][std::string(stage.name)] =
-            samples.size() > 1 ? Json(rounded(spread.iqr)) : Json(nullptr);
+            spread && samples.size() > 1 ? Json(rounded(spread->iqr)) : Json(nullptr);
     }
 }
 
@@ -151,9 +168,9 @@ Json passesJson(const lab::Timed& timed)
     const double frame_ms = frameMedian(timed.samples);
     Json passes = Json::array();
     for (const lab::PassWork& pass : lab::passesOf(timed.samples, timed.least)) {
-        Json json{{"name", pass.name}, {"ms", rounded(pass.ms.median)}};
-        json["iqr_ms"] = timed.samples.size() > 1 ? Json(rounded(pass.ms.iqr)) : Json(nullptr);
-        json["share"] = frame_ms > 0.0 ? Json(rounded(pass.ms.median / frame_ms)) : Json(nullptr);
+        Json json{{"name", pass.name}, {"ms", pass.ms ? Json(rounded(pass.ms->median)) : Json(nullptr)}};
+        json["iqr_ms"] = pass.ms && timed.samples.size() > 1 ? Json(rounded(pass.ms->iqr)) : Json(nullptr);
+        json["share"] = pass.ms && frame_ms > 0.0 ? Json(rounded(pass.ms->median / frame_ms)) : Json(nullptr);
         for (const PassCount& count : kPassCounts) {
             json[std::string(count.name)] =
                 count.by_device && !pass.sum.has_statistics ? Json(nullptr) : Json(count.of(pass.sum));
@@ -195,6 +212,9 @@ Json countersJson(const lab::Counters& counters)
 {
     const vulkan::FilterCost& filter = counters.filter;
     const double ratio = filterRatio(filter);
+    const auto counted = [&](std::uint64_t count) {
+        return counters.has_statistics ? Json(count) : Json(nullptr);
+    };
     return {{"texels_rendered", counters.texels_rendered},
             {"texels_filtered", filter.texels},
             {"filter_taps", filter.taps},
@@ -202,10 +222,10 @@ Json countersJson(const lab::Counters& counters)
             {"filter_bytes_minimum", filter.bytes_minimum},
             {"filter_bytes_ratio", ratio > 0.0 ? numberJson(rounded(ratio)) : Json(nullptr)},
             {"blur_path", filter.texels > 0 ? Json(nameOf(filter.path)) : Json(nullptr)},
-            {"vertex_invocations", counters.vertex_invocations},
-            {"primitives", counters.primitives},
-            {"fragment_invocations", counters.fragment_invocations},
-            {"compute_invocations", counters.compute_invocations},
+            {"vertex_invocations", counted(counters.vertex_invocations)},
+            {"primitives", counted(counters.primitives)},
+            {"fragment_invocations", counted(counters.fragment_invocations)},
+            {"compute_invocations", counted(counters.compute_invocations)},
             {"draws", counters.draws},
             {"passes", counters.passes},
             {"bytes_minimum", counters.bytes_minimum}};

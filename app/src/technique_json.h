@@ -30,16 +30,21 @@ using MemoryByPurpose = std::vector<std::pair<std::string, std::uint64_t>>;
 /// A stage of lab::StageTimes by its name in results. In order; the last is the whole frame.
 struct Stage {
     std::string_view name;
-    double lab::StageTimes::*member;
+    std::optional<double> lab::StageTimes::*member;
 };
 [[nodiscard]] std::span<const Stage> stages();
-/// Milliseconds; zeros without samples.
-[[nodiscard]] lab::Spread spreadOfStage(const std::vector<host::FrameTimes>& samples, const Stage& stage);
+/// Milliseconds; zeros without samples, nothing where the device does not measure it.
+[[nodiscard]] std::optional<lab::Spread> spreadOfStage(const std::vector<host::FrameTimes>& samples,
+                                                       const Stage& stage);
 /// Median of the whole frame, ms; 0 without samples.
 [[nodiscard]] double frameMedian(const std::vector<host::FrameTimes>& samples);
 [[nodiscard]] std::uint64_t totalBytes(const MemoryByPurpose& memory);
 
-/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; of one sample there is no range: null.
+/// What the device did not measure of these frames, as sentences; empty when it measured all.
+[[nodiscard]] std::vector<std::string> notMeasured(const std::vector<host::FrameTimes>& samples);
+
+/// PREFIXtime_ms and PREFIXiqr_ms: {"plan", "maps", "filter", "mask", "frame"}; null is what is not measured, and the
+/// range of one sample.
 void addTimes(Json& json, const std::string& prefix, const std::vector<host::FrameTimes>& samples);
 /// "memory_bytes" and "memory_by_purpose_bytes".
 void addMemory(Json& json, const MemoryByPurpose& memory);
@@ -48,7 +53,7 @@ void addMemory(Json& json, const MemoryByPurpose& memory);
 [[nodiscard]] Json mapJson(const MapPages& atlas, const ShadowOptions& options);
 /// Every pass of the host and the library in order: [{"name", "ms", "iqr_ms", "share", counts, "texels",
 /// "bytes_minimum"}]. Passes of one name are one, as the stages are. Null: iqr_ms of one sample, share where the clock
-/// measured no frame, counts that the device did not give, and what is not defined for the pass.
+/// measured no frame, times and counts that the device did not give, and what is not defined for the pass.
 [[nodiscard]] Json passesJson(const lab::Timed& timed);
 /// A count of each pass by its name in results.
 struct PassCount {

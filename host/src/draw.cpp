@@ -148,7 +148,12 @@ void FrameRenderer::Impl::learnRate()
     double ms = 0.0;
     for (const vulkan::PassRecord& pass : profiler.results(slot)) {
         const std::string_view name = pass.name;
-        ms += name == "shadow maps" || name == "shadow filter" || name == "maps of tints" ? pass.milliseconds : 0.0;
+        if (name == "shadow maps" || name == "shadow filter" || name == "maps of tints") {
+            if (!pass.milliseconds) {
+                return; // no timestamps: the rate stays unknown, and the budget bounds nothing
+            }
+            ms += *pass.milliseconds;
+        }
     }
     if (drawn_by->warm) {
         drawn_by->draw_rate.take(now().drawn_texels, ms);
@@ -238,7 +243,7 @@ void FrameRenderer::Impl::choosePipelines()
     }
     gbuffer.shape = plan != nullptr ? shadows->reads : GBufferShape{};
     gbuffer.pipelines = &pipelines.gbufferFor(gbuffer.shape);
-    screen->needGBuffer(gbuffer.shape);
+    screen->needGBuffer(pipelines.gbuffer_formats, gbuffer.shape);
     occluded = options.ambient_occlusion.on && options.reflection == Reflection::materials;
     by.occluded = occluded;
     if (occluded) {

@@ -70,7 +70,7 @@ std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device)
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & kNeeded) == kNeeded && families[i].timestampValidBits > 0) {
+        if ((families[i].queueFlags & kNeeded) == kNeeded) {
             return i;
         }
     }
@@ -97,13 +97,14 @@ std::string refusalOf(VkInstance instance, VkPhysicalDevice device, const GpuOpt
     view.physical_device = device;
     view.get_instance_proc_addr = vkGetInstanceProcAddr;
     std::array<char, 1024> missing{};
-    vulkan::missingFeatures(view, missing.data(), missing.size(), {.clip_planes = true});
+    vulkan::missingFeatures(view, missing.data(), missing.size(),
+                            {.filterable = true, .caster_drawer = true, .clip_planes = true});
     if (missing[0] != '\0') {
         return std::string("it lacks ") + missing.data();
     }
     const auto family = graphicsFamily(device);
     if (!family.has_value()) {
-        return "it has no queue for graphics, compute and timestamps";
+        return "it has no queue for graphics and compute";
     }
     const bool shows = options.presents == nullptr || (hasDeviceExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
                                                        options.presents(instance, device, *family));
@@ -256,10 +257,9 @@ void Gpu::Impl::makeDevice(const GpuOptions& options)
     queue_info.queueCount = 1;
     queue_info.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    view.layered = vulkan::supportsLayered(view);
-    view.depth_bounds = vulkan::supportsDepthBounds(view);
-    info.pNext =
-        &vulkan::requiredFeatures({.layered = view.layered, .clip_planes = true, .depth_bounds = view.depth_bounds});
+    view.features = vulkan::supportedFeatures(view);
+    view.queue_family = family;
+    info.pNext = &vulkan::requiredFeatures(view.features);
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
@@ -352,6 +352,13 @@ bool Gpu::software() const
 {
     return isSoftware(impl_->properties);
 }
+bool Gpu::formatCan(VkFormat format, VkFormatFeatureFlags uses) const
+{
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(impl_->view.physical_device, format, &properties);
+    return (properties.optimalTilingFeatures & uses) == uses;
+}
+
 VkPipelineCache Gpu::pipelineCache() const
 {
     return impl_->cache;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <tuple>
 
 namespace gnomon::host {
 namespace {
@@ -78,15 +79,25 @@ struct FixedState {
     VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
     VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    std::array<VkPipelineColorBlendAttachmentState, kGBufferFormats.size()> attachments{};
+    std::array<VkPipelineColorBlendAttachmentState, std::tuple_size_v<GBufferFormats>> attachments{};
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
 };
 
 } // namespace
 
+GBufferFormats gbufferFormats(const Gpu& gpu)
+{
+    constexpr VkFormatFeatureFlags kUses = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    const auto first = [&](VkFormat small, VkFormat promised) {
+        return gpu.formatCan(small, kUses) ? small : promised;
+    };
+    return {VK_FORMAT_R32G32B32A32_UINT, first(VK_FORMAT_R16G16_SNORM, VK_FORMAT_R32G32_SFLOAT), VK_FORMAT_R32_UINT,
+            first(VK_FORMAT_R16G16B16A16_SNORM, VK_FORMAT_R32G32B32A32_SFLOAT)};
+}
+
 Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& materials, const DrawTable& table)
-    : gpu_(gpu), names_(names), table_(table)
+    : gbuffer_formats(gbufferFormats(gpu)), gpu_(gpu), names_(names), table_(table)
 {
     makeLayouts(materials.layout());
     physical_only_ =
@@ -294,9 +305,9 @@ const KindPipelines& Pipelines::gbufferFor(const GBufferShape& shape)
     if (known) {
         return *known;
     }
-    std::array<VkFormat, kGBufferFormats.size()> formats{};
+    std::array<VkFormat, std::tuple_size_v<GBufferFormats>> formats{};
     for (std::size_t i = 0; i < shape.count(); ++i) {
-        formats[i] = kGBufferFormats[shape.image(i)];
+        formats[i] = gbuffer_formats[shape.image(i)];
     }
     Wish wish;
     wish.scene = true;

@@ -25,8 +25,10 @@ inline constexpr VkFormat kPictureFormat = VK_FORMAT_R8G8B8A8_UNORM;
 inline constexpr VkFormat kOcclusionFormat = VK_FORMAT_R32_UINT; // host/shaders/occlusion_texel.glsl
 inline constexpr std::uint32_t kFrameBindings = 12;              // of set 0: numbers, and images from 1 on
 /// What shading reads, with the object's id (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
-inline constexpr std::array<VkFormat, 4> kGBufferFormats{VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R16G16_SNORM,
-                                                         VK_FORMAT_R32_UINT, VK_FORMAT_R16G16B16A16_SNORM};
+using GBufferFormats = std::array<VkFormat, 4>;
+/// 16-bit snorm for normals and smooth surfaces where the device draws to it, which none has to; else 32-bit floats,
+/// which all do. So a normal never has fewer bits than kNormalError (gnomon/shared/bias.h) is made for.
+[[nodiscard]] GBufferFormats gbufferFormats(const Gpu& gpu);
 
 /// Which of them a frame needs besides the first two. They are attached without a gap, in their order.
 struct GBufferShape {
@@ -34,7 +36,7 @@ struct GBufferShape {
     bool smooth = false;
 
     [[nodiscard]] std::size_t count() const { return 2U + (ids ? 1U : 0U) + (smooth ? 1U : 0U); }
-    /// Which of kGBufferFormats attachment `i` is.
+    /// Which of GBufferFormats attachment `i` is.
     [[nodiscard]] std::size_t image(std::size_t i) const { return i == 2 && !ids ? 3 : i; }
 };
 
@@ -156,6 +158,7 @@ public:
     [[nodiscard]] VkPipeline occlusionSearch();
     [[nodiscard]] VkPipeline occlusionSmooth();
 
+    const GBufferFormats gbuffer_formats;
     OwnedSetLayout frame_layout;
     OwnedPipelineLayout scene_layout;    // set 0 frame, set 1 material; pushed: scene::ClipPlanes of what is cut
     OwnedPipelineLayout screen_layout;   // set 0 frame

@@ -65,6 +65,7 @@ struct ReadBack::Impl {
         const void* glow = nullptr;
         const void* depth = nullptr;
         const void* normals = nullptr;
+        Number normal_number = Number::other;
         const void* ids = nullptr;
     } at;
     /// One channel of a layer of the masks.
@@ -171,17 +172,20 @@ void ReadBack::Impl::readGeometry(Picture& picture) const
         *picture.object_ids.pixel(x, y) = *picture.depth.pixel(x, y) != 0.0F ? surface[3] : 0;
     });
     picture.normals = ImageF(shown.width, shown.height, 3);
-    using Normals = std::array<std::int16_t, 2>;
-    const auto snorm = [](std::int16_t v) {
-        return std::max(static_cast<float>(v) / 32767.0F, -1.0F);
-    };
-    eachPixel<Normals>(at.normals, drawn, shown, [&](std::uint32_t x, std::uint32_t y, const Normals& e) {
+    const auto put = [&](std::uint32_t x, std::uint32_t y, const glm::vec2& e) {
         glm::vec3 n{0.0F}; // the background has no normal
         if (*picture.object_ids.pixel(x, y) != 0) {
-            n = shared::octahedralDecode({snorm(e[0]), snorm(e[1])});
+            n = shared::octahedralDecode(e);
         }
         std::copy_n(&n.x, 3, picture.normals.pixel(x, y));
-    });
+    };
+    if (at.normal_number == Number::single) {
+        eachPixel<glm::vec2>(at.normals, drawn, shown, put);
+    } else {
+        eachPixel<std::uint32_t>(at.normals, drawn, shown, [&](std::uint32_t x, std::uint32_t y, std::uint32_t e) {
+            put(x, y, glm::unpackSnorm2x16(e));
+        });
+    }
 }
 
 namespace {
@@ -222,6 +226,7 @@ void ReadBack::record(VkCommandBuffer commands, const FinishedFrame& frame)
     self.at.glow = copy(self.wanted.glow, frame.glow);
     self.at.depth = copy(self.wanted.geometry, frame.depth);
     self.at.normals = copy(self.wanted.geometry, frame.normals);
+    self.at.normal_number = formOf(frame.normals.format).number;
     self.at.ids = copy(self.wanted.geometry, frame.ids);
     self.recordMasks(commands, frame);
     TexelCopies::end(commands);

@@ -74,7 +74,7 @@ void FrameRenderer::Impl::recordGBuffer(VkCommandBuffer cmd)
     const Targets& targets = screen->targets;
     memory.names().begin(cmd, "g-buffer");
     profiler.beginPass(cmd, "g-buffer");
-    std::array<VkRenderingAttachmentInfo, kGBufferFormats.size()> colours{};
+    std::array<VkRenderingAttachmentInfo, std::tuple_size_v<GBufferFormats>> colours{};
     const std::size_t count = gbuffer.shape.count();
     for (std::size_t i = 0; i < count; ++i) {
         const Image& image = targets.gbuffer[gbuffer.shape.image(i)];

@@ -29,7 +29,10 @@ public:
     /// slot's last frame.
     [[nodiscard]] VkDescriptorSet frameSet(std::uint32_t slot, VkImageView mask) const;
     /// Makes what a frame of deferred shading draws to. Throws Error.
-    void needGBuffer(const GBufferShape& shape) { targets.needGBuffer(memory_, shape); }
+    void needGBuffer(const GBufferFormats& formats, const GBufferShape& shape)
+    {
+        targets.needGBuffer(memory_, formats, shape);
+    }
     /// Likewise for ambient occlusion.
     void needOcclusion();
     /// An image for masks of someone else's, with so many layers at least.

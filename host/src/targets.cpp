@@ -31,14 +31,14 @@ Targets::Targets(Memory& memory, VkExtent2D drawn_size, VkExtent2D shown_size, b
     picture = make(memory, "picture", kPictureFormat, shown, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
 }
 
-void Targets::needGBuffer(Memory& memory, const GBufferShape& shape)
+void Targets::needGBuffer(Memory& memory, const GBufferFormats& formats, const GBufferShape& shape)
 {
-    constexpr std::array<const char*, kGBufferFormats.size()> kNames{"surfaces", "normals", "receivers",
-                                                                     "smooth surfaces"};
+    constexpr std::array<const char*, std::tuple_size_v<GBufferFormats>> kNames{"surfaces", "normals", "receivers",
+                                                                                "smooth surfaces"};
     for (std::size_t i = 0; i < shape.count(); ++i) {
         const std::size_t which = shape.image(i);
         if (gbuffer[which].handle == VK_NULL_HANDLE) {
-            gbuffer[which] = make(memory, kNames[which], kGBufferFormats[which], drawn, kSampledColour);
+            gbuffer[which] = make(memory, kNames[which], formats[which], drawn, kSampledColour);
         }
     }
 }

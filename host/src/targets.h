@@ -4,6 +4,8 @@
 
 #include "pipelines.h"
 
+#include <tuple>
+
 namespace gnomon::host {
 
 struct Targets {
@@ -12,13 +14,13 @@ struct Targets {
     VkExtent2D drawn; // everything up to the tone curve: twice `shown` on each side with supersampling
     VkExtent2D shown;
     Image depth;
-    std::array<Image, kGBufferFormats.size()> gbuffer; // null: not yet needed
+    std::array<Image, std::tuple_size_v<GBufferFormats>> gbuffer; // null: not yet needed
     Image light;
     Image toned; // before fxaa; null without it
     Image picture;
 
     /// Makes the images of the G-buffer that are not there yet. Throws Error.
-    void needGBuffer(Memory& memory, const GBufferShape& shape);
+    void needGBuffer(Memory& memory, const GBufferFormats& formats, const GBufferShape& shape);
     [[nodiscard]] const Image& surfaces() const { return gbuffer[0]; }
     [[nodiscard]] const Image& normals() const { return gbuffer[1]; }
     [[nodiscard]] const Image& receivers() const { return gbuffer[2]; } // ids

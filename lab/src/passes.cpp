@@ -31,10 +31,15 @@ std::optional<PassLeast> leastOf(std::string_view name, const LeastByPass& least
 
 } // namespace
 
+void addTime(std::optional<double>& sum_ms, const std::optional<double>& part_ms)
+{
+    sum_ms = sum_ms && part_ms ? std::optional(*sum_ms + *part_ms) : std::nullopt;
+}
+
 std::vector<PassWork> passesOf(std::span<const host::FrameTimes> samples, const LeastByPass& least)
 {
     std::vector<PassWork> passes;
-    std::vector<std::vector<double>> times; // of each pass, by frame
+    std::vector<std::vector<std::optional<double>>> times; // of each pass, by frame
     for (std::size_t frame = 0; frame < samples.size(); ++frame) {
         for (const vulkan::PassRecord& record : samples[frame].passes) {
             const auto found =
@@ -44,14 +49,14 @@ std::vector<PassWork> passesOf(std::span<const host::FrameTimes> samples, const 
                 passes.push_back({.name = record.name, .ms = {}, .sum = {}, .least = leastOf(record.name, least)});
                 times.emplace_back(samples.size(), 0.0);
             }
-            times[place][frame] += record.milliseconds;
+            addTime(times[place][frame], record.milliseconds);
             if (frame + 1 == samples.size()) {
                 addCounts(passes[place].sum, record);
             }
         }
     }
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        passes[i].ms = spreadOf(std::move(times[i]));
+        passes[i].ms = spreadOfMeasured(times[i]);
     }
     return passes;
 }

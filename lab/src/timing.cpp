@@ -156,11 +156,11 @@ StageTimes stagesOf(const host::FrameTimes& times)
     for (const vulkan::PassRecord& pass : times.passes) {
         const std::string_view name = pass.name;
         if (name == kMapsPass) {
-            stages.maps += pass.milliseconds;
+            addTime(stages.maps, pass.milliseconds);
         } else if (name == kFilterPass) {
-            stages.filter += pass.milliseconds;
+            addTime(stages.filter, pass.milliseconds);
         } else if (name == kMaskPass || name == kSoftenPass) {
-            stages.mask += pass.milliseconds;
+            addTime(stages.mask, pass.milliseconds);
         }
     }
     return stages;
@@ -173,6 +173,7 @@ Counters countersOf(const host::FrameTimes& times, const Plan& plan, bool redraw
         counters.texels_rendered += texelsRendered(view, redraws_all);
     }
     for (const vulkan::PassRecord& pass : times.passes) {
+        counters.has_statistics = counters.has_statistics || pass.has_statistics;
         counters.vertex_invocations += pass.vertex_invocations;
         counters.primitives += pass.primitives;
         counters.fragment_invocations += pass.fragment_invocations;

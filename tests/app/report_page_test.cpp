@@ -152,6 +152,7 @@ Json makeBench(const std::string& text)
             {"driver", "driver " + text},
             {"lights", Json::array({{{"name", "light " + text}, {"type", "spot"}}})},
             {"settings", {{"size", "64x32"}}},
+            {"not_measured", Json::array({"missing " + text})},
             {"baseline", {{"time_ms", times}, {"passes", Json::array({pass})}, {"memory_bytes", 1048576}}},
             {"results", Json::array({{{"technique", "first " + text},
                                       {"time_ms", times},

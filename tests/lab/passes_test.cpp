@@ -42,20 +42,34 @@ TEST(Passes, OfOneNameAreOne)
     const std::vector<PassWork> passes = passesOf(frames, least);
     ASSERT_EQ(passes.size(), 3U);
     EXPECT_EQ(passes[0].name, "g-buffer");
-    EXPECT_EQ(passes[0].ms.median, 6.0);
+    EXPECT_EQ(passes[0].ms.value().median, 6.0);
     EXPECT_EQ(passes[0].sum.fragment_invocations, 8U); // of the last frame
     EXPECT_FALSE(passes[0].least);
     EXPECT_EQ(passes[1].name, "shadow maps");
-    EXPECT_EQ(passes[1].ms.median, 6.0); // of 3 and 9
-    EXPECT_EQ(passes[1].ms.iqr, 3.0);
+    EXPECT_EQ(passes[1].ms.value().median, 6.0); // of 3 and 9
+    EXPECT_EQ(passes[1].ms.value().iqr, 3.0);
     EXPECT_EQ(passes[1].sum.fragment_invocations, 33U);
     EXPECT_EQ(passes[1].sum.draws, 2U);
     ASSERT_TRUE(passes[1].least);
     EXPECT_EQ(passes[1].least->bytes, 400U);
     EXPECT_EQ(passes[2].name, "mask");
-    EXPECT_EQ(passes[2].ms.median, 1.0); // the last frame has none
+    EXPECT_EQ(passes[2].ms.value().median, 1.0); // the last frame has none
     EXPECT_EQ(passes[2].sum.fragment_invocations, 0U);
     EXPECT_TRUE(passesOf({}, least).empty());
+}
+
+TEST(Passes, HaveNoTimeOnceOnePartIsNotMeasured)
+{
+    vulkan::PassRecord untimed = record("mask", 0.0, 4);
+    untimed.milliseconds.reset();
+    untimed.has_statistics = false;
+    const std::array frames{frame({record("shadow maps", 1.0, 10), untimed}),
+                            frame({record("shadow maps", 2.0, 10), record("mask", 2.0, 4), untimed})};
+    const std::vector<PassWork> passes = passesOf(frames, {});
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].ms.value().median, 1.5);
+    EXPECT_FALSE(passes[1].ms.has_value());
+    EXPECT_FALSE(passes[1].sum.has_statistics);
 }
 
 Plan planOf(std::uint32_t side)

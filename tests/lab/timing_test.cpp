@@ -76,6 +76,19 @@ TEST(Stages, SumThePassesOfTheirName)
     EXPECT_EQ(countersOf(times, plan, true).draws, 8U);
     EXPECT_EQ(countersOf(times, plan, true).vertex_invocations, 400U);
     EXPECT_EQ(countersOf(times, plan, true).passes, 4U);
+    EXPECT_FALSE(countersOf(times, plan, true).has_statistics);
+}
+
+TEST(Stages, AreAbsentWhereTheDeviceMeasuresNoTimes)
+{
+    host::FrameTimes times;
+    vulkan::PassRecord record{};
+    record.name = "shadow maps";
+    times.passes.push_back(record);
+    const StageTimes stages = stagesOf(times);
+    EXPECT_FALSE(stages.maps.has_value());
+    EXPECT_EQ(stages.filter, 0.0) << "no such pass took no time";
+    EXPECT_EQ(stages.frame, 0.0) << "the CPU's clock is always there";
 }
 
 Timed timedOf(std::initializer_list<double> frames)

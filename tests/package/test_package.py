@@ -124,7 +124,7 @@ class Installed(Case):
         compiler = [OPTIONS.cxx, "-std=c++20", CONSUMER / "plan.cpp", "-o", build / "plan"]
         self.passes(run(*compiler, *flags("--cflags", "--libs", "gnomon-core")))
         self.assertIn("planned", self.passes(run(build / "plan")))
-        text = "#include <gnomon/vulkan/shadow_renderer.h>\nint main() { return gnomon::vulkan::requiredFeatures().pNext == nullptr; }\n"
+        text = "#include <gnomon/vulkan/shadow_renderer.h>\nint main() { return gnomon::vulkan::requiredFeatures({}).pNext == nullptr; }\n"
         (build / "record.cpp").write_text(text, encoding="utf-8")
         self.passes(run(OPTIONS.cxx, "-std=c++20", build / "record.cpp", "-o", build / "record",
                         *flags("--cflags", "--libs", "gnomon-vulkan")))

@@ -63,6 +63,8 @@ struct NullLimits {
     std::uint32_t max_image_layers = 2048;
     /// Allocations beyond these many bytes fail with VK_ERROR_OUT_OF_DEVICE_MEMORY.
     std::uint64_t memory_bytes = std::uint64_t{1} << 40;
+    std::uint32_t timestamp_bits = 64;
+    std::span<const std::uint64_t> query_results; // what reading queries back begins with; zeros follow
 };
 
 /// Its view() and commands() are good for as long as it lives. Not thread-safe.

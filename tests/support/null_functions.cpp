@@ -40,6 +40,15 @@ VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat, VkFormat
     properties->optimalTilingFeatures = ~driverOf(device).hidden_features;
 }
 
+VKAPI_ATTR void VKAPI_CALL getFamilies(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyProperties* families)
+{
+    if (families != nullptr) {
+        families[0] = {
+            VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, 1, driverOf(device).limits.timestamp_bits, {1, 1, 1}};
+    }
+    *count = 1;
+}
+
 // All that were asked for are there. A structure of features is its head and VkBool32s.
 VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features)
 {
@@ -260,6 +269,8 @@ VKAPI_ATTR VkResult VKAPI_CALL getQueries(VkDevice device, VkQueryPool, std::uin
         return outcome;
     }
     std::memset(data, 0, bytes);
+    const std::span<const std::uint64_t> results = driverOf(device).limits.query_results;
+    std::memcpy(data, results.data(), std::min(bytes, results.size_bytes()));
     return VK_SUCCESS;
 }
 
@@ -278,6 +289,7 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(GetPhysicalDeviceMemoryProperties, getMemory),
     GNOMON_NULL(GetPhysicalDeviceFormatProperties, getFormat),
     GNOMON_NULL(GetPhysicalDeviceFeatures2, getFeatures),
+    GNOMON_NULL(GetPhysicalDeviceQueueFamilyProperties, getFamilies),
     GNOMON_NULL(AllocateMemory, allocateMemory),
     GNOMON_NULL(FreeMemory, freeMemory),
     GNOMON_NULL(MapMemory, mapMemory),

@@ -340,7 +340,7 @@ TEST(NullCascadePass, isRefusedWithTheReasonWhereItCannotBe)
 {
     NullDriver driver;
     vulkan::DeviceView view = driver.view();
-    view.layered = false;
+    view.features.layered = false;
     vulkan::ShadowRenderer without(view, {});
     NullCascades host(driver);
     const auto prepareWith = [&](CascadePass pass) {
@@ -363,12 +363,12 @@ TEST(NullCascadePass, theFeatureIsAskedForOnlyByWhoWantsIt)
         }
         return false;
     };
-    EXPECT_FALSE(asks(vulkan::requiredFeatures()));
+    EXPECT_FALSE(asks(vulkan::requiredFeatures({})));
     EXPECT_TRUE(asks(vulkan::requiredFeatures({.layered = true})));
     NullDriver driver;
-    EXPECT_TRUE(vulkan::supportsLayered(driver.view()));
+    EXPECT_TRUE(vulkan::supportedFeatures(driver.view()).layered);
     driver.hideFunction("vkGetPhysicalDeviceFeatures2");
-    EXPECT_FALSE(vulkan::supportsLayered(driver.view()));
+    EXPECT_FALSE(vulkan::supportedFeatures(driver.view()).layered);
 }
 
 } // namespace

@@ -15,7 +15,8 @@ namespace {
 using vulkan::FeatureMerge;
 using vulkan::FeatureUses;
 
-constexpr FeatureUses kMaskAlone{.filterable = false, .caster_drawer = false, .profiler = false};
+constexpr FeatureUses kMaskAlone{};
+constexpr FeatureUses kMost{.filterable = true, .caster_drawer = true, .statistics = true};
 
 std::string missingFor(const FeatureUses& uses)
 {
@@ -51,45 +52,45 @@ TEST(Features, requiredOnesAreFound)
 {
     NullDriver driver;
     char missing[256] = "x";
-    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
+    vulkan::missingFeatures(driver.view(), missing, sizeof missing, kMost);
     EXPECT_STREQ(missing, "");
-    EXPECT_EQ(missingFor({}), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, pipelineStatisticsQuery, "
-                              "sampleRateShading, shaderStorageImageWriteWithoutFormat, hostQueryReset, "
-                              "dynamicRendering, synchronization2, maintenance4");
+    EXPECT_EQ(missingFor(kMost), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, pipelineStatisticsQuery, "
+                                 "sampleRateShading, shaderStorageImageWriteWithoutFormat, hostQueryReset, "
+                                 "dynamicRendering, synchronization2, maintenance4");
     driver.hideFunction("vkGetPhysicalDeviceFeatures2");
-    vulkan::missingFeatures(driver.view(), missing, 24);
+    vulkan::missingFeatures(driver.view(), missing, 24, kMost);
     EXPECT_STREQ(missing, "multiDrawIndirect");
-    vulkan::missingFeatures(driver.view(), missing, 1);
+    vulkan::missingFeatures(driver.view(), missing, 1, kMost);
     EXPECT_STREQ(missing, "");
 }
 
 TEST(Features, areThoseOfWhatIsUsed)
 {
-    EXPECT_EQ(missingFor(kMaskAlone), "dynamicRendering, synchronization2, maintenance4");
+    EXPECT_EQ(missingFor(kMaskAlone), "hostQueryReset, dynamicRendering, synchronization2, maintenance4");
     FeatureUses uses = kMaskAlone;
     uses.caster_drawer = true;
-    EXPECT_EQ(missingFor(uses), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, dynamicRendering, "
-                                "synchronization2, maintenance4");
+    EXPECT_EQ(missingFor(uses), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, hostQueryReset, "
+                                "dynamicRendering, synchronization2, maintenance4");
     uses = kMaskAlone;
-    uses.profiler = true;
+    uses.statistics = true;
     EXPECT_EQ(missingFor(uses),
               "pipelineStatisticsQuery, hostQueryReset, dynamicRendering, synchronization2, maintenance4");
     uses = kMaskAlone;
     uses.layered = true;
-    EXPECT_EQ(missingFor(uses), "dynamicRendering, synchronization2, maintenance4, shaderOutputLayer");
+    EXPECT_EQ(missingFor(uses), "hostQueryReset, dynamicRendering, synchronization2, maintenance4, shaderOutputLayer");
     uses = kMaskAlone;
     uses.clip_planes = true;
-    EXPECT_EQ(missingFor(uses), "shaderClipDistance, dynamicRendering, synchronization2, maintenance4");
+    EXPECT_EQ(missingFor(uses), "shaderClipDistance, hostQueryReset, dynamicRendering, synchronization2, maintenance4");
     EXPECT_EQ(vulkan::requiredFeatures(uses).features.shaderClipDistance, VK_TRUE);
-    EXPECT_EQ(vulkan::requiredFeatures().features.shaderClipDistance, VK_FALSE);
+    EXPECT_EQ(vulkan::requiredFeatures(kMost).features.shaderClipDistance, VK_FALSE);
     EXPECT_EQ(vulkan::requiredFeatures(kMaskAlone).features.multiDrawIndirect, VK_FALSE);
-    EXPECT_EQ(vulkan::requiredFeatures().features.multiDrawIndirect, VK_TRUE);
+    EXPECT_EQ(vulkan::requiredFeatures(kMost).features.multiDrawIndirect, VK_TRUE);
 }
 
 TEST(Features, areAddedToAnEmptyChain)
 {
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    const FeatureMerge merge(info);
+    const FeatureMerge merge(info, kMost);
     EXPECT_TRUE(hasNoneTwice(info.pNext));
     EXPECT_EQ(countOf(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2), 1U);
     EXPECT_EQ(countOf(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES), 1U);
@@ -103,7 +104,7 @@ TEST(Features, areTurnedOnInTheStructuresOfVersions)
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     core.features.samplerAnisotropy = VK_TRUE;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &core};
-    const FeatureMerge merge(info, {.layered = true});
+    const FeatureMerge merge(info, {.filterable = true, .caster_drawer = true, .layered = true});
     EXPECT_EQ(info.pNext, &core) << "nothing had to be added";
     EXPECT_TRUE(core.features.samplerAnisotropy && core.features.depthClamp && core.features.multiDrawIndirect);
     EXPECT_TRUE(v12.hostQueryReset && v12.shaderOutputLayer);
@@ -119,7 +120,7 @@ TEST(Features, areTurnedOnInTheirOwnStructures)
     enabled.fillModeNonSolid = VK_TRUE;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &timeline};
     info.pEnabledFeatures = &enabled;
-    const FeatureMerge merge(info);
+    const FeatureMerge merge(info, kMost);
     EXPECT_TRUE(sync.synchronization2);
     EXPECT_TRUE(hasNoneTwice(info.pNext));
     EXPECT_EQ(countOf(info.pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2), 0U) << "not beside pEnabledFeatures";

@@ -176,10 +176,13 @@ TEST_F(OnGpu, profilerCountsWhatWasDrawn)
     ASSERT_EQ(results.size(), 2U);
     EXPECT_STREQ(results[0].name, "shadow maps");
     EXPECT_STREQ(results[1].name, "mask");
-    EXPECT_GT(results[0].milliseconds, 0.0);
-    EXPECT_TRUE(results[0].has_statistics);
-    EXPECT_GE(results[0].vertex_invocations, 4 + 8 * bench.scene.boxes.size());
+    EXPECT_GT(results[0].milliseconds.value_or(1.0), 0.0) << "where the queue has timestamps";
     EXPECT_EQ(results[0].draws, 2U);
+    EXPECT_EQ(results[0].has_statistics, gpu().view().features.statistics);
+    if (!results[0].has_statistics) {
+        GTEST_SKIP() << "the device has no pipelineStatisticsQuery";
+    }
+    EXPECT_GE(results[0].vertex_invocations, 4 + 8 * bench.scene.boxes.size());
     EXPECT_GE(results[1].fragment_invocations, kScreen.width * kScreen.height);
     EXPECT_EQ(results[1].compute_invocations, 0U);
 }

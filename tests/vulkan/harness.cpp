@@ -169,17 +169,17 @@ void Gpu::makeDevice()
     vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     physical_device_ = devices[0];
     char missing[256];
-    vulkan::missingFeatures(view(), missing, sizeof missing, {.clip_planes = true});
+    vulkan::missingFeatures(view(), missing, sizeof missing,
+                            {.filterable = true, .caster_drawer = true, .clip_planes = true});
     if (missing[0] != '\0') {
         throw std::runtime_error(std::string("the device lacks ") + missing);
     }
-    layered_ = vulkan::supportsLayered(view());
+    features_ = vulkan::supportedFeatures(view());
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                              &vulkan::requiredFeatures({.layered = layered_, .clip_planes = true})};
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &vulkan::requiredFeatures(features_)};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     require(vkCreateDevice(physical_device_, &create, nullptr, &device_), "vkCreateDevice");
@@ -222,7 +222,7 @@ vulkan::DeviceView Gpu::view() const
     view.device = device_;
     view.get_instance_proc_addr = vkGetInstanceProcAddr;
     view.debug_labels = validated_;
-    view.layered = layered_;
+    view.features = features_;
     return view;
 }
 

@@ -89,7 +89,7 @@ private:
     VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     bool validated_ = true;
-    bool layered_ = false;
+    vulkan::FeatureUses features_;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE; // one for all: the layers keep something of each that there ever was

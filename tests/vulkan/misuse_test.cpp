@@ -34,9 +34,9 @@ TEST(Misuse, OfTheDeviceViewIsAnError)
     };
     EXPECT_THROW(ShadowRenderer(half, {}), Error);
     char text[8];
-    EXPECT_THROW(static_cast<void>(vulkan::supportsLayered({})), Error);
-    EXPECT_THROW(vulkan::missingFeatures({}, text, sizeof text), Error);
-    vulkan::missingFeatures({}, nullptr, 0);
+    EXPECT_THROW(static_cast<void>(vulkan::supportedFeatures({})), Error);
+    EXPECT_THROW(vulkan::missingFeatures({}, text, sizeof text, {}), Error);
+    vulkan::missingFeatures({}, nullptr, 0, {});
     EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
 }
 

@@ -104,6 +104,15 @@ Device::Device(const DeviceView& view) : vk(loadFunctions(view)), view_(view)
     vk.GetPhysicalDeviceMemoryProperties(view.physical_device, &memory_);
 }
 
+std::uint32_t Device::timestampBits() const
+{
+    std::uint32_t count = 0;
+    vk.GetPhysicalDeviceQueueFamilyProperties(view_.physical_device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vk.GetPhysicalDeviceQueueFamilyProperties(view_.physical_device, &count, families.data());
+    return view_.queue_family < count ? families[view_.queue_family].timestampValidBits : 0;
+}
+
 VkFormatFeatureFlags Device::features(VkFormat format) const
 {
     VkFormatProperties properties{};

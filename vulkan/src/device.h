@@ -38,7 +38,9 @@ public:
 
     [[nodiscard]] VkDevice handle() const { return view_.device; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    [[nodiscard]] bool depthBounds() const { return view_.depth_bounds; }
+    [[nodiscard]] const FeatureUses& uses() const { return view_.features; }
+    /// Of the queues that commands go to; 0: they have no timestamps.
+    [[nodiscard]] std::uint32_t timestampBits() const;
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
     [[nodiscard]] const ShaderHook& shaderHook() const { return view_.shaders; }

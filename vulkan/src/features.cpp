@@ -27,39 +27,18 @@ struct Chain {
     Chain& operator=(const Chain&) = delete;
 };
 
-enum class Need : std::uint8_t { always, filterable, caster_drawer, profiler, layered, clip_planes, depth_bounds };
-
-bool isNeeded(Need need, const FeatureUses& uses)
-{
-    switch (need) {
-    case Need::filterable:
-        return uses.filterable;
-    case Need::caster_drawer:
-        return uses.caster_drawer;
-    case Need::profiler:
-        return uses.profiler;
-    case Need::layered:
-        return uses.layered;
-    case Need::clip_planes:
-        return uses.clip_planes;
-    case Need::depth_bounds:
-        return uses.depth_bounds;
-    default:
-        return true;
-    }
-}
-
 // Where a feature stands: its bit in the structure of its version, and in one of its own, if there is one. Both count
 // from the structure's beginning.
 struct Feature {
     const char* name;
-    Need need;
+    bool FeatureUses::*use; // null: always
     VkStructureType version;
     std::size_t bit;
     VkStructureType alone = VK_STRUCTURE_TYPE_MAX_ENUM;
     std::size_t bit_alone = 0;
 };
 
+constexpr bool FeatureUses::*kAlways = nullptr;
 constexpr VkStructureType kCore = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
 constexpr VkStructureType k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
@@ -68,35 +47,48 @@ constexpr VkStructureType k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEA
     kCore, offsetof(VkPhysicalDeviceFeatures2, features) + offsetof(VkPhysicalDeviceFeatures, name)
 constexpr Feature kFeatures[] = {
     // Indirect drawing of instances.
-    {"multiDrawIndirect", Need::caster_drawer, GNOMON_CORE(multiDrawIndirect)},
-    {"drawIndirectFirstInstance", Need::caster_drawer, GNOMON_CORE(drawIndirectFirstInstance)},
+    {"multiDrawIndirect", &FeatureUses::caster_drawer, GNOMON_CORE(multiDrawIndirect)},
+    {"drawIndirectFirstInstance", &FeatureUses::caster_drawer, GNOMON_CORE(drawIndirectFirstInstance)},
     // Casters clamped onto the near plane.
-    {"depthClamp", Need::caster_drawer, GNOMON_CORE(depthClamp)},
-    {"shaderClipDistance", Need::clip_planes, GNOMON_CORE(shaderClipDistance)},
+    {"depthClamp", &FeatureUses::caster_drawer, GNOMON_CORE(depthClamp)},
+    {"shaderClipDistance", &FeatureUses::clip_planes, GNOMON_CORE(shaderClipDistance)},
     // Volumes counted no farther than a lamp reaches.
-    {"depthBounds", Need::depth_bounds, GNOMON_CORE(depthBounds)},
-    {"pipelineStatisticsQuery", Need::profiler, GNOMON_CORE(pipelineStatisticsQuery)},
+    {"depthBounds", &FeatureUses::depth_bounds, GNOMON_CORE(depthBounds)},
+    {"pipelineStatisticsQuery", &FeatureUses::statistics, GNOMON_CORE(pipelineStatisticsQuery)},
     // The linear metric of perspective views in each sample, not only in each texel.
-    {"sampleRateShading", Need::filterable, GNOMON_CORE(sampleRateShading)},
+    {"sampleRateShading", &FeatureUses::filterable, GNOMON_CORE(sampleRateShading)},
     // One compute shader for all formats of filterable maps.
-    {"shaderStorageImageWriteWithoutFormat", Need::filterable, GNOMON_CORE(shaderStorageImageWriteWithoutFormat)},
-    {"hostQueryReset", Need::profiler, k12, offsetof(VkPhysicalDeviceVulkan12Features, hostQueryReset),
+    {"shaderStorageImageWriteWithoutFormat", &FeatureUses::filterable,
+     GNOMON_CORE(shaderStorageImageWriteWithoutFormat)},
+    {"hostQueryReset", kAlways, k12, offsetof(VkPhysicalDeviceVulkan12Features, hostQueryReset),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
      offsetof(VkPhysicalDeviceHostQueryResetFeatures, hostQueryReset)},
-    {"dynamicRendering", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering),
+    {"dynamicRendering", kAlways, k13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
      offsetof(VkPhysicalDeviceDynamicRenderingFeatures, dynamicRendering)},
-    {"synchronization2", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2),
+    {"synchronization2", kAlways, k13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
      offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2)},
     // The size of a compute shader's group, as SPIR-V 1.6 writes it.
-    {"maintenance4", Need::always, k13, offsetof(VkPhysicalDeviceVulkan13Features, maintenance4),
+    {"maintenance4", kAlways, k13, offsetof(VkPhysicalDeviceVulkan13Features, maintenance4),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
      offsetof(VkPhysicalDeviceMaintenance4Features, maintenance4)},
     // The maps of cascades in one pass.
-    {"shaderOutputLayer", Need::layered, k12, offsetof(VkPhysicalDeviceVulkan12Features, shaderOutputLayer)},
+    {"shaderOutputLayer", &FeatureUses::layered, k12, offsetof(VkPhysicalDeviceVulkan12Features, shaderOutputLayer)},
 };
 #undef GNOMON_CORE
+
+bool isNeeded(const Feature& feature, const FeatureUses& uses)
+{
+    return feature.use == kAlways || uses.*feature.use;
+}
+
+// Each use once; requiredFeatures() has a chain for every set of them.
+constexpr bool FeatureUses::*kUses[] = {&FeatureUses::filterable,  &FeatureUses::caster_drawer,
+                                        &FeatureUses::statistics,  &FeatureUses::layered,
+                                        &FeatureUses::clip_planes, &FeatureUses::depth_bounds};
+constexpr std::size_t kUseCount = std::size(kUses);
+static_assert(sizeof(FeatureUses) == kUseCount);
 
 VkBaseOutStructure* findIn(const void* chain, VkStructureType type)
 {
@@ -136,21 +128,38 @@ void query(const DeviceView& view, Chain& chain)
 
 const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
 {
-    static std::array<Chain, 64> chains;
+    static std::array<Chain, std::size_t{1} << kUseCount> chains;
     static const bool filled = [] {
         for (std::size_t i = 0; i < chains.size(); ++i) {
-            const FeatureUses combination{(i & 1U) != 0, (i & 2U) != 0,  (i & 4U) != 0,
-                                          (i & 8U) != 0, (i & 16U) != 0, (i & 32U) != 0};
+            FeatureUses combination;
+            for (std::size_t use = 0; use < kUseCount; ++use) {
+                combination.*kUses[use] = (i >> use & 1U) != 0;
+            }
             for (const Feature& feature : kFeatures) {
-                bitIn(chains[i], feature) = isNeeded(feature.need, combination) ? VK_TRUE : VK_FALSE;
+                bitIn(chains[i], feature) = isNeeded(feature, combination) ? VK_TRUE : VK_FALSE;
             }
         }
         return true;
     }();
     (void)filled;
-    return chains[(uses.filterable ? 1U : 0U) | (uses.caster_drawer ? 2U : 0U) | (uses.profiler ? 4U : 0U) |
-                  (uses.layered ? 8U : 0U) | (uses.clip_planes ? 16U : 0U) | (uses.depth_bounds ? 32U : 0U)]
-        .core;
+    std::size_t wanted = 0;
+    for (std::size_t use = 0; use < kUseCount; ++use) {
+        wanted |= uses.*kUses[use] ? std::size_t{1} << use : 0;
+    }
+    return chains[wanted].core;
+}
+
+FeatureUses supportedFeatures(const DeviceView& view)
+{
+    Chain have;
+    query(view, have);
+    FeatureUses uses;
+    for (const auto use : kUses) {
+        uses.*use = std::all_of(std::begin(kFeatures), std::end(kFeatures), [&](const Feature& feature) {
+            return feature.use != use || bitIn(have, feature) == VK_TRUE;
+        });
+    }
+    return uses;
 }
 
 struct FeatureMerge::Impl {
@@ -220,7 +229,7 @@ FeatureMerge::FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses) : 
         (void)impl_->add(info, kCore);
     }
     for (const Feature& feature : kFeatures) {
-        if (!isNeeded(feature.need, uses)) {
+        if (!isNeeded(feature, uses)) {
             continue;
         }
         if (feature.version == kCore && info.pEnabledFeatures != nullptr) {
@@ -237,20 +246,6 @@ FeatureMerge::FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses) : 
 
 FeatureMerge::~FeatureMerge() = default;
 
-bool supportsLayered(const DeviceView& view)
-{
-    Chain have;
-    query(view, have);
-    return have.v12.shaderOutputLayer == VK_TRUE;
-}
-
-bool supportsDepthBounds(const DeviceView& view)
-{
-    Chain have;
-    query(view, have);
-    return have.core.features.depthBounds == VK_TRUE;
-}
-
 void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses)
 {
     if (capacity == 0) {
@@ -263,7 +258,7 @@ void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity,
     for (const Feature& feature : kFeatures) {
         const char* separator = length == 0 ? "" : ", ";
         const std::size_t more = std::strlen(separator) + std::strlen(feature.name);
-        if (isNeeded(feature.need, uses) && bitIn(have, feature) == VK_FALSE && length + more < capacity) {
+        if (isNeeded(feature, uses) && bitIn(have, feature) == VK_FALSE && length + more < capacity) {
             std::strcpy(text + length, separator);
             std::strcpy(text + length + std::strlen(separator), feature.name);
             length += static_cast<std::uint32_t>(more);

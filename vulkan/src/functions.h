@@ -7,7 +7,8 @@
 // clang-format off
 #define GNOMON_INSTANCE_FUNCTIONS(X) \
     X(GetDeviceProcAddr) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceMemoryProperties) \
-    X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceFeatures2)
+    X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceFeatures2) \
+    X(GetPhysicalDeviceQueueFamilyProperties)
 
 #define GNOMON_DEVICE_FUNCTIONS(X) \
     X(AllocateMemory) X(FreeMemory) X(MapMemory) X(BindImageMemory) X(BindBufferMemory) \

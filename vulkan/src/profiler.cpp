@@ -53,28 +53,36 @@ std::uint32_t checkedPasses(std::uint32_t max_passes)
 
 struct Profiler::Impl {
     struct Slot {
-        QueryPool times;
-        QueryPool statistics;
+        QueryPool times;      // null without timestamps
+        QueryPool statistics; // null without counts
         std::vector<PassRecord> passes;
         bool read = false;
     };
 
-    Impl(const DeviceView& view, std::uint32_t frames, std::uint32_t passes) : device(view), max_passes(passes)
+    Impl(const DeviceView& view, std::uint32_t frames, std::uint32_t passes)
+        : device(view), max_passes(passes), tick_bits(device.timestampBits())
     {
         ticks.resize(std::size_t{2} * passes);
         counts.resize(kStatisticCount * passes);
         slots.resize(frames);
         for (Slot& slot : slots) {
-            slot.times = makePool(device, VK_QUERY_TYPE_TIMESTAMP, 2 * passes, 0);
-            slot.statistics = makePool(device, VK_QUERY_TYPE_PIPELINE_STATISTICS, passes, kStatistics);
+            if (tick_bits > 0) {
+                slot.times = makePool(device, VK_QUERY_TYPE_TIMESTAMP, 2 * passes, 0);
+            }
+            if (device.uses().statistics) {
+                slot.statistics = makePool(device, VK_QUERY_TYPE_PIPELINE_STATISTICS, passes, kStatistics);
+            }
             slot.passes.reserve(passes);
         }
     }
 
-    void fetch(Slot& slot);
+    void fetchTimes(Slot& slot);
+    void fetchCounts(Slot& slot);
+    void writeTime(VkCommandBuffer commands, const Slot& slot, std::uint32_t query) const;
 
     Device device;
     std::uint32_t max_passes;
+    std::uint32_t tick_bits; // of a timestamp
     std::vector<Slot> slots;
     std::vector<std::uint64_t> ticks;
     std::vector<std::uint64_t> counts;
@@ -83,30 +91,45 @@ struct Profiler::Impl {
     bool measured = false; // this pass has queries; those beyond max_passes do not
 };
 
-void Profiler::Impl::fetch(Slot& slot)
+void Profiler::Impl::fetchTimes(Slot& slot)
 {
     const auto n = static_cast<std::uint32_t>(slot.passes.size());
-    constexpr VkQueryResultFlags kFlags = VK_QUERY_RESULT_64_BIT;
-    const bool timed =
-        areThere(device.vk.GetQueryPoolResults(device.handle(), slot.times.get(), 0, 2 * n,
-                                               ticks.size() * sizeof ticks[0], ticks.data(), sizeof ticks[0], kFlags));
-    const bool counted = areThere(device.vk.GetQueryPoolResults(device.handle(), slot.statistics.get(), 0, n,
-                                                                counts.size() * sizeof counts[0], counts.data(),
-                                                                kStatisticCount * sizeof counts[0], kFlags));
+    if (!slot.times || !areThere(device.vk.GetQueryPoolResults(device.handle(), slot.times.get(), 0, 2 * n,
+                                                               ticks.size() * sizeof ticks[0], ticks.data(),
+                                                               sizeof ticks[0], VK_QUERY_RESULT_64_BIT))) {
+        return;
+    }
+    // What is above the valid bits is undefined, and a clock that wraps between two ticks has still gone on.
+    const std::uint64_t valid = ~std::uint64_t{0} >> (64U - std::min(tick_bits, 64U));
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto elapsed = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & valid);
+        slot.passes[i].milliseconds = elapsed * static_cast<double>(device.limits().timestampPeriod) * 1e-6;
+    }
+}
+
+void Profiler::Impl::fetchCounts(Slot& slot)
+{
+    const auto n = static_cast<std::uint32_t>(slot.passes.size());
+    if (!slot.statistics || !areThere(device.vk.GetQueryPoolResults(
+                                device.handle(), slot.statistics.get(), 0, n, counts.size() * sizeof counts[0],
+                                counts.data(), kStatisticCount * sizeof counts[0], VK_QUERY_RESULT_64_BIT))) {
+        return;
+    }
     for (std::uint32_t i = 0; i < n; ++i) {
         PassRecord& pass = slot.passes[i];
-        if (timed) {
-            const auto elapsed = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
-            pass.milliseconds = elapsed * static_cast<double>(device.limits().timestampPeriod) * 1e-6;
-        }
-        if (counted) {
-            const std::uint64_t* values = &counts[kStatisticCount * i];
-            pass.has_statistics = true;
-            pass.vertex_invocations = values[0];
-            pass.primitives = values[1];
-            pass.fragment_invocations = values[2];
-            pass.compute_invocations = values[3];
-        }
+        const std::uint64_t* values = &counts[kStatisticCount * i];
+        pass.has_statistics = true;
+        pass.vertex_invocations = values[0];
+        pass.primitives = values[1];
+        pass.fragment_invocations = values[2];
+        pass.compute_invocations = values[3];
+    }
+}
+
+void Profiler::Impl::writeTime(VkCommandBuffer commands, const Slot& slot, std::uint32_t query) const
+{
+    if (slot.times) {
+        device.vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.times.get(), query);
     }
 }
 
@@ -127,8 +150,13 @@ void Profiler::beginFrame([[maybe_unused]] VkCommandBuffer commands, std::uint32
     impl_->current->passes.clear();
     impl_->current->read = false;
     // From the host: the slot's last frame has finished, and a reset recorded outside would order against nothing else.
-    impl_->device.vk.ResetQueryPool(impl_->device.handle(), impl_->current->times.get(), 0, 2 * impl_->max_passes);
-    impl_->device.vk.ResetQueryPool(impl_->device.handle(), impl_->current->statistics.get(), 0, impl_->max_passes);
+    const auto reset = [&](const QueryPool& pool, std::uint32_t count) {
+        if (pool) {
+            impl_->device.vk.ResetQueryPool(impl_->device.handle(), pool.get(), 0, count);
+        }
+    };
+    reset(impl_->current->times, 2 * impl_->max_passes);
+    reset(impl_->current->statistics, impl_->max_passes);
 }
 
 void Profiler::beginPass(VkCommandBuffer commands, const char* name)
@@ -146,8 +174,10 @@ void Profiler::beginPass(VkCommandBuffer commands, const char* name)
         const auto i = static_cast<std::uint32_t>(slot.passes.size());
         slot.passes.push_back({});
         slot.passes.back().name = name;
-        impl_->device.vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.times.get(), 2 * i);
-        impl_->device.vk.CmdBeginQuery(commands, slot.statistics.get(), i, 0);
+        impl_->writeTime(commands, slot, 2 * i);
+        if (slot.statistics) {
+            impl_->device.vk.CmdBeginQuery(commands, slot.statistics.get(), i, 0);
+        }
     }
 }
 
@@ -166,9 +196,10 @@ void Profiler::endPass(VkCommandBuffer commands)
     if (impl_->measured) {
         Impl::Slot& slot = *impl_->current;
         const auto i = static_cast<std::uint32_t>(slot.passes.size() - 1);
-        impl_->device.vk.CmdEndQuery(commands, slot.statistics.get(), i);
-        impl_->device.vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.times.get(),
-                                            2 * i + 1);
+        if (slot.statistics) {
+            impl_->device.vk.CmdEndQuery(commands, slot.statistics.get(), i);
+        }
+        impl_->writeTime(commands, slot, 2 * i + 1);
     }
     impl_->device.endLabel(commands);
     impl_->in_pass = false;
@@ -181,7 +212,8 @@ std::span<const PassRecord> Profiler::results(std::uint32_t slot_index)
     }
     Impl::Slot& slot = impl_->slots[slot_index];
     if (!slot.read && !slot.passes.empty()) {
-        impl_->fetch(slot);
+        impl_->fetchTimes(slot);
+        impl_->fetchCounts(slot);
         slot.read = true;
     }
     return slot.passes;

@@ -29,7 +29,7 @@ ImageRef describe(const Image& image)
 
 struct ShadowRenderer::Impl {
     Impl(const DeviceView& view, const ShadowRendererOptions& options_in)
-        : device(view), options(checked(options_in)), layered(view.layered),
+        : device(view), options(checked(options_in)), layered(view.features.layered),
           parts(std::make_unique<RendererParts>(device, options, layered))
     {
     }

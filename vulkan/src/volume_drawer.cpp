@@ -101,7 +101,7 @@ Pipeline VolumeDrawer::Impl::makePipeline(const VolumePass& pass)
     vertex.stage = VK_SHADER_STAGE_VERTEX_BIT;
     vertex.module = shader.get();
     vertex.pName = "main";
-    const VkPipelineDepthStencilStateCreateInfo counting = countingState(pass.reversed_z, device.depthBounds());
+    const VkPipelineDepthStencilStateCreateInfo counting = countingState(pass.reversed_z, device.uses().depth_bounds);
     GraphicsState state;
     state.stages = std::span(&vertex, 1);
     state.layout = layout.get();

@@ -299,7 +299,7 @@ void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw
     uncounted.aspectMask = VK_IMAGE_ASPECT_STENCIL_BIT;
     const VkClearRect where{scissor, 0, 1};
     device_.vk.CmdClearAttachments(job.commands, 1, &uncounted, 1, &where);
-    if (device_.depthBounds()) {
+    if (device_.uses().depth_bounds) {
         device_.vk.CmdSetDepthBounds(job.commands, draw.least_depth, draw.most_depth);
     }
     VolumePass pass;

@@ -2,10 +2,13 @@
 // What a frame costs, pass by pass, and how evenly frames come.
 #include "view/panels.h"
 
+#include "lab/passes.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +17,7 @@ namespace {
 
 struct PassTime {
     std::string name;
-    double ms = 0.0;
+    std::optional<double> ms; // none: not measured on this device
 };
 
 /// Passes of one name added up, in the order of their first turn.
@@ -25,7 +28,7 @@ std::vector<PassTime> passesOf(const host::FrameTimes& times)
         const auto known =
             std::find_if(passes.begin(), passes.end(), [&](const PassTime& one) { return one.name == record.name; });
         if (known != passes.end()) {
-            known->ms += record.milliseconds;
+            lab::addTime(known->ms, record.milliseconds);
         } else {
             passes.push_back({record.name, record.milliseconds});
         }
@@ -35,12 +38,12 @@ std::vector<PassTime> passesOf(const host::FrameTimes& times)
 
 void timeRows(const host::FrameTimes& times)
 {
-    const auto row = [](const std::string& name, double ms) {
+    const auto row = [](const std::string& name, const std::optional<double>& ms) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(name.c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(fmt::format("{:.2f}", ms).c_str());
+        ImGui::TextUnformatted(ms ? fmt::format("{:.2f}", *ms).c_str() : "not measured");
     };
     row("plan", times.plan_ms);
     row("record", times.record_ms);

@@ -12,7 +12,7 @@ int main()
 {
     const gnomon::ResolvedOptions options = gnomon::resolvedOrThrow({});
     const gnomon::pack::TechniqueConstants constants = gnomon::pack::techniqueConstants(options);
-    const bool has_features = gnomon::vulkan::requiredFeatures().pNext != nullptr;
+    const bool has_features = gnomon::vulkan::requiredFeatures({}).pNext != nullptr;
     using namespace consumer::modules;
     const bool has_modules = mask_vert.size() > 5 && visible_hard_frag.size() > mask_vert.size() &&
                              all_of_consumer_spirv[1] == &visible_hard_frag && mask_vert.front() == 0x07230203;

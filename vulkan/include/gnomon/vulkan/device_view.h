@@ -57,8 +57,20 @@ struct ShaderHook {
     std::span<const std::uint32_t> (*words)(void* user, const char* name) = nullptr;
 };
 
-/// Precondition: the device was made with the features that requiredFeatures() names. Whatever takes one throws Error
-/// when a handle or the function is null, or one memory hook is given without the other.
+/// What the library makes use of beyond what every device of Vulkan 1.3 has: vulkan/src/features.cpp has the table.
+/// supportedFeatures() says what of it a device can, and a host turns off what it has no use for. Whatever is not there
+/// has another way, or leaves out what the member's line says.
+struct FeatureUses {
+    bool filterable = false;    // maps of vsm, lvsm, esm, evsm, msm
+    bool caster_drawer = false; // CasterDrawer; a callback of the host's own that clamps needs depthClamp all the same
+    bool statistics = false;    // counts of PassRecord; without: has_statistics is false
+    bool layered = false;       // CascadePass::layered; without: it is refused, and automatic draws each map by itself
+    bool clip_planes = false;   // CasterBatch::clip_planes
+    bool depth_bounds = false;  // filter volumes counts no farther than lamps reach; without: to the picture's edges
+};
+
+/// Precondition: the device was made with requiredFeatures(features). Whatever takes one throws Error when a handle or
+/// the function is null, or one memory hook is given without the other.
 struct DeviceView {
     VkInstance instance = VK_NULL_HANDLE;              // not null
     VkPhysicalDevice physical_device = VK_NULL_HANDLE; // not null
@@ -66,27 +78,19 @@ struct DeviceView {
     /// Where functions come from. All are looked up through it, so a host may hand in a loader, a layer or a mock.
     /// Not null.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
-    MemoryHooks memory;        // empty: a dedicated allocation per resource
-    ShaderHook shaders;        // empty: the library's own
-    bool debug_labels = false; // VK_EXT_debug_utils is enabled: name objects, label passes
-    bool layered = false;      // the device has the feature shaderOutputLayer on, for CascadePass::layered
-    bool depth_bounds = false; // the device has depthBounds on: filter volumes counts no farther than lamps reach
+    MemoryHooks memory;             // empty: a dedicated allocation per resource
+    ShaderHook shaders;             // empty: the library's own
+    bool debug_labels = false;      // VK_EXT_debug_utils is enabled: name objects, label passes
+    FeatureUses features;           // what of it is on; nothing else is used
+    std::uint32_t queue_family = 0; // whose queues the commands go to: Profiler asks how wide their timestamps are
 };
 
-/// What a host uses of the library, as far as it takes features of the device.
-struct FeatureUses {
-    bool filterable = true;    // maps of vsm, lvsm, esm, evsm, msm
-    bool caster_drawer = true; // CasterDrawer; a callback of the host's own that clamps needs depthClamp all the same
-    bool profiler = true;      // Profiler
-    bool layered = false;      // CascadePass::layered; supportsLayered() says whether the device can
-    bool clip_planes = false;  // CasterBatch::clip_planes
-    bool depth_bounds = false; // DeviceView::depth_bounds; supportsDepthBounds() says whether the device can
-};
+/// What of it the physical device has. Of `view` instance, physical_device and get_instance_proc_addr are read.
+[[nodiscard]] GNOMON_API FeatureUses supportedFeatures(const DeviceView& view);
 
-/// The features that these uses rely on, chained for VkDeviceCreateInfo::pNext: for a host that wants no others. Static
-/// lifetime. Every desktop driver of Vulkan 1.3 and Mesa's lavapipe have them, shaderOutputLayer apart;
-/// vulkan/src/features.cpp says what each is for.
-[[nodiscard]] GNOMON_API const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses = {});
+/// The features that these uses and the library itself rely on, chained for VkDeviceCreateInfo::pNext: for a host that
+/// wants no others. Static lifetime.
+[[nodiscard]] GNOMON_API const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses);
 
 /// Adds what is missing to an engine's own features. In a chain no feature may be asked for in two structures: each is
 /// turned on in the one that is there, which is changed in place (VkDeviceCreateInfo::pEnabledFeatures,
@@ -96,7 +100,7 @@ class GNOMON_API FeatureMerge {
 public:
     /// Changes `info`: its pNext or pEnabledFeatures. Throws Error for shaderOutputLayer in a chain that has structures
     /// of single features of Vulkan 1.2, with which VkPhysicalDeviceVulkan12Features must not be.
-    explicit FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses = {});
+    FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses);
     ~FeatureMerge();
     FeatureMerge(const FeatureMerge&) = delete;
     FeatureMerge& operator=(const FeatureMerge&) = delete;
@@ -106,13 +110,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Has the physical device shaderOutputLayer?
-[[nodiscard]] GNOMON_API bool supportsLayered(const DeviceView& view);
-/// Has it depthBounds?
-[[nodiscard]] GNOMON_API bool supportsDepthBounds(const DeviceView& view);
 /// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
 /// at most `capacity` bytes to `text`, the last one a zero.
-GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity,
-                                const FeatureUses& uses = {});
+GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses);
 
 } // namespace gnomon::vulkan

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace gnomon::vulkan {
@@ -14,8 +15,8 @@ namespace gnomon::vulkan {
 /// What one pass took.
 struct PassRecord {
     const char* name = "";                  // static
-    double milliseconds = 0.0;              // GPU timestamps
-    bool has_statistics = false;            // the fields below hold
+    std::optional<double> milliseconds;     // by GPU timestamps; none where the queue has no such
+    bool has_statistics = false;            // the next four hold: FeatureUses::statistics is on
     std::uint64_t vertex_invocations = 0;   // vertex shaders run
     std::uint64_t primitives = 0;           // that reached rasterisation (clipping output)
     std::uint64_t fragment_invocations = 0; // fragment shaders run
@@ -23,6 +24,10 @@ struct PassRecord {
     std::uint32_t draws = 0;                // as counted by addDraws
 };
 
+/// Measures what the device can, and leaves the rest out: timestamps by DeviceView::queue_family, counts by
+/// FeatureUses::statistics. Draws are always counted. A pass longer than the timestamps' bits can count (a minute and
+/// more) is measured by the rest.
+///
 /// Not thread-safe. Error for no or too many frames (kMostFrames in shadow_renderer.h), no passes, a slot beyond them,
 /// and passes that nest or come before beginFrame(). An endPass() without its beginPass() does nothing. Passes beyond
 /// `max_passes` are not measured.

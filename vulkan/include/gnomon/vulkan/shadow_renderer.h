@@ -66,7 +66,7 @@ struct ShadowRendererOptions {
 };
 
 /// One light's shadow volumes to draw (pack::VolumeDraw), given to the host's callback. Rendering has begun, and the
-/// camera's depth is in the depth buffer; viewport, scissor and, with DeviceView::depth_bounds, depth bounds are set.
+/// camera's depth is in the depth buffer; viewport, scissor and, with FeatureUses::depth_bounds, depth bounds are set.
 /// The callback binds its pipelines and draws; it must not end rendering. Its pipelines clamp depth, test it and do not
 /// write it: GREATER with `reversed_z`, else LESS. Where the test fails they add 1 to the stencil for faces that turn
 /// away from the eye and take 1 away for those that turn to it, wrapping. They write no colour.
