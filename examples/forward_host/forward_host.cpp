@@ -138,7 +138,9 @@ public:
         const vulkan::ImageRef maps = shadows.maps();
         const vulkan::BufferRef layers = shadows.depthLayersBuffer();
         const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
-        pack::fillConstants(frame, plan, 0, frame.size_px, image,
+        const pack::DrawPrecision precision{.sub_pixel_bits = d.gpu.getProperties().limits.subPixelPrecisionBits,
+                                            .receivers_from_depth = false}; // forward.frag interpolates its points
+        pack::fillConstants(frame, plan, 0, frame.size_px, image, precision,
                             *static_cast<shared::GpuConstants*>(constants_.mapped));
         pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(lights_.mapped), 2});
         pack::fillViews(frame, plan, {&image, 1}, {static_cast<shared::GpuView*>(views_.mapped), kMostViews});

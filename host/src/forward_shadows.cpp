@@ -75,7 +75,9 @@ void ForwardShadows::describe(std::uint32_t slot, const Frame& frame, const Plan
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, kPurpose);
     const vulkan::ImageRef maps = renderer.maps();
     const pack::MapImage image{{maps.extent.width, maps.extent.height}, maps.levels};
-    pack::fillConstants(frame, plan, 0, frame.size_px, image,
+    const pack::DrawPrecision precision{.sub_pixel_bits = memory_.limits().subPixelPrecisionBits,
+                                        .receivers_from_depth = false};
+    pack::fillConstants(frame, plan, 0, frame.size_px, image, precision,
                         *static_cast<shared::GpuConstants*>(now.constants.mapped));
     pack::fillLights(frame, plan, {static_cast<shared::GpuLight*>(now.lights.mapped), kMaxLights});
     const std::size_t objects = std::max<std::size_t>(pack::objectVectorCount(plan), 1);

@@ -58,6 +58,7 @@ public:
     bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose);
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& uses() const { return uses_; }
     [[nodiscard]] const DebugNames& names() const { return names_; }
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
 
 private:
     struct Block {

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kFrameBindings = 12;              // of set 0: nu
 /// What shading reads, with the object's id (host/shaders/gbuffer_surface.glsl); MaskInputs::normal, object_id, smooth.
 using GBufferFormats = std::array<VkFormat, 4>;
 /// 16-bit snorm for normals and smooth surfaces where the device draws to it, which none has to; else 32-bit floats,
-/// which all do. So a normal never has fewer bits than kNormalError (gnomon/shared/bias.h) is made for.
+/// which all do. So a normal never has fewer bits than the automatic bias is best with.
 [[nodiscard]] GBufferFormats gbufferFormats(const Gpu& gpu);
 
 /// Which of them a frame needs besides the first two. They are attached without a gap, in their order.

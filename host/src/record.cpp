@@ -103,6 +103,7 @@ void FrameRenderer::Impl::recordShadows(VkCommandBuffer cmd)
     const Targets& targets = screen->targets;
     vulkan::MaskInputs inputs = depthInputs();
     inputs.normal = targets.normals().view;
+    inputs.normal_format = targets.normals().format;
     inputs.smooth = gbuffer.shape.smooth ? targets.smooth().view : VK_NULL_HANDLE;
     inputs.object_id = gbuffer.shape.ids ? targets.receivers().view : VK_NULL_HANDLE;
     inputs.object_pieces = gbuffer.shape.ids; // scene.vert

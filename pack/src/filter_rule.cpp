@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gnomon/pack/filter_rule.h>
 
+#include <gnomon/shared/bias.h>
 #include <gnomon/shared/discs.h>
 #include <gnomon/shared/moments.h>
 #include <gnomon/shared/moments_four.h>
+#include <gnomon/shared/octahedral.h>
 #include <gnomon/shared/paired_depth.h>
 #include <gnomon/shared/pcf_weights.h>
 
@@ -232,12 +234,31 @@ shared::MomentRule momentRuleOf(const ResolvedOptions& options)
     return rule;
 }
 
-void fillRule(const ResolvedOptions& options, shared::GpuRule& out)
+float normalError(float rounding)
 {
+    return shared::kNormalArithmetic + shared::kOctahedralStretch * rounding;
+}
+
+float normalErrorFromDepth(std::uint32_t sub_pixel_bits)
+{
+    return normalError(0.0F) + shared::snapOf(static_cast<float>(sub_pixel_bits));
+}
+
+void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out)
+{
+    assert(precision.sub_pixel_bits >= 1 && precision.sub_pixel_bits <= 24 && precision.normal_error_rad >= 0.0F &&
+           precision.normal_error_rad <= 0.1F && precision.depth_rounding >= 0.0F && precision.depth_rounding <= 0.01F);
     const BiasOptions& bias = options.bias();
     const PcfOptions& pcf = options.pcf();
-    out.bias = {bias.automatic ? 1.0F : 0.0F, bias.constant_m, bias.slope, bias.normal_texels};
-    out.bias_more = {bias.receiver_plane ? 1.0F : 0.0F, biasReachTexels(options), depthQuantum(options.format()),
+    const float snap = shared::snapOf(static_cast<float>(precision.sub_pixel_bits));
+    out.bias = bias.automatic
+                   ? glm::vec4(1.0F, snap, precision.receivers_from_depth ? snap : 0.0F, precision.normal_error_rad)
+                   : glm::vec4(0.0F, bias.constant_m, bias.slope, bias.normal_texels);
+    const float rounding = precision.receivers_from_depth ? precision.depth_rounding : 0.0F;
+    out.bias_more = {bias.automatic        ? rounding
+                     : bias.receiver_plane ? 1.0F
+                                           : 0.0F,
+                     biasReachTexels(options), depthQuantum(options.format()),
                      options.traits().integrates_light ? 1.0F : 0.0F};
     out.kernel = shared::gaussianWeights(std::max(kernelWidth(pcf.kernel), 1), pcf.sigma_texels.value_or(0.0F));
     if (options.traits().ids) {

@@ -170,7 +170,7 @@ void fillViews(const Frame& frame, const Plan& plan, std::span<const MapImage> m
 }
 
 void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, glm::uvec2 screen_px,
-                   const MapImage& maps, shared::GpuConstants& out)
+                   const MapImage& maps, const DrawPrecision& precision, shared::GpuConstants& out)
 {
     if (plan.options == nullptr || index >= plan.options->size()) {
         throw Error("describe a frame to shaders", "the plan has no options of that index",
@@ -200,7 +200,7 @@ void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t index, gl
     }
     const glm::vec2 size(screen_px);
     screen.size = {size, 1.0F / size};
-    fillRule(options, out.rule);
+    fillRule(options, precision, out.rule);
     const auto light = std::ranges::find(plan.lights, index, &LightPlan::options);
     out.rule.disc.y = light != plan.lights.end() ? static_cast<float>(light->sample.number) : 0.0F;
     out.rule.disc.z = 1.0F / static_cast<float>(maps.size_px.x);

@@ -65,8 +65,8 @@ TEST(ShadingBuffers, ConstantsAreThoseOfTheOptionsAskedFor)
     by_hand.frame.camera = cameraAt({0.0, 2.0, 0.0});
     shared::GpuConstants first{};
     shared::GpuConstants second{};
-    pack::fillConstants(by_hand.frame, by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, first);
-    pack::fillConstants(by_hand.frame, by_hand.plan, 1, {320, 200}, {{128, 64}, 3}, second);
+    pack::fillConstants(by_hand.frame, by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, {}, first);
+    pack::fillConstants(by_hand.frame, by_hand.plan, 1, {320, 200}, {{128, 64}, 3}, {}, second);
     EXPECT_EQ(first.rule.reading.x, static_cast<int>(Filter::pcf));
     EXPECT_EQ(first.screen.fade, glm::vec4(0.0F)) << "nothing fades";
     EXPECT_EQ(first.rule.disc.z, 1.0F / 512.0F);
@@ -119,10 +119,10 @@ TEST(ShadingBuffers, WhatIsNotThereOrHasNoRoomIsAnError)
     const Plan& plan = by_hand.plan;
     const pack::MapImage image{{256, 256}, 1};
     shared::GpuConstants constants{};
-    EXPECT_THROW(pack::fillConstants(frame, plan, 1, {320, 200}, image, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 0}, image, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 200}, {{0, 256}, 1}, constants), Error);
-    EXPECT_THROW(pack::fillConstants(frame, Plan(), 0, {320, 200}, image, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, plan, 1, {320, 200}, image, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 0}, image, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, plan, 0, {320, 200}, {{0, 256}, 1}, {}, constants), Error);
+    EXPECT_THROW(pack::fillConstants(frame, Plan(), 0, {320, 200}, image, {}, constants), Error);
     std::vector<shared::GpuView> views(1);
     EXPECT_THROW(pack::fillViews(frame, plan, {&image, 1}, views), Error);
     EXPECT_THROW(pack::fillViews(frame, plan, {}, std::span(views)), Error);

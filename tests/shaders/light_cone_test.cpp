@@ -55,6 +55,8 @@ struct Stage {
     {
         BiasRule rule{};
         rule.automatic = 1.0;
+        rule.snap_texels = snapOf(8.0);
+        rule.normal_error = 2e-4;
         rule.quantum = 4e-6;
         rule.exact_plane = 1.0;
         FilterInput f{};
@@ -390,6 +392,8 @@ TEST(Raymarch, ALampIsSeenBesideAHalfPlane)
             const double x = reach * (-1.2 + 2.4 * (i + 0.5) / kPoints);
             BiasRule rule{};
             rule.automatic = 1.0;
+            rule.snap_texels = snapOf(8.0);
+            rule.normal_error = 2e-4;
             rule.quantum = 4e-6;
             rule.exact_plane = 1.0;
             FilterInput f{};

@@ -95,6 +95,8 @@ struct Sun {
         rows.range_m = range;
         BiasRule rule{};
         rule.automatic = 1.0;
+        rule.snap_texels = snapOf(8.0);
+        rule.normal_error = 2e-4;
         rule.quantum = 4e-6;
         rule.reach_texels = 1.75;
         FilterInput f{};

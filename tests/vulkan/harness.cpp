@@ -214,6 +214,13 @@ Gpu::~Gpu()
     vkDestroyInstance(instance_, nullptr);
 }
 
+VkPhysicalDeviceLimits Gpu::limits() const
+{
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical_device_, &properties);
+    return properties.limits;
+}
+
 vulkan::DeviceView Gpu::view() const
 {
     vulkan::DeviceView view;

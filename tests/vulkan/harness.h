@@ -56,6 +56,7 @@ public:
     Gpu& operator=(const Gpu&) = delete;
 
     [[nodiscard]] vulkan::DeviceView view() const;
+    [[nodiscard]] VkPhysicalDeviceLimits limits() const;
     /// Records, submits and waits.
     void run(const std::function<void(VkCommandBuffer)>& record);
     [[nodiscard]] TestBuffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);

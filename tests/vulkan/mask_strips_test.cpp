@@ -23,10 +23,9 @@ public:
     /// Of the mask's first layer.
     [[nodiscard]] shared::GpuLight* lights() const
     {
-        VkPhysicalDeviceProperties device{};
-        vkGetPhysicalDeviceProperties(gpu().view().physical_device, &device);
-        const std::size_t align = std::max<std::size_t>(
-            {device.limits.minUniformBufferOffsetAlignment, device.limits.minStorageBufferOffsetAlignment, 16});
+        const VkPhysicalDeviceLimits limits = gpu().limits();
+        const std::size_t align =
+            std::max<std::size_t>({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, 16});
         const std::size_t at = (sizeof(shared::GpuConstants) + align - 1) / align * align;
         return reinterpret_cast<shared::GpuLight*>(static_cast<std::byte*>(constants_) + at);
     }

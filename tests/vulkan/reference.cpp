@@ -7,6 +7,7 @@
 
 #include "cpu_fins.h"
 #include "cpu_smoothies.h"
+#include "harness.h"
 #include "moment_numbers.h"
 
 #include <gnomon/object_ids.h>
@@ -185,6 +186,10 @@ BiasRule ruleOf(const ShadowOptions& options)
                            (options.technique.filter == Filter::depth_id && options.ids.depth == IdDepth::object);
     rule.quantum = quantumOf(own_range ? MapFormat::d32f : formatOf(options));
     rule.exact_plane = comparesInCone(options) ? 1.0 : 0.0;
+    // Two steps of the device's grid; 16-bit octahedral normals, and what led to them.
+    rule.snap_texels = 2.0 / double(1U << gpu().limits().subPixelPrecisionBits);
+    rule.off_plane_m = 0.0; // of each receiver
+    rule.normal_error = 1e-4 + 3.0 * std::sqrt(2.0) / 65536.0;
     return rule;
 }
 
@@ -265,8 +270,7 @@ public:
     }
     void fill(const shared::MapPoint& point, const glm::dvec3& p, const glm::dvec3& n, FilterInput& input) const
     {
-        // What the matrix makes of the pixel is (p, 1) times the reciprocal of clip space's w.
-        const double w = 1.0 / (camera_.clip_from_world * glm::dvec4(p, 1.0)).w;
+        const double w = wOf(p);
         const glm::dvec4 right = world_from_ndc_[0] * (pixel_.x / w);
         const glm::dvec4 below = world_from_ndc_[1] * (pixel_.y / w);
         const glm::dvec4 along = world_from_ndc_[2] / w;
@@ -274,7 +278,25 @@ public:
         input.footprint_y = shared::footprintOf(rows_, point.texel, point.w, p, n, below, along);
     }
 
+    /// How far off its plane the receiver may be: its point is moved by `snap_px` along each axis of the picture, and
+    /// by what the depth buffer rounds.
+    [[nodiscard]] double offPlane(const glm::dvec3& p, const glm::dvec3& n, double snap_px, double rounding) const
+    {
+        const glm::dvec4 ndc = (camera_.clip_from_world * glm::dvec4(p, 1.0)) * wOf(p);
+        const auto away = [&](const glm::dvec4& step) {
+            const glm::dvec4 moved = world_from_ndc_ * (ndc + step);
+            return std::abs(glm::dot(n, glm::dvec3(moved) / moved.w - p));
+        };
+        return away({snap_px * pixel_.x, 0.0, 0.0, 0.0}) + away({0.0, snap_px * pixel_.y, 0.0, 0.0}) +
+               away({0.0, 0.0, rounding, 0.0});
+    }
+
 private:
+    /// What the matrix makes of the pixel is (p, 1) times the reciprocal of clip space's w.
+    [[nodiscard]] double wOf(const glm::dvec3& p) const
+    {
+        return 1.0 / (camera_.clip_from_world * glm::dvec4(p, 1.0)).w;
+    }
     const Camera& camera_;
     const MapRows& rows_;
     glm::dmat4 world_from_ndc_;
@@ -307,7 +329,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     }
     const Picture& picture = scene.picture;
     MapRows rows = rowsOf(view);
-    const BiasRule rule = ruleOf(options);
+    BiasRule rule = ruleOf(options);
     const Footprint footprint(scene, rows);
     FilterInput input = inputOf(scene, view, options);
     const double margin = 1e-3 + reachOf(options) - 0.5;
@@ -332,6 +354,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
                 continue;
             }
             input.pixel = glm::dvec2(i % picture.extent.width, i / picture.extent.width) + 0.5;
+            rule.off_plane_m = footprint.offPlane(p, n, rule.snap_texels, scene.camera.reversed_z ? 0.0 : 0x1p-25);
             const auto point = shared::projectReceiver(rows, rule, p, n);
             turnToLight(light, rows, p, n, input);
             if (filterTraits(options.technique.filter)->ids) {

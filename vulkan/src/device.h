@@ -7,6 +7,7 @@
 
 #include <gnomon/vulkan/shadow_renderer.h>
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -41,6 +42,8 @@ public:
     [[nodiscard]] const FeatureUses& uses() const { return view_.features; }
     /// Of the queues that commands go to; 0: they have no timestamps.
     [[nodiscard]] std::uint32_t timestampBits() const;
+    /// By which it places vertices within a pixel: pack::DrawPrecision::sub_pixel_bits.
+    [[nodiscard]] std::uint32_t subPixelBits() const { return std::clamp(limits_.subPixelPrecisionBits, 1U, 24U); }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
     [[nodiscard]] const ShaderHook& shaderHook() const { return view_.shaders; }

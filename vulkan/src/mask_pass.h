@@ -103,7 +103,8 @@ private:
     [[nodiscard]] std::uint32_t channelsFor(const Plan& plan) const;
     [[nodiscard]] std::uint32_t lightRoomFor(const Plan& plan) const;
     void describeTiles(const Frame& frame, const Plan& plan, glm::uvec2 size_px);
-    void describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px, const MapClasses& maps);
+    void describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
+                           const pack::DrawPrecision& precision, const MapClasses& maps);
     void fillTiles(Slot& slot);
 
     void makeLayouts();

@@ -21,6 +21,50 @@ ContentNumber nameOfInputs(const Plan& plan, const MaskInputs& inputs)
     return goes_on || CascadeFitter::fits(plan) ? 0 : inputs.content;
 }
 
+namespace {
+
+/// By how much a number of [-1, 1] is off at most that an image of this format holds.
+float roundingOf(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R32G32_SFLOAT:
+        return 0.0F;
+    case VK_FORMAT_R16G16_SNORM:
+        return 0x1p-16F;
+    case VK_FORMAT_R16G16_SFLOAT:
+        return 0x1p-12F;
+    default:
+        return 0x1p-8F;
+    }
+}
+
+/// Half a step of a depth buffer.
+float depthRoundingOf(VkFormat format, bool reversed_z)
+{
+    switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_D16_UNORM_S8_UINT:
+        return 0x1p-17F;
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+        return 0x1p-25F;
+    default:
+        return reversed_z ? 0.0F : 0x1p-25F;
+    }
+}
+
+pack::DrawPrecision precisionOf(const Device& device, const MaskInputs& inputs, const Camera& camera)
+{
+    pack::DrawPrecision precision;
+    precision.depth_rounding = depthRoundingOf(inputs.depth_format, camera.reversed_z);
+    precision.sub_pixel_bits = device.subPixelBits();
+    precision.normal_error_rad = inputs.normal != VK_NULL_HANDLE ? pack::normalError(roundingOf(inputs.normal_format))
+                                                                 : pack::normalErrorFromDepth(precision.sub_pixel_bits);
+    return precision;
+}
+
+} // namespace
+
 void MaskPassRecorder::describe(const Frame& frame, const Plan& plan, const MaskInputs& inputs, const MapClasses& maps,
                                 std::uint64_t map_changes)
 {
@@ -47,11 +91,11 @@ void MaskPassRecorder::describe(const Frame& frame, const Plan& plan, const Mask
     if (!now_.numbers.empty()) {
         pack::fillObjects(frame, plan, now_.numbers);
     }
-    describeConstants(frame, plan, size_px, maps);
+    describeConstants(frame, plan, size_px, precisionOf(device_, inputs, frame.camera), maps);
 }
 
 void MaskPassRecorder::describeConstants(const Frame& frame, const Plan& plan, glm::uvec2 screen_px,
-                                         const MapClasses& maps)
+                                         const pack::DrawPrecision& precision, const MapClasses& maps)
 {
     std::byte* const bytes = now_.constants.data();
     for (std::uint32_t i = 0; i < plan.options->size(); ++i) {
@@ -61,7 +105,7 @@ void MaskPassRecorder::describeConstants(const Frame& frame, const Plan& plan, g
             map_images_[i] = {{info.extent.width, info.extent.height}, info.levels};
         }
         auto& constants = *reinterpret_cast<shared::GpuConstants*>(bytes + i * room_.constants_stride);
-        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], constants);
+        pack::fillConstants(frame, plan, i, screen_px, map_images_[i], precision, constants);
         if (drawsToConverge(plan) && weighsFrames((*plan.options)[i])) {
             constants.rule.moments.w = static_cast<std::int32_t>(converge_->stood(frame, plan));
         }

@@ -5,6 +5,7 @@
 #include "pipelines.h"
 #include "usage.h"
 
+#include <gnomon/shared/bias.h>
 #include <gnomon/shared/shadow_volume.h>
 #include <gnomon_spirv.h>
 
@@ -30,9 +31,12 @@ struct VolumePush {
 };
 static_assert(sizeof(VolumePush) == 128);
 
-// Where a light cap lies in a surface, how far behind it the cap is, in pixels of the surface's own slope: rasterisers
-// place corners by 1/256 of a pixel.
-constexpr float kSlope_px = 1.0F / 64.0F;
+/// Where a light cap lies in a surface, how far behind it the cap is, in pixels of the surface's own slope: the depths
+/// of both are those of points that are so far away along each axis, and the slope counts the steeper axis alone.
+float capSlope_px(const Device& device)
+{
+    return 2.0F * shared::snapOf(static_cast<float>(device.subPixelBits()));
+}
 
 /// Behind what is seen a face that turns away from the eye leads out of a volume, and one that turns to it leads in.
 VkPipelineDepthStencilStateCreateInfo countingState(bool reversed_z, bool depth_bounds)
@@ -111,7 +115,7 @@ Pipeline VolumeDrawer::Impl::makePipeline(const VolumePass& pass)
     state.stencil_format = pass.depth_stencil;
     state.depth_stencil = &counting;
     state.depth_clamp = true;
-    state.depth_bias_slope = pass.reversed_z ? -kSlope_px : kSlope_px;
+    state.depth_bias_slope = capSlope_px(device) * (pass.reversed_z ? -1.0F : 1.0F);
     state.cache = cache;
     state.name = "shadow volumes";
     return makeGraphicsPipeline(device, state);

@@ -219,8 +219,9 @@
 #define kNearlyOne gnomon_kNearlyOne
 #define kNoLayerBegins gnomon_kNoLayerBegins
 #define kNoSmoothie gnomon_kNoSmoothie
-#define kNormalError gnomon_kNormalError
+#define kNormalArithmetic gnomon_kNormalArithmetic
 #define kObjectPad gnomon_kObjectPad
+#define kOctahedralStretch gnomon_kOctahedralStretch
 #define kOneSurface gnomon_kOneSurface
 #define kParaboloidBehind gnomon_kParaboloidBehind
 #define kPcssTaps gnomon_kPcssTaps
@@ -250,10 +251,11 @@
 #define kShowsDecided gnomon_kShowsDecided
 #define kShowsRays gnomon_kShowsRays
 #define kSmoothieSteps gnomon_kSmoothieSteps
-#define kSnap gnomon_kSnap
+#define kSnapSteps gnomon_kSnapSteps
 #define kStartsAtRest gnomon_kStartsAtRest
 #define kStartsWithin gnomon_kStartsWithin
 #define kSteepest gnomon_kSteepest
+#define kSteepestBias gnomon_kSteepestBias
 #define kStraightFrom gnomon_kStraightFrom
 #define kStraightTo gnomon_kStraightTo
 #define kStripFrom gnomon_kStripFrom
@@ -319,6 +321,7 @@
 #define occluderReach gnomon_occluderReach
 #define octahedralDecode gnomon_octahedralDecode
 #define octahedralEncode gnomon_octahedralEncode
+#define offPlane gnomon_offPlane
 #define outweighs gnomon_outweighs
 #define ownDepthsAround gnomon_ownDepthsAround
 #define packCount gnomon_packCount
@@ -379,6 +382,7 @@
 #define smoothSurface gnomon_smoothSurface
 #define smoothieAlpha gnomon_smoothieAlpha
 #define smoothieVisibility gnomon_smoothieVisibility
+#define snapOf gnomon_snapOf
 #define startSquare gnomon_startSquare
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility

@@ -219,8 +219,9 @@
 #undef kNearlyOne
 #undef kNoLayerBegins
 #undef kNoSmoothie
-#undef kNormalError
+#undef kNormalArithmetic
 #undef kObjectPad
+#undef kOctahedralStretch
 #undef kOneSurface
 #undef kParaboloidBehind
 #undef kPcssTaps
@@ -250,10 +251,11 @@
 #undef kShowsDecided
 #undef kShowsRays
 #undef kSmoothieSteps
-#undef kSnap
+#undef kSnapSteps
 #undef kStartsAtRest
 #undef kStartsWithin
 #undef kSteepest
+#undef kSteepestBias
 #undef kStraightFrom
 #undef kStraightTo
 #undef kStripFrom
@@ -319,6 +321,7 @@
 #undef occluderReach
 #undef octahedralDecode
 #undef octahedralEncode
+#undef offPlane
 #undef outweighs
 #undef ownDepthsAround
 #undef packCount
@@ -379,6 +382,7 @@
 #undef smoothSurface
 #undef smoothieAlpha
 #undef smoothieVisibility
+#undef snapOf
 #undef startSquare
 #undef stepWeight
 #undef steppedVisibility

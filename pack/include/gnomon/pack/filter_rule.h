@@ -28,9 +28,31 @@ namespace gnomon::pack {
 [[nodiscard]] GNOMON_API shared::MomentRule readingRuleOf(const ResolvedOptions& options);
 /// What filters id and depth-id go by.
 [[nodiscard]] GNOMON_API shared::IdRule idRuleOf(const ResolvedOptions& options);
+
+/// How exactly casters are drawn and receivers are known: the automatic bias allows for what is lost.
+struct DrawPrecision {
+    /// Bits of a pixel by which the device that draws places vertices (VkPhysicalDeviceLimits::subPixelPrecisionBits,
+    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 1 to 24. What Vulkan and OpenGL promise, unless given.
+    std::uint32_t sub_pixel_bits = 4;
+    /// Receivers' points come from a depth buffer that the same device has drawn; false: a shading pass interpolates
+    /// them, or they come from rays.
+    bool receivers_from_depth = true;
+    /// Half a step of that depth buffer, 0 to 0.01: 2^-17 of 16 bits, 2^-25 of 24 bits, and of floats where 1 is far
+    /// (Camera::reversed_z false); 0 of floats where 0 is far.
+    float depth_rounding = 0x1p-25F;
+    /// Bound on the error of receivers' geometric normals, radians, 0 to 0.1: normalError() of how they are stored.
+    float normal_error_rad = 2e-4F;
+};
+
+/// Of normals that are stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at most
+/// `rounding`: 2^-16 of 16-bit integers, 2^-8 of 8-bit ones, 2^-12 of 16-bit floats, 0 of 32-bit ones.
+[[nodiscard]] GNOMON_API float normalError(float rounding);
+/// Of normals that are found by differences of a depth buffer.
+[[nodiscard]] GNOMON_API float normalErrorFromDepth(std::uint32_t sub_pixel_bits);
+
 /// All that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps' image, is
-/// left 0: fillConstants() fills it in.
-GNOMON_API void fillRule(const ResolvedOptions& options, shared::GpuRule& out);
+/// left 0: fillConstants() fills it in. Precondition: the members of `precision` are in their ranges.
+GNOMON_API void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out);
 /// The weights of a filterable map's blur, normalised in double precision: those of all texels add up to 1.
 /// Precondition: blurRadius(options) > 0.
 [[nodiscard]] GNOMON_API shared::BlurKernel blurKernel(const MomentOptions& options);

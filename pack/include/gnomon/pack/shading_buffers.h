@@ -8,6 +8,7 @@
 
 #include <gnomon/export.h>
 #include <gnomon/frame.h>
+#include <gnomon/pack/filter_rule.h>
 #include <gnomon/plan.h>
 
 #include <gnomon/shared/gpu_structs.h>
@@ -25,7 +26,7 @@ struct MapImage {
 /// For lights whose LightPlan::options is `options`. `screen_px`: the size of the picture. Throws Error where the plan
 /// has no such options, or a size is 0.
 GNOMON_API void fillConstants(const Frame& frame, const Plan& plan, std::uint32_t options, glm::uvec2 screen_px,
-                              const MapImage& maps, shared::GpuConstants& out);
+                              const MapImage& maps, const DrawPrecision& precision, shared::GpuConstants& out);
 /// Light i of the frame goes to lights[i]; what is beyond the frame's lights gets no views. Lights without a map have
 /// none. One with SunSteps::alternate has the views of SunSteps::read alone, whose maps this frame draws. Throws
 /// Error where there is no room for all, or the frame has other lights than the plan.

@@ -326,7 +326,8 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     placeObject(f, light.options, at.p);
     f.lifted = at.p == p ? 0.0 : 1.0;
 #endif
-    BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more);
+    float off_plane_m = offPlane(r.steps, p, n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
+    BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, off_plane_m);
     bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
     vec4 v = vec4(1.0);
     uvec2 range = light.views.xy;

@@ -40,6 +40,15 @@ GN_FN real towardsPlane(real3 n, real3 p, real4 d)
     return dot(n, real3(d.x, d.y, d.z) - p * d.w);
 }
 
+// How far a receiver that comes from the camera's depth may be off its plane, metres: `snap_px` is how far along each
+// axis of the picture the point may lie whose depth the pixel has, `rounding` by how much that depth may be rounded. At
+// one depth the neighbouring pixel's point is as far off the plane as it would have been there.
+GN_FN real offPlane(PixelSteps s, real3 p, real3 n, real snap_px, real rounding)
+{
+    return snap_px * (abs(towardsPlane(n, p, s.right)) + abs(towardsPlane(n, p, s.below))) +
+           rounding * abs(towardsPlane(n, p, s.along));
+}
+
 // Texels from the receiver's place in the map, `texel`, to where one step takes it. `w` is that of the map at p.
 //
 // Derivation. With P = (p, 1), step S and ray A the neighbour's ray is P + S + t A. It meets the plane through p, whose

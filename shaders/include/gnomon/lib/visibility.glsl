@@ -50,13 +50,17 @@ GN_FN MapRows rowsAt(GpuView view, real3 p)
     return rows;
 }
 
-GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more)
+// GpuRule's bias and bias_more; `off_plane_m`: offPlane() of the receiver by what they say.
+GN_FN BiasRule biasOf(GN_VEC4 bias, GN_VEC4 more, real off_plane_m)
 {
     BiasRule rule;
     rule.automatic = real(bias.x);
     rule.constant_m = real(bias.y);
     rule.slope = real(bias.z);
     rule.normal_texels = real(bias.w);
+    rule.snap_texels = real(bias.y);
+    rule.off_plane_m = off_plane_m;
+    rule.normal_error = real(bias.w);
     rule.receiver_plane = real(more.x);
     rule.reach_texels = real(more.y);
     rule.quantum = real(more.z);

@@ -36,6 +36,10 @@ struct BiasRule {
     real reach_texels;   // how far from the receiver, per axis, a tap's texel centre can be
     real quantum;        // error of a stored depth, as a metric difference
     real exact_plane;    // 1: texels are compared with the plane at their own centres, wherever they are
+    // By hand the next three are ignored.
+    real snap_texels;  // a stored depth is that of a point up to so far away, along each axis of the map
+    real off_plane_m;  // how far the receiver may be off the plane that the map holds
+    real normal_error; // of the receiver's normal, radians
 };
 
 // A receiver on a map. At d texels from it, its reference depth is
@@ -61,11 +65,20 @@ GN_CONST real kSteepest = real(20.0);
 // reach.
 GN_CONST real kRoughness = real(0.2);
 GN_CONST real kRoughnessPerTexel = real(0.1);
-// Vertices snap to 1/256 of a texel when a map is drawn, so its depths are those of a point up to this far away,
-// texels.
-GN_CONST real kSnap = real(0.015625);
-// Error of a normal, radians: 16-bit octahedral storage and the arithmetic before it.
-GN_CONST real kNormalError = real(0.0002);
+// A device draws on a grid of 2^bits steps to a pixel (VkPhysicalDeviceLimits::subPixelPrecisionBits). It moves each
+// vertex to that grid, so a triangle's depth at a pixel is that of a point of its plane this many steps away along each
+// axis: half a step where the device rounds, one where it cuts off, and one for the arithmetic of its own depth.
+GN_CONST real kSnapSteps = real(2.0);
+// Error of a normal before it is stored, radians: of the arithmetic that leads to it.
+GN_CONST real kNormalArithmetic = real(0.0001);
+// A slope is bounded for the bias, as a tangent.
+GN_CONST real kSteepestBias = real(1000.0);
+
+// How far away along each axis the point may lie whose depth a pixel has, pixels.
+GN_FN real snapOf(real sub_pixel_bits)
+{
+    return kSnapSteps * exp2(-sub_pixel_bits);
+}
 
 GN_FN real dotRow(real4 row, real3 p)
 {
@@ -100,8 +113,10 @@ GN_FN real2 texelAt(MapRows map, real3 p, real w)
 // and the metric
 //   m' = m + dot(M, dp) = (m + dot(m s + w (M.A, M.B), d)) / (1 + dot(s, d)).
 // For an orthographic map W = 0.
+// A plane that lies e along n from this one has at the same texel the depth m + e M.C / det: C = X x Y leads along the
+// texel's ray, and det = dot(n, C). `rise` is M.C / det.
 GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_OUT(real2) depth_slope,
-                         GN_OUT(real2) w_slope)
+                         GN_OUT(real2) w_slope, GN_OUT(real) rise)
 {
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
     real det = dot(n, gradientOf(map.plane_w));
@@ -109,6 +124,7 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
     real inverse = real(1.0) / (abs(det) > tiny ? det : (det < real(0.0) ? -tiny : tiny));
     w_slope = real2(0.0);
     depth_slope = real2(dot(n, gradientOf(map.plane_x)), dot(n, gradientOf(map.plane_y))) * inverse;
+    rise = dot(gradientOf(map.metric), gradientOf(map.plane_w)) * inverse;
 #else
     real3 gw = gradientOf(map.w);
     real3 gx = gradientOf(map.x) - gw * texel.x;
@@ -122,6 +138,7 @@ GN_FN void receiverPlane(MapRows map, real3 n, real2 texel, real w, real m, GN_O
     w_slope = real2(dot(gw, a), dot(gw, b)) * -inverse;
     real3 gm = gradientOf(map.metric) * w;
     depth_slope = w_slope * m + real2(dot(gm, a), dot(gm, b)) * inverse;
+    rise = dot(gradientOf(map.metric), cross(gx, gy)) * inverse;
 #endif
 }
 
@@ -160,7 +177,8 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
 
     real2 plane_slope;
     real2 w_slope;
-    receiverPlane(map, n, r.texel, r.w, m, plane_slope, w_slope);
+    real rise;
+    receiverPlane(map, n, r.texel, r.w, m, plane_slope, w_slope, rise);
     // The slope of depth itself, in metric per texel, at the receiver.
     real2 slope = plane_slope - w_slope * m;
     real texel_depth = texelExtent(map, r.texel, r.w) / map.range_m; // a texel's width, as a metric difference
@@ -172,10 +190,12 @@ GN_FN MapPoint projectReceiver(MapRows map, BiasRule rule, real3 p, real3 n)
     if (rule.automatic > real(0.0)) {
         follow = max(rule.exact_plane, min(real(1.0), kSteepest / max(steepness, real(1e-6))));
         real lost = (real(1.0) - follow) * (abs(slope.x) + abs(slope.y)); // per texel, where the plane is not followed
-        real bounded = min(steepness, real(1000.0));
-        real doubt = kNormalError * (real(1.0) + bounded * bounded);
+        real bounded = min(steepness, kSteepestBias);
+        real doubt = rule.normal_error * (real(1.0) + bounded * bounded);
         real at_reach = kRoughness + (kRoughnessPerTexel + doubt) * rule.reach_texels;
-        bias = rule.quantum + texel_depth * (kSnap * bounded + (real(1.0) - rule.exact_plane) * at_reach);
+        bias = rule.quantum + texel_depth * (real(1.0) - rule.exact_plane) * at_reach;
+        bias = bias + rule.snap_texels * min(abs(slope.x) + abs(slope.y), kSteepestBias * texel_depth);
+        bias = bias + rule.off_plane_m * min(abs(rise), kSteepestBias / map.range_m);
         bias = bias + lost * rule.reach_texels;
         r.plane_doubt = doubt * texel_depth;
     } else {

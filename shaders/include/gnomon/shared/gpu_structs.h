@@ -74,8 +74,12 @@ struct GpuLight {
 
 // What a light's options come to, for the filter that reads its maps.
 struct GpuRule {
-    GN_VEC4 bias;        // automatic, constant_m, slope, normal_texels
-    GN_VEC4 bias_more;   // receiver_plane, reach_texels, quantum, exact_plane
+    // x: 1: automatic; by hand 0, and constant_m, slope, normal_texels (BiasRule). Automatic: y: snap_texels; z: how
+    // far along each axis of the picture the point of a receiver may lie, pixels; w: normal_error
+    GN_VEC4 bias;
+    // x: by hand receiver_plane; automatic: by how much the depth of a receiver may be rounded; yzw: reach_texels,
+    // quantum, exact_plane
+    GN_VEC4 bias_more;
     GN_VEC4 kernel;      // gaussianWeights; of id and depth-id IdRule (object_ids.h): -ids where they have an order
     GN_VEC4 disc;        // x: radius, texels; y: frame, for noise; zw: one over the size of the maps' image in texels
     GN_VEC4 moment_warp; // exponent, negative exponent, moment bias, anisotropy

@@ -13,6 +13,11 @@ GN_FN real signNotZero(real x)
     return x >= real(0.0) ? real(1.0) : real(-1.0);
 }
 
+// A vector turns by at most this angle, radians, for each unit by which both of its numbers are off: 3 sqrt(2). That is
+// in the middle of a face, which is nearest to the octahedron's centre, along the line on which the third number
+// changes by twice as much.
+GN_CONST real kOctahedralStretch = real(4.2426407);
+
 // Unit vector to [-1, 1]^2.
 GN_FN real2 octahedralEncode(real3 n)
 {

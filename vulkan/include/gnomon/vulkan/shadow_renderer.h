@@ -90,11 +90,17 @@ using DrawVolumes = std::function<void(const VolumePass&)>;
 /// by the host.
 struct MaskInputs {
     VkExtent2D extent{};                // of the mask, and of each image here: no larger ones
-    VkImageView depth = VK_NULL_HANDLE; // the camera's depth, D32F (of D32F_S8 the aspect DEPTH) or R32F
+    VkImageView depth = VK_NULL_HANDLE; // the camera's depth, of a format with stencil the aspect DEPTH, or R32F
+    /// Of `depth`: the automatic bias allows for what it rounds away. D16, D24 or D32F, with stencil or without; any
+    /// other counts as floats. With 16 bits the bias is metres where the view reaches far.
+    VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; // or DEPTH_READ_ONLY_OPTIMAL
     /// Geometric world-space normals, octahedral in RG (snorm or float; gnomon/shared/octahedral.h), or
     /// VK_NULL_HANDLE: then taken from depth.
     VkImageView normal = VK_NULL_HANDLE;
+    /// Of `normal`: the automatic bias allows for what it rounds away. RG of 8 or 16 bits (snorm), of 16 or 32
+    /// (sfloat); any other counts as 8 bits.
+    VkFormat normal_format = VK_FORMAT_R16G16_SNORM;
     /// Of smooth-shaded meshes, in RGB of 16 bits (snorm or float): what gnomonSmoothEncode() gives
     /// (shaders/include/gnomon/smooth_surface.glsl). Then the interpolated normal says whether a surface faces a light,
     /// and its terminator has no steps. VK_NULL_HANDLE: the geometric one says it.
