@@ -58,5 +58,5 @@ GNOMON_SPARED(void, rtcSetGeometryInstancedScene, (RTCGeometry g, RTCScene s), (
 GNOMON_SPARED(void, rtcSetGeometryTransform, (RTCGeometry g, unsigned step, RTCFormat f, const void* from),
               (g, step, f, from))
 GNOMON_SPARED(void, rtcIntersect1, (RTCScene s, RTCIntersectContext* c, RTCRayHit* r), (s, c, r))
-GNOMON_SPARED(void, rtcOccluded16, (const int* valid, RTCScene s, RTCIntersectContext* c, RTCRay16* r), (valid, s, c, r))
+GNOMON_SPARED(void, rtcOccluded8, (const int* valid, RTCScene s, RTCIntersectContext* c, RTCRay8* r), (valid, s, c, r))
 // clang-format on

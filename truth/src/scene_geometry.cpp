@@ -144,10 +144,8 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const scene::Object& object = state.objects[i];
-        // Panes are few, so they are copied: with them as instances, packets of rays through a later scene did not come
-        // to an end in Embree 3.13, for a reason that is not known.
-        parts_[i].instanced = parts_[i].primitive != nullptr && !parts_[i].blended && object.deformed == scene::kNone &&
-                              !parts_[i].skewed && uses[{object.mesh, object.primitive}] > 1 &&
+        parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone && !parts_[i].skewed &&
+                              uses[{object.mesh, object.primitive}] > 1 &&
                               hasSoundSize(parts_[i].primitive->bounds);
     }
 }

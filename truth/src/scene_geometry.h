@@ -33,7 +33,7 @@ struct GeometryDeleter {
 using ScenePointer = std::unique_ptr<RTCScene, SceneDeleter>;
 using GeometryPointer = std::unique_ptr<RTCGeometry, GeometryDeleter>;
 
-inline constexpr std::uint32_t kLanes = 16; // of a packet of rays
+inline constexpr std::uint32_t kLanes = 8; // of a packet of rays
 
 /// What blended surfaces make of the light along a ray. Of a ray that is blocked it means nothing.
 struct Tint {

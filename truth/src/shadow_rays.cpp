@@ -36,10 +36,10 @@ glm::dvec3 offSurface(const glm::dvec3& rel, const Triangle& triangle, const glm
     return on + normal * (triangle.reach_m * 0x1p-20);
 }
 
-/// Rays from one point to a disc, sixteen at a time.
+/// Rays from one point to a disc, eight at a time.
 struct ShadowRays::Packet {
     RayContext context;
-    RTCRay16 rays{};
+    RTCRay8 rays{};
     alignas(64) std::array<int, kLanes> valid{};
     alignas(64) std::array<float, kLanes> ends{};
 
@@ -247,7 +247,7 @@ ShadowRays::Result ShadowRays::traceDisc(const Receiver& receiver, const Seen& l
             if (geometry_.tints()) {
                 packet.context.clearTints();
             }
-            rtcOccluded16(packet.valid.data(), geometry_.casters(), &packet.context.base, &packet.rays);
+            rtcOccluded8(packet.valid.data(), geometry_.casters(), &packet.context.base, &packet.rays);
             for (std::uint32_t k = 0; k < kLanes; ++k) {
                 const bool traced = packet.valid[k] != 0;
                 const bool is_free = traced && packet.rays.tfar[k] >= 0.0F; // Embree leaves -infinity where it hits
