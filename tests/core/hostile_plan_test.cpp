@@ -3,7 +3,12 @@
 // none loops, and none reaches another light's maps.
 #include "hostile_world.h"
 
+#include <gnomon/option_table.h>
+
+#include <span>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace gnomon::test {
 namespace {

@@ -118,10 +118,4 @@ void Desktop::key(std::string_view name, bool down)
     XSync(impl_->display, False);
 }
 
-void Desktop::focus(unsigned long window)
-{
-    XSetInputFocus(impl_->display, window, RevertToPointerRoot, CurrentTime);
-    XSync(impl_->display, False);
-}
-
 } // namespace gnomon::test

@@ -29,8 +29,6 @@ public:
     void release(int button);
     /// A key by its X11 name: "Return", "w".
     void key(std::string_view name, bool down);
-    /// The window under the pointer hears the keys.
-    void focus(unsigned long window);
 
 private:
     Desktop() = default;

@@ -8,10 +8,8 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#define GLFW_EXPOSE_NATIVE_X11
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <GLFW/glfw3native.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -98,7 +96,7 @@ User::User(Desktop& desktop, const std::vector<std::string>& arguments,
            const std::optional<app::view::ShaderBuild>& shaders)
     : desktop_(desktop), window_(settingsOf(arguments), shaders)
 {
-    desktop_.focus(glfwGetX11Window(window_.window().handle()));
+    glfwFocusWindow(window_.window().handle());
     wait();
 }
 
