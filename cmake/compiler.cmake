@@ -6,6 +6,12 @@ if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=true CCACHE_NOHASHDIR=true
                                     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${GNOMON_CCACHE})
 endif()
+# Where there is such a cache, shaders are kept as well (cmake/shaders.cmake).
+set(folder "")
+if(GNOMON_CCACHE AND PROJECT_IS_TOP_LEVEL AND DEFINED ENV{HOME})
+    set(folder $ENV{HOME}/.cache/gnomon-build/shaders)
+endif()
+set(GNOMON_SHADER_CACHE "${folder}" CACHE PATH "Folder where compiled shaders are kept for further builds; empty: none")
 
 add_library(gnomon_options INTERFACE)
 target_compile_options(gnomon_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion

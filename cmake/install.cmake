@@ -45,7 +45,7 @@ endforeach()
 # Before 1.0 a minor version may change the interface.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/gnomon-config-version.cmake
     VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
-install(FILES cmake/gnomon-config.cmake cmake/shaders.cmake cmake/embed_spirv.cmake
+install(FILES cmake/gnomon-config.cmake cmake/shaders.cmake cmake/compile_shader.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/gnomon-config-version.cmake
         DESTINATION ${gnomon_cmake_dir} COMPONENT development)
 

@@ -42,8 +42,7 @@ endfunction()
 # TARGET/NAME.spv alone. NAME is TARGET if not given. An entry is a source, or one of gnomon_shader_variants().
 # Sources find gnomon's GLSL as "gnomon/visibility.glsl". Debug builds keep their lines and names in the SPIR-V, but for those
 # with sanitizers, which look at C++ alone.
-# GNOMON_SPIRV_FROM is another build folder, whose modules are taken as they are for gnomon's own sources.
-# It has to be built already, from the same sources, in Release or with sanitizers.
+# GNOMON_SHADER_CACHE is a folder where modules are kept, and taken from by every build of the same sources; empty: none.
 function(gnomon_shaders target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAMESPACE" "")
     if(NOT arg_NAMESPACE)
@@ -107,39 +106,45 @@ function(_gnomon_shader_tools)
                                 "install them (Debian: glslc, spirv-tools), or set GNOMON_${tool}")
         endif()
     endforeach()
+    set(versions none)
+    if(GNOMON_SHADER_CACHE)
+        execute_process(COMMAND ${GNOMON_GLSLC} --version OUTPUT_VARIABLE compiler)
+        execute_process(COMMAND ${GNOMON_SPIRV_VAL} --version OUTPUT_VARIABLE validator)
+        string(SHA256 versions "${compiler}${validator}")
+        if(CMAKE_HOST_UNIX) # what nobody has used for two weeks goes
+            execute_process(COMMAND find ${GNOMON_SHADER_CACHE} -type f -mtime +13 -delete OUTPUT_QUIET ERROR_QUIET)
+        endif()
+    endif()
+    set(GNOMON_SHADER_TOOLS ${versions} PARENT_SCOPE)
 endfunction()
 
 # _gnomon_compile_shader(TARGET NAME SOURCE DEFINES...): the rule that makes TARGET/NAME.inc, the words of the module.
 function(_gnomon_compile_shader target name source)
     set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}/${name})
-    set(is_ours OFF)
-    if(DEFINED gnomon_BINARY_DIR)
-        cmake_path(IS_PREFIX gnomon_BINARY_DIR ${CMAKE_CURRENT_BINARY_DIR} is_ours)
-    endif()
-    if(GNOMON_SPIRV_FROM AND is_ours)
-        file(RELATIVE_PATH place ${gnomon_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
-        set(made ${GNOMON_SPIRV_FROM}/${place}/${target}/${name})
-        add_custom_command(
-            OUTPUT ${out}.inc
-            COMMAND ${CMAKE_COMMAND} -E copy ${made}.spv ${out}.spv
-            COMMAND ${CMAKE_COMMAND} -E copy ${made}.inc ${out}.inc
-            DEPENDS ${made}.inc VERBATIM COMMENT "copying ${name}")
-        return()
-    endif()
+    set(compile ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/compile_shader.cmake)
     get_filename_component(source ${source} ABSOLUTE)
-    set(embed ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/embed_spirv.cmake)
     set(keep_names)
     if(NOT GNOMON_SANITIZE)
-        set(keep_names $<$<CONFIG:Debug>:-g>)
+        set(keep_names "$<$<CONFIG:Debug>:|-g>")
     endif()
     set(defines ${ARGN})
-    list(TRANSFORM defines PREPEND "-D")
+    list(TRANSFORM defines PREPEND "|-D")
+    list(JOIN defines "" defines)
+    set(root ${gnomon_SOURCE_DIR})
+    if(NOT root) # of an installed library
+        set(root ${CMAKE_SOURCE_DIR})
+    endif()
     set(includes $<TARGET_PROPERTY:gnomon::shaders,INTERFACE_INCLUDE_DIRECTORIES>)
+    set(glslc "${GNOMON_GLSLC}|--target-env=vulkan1.3|-O${keep_names}|-Werror${defines}|-I$<JOIN:${includes},|-I>")
+    # Lines and names, which Debug keeps, have the folder's name.
+    set(cache "$<$<NOT:$<CONFIG:Debug>>:${GNOMON_SHADER_CACHE}>")
+    if(GNOMON_SANITIZE)
+        set(cache "${GNOMON_SHADER_CACHE}")
+    endif()
     add_custom_command(
         OUTPUT ${out}.inc
-        COMMAND ${GNOMON_GLSLC} --target-env=vulkan1.3 -O ${keep_names} -Werror ${defines} "-I$<JOIN:${includes},;-I>"
-                -MD -MF ${out}.d -MT ${out}.inc -o ${out}.new ${source}
-        COMMAND ${GNOMON_SPIRV_VAL} --target-env vulkan1.3 ${out}.new
-        COMMAND ${CMAKE_COMMAND} -DCHECKED=${out}.new -DSPIRV=${out}.spv -DINC=${out}.inc -P ${embed}
-        DEPENDS ${source} ${embed} DEPFILE ${out}.d VERBATIM COMMAND_EXPAND_LISTS COMMENT "glslc ${name}")
+        COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${glslc}|-MD|-MF|${out}.d|-MT|${out}.inc|-o|${out}.new|${source}"
+                "-DVALIDATE=${GNOMON_SPIRV_VAL}|--target-env|vulkan1.3|${out}.new" -DOUT=${out} "-DCACHE=${cache}"
+                -DROOT=${root} -DTOOLS=${GNOMON_SHADER_TOOLS} -P ${compile}
+        DEPENDS ${source} ${compile} DEPFILE ${out}.d VERBATIM COMMENT "glslc ${name}")
 endfunction()

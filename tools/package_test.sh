@@ -80,7 +80,7 @@ step_library() {
     git ls-files -z | xargs -0 cp --parents -t "$root/src/gnomon"
     bare_root_run "$root" '
         cd /src/gnomon
-        make install LIBRARY_ONLY=1 PREFIX=/opt/gnomon >/src/install.log 2>&1 || { tail -n 30 /src/install.log >&2; exit 1; }
+        make install LIBRARY_ONLY=1 PREFIX=/opt/gnomon CMAKE_FLAGS=-DGNOMON_SHADER_CACHE=/src/modules >/src/install.log 2>&1 || { tail -n 30 /src/install.log >&2; exit 1; }
         # ninja-build brings python3 along.
         wanted=$(tools/install_packages.sh --list | grep -v "^python3$" | sort)
         for package in $(comm -23 <(echo "$wanted") <(tools/install_packages.sh --list --only library | sort)); do
@@ -95,7 +95,7 @@ step_library() {
         /src/found/plan
         /src/found/record
         cmake -G Ninja -S /src/consumer -B /src/within -DHOW=FetchContent -DGNOMON_SOURCE=/src/gnomon \
-            -DGNOMON_SPIRV_FROM=/src/gnomon/build-library >/dev/null
+            -DGNOMON_SHADER_CACHE=/src/modules >/dev/null
         cmake --build /src/within >/dev/null
         /src/within/plan
         /src/within/record'

@@ -80,11 +80,10 @@ std::optional<ShaderBuild> findShaderBuild()
     ShaderBuild build;
     build.sources = {home / "shaders", home / "host" / "shaders"};
     build.modules = {folder / "shaders" / "gnomon_spirv", folder / "host" / "gnomon_host_spirv"};
-    const bool copies = !cached(cache, "GNOMON_SPIRV_FROM").empty(); // another build's modules
     const auto is_there = [&fault](const fs::path& one) {
         return fs::is_directory(one, fault);
     };
-    if (cmake.empty() || copies || !std::all_of(build.sources.begin(), build.sources.end(), is_there) ||
+    if (cmake.empty() || !std::all_of(build.sources.begin(), build.sources.end(), is_there) ||
         !std::all_of(build.modules.begin(), build.modules.end(), is_there)) {
         return std::nullopt;
     }
