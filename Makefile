@@ -6,6 +6,7 @@
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
 # TIDY_FOLDERS what `make tidy` looks at, e.g. core/src (default: all sources)
 # PREFIX       where `make install` puts it (default /usr/local); DESTDIR goes before it
+# BUILT=1      make test and make asan take what is built as it is, and build nothing
 # FUZZ_SECONDS how long `make fuzz` runs, all fuzzers together (default 60)
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -27,6 +28,7 @@ help:
 	@echo "make demo    install what is missing, build, draw a sundial, hold shadows of a camp against the truth"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "make check   layout, headers that stand alone, include rules, forbidden words"
+	@echo "make check-all   all of it: check, test, asan, and what takes long (more than an hour)"
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
 	@echo "make asan    build and run the tests with address and undefined behaviour sanitizers, in build-asan/"
 	@echo "make fuzz    run all fuzzers in turn for FUZZ_SECONDS (60) together, in build-fuzz/"
@@ -62,8 +64,18 @@ build: configure
 	@cmake --build build -j $(JOBS)
 
 .PHONY: test
+ifndef BUILT
 test: build
+asan: build-asan
+endif
+test:
 	@$(call RUN_TESTS,build)
+
+# tools/ci_turn.py has what takes long; .ci/run does some of it each time.
+.PHONY: check-all
+check-all: check test asan
+	@for item in $$(tools/ci_turn.py alone); do echo "== $$item"; JOBS=$(JOBS) tools/ci_turn.py run $$item || failed+=" $$item"; done; \
+	    [[ -z $${failed:-} ]] || { echo "failed:$$failed" >&2; exit 1; }
 
 .PHONY: check
 check: packages
@@ -91,7 +103,7 @@ build-asan: packages
 	@cmake --build build-asan -j $(JOBS)
 
 .PHONY: asan
-asan: build-asan
+asan:
 	@source tools/sanitizers.sh && $(call RUN_TESTS,build-asan)
 
 .PHONY: fuzz

@@ -1,18 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Counts the cases of a test run by what they wrote, and proves that none was left out.
+"""Counts the cases of a test run by what they wrote, chooses what a build runs, and proves that none was left out.
 
-usage: cases.py count RESULTS              prints "N passed, N failed, N skipped", before it the slowest, and those that did not pass
-       cases.py prove BUILD RESULTS...     was every case of every test binary in BUILD run in some RESULTS?
+usage: cases.py count RESULTS              prints "N passed, N failed, N skipped", before it the dearest, and those that did not pass
+       cases.py choose [--ran-in RESULTS]  what tests/cases.cmake asks for
+       cases.py prove BUILD RESULTS [SANITIZED]     is every case of every test binary in BUILD run by somebody?
 
 RESULTS is a folder such as build/results: ctest.xml is by ctest, NAME.json by the googletest cases of ctest's test NAME.
-A test of ctest that wrote no such file counts as one case, so that one which crashed is not forgotten. `prove` also looks for
-patterns of tests/stages.txt that no case has, and for cases of its "both" that some RESULTS lack. Exit status 1 when something
-failed or is missing. What docs/reliability.md names has to have run too.
+A test of ctest that wrote no such file counts as one case, so that one which crashed is not forgotten.
+
+`choose` prints lines: "long BINARY PATTERNS" and "without BINARY PATTERNS", as tests/stages.txt says. With --ran-in, results of
+a run in Release, what drew there is left out as well, and "unused FILE" is a source of tests of which no case is left.
+
+`prove`: each case of BUILD has run in RESULTS, or is long, and each test of ctest, or has a label. A label is an item of
+tools/ci_turn.py, which `make check-all` runs as a whole. Each pattern of tests/stages.txt has a case. What is not drawn has also run in
+SANITIZED, the results under sanitizers. What docs/reliability.md names is there. Exit status 1 when something failed or is missing.
 """
 
 import argparse
 import fnmatch
+import functools
 import json
 import re
 import subprocess
@@ -20,29 +27,38 @@ import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
+from ci_turn import ITEMS
 from sources import project_root
 
+DRAWN, RELEASE, LONG = "drawn under sanitizers", "release only", "long"
+MOST_BYTES = 100_000  # of a filter in the environment
 
-def outcomes_in(file: Path) -> dict[str, str]:
-    """What became of each case that ran, "binary suite.case": passed, failed or skipped."""
-    found, binary = {}, file.name.split(".")[0]
-    for suite in json.loads(file.read_text(encoding="utf-8")).get("testsuites", []):
-        for case in suite["testsuite"]:
-            if case.get("status") == "RUN":
-                found[f"{binary} {suite['name']}.{case['name']}"] = \
-                    "failed" if case.get("failures") else "skipped" if case.get("result") == "SKIPPED" else "passed"
-    return found
+
+def cases_in(file: Path) -> dict[str, dict]:
+    """What googletest wrote of each case that ran, by "binary suite.case"."""
+    binary = file.name.split(".")[0]
+    return {f"{binary} {suite['name']}.{case['name']}": case
+            for suite in json.loads(file.read_text(encoding="utf-8")).get("testsuites", [])
+            for case in suite["testsuite"] if case.get("status") == "RUN"}
+
+
+def ran_in(folder: Path) -> dict[str, dict]:
+    return {name: case for file in sorted(folder.glob("*.json")) for name, case in cases_in(file).items()}
+
+
+def outcome_of(case: dict) -> str:
+    return "failed" if case.get("failures") else "skipped" if case.get("result") == "SKIPPED" else "passed"
 
 
 def outcomes(folder: Path) -> dict[str, str]:
-    """The same of all files, and of those tests of ctest that no case speaks for."""
+    """What became of each case, passed, failed or skipped, and of those tests of ctest that no case speaks for."""
     found = {}
     tests = {}
     if (folder / "ctest.xml").is_file():
         for test in xml.parse(folder / "ctest.xml").getroot().iter("testcase"):
             tests[test.get("name")] = {"run": "passed", "notrun": "skipped"}.get(test.get("status"), "failed")
     for file in sorted(folder.glob("*.json")):
-        inside = outcomes_in(file)
+        inside = {name: outcome_of(case) for name, case in cases_in(file).items()}
         # A process may fail after its cases, by a leak.
         if tests.get(file.stem) != "failed" or "failed" in inside.values():
             tests.pop(file.stem, None)
@@ -62,24 +78,63 @@ def cases_of(binary: Path) -> set[str]:
     return cases
 
 
-def slowest(folder: Path, number: int) -> list[str]:
-    times = []
-    for file in folder.glob("*.json"):
-        for suite in json.loads(file.read_text(encoding="utf-8")).get("testsuites", []):
-            times += [(float(case["time"].rstrip("s")), f"{file.name.split('.')[0]} {suite['name']}.{case['name']}")
-                      for case in suite["testsuite"]]
-    return [f"{seconds:7.1f} s  {case}" for seconds, case in sorted(times, reverse=True)[:number]]
+def dearest(folder: Path, number: int) -> list[str]:
+    """Those that took most of the processors' time."""
+    times = sorted(((float(case.get("processor_s", 0)), name) for name, case in ran_in(folder).items()), reverse=True)
+    return [f"all of them {sum(seconds for seconds, _ in times):.0f} s of processor time, the dearest:",
+            *(f"{seconds:7.1f} s  {name}" for seconds, name in times[:number])]
 
 
-def patterns(of_section: str = "") -> list[str]:
-    """What tests/stages.txt names, "binary pattern", in one of its sections or in all."""
+@functools.cache
+def patterns() -> list[tuple[str, str]]:
+    """What tests/stages.txt names: the section, and "binary pattern"."""
     found, section = [], ""
     for line in (project_root() / "tests/stages.txt").read_text(encoding="utf-8").splitlines():
         if line.startswith("= "):
             section = line[2:]
-        elif line and line[0] != "#" and of_section in ("", section):
-            found.append(" ".join(line.split()[:2]))
+        elif line and line[0] != "#":
+            found.append((section, " ".join(line.split()[:2])))
     return found
+
+
+def is_named(case: str, *sections: str) -> bool:
+    return any(section in sections and fnmatch.fnmatchcase(case, pattern) for section, pattern in patterns())
+
+
+def is_for_release_alone(name: str, case: dict) -> bool:
+    return is_named(name, RELEASE, LONG) or ("drew" in case and not is_named(name, DRAWN))
+
+
+def choose(options) -> int:
+    sections = {section: {} for section in (DRAWN, RELEASE, LONG)}
+    for section, pattern in patterns():
+        binary, pattern = pattern.split()
+        sections[section].setdefault(binary, []).append(pattern)
+    without, used = {binary: list(some) for binary, some in sections[LONG].items()}, {}
+    if options.ran_in:
+        for binary, some in sections[RELEASE].items():
+            without.setdefault(binary, []).extend(some)
+        suites: dict[str, list] = {}
+        for name, case in ran_in(options.ran_in).items():
+            left_out = is_for_release_alone(name, case)
+            suites.setdefault(name.rpartition(".")[0], []).append((name, left_out))
+            source = case["file"][case["file"].rindex("tests/"):]
+            used[source] = used.get(source, False) or not left_out
+        for suite, cases in suites.items():
+            names = [name for name, left_out in cases if left_out]
+            # A suite has one name, its cases may have hundreds.
+            for name in [f"{suite}.*"] if len(names) == len(cases) else names:
+                binary, pattern = name.split(" ")
+                without.setdefault(binary, []).append(pattern)
+    for kind, filters in (("long", sections[LONG]), ("without", without)):
+        for binary, some in filters.items():
+            line = ":".join(some)
+            if len(line) > MOST_BYTES:
+                sys.exit(f"{binary}: a filter of {len(line)} bytes; name whole suites in tests/stages.txt")
+            print(kind, binary, line)
+    for source in sorted(source for source, is_used in used.items() if not is_used):
+        print("unused", source)
+    return 0
 
 
 def promises() -> list[str]:
@@ -100,7 +155,7 @@ def count(options) -> int:
     found = outcomes(options.results)
     total = {outcome: sorted(case for case in found if found[case] == outcome)
              for outcome in ("passed", "failed", "skipped")}
-    print("\n".join(["the slowest cases:", *slowest(options.results, 30)]))
+    print("\n".join(dearest(options.results, 30)))
     for outcome in ("failed", "skipped"):
         for case in total[outcome]:
             print(f"{outcome}: {case}")
@@ -108,22 +163,35 @@ def count(options) -> int:
     return 1 if total["failed"] else 0
 
 
+def tests_of(build: Path) -> dict[str, list[str]]:
+    """The tests of ctest in a build folder, with their labels."""
+    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True)
+    return {test["name"]: [label for one in test.get("properties", []) if one["name"] == "LABELS" for label in one["value"]]
+            for test in json.loads(shown.stdout)["tests"]}
+
+
 def prove(options) -> int:
     binaries = sorted(file for file in options.build.glob("test_*") if file.is_file() and file.stat().st_mode & 0o111)
     every = set().union(*(cases_of(binary) for binary in binaries))
-    runs = [set(outcomes(folder)) for folder in options.results]
-    ran = set().union(*runs)
-    faults = [f"{case} was run by no stage" for case in sorted(every - ran)]
-    faults += [f"{pattern}: tests/stages.txt names what is not there" for pattern in patterns()
-               if not any(fnmatch.fnmatchcase(case, pattern) for case in every)]
-    faults += [f"{promise}: docs/reliability.md names what did not run" for promise in promises()
-               if not any(fnmatch.fnmatchcase(case, promise) for case in ran)]
-    for pattern in patterns("both"):
-        faults += [f"{case} was not run by every stage" for case in sorted(fnmatch.filter(every, pattern))
-                   if not all(case in run for run in runs)]
+    tests = tests_of(options.build)
+    ran = ran_in(options.results)
+    names = every | tests.keys()
+    faults = [f"{case} was not run, nor is it long" for case in sorted(every - ran.keys()) if not is_named(case, LONG)]
+    begun = {test.get("name") for test in xml.parse(options.results / "ctest.xml").getroot().iter("testcase")}
+    faults += [f"{test} was not run, and has no label" for test in sorted(tests.keys() - begun) if not tests[test]]
+    faults += [f"{test} has the label {label}, which tools/ci_turn.py has not" for test in sorted(tests)
+               for label in tests[test] if label not in ITEMS]
+    if options.sanitized:
+        sanitized = ran_in(options.sanitized)
+        faults += [f"{name} was not run under sanitizers" for name, case in sorted(ran.items())
+                   if not is_for_release_alone(name, case) and name not in sanitized]
+    faults += [f"{pattern}: tests/stages.txt names what is not there" for _, pattern in patterns()
+               if not fnmatch.filter(every, pattern)]
+    faults += [f"{promise}: docs/reliability.md names what is not there" for promise in promises()
+               if not fnmatch.filter(names, promise)]
     for fault in faults:
         print(fault, file=sys.stderr)
-    print(f"cases: {len(every)} in {len(binaries)} binaries, {len(every & ran)} of them run")
+    print(f"cases: {len(every)} in {len(binaries)} binaries, {len(every & ran.keys())} of them run")
     return 1 if faults or not every else 0
 
 
@@ -133,9 +201,13 @@ def main() -> int:
     counts = commands.add_parser("count")
     counts.add_argument("results", type=Path)
     counts.set_defaults(call=count)
+    chooses = commands.add_parser("choose")
+    chooses.add_argument("--ran-in", type=Path)
+    chooses.set_defaults(call=choose)
     proves = commands.add_parser("prove")
     proves.add_argument("build", type=Path)
-    proves.add_argument("results", type=Path, nargs="+")
+    proves.add_argument("results", type=Path)
+    proves.add_argument("sanitized", type=Path, nargs="?")
     proves.set_defaults(call=prove)
     options = parser.parse_args()
     return options.call(options)

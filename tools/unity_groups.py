@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Sorts a target's sources into groups that compile as one source each. Called by cmake/unity.cmake.
+"""Sorts targets' sources into groups that compile as one source each. Called by cmake/unity.cmake.
 
-usage: unity_groups.py SOURCE...     prints one line for each source: its group's name, a space, its path
+usage: unity_groups.py (--target NAME SOURCE...)...     prints one line for each source: its target, its group's name, its path
 
 Two sources may not share a group when one declares a name in an unnamed namespace, as a static, or as a macro, that the
 other declares or uses too. What both bring in from the same namespace, as in "using nlohmann::json;", is one name. The
@@ -12,8 +12,8 @@ group for itself; so has one that defines a macro for a header, which other sour
 line "// Compiled alone: WHY", for clashes that this cannot see.
 """
 
+import argparse
 import re
-import sys
 from pathlib import Path
 
 MOST_LINES = 2500  # in a group: more saves little, and leaves a processor waiting for the last one
@@ -95,6 +95,9 @@ def groups_of(sources: list[str]) -> list[list[str]]:
 
 
 if __name__ == "__main__":
-    for number, together in enumerate(groups_of(sorted(sys.argv[1:])), 1):
-        for path in together:
-            print(f"part{number}", path)
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--target", nargs="+", action="append", default=[], metavar=("NAME", "SOURCE"))
+    for target, *sources in parser.parse_args().target:
+        for number, together in enumerate(groups_of(sorted(sources)), 1):
+            for path in together:
+                print(target, f"part{number}", path)

@@ -2,6 +2,7 @@
 #include "process.h"
 
 #include "app/command_line.h"
+#include "case_costs.h"
 #include "folder.h"
 
 #include <array>
@@ -137,6 +138,7 @@ void drain(std::array<pollfd, 2> pipes, std::array<std::string*, 2> texts, const
 
 Ran spawn(const std::vector<std::string>& arguments, const How& how)
 {
+    noteDrawing();
     std::array<int, 2> out{};
     std::array<int, 2> err{};
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {

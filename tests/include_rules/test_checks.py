@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The other checks of tools/ must be able to fail: plants one fault at a time. usage: test_checks.py TOOLS_FOLDER"""
 
-import json
 import subprocess
 import sys
 import tempfile
@@ -77,53 +76,6 @@ class Text(unittest.TestCase):
         self.assertIn("notice: a.cpp has 401 lines", result.stdout)
 
 
-class Cases(unittest.TestCase):
-    @staticmethod
-    def call(build: dict[str, str], *arguments: str) -> subprocess.CompletedProcess:
-        with tempfile.TemporaryDirectory() as root:
-            for name, text in build.items():
-                file = Path(root, name)
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_text(text, encoding="utf-8")
-                file.chmod(0o755)
-            return subprocess.run([sys.executable, TOOLS / "cases.py", *arguments], cwd=root, capture_output=True, text=True,
-                                  check=False)
-
-    @staticmethod
-    def results(*cases: dict) -> str:
-        return json.dumps({"testsuites": [{"name": "Suite", "testsuite": list(cases)}]})
-
-    LISTS_TWO = "#!/bin/sh\necho 'Suite.'\necho '  a'\necho '  b  # GetParam() = 1'\n"
-    A = {"name": "a", "status": "RUN", "result": "COMPLETED", "time": "0.5s"}
-    B = {"name": "b", "status": "RUN", "result": "SKIPPED", "time": "0s"}
-
-    def test_what_no_stage_ran_is_named(self):
-        build = {"build/test_one": self.LISTS_TWO, "release/one.1.json": self.results(self.A)}
-        result = self.call(build, "prove", "build", "release")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("one Suite.b was run by no stage", result.stderr)
-        self.assertNotIn("Suite.a", result.stderr)
-
-    def test_stages_together_run_everything(self):
-        build = {"build/test_one": self.LISTS_TWO, "release/one.1.json": self.results(self.A),
-                 "asan/one.1.json": self.results({**self.A, "status": "NOTRUN"}, self.B)}
-        self.assertNotIn("was run by no stage", self.call(build, "prove", "build", "release", "asan").stderr)
-
-    def test_pattern_of_nothing_is_named(self):
-        build = {"build/test_one": self.LISTS_TWO, "all/one.1.json": self.results(self.A, self.B)}
-        result = self.call(build, "prove", "build", "all")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("tests/stages.txt names what is not there", result.stderr)
-
-    def test_counts_cases_and_what_crashed(self):
-        ctest = ('<testsuite><testcase name="one.1" status="run"/><testcase name="two.1" status="fail"/>'
-                 '<testcase name="docs" status="run"/></testsuite>')
-        result = self.call({"r/one.1.json": self.results(self.A, self.B), "r/ctest.xml": ctest}, "count", "r")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("2 passed, 1 failed, 1 skipped", result.stdout)
-        self.assertIn("failed: two.1", result.stdout)
-
-
 class UnityGroups(unittest.TestCase):
     @staticmethod
     def groups(*sources: str) -> list[str]:
@@ -132,9 +84,9 @@ class UnityGroups(unittest.TestCase):
             for number, text in enumerate(sources):
                 files.append(Path(root, f"{number}.cpp"))
                 files[-1].write_text(text, encoding="utf-8")
-            result = subprocess.run([sys.executable, TOOLS / "unity_groups.py", *files], capture_output=True, text=True,
+            result = subprocess.run([sys.executable, TOOLS / "unity_groups.py", "--target", "one", *files], capture_output=True, text=True,
                                     check=True)
-        return [line.split()[0] for line in result.stdout.splitlines()]
+        return [line.split()[1] for line in result.stdout.splitlines()]
 
     UNNAMED = "namespace {\n%s\n} // namespace\n"
 

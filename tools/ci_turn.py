@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What `.ci/run` does besides what it always does: each item when the change touches what it tests, and every fifth time.
+
+usage: ci_turn.py due [built|alone]   the items of this run that need build/, or not, a line each; why, on standard error
+       ci_turn.py alone         every item that `make test` has not
+       ci_turn.py labels        the labels of tests in build/ that items run, as a regular expression
+       ci_turn.py run ITEM      runs one; JOBS is the number of its processes
+       ci_turn.py passed ITEM...   notes that a run has passed as a whole, with these items
+
+Runs have numbers: one more than that of the last, which ~/.cache/gnomon-build/turns.json keeps together with its commit and
+each item's last run. Where that is missing, the number of commits takes its place, and an item's place in the table says
+in which of five runs it is due. The change is what has come since the last commit that passed; else since the branch left
+origin/main; else the commits of the last two hours.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+from check_includes import PROJECT_KINDS, RULES, kind_of, rule_for
+from sources import project_root
+
+EVERY = 5
+BUILT = "ctest --test-dir build --output-on-failure --no-tests=error -j $JOBS -L "
+
+
+class Item(NamedTuple):
+    command: str
+    parts: tuple = ()  # folders of the table of include rules: touched where they are, or what they may include
+    paths: tuple = ()  # what else touches it, by how its path begins
+    needs: str = ""    # a program without which it is skipped
+    built: bool = False  # a label of tests in build/
+
+
+ITEMS = {
+    "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
+                 paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
+    "package": Item(BUILT + "package", parts=("examples/",), paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/"),
+                    built=True),
+    "roots": Item("make -s package-test JOBS=$JOBS", paths=("packaging/", "cmake/package", "cmake/install", "tools/package_test",
+                                                            "tools/bare_root"), needs="debootstrap"),
+    "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
+                                              "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
+    "long": Item(BUILT + "long", paths=("tests/stages.txt", "tests/memory/"), built=True),
+    "tidy": Item("make -s tidy JOBS=$JOBS", paths=(".clang-tidy", "tools/tidy.py")),
+    "headers": Item("make -s headers JOBS=$JOBS", paths=("tools/check_headers.py",)),
+}
+PUBLIC_KIND = {"core": "core-public", "pack": "pack-public", "vulkan": "vulkan-public"}
+
+
+def git(*arguments: str) -> str:
+    """What git prints; nothing where it fails."""
+    return subprocess.run(["git", *arguments], cwd=project_root(), capture_output=True, text=True, check=False).stdout.strip()
+
+
+def kinds_that_touch(part: str) -> set[str]:
+    """The kinds that a folder of the rules includes, itself or through others."""
+    kinds, left = set(), [part]
+    while left:
+        for kind in rule_for(left.pop())[1] - kinds:
+            kinds.add(kind)
+            left += [rule[0] for rule in RULES if kind_of(rule[0] + "x.h", PROJECT_KINDS) == kind]
+    return kinds
+
+
+def touched_by(path: str, item: Item) -> bool:
+    kind = kind_of(path, PROJECT_KINDS)
+    folder = path.split("/")[0]
+    if kind == "private": # is part of what the folder's headers promise
+        kind = PUBLIC_KIND.get(folder, folder)
+    return path.startswith((*item.paths, *item.parts)) or any(kind in kinds_that_touch(part) for part in item.parts)
+
+
+def changed_since(commit: str) -> list[str]:
+    head = git("rev-parse", "HEAD")
+    since = commit if commit and git("merge-base", commit, "HEAD") == commit else git("merge-base", "origin/main", "HEAD")
+    if since in ("", head) and commit != head:
+        began = int(git("log", "-1", "--format=%ct") or 0) - 2 * 3600
+        commits = git("log", f"--since={began}", "--format=%H").split()
+        since = commits[-1] + "~1" if commits and git("rev-parse", "-q", "--verify", commits[-1] + "~1") else ""
+    return git("diff", "--name-only", since, "HEAD").splitlines() if since else []
+
+
+def state_file() -> Path:
+    return Path.home() / ".cache/gnomon-build/turns.json"
+
+
+def state() -> dict:
+    try:
+        kept = json.loads(state_file().read_text(encoding="utf-8"))
+        return {"run": int(kept["run"]), "commit": str(kept["commit"]), "last": dict(kept["last"])}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {"run": int(git("rev-list", "--count", "HEAD") or 0), "commit": "", "last": {}}
+
+
+def due(kept: dict, changed: list[str]) -> dict[str, str]:
+    """The items of the next run, and why each."""
+    found, number = {}, kept["run"] + 1
+    for place, (name, item) in enumerate(ITEMS.items()):
+        last = kept["last"].get(name)
+        touching = next((path for path in changed if touched_by(path, item)), None)
+        if touching:
+            found[name] = f"{touching} has changed"
+        elif number - last >= EVERY if last is not None else (number + place) % EVERY == 0:
+            found[name] = "it is its turn"
+    return found
+
+
+def run(name: str) -> int:
+    item = ITEMS[name]
+    needed = item.needs
+    if needed and subprocess.run(["sh", "-c", f"command -v {needed}"], capture_output=True, check=False).returncode != 0:
+        print(f"{name}: there is no {needed}\n0 passed, 0 failed, 1 skipped")
+        return 0
+    jobs = os.environ.get("JOBS", str(os.cpu_count()))
+    return subprocess.run(["bash", "-euo", "pipefail", "-c", item.command], cwd=project_root(), check=False,
+                          env={**os.environ, "JOBS": jobs}).returncode
+
+
+def note(passed: list[str]) -> None:
+    kept = state()
+    number = kept["run"] + 1
+    # An item that has never run keeps the place it has without this file.
+    first = {name: number - (number + place) % EVERY for place, name in enumerate(ITEMS)}
+    last = {name: number if name in passed else kept["last"].get(name, first[name]) for name in ITEMS}
+    state_file().parent.mkdir(parents=True, exist_ok=True)
+    whole = state_file().with_suffix(f".{os.getpid()}")
+    whole.write_text(json.dumps({"run": number, "commit": git("rev-parse", "HEAD"), "last": last}), encoding="utf-8")
+    whole.rename(state_file())
+
+
+def main() -> int:
+    match sys.argv[1:]:
+        case ["due", *which] if which in ([], ["built"], ["alone"]):
+            kept = state()
+            for name, why in due(kept, changed_since(kept["commit"])).items():
+                if not which or ITEMS[name].built == (which == ["built"]):
+                    print(f"{name}: {why}", file=sys.stderr)
+                    print(name)
+        case ["alone"]:
+            print("\n".join(name for name, item in ITEMS.items() if not item.built))
+        case ["labels"]:
+            print("|".join(name for name, item in ITEMS.items() if item.built))
+        case ["run", name] if name in ITEMS:
+            return run(name)
+        case ["passed", *names] if set(names) <= ITEMS.keys():
+            note(names)
+        case _:
+            print(__doc__, file=sys.stderr)
+            return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
