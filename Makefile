@@ -4,7 +4,8 @@
 # JOBS=N       parallel jobs (default: all processors)
 # CMAKE_FLAGS  handed to the configure step, e.g. CMAKE_FLAGS=-DGNOMON_WERROR=ON
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
-# TIDY_FOLDERS what `make tidy` looks at, e.g. core/src (default: all sources)
+# TIDY_FOLDERS what `make tidy` looks at, e.g. core/src or a source (default: all sources)
+# HEADERS      what `make headers` looks at (default: all)
 # PREFIX       where `make install` puts it (default /usr/local); DESTDIR goes before it
 # BUILT=1      make test and make asan take what is built as it is, and build nothing
 # FUZZ_SECONDS how long `make fuzz` runs, all fuzzers together (default 60)
@@ -91,7 +92,7 @@ commands: packages
 
 .PHONY: headers
 headers: commands
-	@tools/check_headers.py --build build-tidy -j $(JOBS)
+	@tools/check_headers.py --build build-tidy -j $(JOBS) --only $(HEADERS)
 
 .PHONY: tidy
 tidy: commands

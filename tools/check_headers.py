@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Does every header compile on its own, alone and twice, with only the include folders its users have?
 
-usage: check_headers.py [--build DIR] [-j N] [ROOT]
+usage: check_headers.py [--build DIR] [-j N] [ROOT] [--only HEADER...]
 
 DIR is a configured build folder, for the generated shader headers that private headers of vulkan and host include.
 Exit status 1 when one does not compile.
@@ -110,6 +110,7 @@ def compile_alone(root: Path, compiler: str, header: str, extra: list[str], scra
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("root", nargs="?", type=Path, default=project_root())
+    parser.add_argument("--only", nargs="*", default=[])
     parser.add_argument("--build", type=Path)
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
@@ -117,7 +118,8 @@ def main() -> int:
     compiler = os.environ.get("CXX", "g++")
 
     headers = [file.as_posix() for file in project_files(root)
-               if file.suffix == ".h" and folders_of(file.as_posix()) is not None]
+               if file.suffix == ".h" and folders_of(file.as_posix()) is not None
+               and (not options.only or file.as_posix() in options.only)]
     # Generated headers, for private headers only: a public one that needed them could not be installed.
     generated = sorted({str(file.parent) for file in options.build.resolve().glob("*/*/gnomon_*spirv.h")}) \
         if options.build else []

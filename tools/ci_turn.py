@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `.ci/run` does besides what it always does: each item when the change touches what it tests, and every fifth time.
 
-usage: ci_turn.py due [built|alone]   the items of this run that need build/, or not, a line each; why, on standard error
+usage: ci_turn.py due           the items of this run, a line each: "NAME built WHY" if it needs build/, else "NAME alone WHY"
        ci_turn.py alone         every item that `make test` has not
        ci_turn.py labels        the labels of tests in build/ that items run, as a regular expression
-       ci_turn.py run ITEM      runs one; JOBS is the number of its processes
+       ci_turn.py run ITEM      runs one, where it is due by a change alone of the files that have changed, if it goes by files;
+                                JOBS is the number of its processes
        ci_turn.py passed ITEM...   notes that a run has passed as a whole, with these items
 
 Runs have numbers: one more than that of the last, which ~/.cache/gnomon-build/turns.json keeps together with its commit and
@@ -23,17 +24,23 @@ from typing import NamedTuple
 
 from check_includes import PROJECT_KINDS, RULES, kind_of, rule_for
 from sources import project_root
+from tidy import FOLDERS as TIDIED
 
 EVERY = 5
+TURN = "it is its turn"
 BUILT = "ctest --test-dir build --output-on-failure --no-tests=error -j $JOBS -L "
+
+
+LIBRARIES = ("core/", "pack/", "vulkan/", "files/", "image/", "scene/", "truth/", "host/", "lab/", "app/")
 
 
 class Item(NamedTuple):
     command: str
     parts: tuple = ()  # folders of the table of include rules: touched where they are, or what they may include
     paths: tuple = ()  # what else touches it, by how its path begins
-    needs: str = ""    # a program without which it is skipped
+    needs: str = ""      # a program without which it is skipped
     built: bool = False  # a label of tests in build/
+    suffix: str = ""     # it goes by files of this ending below its paths, which the command has as $FILES; none are all
 
 
 ITEMS = {
@@ -46,8 +53,8 @@ ITEMS = {
     "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
                                               "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
     "long": Item(BUILT + "long", paths=("tests/stages.txt", "tests/memory/"), built=True),
-    "tidy": Item("make -s tidy JOBS=$JOBS", paths=(".clang-tidy", "tools/tidy.py")),
-    "headers": Item("make -s headers JOBS=$JOBS", paths=("tools/check_headers.py",)),
+    "tidy": Item('make -s tidy JOBS=$JOBS TIDY_FOLDERS="$FILES"', paths=tuple(f"{folder}/" for folder in TIDIED), suffix=".cpp"),
+    "headers": Item('make -s headers JOBS=$JOBS HEADERS="$FILES"', paths=LIBRARIES, suffix=".h"),
 }
 PUBLIC_KIND = {"core": "core-public", "pack": "pack-public", "vulkan": "vulkan-public"}
 
@@ -72,6 +79,8 @@ def touched_by(path: str, item: Item) -> bool:
     folder = path.split("/")[0]
     if kind == "private": # is part of what the folder's headers promise
         kind = PUBLIC_KIND.get(folder, folder)
+    if item.suffix and not path.endswith(item.suffix):
+        return False
     return path.startswith((*item.paths, *item.parts)) or any(kind in kinds_that_touch(part) for part in item.parts)
 
 
@@ -103,11 +112,20 @@ def due(kept: dict, changed: list[str]) -> dict[str, str]:
     for place, (name, item) in enumerate(ITEMS.items()):
         last = kept["last"].get(name)
         touching = next((path for path in changed if touched_by(path, item)), None)
-        if touching:
+        if number - last >= EVERY if last is not None else (number + place) % EVERY == 0:
+            found[name] = TURN
+        elif touching:
             found[name] = f"{touching} has changed"
-        elif number - last >= EVERY if last is not None else (number + place) % EVERY == 0:
-            found[name] = "it is its turn"
     return found
+
+
+def files_of(name: str) -> list[str]:
+    """Those that an item is about in this run; none are all."""
+    kept = state()
+    changed = changed_since(kept["commit"])
+    if not ITEMS[name].suffix or due(kept, changed).get(name, TURN) == TURN:
+        return []
+    return [path for path in changed if touched_by(path, ITEMS[name]) and (project_root() / path).is_file()]
 
 
 def run(name: str) -> int:
@@ -118,11 +136,13 @@ def run(name: str) -> int:
         return 0
     jobs = os.environ.get("JOBS", str(os.cpu_count()))
     return subprocess.run(["bash", "-euo", "pipefail", "-c", item.command], cwd=project_root(), check=False,
-                          env={**os.environ, "JOBS": jobs}).returncode
+                          env={**os.environ, "JOBS": jobs, "FILES": " ".join(files_of(name))}).returncode
 
 
 def note(passed: list[str]) -> None:
     kept = state()
+    # An item that goes by files was done as a whole in its turn alone.
+    passed = [name for name in passed if not files_of(name)]
     number = kept["run"] + 1
     # An item that has never run keeps the place it has without this file.
     first = {name: number - (number + place) % EVERY for place, name in enumerate(ITEMS)}
@@ -135,12 +155,10 @@ def note(passed: list[str]) -> None:
 
 def main() -> int:
     match sys.argv[1:]:
-        case ["due", *which] if which in ([], ["built"], ["alone"]):
+        case ["due"]:
             kept = state()
             for name, why in due(kept, changed_since(kept["commit"])).items():
-                if not which or ITEMS[name].built == (which == ["built"]):
-                    print(f"{name}: {why}", file=sys.stderr)
-                    print(name)
+                print(name, "built" if ITEMS[name].built else "alone", why)
         case ["alone"]:
             print("\n".join(name for name, item in ITEMS.items() if not item.built))
         case ["labels"]:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs clang-tidy over the project's own sources (not over generated ones).
 
-usage: tidy.py --build DIR [-j N] [FOLDER...]     FOLDERs limit it, e.g. core/src
+usage: tidy.py --build DIR [-j N] [FOLDER or SOURCE...]     these limit it, e.g. core/src
 
 Most of its time clang-tidy spends in the standard headers, so sources compiled alike are checked together, as one source
 that includes them; those whose names clash there are taken out of it. Where that finds something, each source is checked
@@ -23,6 +23,7 @@ from pathlib import Path
 from sources import project_root
 
 MOST_TOGETHER = 30
+FOLDERS = ["core/src", "vulkan/src", "files/src", "image/src", "scene/src", "host/src", "app/src"]
 ALIKE = ["--quiet", "--warnings-as-errors=*"]
 # The commands may be GCC's, with warnings that clang has not.
 FOREIGN = "-Wno-unknown-warning-option"
@@ -101,12 +102,11 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--build", type=Path, required=True)
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("folders", nargs="*", default=["core/src", "vulkan/src", "files/src", "image/src", "scene/src",
-                                                       "host/src", "app/src"])
+    parser.add_argument("folders", nargs="*", default=FOLDERS)
     options = parser.parse_args()
     root, build = project_root(), options.build.resolve()
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    wanted = tuple(str(root / folder) + "/" for folder in options.folders)
+    wanted = tuple(str(root / folder) + ("" if folder.endswith(".cpp") else "/") for folder in options.folders)
     alike: dict[tuple[str, ...], set[str]] = {}
     for entry in commands:
         if entry["file"].startswith(wanted):

@@ -6,6 +6,7 @@ usage: test_ci_turn.py SCRIPT
 """
 
 import importlib.util
+import json
 import sys
 import tempfile
 import unittest
@@ -24,7 +25,7 @@ class Turns(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.file = Path(folder.name, "cache", "turns.json")
-        patches = [mock.patch.object(TOOL, "state_file", lambda: self.file),
+        patches = [mock.patch.object(TOOL, "state_file", lambda: self.file), mock.patch.object(TOOL, "changed_since", lambda _: []),
                    mock.patch.object(TOOL, "git", lambda *arguments: "40" if arguments[0] == "rev-list" else "a1")]
         for patch in patches:
             patch.start()
@@ -63,11 +64,24 @@ class Turns(unittest.TestCase):
                    for path in ("docs/view.md", "scene/src/mesh.cpp", "files/src/temporary.cpp", "core/include/gnomon/error.h",
                                 "core/src/planner.cpp", "host/src/gpu.cpp", "shaders/include/gnomon/shared/bias.h")}
         self.assertEqual(touched["docs/view.md"], set())
-        self.assertEqual(touched["host/src/gpu.cpp"], set())
+        self.assertEqual(touched["host/src/gpu.cpp"], {"tidy"})
         for path in ("scene/src/mesh.cpp", "files/src/temporary.cpp", "core/include/gnomon/error.h"):
             self.assertIn("fuzz", touched[path], path)
         for path in ("core/src/planner.cpp", "shaders/include/gnomon/shared/bias.h"):
             self.assertEqual(touched[path] & {"fuzz", "package"}, {"package"}, path)
+
+    def test_of_files_are_about_those_that_changed_and_in_their_turn_about_all(self):
+        changed = ["core/src/planner.cpp", "core/src/gone.cpp", "core/src/planner.h", "tests/core/a_test.cpp"]
+        kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.ITEMS, 9)}
+        with mock.patch.object(TOOL, "state", lambda: kept), mock.patch.object(TOOL, "changed_since", lambda _: changed):
+            self.assertEqual(TOOL.files_of("tidy"), ["core/src/planner.cpp"])
+            self.assertEqual(TOOL.files_of("fuzz"), [])
+            self.file.parent.mkdir()
+            TOOL.note(["tidy", "fuzz"])
+            noted = json.loads(self.file.read_text(encoding="utf-8"))["last"]
+            self.assertEqual((noted["tidy"], noted["fuzz"]), (9, 10))
+            kept["last"]["tidy"] = 5
+            self.assertEqual(TOOL.files_of("tidy"), [])
 
     def test_say_what_they_lack(self):
         with mock.patch.dict(TOOL.ITEMS, {"roots": TOOL.Item("false", needs="no-such-program")}), \
