@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pipeline is called: by its modules, and by what else makes a compiler's code another one.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace gnomon::compiled {
+
+/// The words of each module that there is, and its name: "mask_pcf.frag".
+using ModuleNames = std::map<const std::uint32_t*, std::string>;
+using MadeModules = std::unordered_map<VkShaderModule, std::string>;
+
+/// Empty where it is none of them.
+[[nodiscard]] std::string nameOf(const ModuleNames& names, const VkShaderModuleCreateInfo& module);
+
+struct StageNames {
+    std::vector<std::string> modules;
+    /// By stage. The vertex stage of a full-screen triangle, which three vertices run, has none.
+    std::map<VkShaderStageFlags, std::string> labels;
+};
+[[nodiscard]] StageNames namesOf(const VkGraphicsPipelineCreateInfo& info, const MadeModules& modules);
+[[nodiscard]] StageNames namesOf(const VkComputePipelineCreateInfo& info, const MadeModules& modules);
+
+} // namespace gnomon::compiled
