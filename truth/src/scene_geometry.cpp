@@ -145,8 +145,7 @@ void SceneGeometry::chooseInstances(const scene::State& state, std::uint64_t fla
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const scene::Object& object = state.objects[i];
         parts_[i].instanced = parts_[i].primitive != nullptr && object.deformed == scene::kNone && !parts_[i].skewed &&
-                              uses[{object.mesh, object.primitive}] > 1 &&
-                              hasSoundSize(parts_[i].primitive->bounds);
+                              uses[{object.mesh, object.primitive}] > 1 && hasSoundSize(parts_[i].primitive->bounds);
     }
 }
 
