@@ -72,6 +72,9 @@ double worstSteps(Bench& bench, std::uint32_t size)
                 continue;
             }
             const double exact = rays.depthOf(*hit, centre, centre);
+            if (exact <= 0.0 || exact >= 1.0) {
+                continue; // beyond what the view draws
+            }
             const double slope = std::abs(rays.depthOf(*hit, centre, centre + glm::dvec2(step, 0.0)) - exact) +
                                  std::abs(rays.depthOf(*hit, centre, centre + glm::dvec2(0.0, step)) - exact);
             const double off = std::abs(stored[y * size + x] - exact) - kArithmetic;
