@@ -40,22 +40,27 @@ class Item(NamedTuple):
     paths: tuple = ()  # what else touches it, by how its path begins
     needs: str = ""      # a program without which it is skipped
     built: bool = False  # a label of tests in build/
+    takes_turns: bool = True  # else it takes an hour, and `make check-all` has it alone
     suffix: str = ""     # it goes by files of this ending below its paths, which the command has as $FILES; none are all
 
 
+# Their order parts the runs: each item with the fifth after it.
 ITEMS = {
-    "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
-                 paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
-    "package": Item(BUILT + "package", parts=("examples/",), paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/"),
-                    built=True),
-    "roots": Item("make -s package-test JOBS=$JOBS", paths=("packaging/", "cmake/package", "cmake/install", "tools/package_test",
-                                                            "tools/bare_root"), needs="debootstrap"),
     "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
                                               "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
-    "long": Item(BUILT + "long", paths=("tests/stages.txt", "tests/memory/"), built=True),
-    "tidy": Item('make -s tidy JOBS=$JOBS TIDY_FOLDERS="$FILES"', paths=tuple(f"{folder}/" for folder in TIDIED), suffix=".cpp"),
+    "package": Item(BUILT + "package", parts=("examples/",), paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/"),
+                    built=True),
+    "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
+                 paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
+    "roots": Item("make -s package-test JOBS=$JOBS", paths=("packaging/", "cmake/package", "cmake/install", "tools/package_test",
+                                                            "tools/bare_root"), needs="debootstrap"),
+    "bare": Item("tools/bare_root_test.sh", needs="debootstrap", takes_turns=False),
+    "long": Item(BUILT + "long -E '^view'", paths=("tests/stages.txt",), built=True),
     "headers": Item('make -s headers JOBS=$JOBS HEADERS="$FILES"', paths=LIBRARIES, suffix=".h"),
+    "tidy": Item('make -s tidy JOBS=$JOBS TIDY_FOLDERS="$FILES"', paths=tuple(f"{folder}/" for folder in TIDIED), suffix=".cpp"),
+    "window": Item(BUILT + "long -R '^view'", paths=("host/window/", "app/src/view/", "tests/view/"), built=True),
 }
+TURNS = {name: item for name, item in ITEMS.items() if item.takes_turns}
 PUBLIC_KIND = {"core": "core-public", "pack": "pack-public", "vulkan": "vulkan-public"}
 
 
@@ -109,7 +114,7 @@ def state() -> dict:
 def due(kept: dict, changed: list[str]) -> dict[str, str]:
     """The items of the next run, and why each."""
     found, number = {}, kept["run"] + 1
-    for place, (name, item) in enumerate(ITEMS.items()):
+    for place, (name, item) in enumerate(TURNS.items()):
         last = kept["last"].get(name)
         touching = next((path for path in changed if touched_by(path, item)), None)
         if number - last >= EVERY if last is not None else (number + place) % EVERY == 0:
@@ -145,8 +150,8 @@ def note(passed: list[str]) -> None:
     passed = [name for name in passed if not files_of(name)]
     number = kept["run"] + 1
     # An item that has never run keeps the place it has without this file.
-    first = {name: number - (number + place) % EVERY for place, name in enumerate(ITEMS)}
-    last = {name: number if name in passed else kept["last"].get(name, first[name]) for name in ITEMS}
+    first = {name: number - (number + place) % EVERY for place, name in enumerate(TURNS)}
+    last = {name: number if name in passed else kept["last"].get(name, first[name]) for name in TURNS}
     state_file().parent.mkdir(parents=True, exist_ok=True)
     whole = state_file().with_suffix(f".{os.getpid()}")
     whole.write_text(json.dumps({"run": number, "commit": git("rev-parse", "HEAD"), "last": last}), encoding="utf-8")

@@ -32,7 +32,7 @@ class Turns(unittest.TestCase):
             self.addCleanup(patch.stop)
 
     def test_come_every_fifth_time(self):
-        last = {name: 0 for name in TOOL.ITEMS}
+        last = {name: 0 for name in TOOL.TURNS}
         for number in range(1, 26):
             kept = TOOL.state()
             passed = TOOL.due(kept, ["scene/src/mesh.cpp"] if number == 8 else [])
@@ -44,12 +44,12 @@ class Turns(unittest.TestCase):
 
     def test_go_by_the_commits_without_a_file(self):
         found = [set(TOOL.due({"run": number, "commit": "", "last": {}}, [])) for number in range(TOOL.EVERY)]
-        self.assertEqual(set().union(*found), TOOL.ITEMS.keys())
-        self.assertEqual(sum(len(some) for some in found), len(TOOL.ITEMS))
+        self.assertEqual(set().union(*found), TOOL.TURNS.keys())
+        self.assertEqual(sum(len(some) for some in found), len(TOOL.TURNS))
         self.assertTrue(all(found))
 
     def test_come_again_where_a_run_has_failed(self):
-        kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.ITEMS, 10)}
+        kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.TURNS, 10)}
         kept["last"]["fuzz"] = 3
         self.assertEqual(list(TOOL.due(kept, [])), ["fuzz"])
 
@@ -72,7 +72,7 @@ class Turns(unittest.TestCase):
 
     def test_of_files_are_about_those_that_changed_and_in_their_turn_about_all(self):
         changed = ["core/src/planner.cpp", "core/src/gone.cpp", "core/src/planner.h", "tests/core/a_test.cpp"]
-        kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.ITEMS, 9)}
+        kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.TURNS, 9)}
         with mock.patch.object(TOOL, "state", lambda: kept), mock.patch.object(TOOL, "changed_since", lambda _: changed):
             self.assertEqual(TOOL.files_of("tidy"), ["core/src/planner.cpp"])
             self.assertEqual(TOOL.files_of("fuzz"), [])
