@@ -3,7 +3,7 @@
 """What `.ci/run` does besides what it always does: each item when the change touches what it tests, and every fifth time.
 
 usage: ci_turn.py due           the items of this run, a line each: "NAME built WHY" if it needs build/, else "NAME alone WHY"
-       ci_turn.py alone         every item that `make test` has not
+       ci_turn.py alone         every item that `make test` has not; `make check-all` runs them after it
        ci_turn.py labels        the labels of tests in build/ that items run, as a regular expression
        ci_turn.py run ITEM      runs one, where it is due by a change alone of the files that have changed, if it goes by files;
                                 JOBS is the number of its processes
@@ -40,7 +40,7 @@ class Item(NamedTuple):
     paths: tuple = ()  # what else touches it, by how its path begins
     needs: str = ""      # a program without which it is skipped
     built: bool = False  # a label of tests in build/
-    takes_turns: bool = True  # else it takes an hour, and `make check-all` has it alone
+    takes_turns: bool = True  # else it may take an hour, and only `make check-all` has it
     suffix: str = ""     # it goes by files of this ending below its paths, which the command has as $FILES; none are all
 
 
@@ -48,13 +48,15 @@ class Item(NamedTuple):
 ITEMS = {
     "browser": Item(BUILT + "browser", paths=("app/pages/", "site/", "tests/page/", "tests/site/", "tools/make_site.py",
                                               "tools/site_pages.py", "tools/doxygen_filter.py", "lab/src/report"), built=True),
-    "package": Item(BUILT + "package", parts=("examples/",), paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/"),
-                    built=True),
+    "package": Item(BUILT + "package", paths=("cmake/", "CMakeLists.txt", "packaging/", "tests/package/", "examples/",
+                                              "core/include/", "pack/include/", "vulkan/include/"), built=True),
     "fuzz": Item("make -s fuzz JOBS=$JOBS FUZZ_SECONDS=60", parts=("scene/", "image/", "truth/"),
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "roots": Item("make -s package-test JOBS=$JOBS", paths=("packaging/", "cmake/package", "cmake/install", "tools/package_test",
                                                             "tools/bare_root"), needs="debootstrap"),
     "bare": Item("tools/bare_root_test.sh", needs="debootstrap", takes_turns=False),
+    "sweeps": Item("GNOMON_SWEEP=all GNOMON_SOAK_FRAMES=100000 ctest --test-dir build --output-on-failure --no-tests=error"
+                   " -j $JOBS -R '^(faults|memory|vulkan.long)'", takes_turns=False),
     "long": Item(BUILT + "long -E '^view'", paths=("tests/stages.txt",), built=True),
     "headers": Item('make -s headers JOBS=$JOBS HEADERS="$FILES"', paths=LIBRARIES, suffix=".h"),
     "tidy": Item('make -s tidy JOBS=$JOBS TIDY_FOLDERS="$FILES"', paths=tuple(f"{folder}/" for folder in TIDIED), suffix=".cpp"),
