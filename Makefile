@@ -4,6 +4,7 @@
 # JOBS=N       parallel jobs (default: all processors)
 # CMAKE_FLAGS  handed to the configure step, e.g. CMAKE_FLAGS=-DGNOMON_WERROR=ON
 # CTEST_FLAGS  handed to ctest, e.g. CTEST_FLAGS='-R core'
+# SOURCES      which sources `make sources` compiles alone besides those that may lack a header: --all, or '--since COMMIT'
 # TIDY_FOLDERS what `make tidy` looks at, e.g. core/src or a source (default: all sources)
 # HEADERS      what `make headers` looks at (default: all)
 # PREFIX       where `make install` puts it (default /usr/local); DESTDIR goes before it
@@ -28,7 +29,7 @@ COMPARISON := $(CURDIR)/out/compare
 help:
 	@echo "make demo    install what is missing, build, draw a sundial, hold shadows of a camp against the truth"
 	@echo "make test    install what is missing, build, run every test"
-	@echo "make check   layout, headers that stand alone, include rules, forbidden words"
+	@echo "make check   layout, headers and sources that stand alone, include rules, forbidden words, the list of packages"
 	@echo "make check-all   all of it: check, test, asan, and what takes long (more than an hour)"
 	@echo "make tidy    clang-tidy over all C++ sources (minutes)"
 	@echo "make asan    build and run the tests with address and undefined behaviour sanitizers, in build-asan/"
@@ -36,6 +37,7 @@ help:
 	@echo "make install      build and install library and program under PREFIX (/usr/local); LIBRARY_ONLY=1: the library alone"
 	@echo "make package      the Debian packages libgnomon0, libgnomon-dev and gnomon, in build-package/"
 	@echo "make package-test install them in a bare Debian root, and build and run the examples there (needs root, minutes)"
+	@echo "make bare-test    make demo and make test in a bare Debian root (needs root and a mirror, an hour)"
 	@echo "make site    documents, gallery and API reference as a site, in build/site/; install what it takes"
 	@echo "make gallery draw the gallery and its films anew, into docs/ (minutes)"
 	@echo "make films   the films alone"
@@ -83,7 +85,8 @@ check: packages
 	@tools/check_format.sh
 	@tools/check_includes.py
 	@tools/check_text.py
-	@$(MAKE) -s headers
+	@$(MAKE) -s headers sources
+	@tools/check_packages.py build-tidy $(patsubst %/build.ninja,%,$(wildcard build/build.ninja))
 
 # Nothing is built in build-tidy: it holds each source's own command, and the headers that configuring generates.
 .PHONY: commands
@@ -93,6 +96,10 @@ commands: packages
 .PHONY: headers
 headers: commands
 	@tools/check_headers.py --build build-tidy -j $(JOBS) --only $(HEADERS)
+
+.PHONY: sources
+sources: commands
+	@tools/check_sources.py --build build-tidy -j $(JOBS) $(SOURCES)
 
 .PHONY: tidy
 tidy: commands
@@ -135,6 +142,10 @@ package: packages
 .PHONY: package-test
 package-test: package
 	@tools/package_test.sh build-package/packages
+
+.PHONY: bare-test
+bare-test: packages
+	@tools/bare_root_test.sh
 
 # Nothing of the site asks a network for anything. To search in it, serve it: python3 -m http.server -d build/site
 .PHONY: site-packages

@@ -3,6 +3,7 @@
 # make targets there.
 # usage: tools/bare_root_test.sh [--keep] [TARGET...]      default targets: demo test
 # ROOT_FOLDER: where the root is made (default: a new folder under /tmp; an existing one is reused).
+# CACHE_FROM: a compiler cache to copy in, so that what was compiled already is not compiled again; else there is none.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tools/bare_root.sh
@@ -28,9 +29,17 @@ git ls-files -z | xargs -0 cp --parents -t "$root/src/gnomon"
 shared=${GNOMON_SHARED:-$PWD/../shared}
 [[ -d $shared ]] && cp -r "$shared" "$root/src/shared"
 
+if [[ -n ${CACHE_FROM:-} ]]; then
+    echo "bare root: with what the compiler cache in $CACHE_FROM has"
+    mkdir -p "$root/root/.cache/ccache"
+    cp -r "$CACHE_FROM/." "$root/root/.cache/ccache/"
+fi
+
 for target in "${targets[@]}"; do
+    began=$SECONDS
     echo "bare root: make $target"
-    bare_root_run "$root" "cd /src/gnomon && make $target" || { echo "bare root: make $target FAILED" >&2; exit 1; }
+    bare_root_run "$root" "cd /src/gnomon && make $target" || { echo "bare root: make $target FAILED after $((SECONDS - began)) s" >&2; exit 1; }
+    echo "bare root: make $target took $((SECONDS - began)) s"
 done
 if [[ -f $root/src/gnomon/out/demo.png ]]; then
     mkdir -p out

@@ -10,16 +10,15 @@ alone, and what is found then is what counts. Exit status 1 when something is.
 """
 
 import argparse
-import json
 import os
 import re
-import shlex
 import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from compile_commands import commands_of, flags_of
 from sources import project_root
 
 MOST_TOGETHER = 30
@@ -31,21 +30,6 @@ FOREIGN = "-Wno-unknown-warning-option"
 
 def run(command: list, folder=None) -> subprocess.CompletedProcess:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-
-
-def flags_of(entry: dict) -> tuple[str, ...]:
-    """A command's flags, without what names the source and what it makes."""
-    words = shlex.split(entry["command"])
-    first = next(at for at, word in enumerate(words) if word.startswith("-"))
-    flags, skip = [], False
-    for word in words[first:]:
-        if skip or word in ("-c", "-MD", "-Werror", entry["file"]):
-            skip = False
-        elif word in ("-o", "-MF", "-MT"):
-            skip = True
-        else:
-            flags.append(word)
-    return tuple(flags)
 
 
 def including(sources: list[str]) -> str:
@@ -105,10 +89,9 @@ def main() -> int:
     parser.add_argument("folders", nargs="*", default=FOLDERS)
     options = parser.parse_args()
     root, build = project_root(), options.build.resolve()
-    commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     wanted = tuple(str(root / folder) + ("" if folder.endswith(".cpp") else "/") for folder in options.folders)
     alike: dict[tuple[str, ...], set[str]] = {}
-    for entry in commands:
+    for entry in commands_of(build):
         if entry["file"].startswith(wanted):
             alike.setdefault(flags_of(entry), set()).add(entry["file"])
     count = len(set().union(*alike.values()))
