@@ -30,8 +30,8 @@ COMMENT = re.compile(r" *//.*")
 # What may be declared in a header: a type or constant; a function that is called, and no member.
 USED = re.compile(r"(?<![.\w>])(?:k?[A-Z]\w*|[a-z]\w*(?=\())")
 CASE = re.compile(r"^(?:TYPED_)?TEST\w*\((\w+), *(\w+)", re.MULTILINE)
-# A variable, wherever it stands: a word, perhaps of a type, before it.
-LOCAL = re.compile(r"\b(?!(?:return|throw|else|case|new)\b)\w[>&*]* [&*]?([a-z]\w*)(?= =|[{(;:])")
+# A variable or parameter, wherever it stands: the end of a type before it.
+LOCAL = re.compile(r"\b(?!(?:return|throw|else|case|new)\b)\w+[)>&*\]]* [&*]?([a-z]\w*)(?= =|[{(;:,)])")
 
 
 @cache
