@@ -171,6 +171,7 @@ inline constexpr std::uint32_t kClaims = 64;
 inline constexpr std::uint32_t kView = 128;
 inline constexpr std::uint32_t kCompletion = 256;
 inline constexpr std::uint32_t kMan = 512;
+inline constexpr std::uint32_t kGpus = 1024;
 inline constexpr std::uint32_t kPictures = kRender | kBench | kView; // all that draw pictures
 inline constexpr std::uint32_t kDraw = kPictures | kCompare;         // all that draw
 inline constexpr std::uint32_t kFrames = kDraw | kPlan;              // all that take a scene

@@ -4,6 +4,7 @@
 
 #include <gnomon/vulkan/device_view.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -61,6 +62,28 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Something that the program can do without: vulkan::OptionalPart, or one of its own.
+struct GpuPart {
+    std::string name;
+    std::string serves;  // what it is for
+    std::string without; // what becomes of that where it is lacking
+    bool there = false;
+};
+
+/// A device of this machine.
+struct GpuReport {
+    std::string name;
+    std::string driver; // name and version; empty of a device before Vulkan 1.3
+    std::uint32_t api_version = 0;
+    bool software = false;
+    std::string refusal; // why the program cannot use it; empty: it can
+    bool taken = false;  // by a Gpu of no name
+    std::vector<GpuPart> parts;
+};
+/// All of them, in the drivers' order. Of `options` only what starting Vulkan needs is used. Throws Error when there is
+/// none.
+[[nodiscard]] std::vector<GpuReport> reportGpus(const GpuOptions& options);
 
 /// Has this process abandoned any device? Then it had better end by std::_Exit(): the driver's threads may be at work.
 [[nodiscard]] bool anyDeviceAbandoned() noexcept;

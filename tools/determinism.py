@@ -36,6 +36,7 @@ COMMANDS = {
                 "--warmup", "0", "--repetitions", "1", "--json", "-"],
     "plan": ["plan", "rts", "--size", "96x54", "--partition", "cascades", "--frames", "0-3", "--json", "-"],
     "list": ["list", "--json", "-"],
+    "gpus": ["gpus", "--json", "-"],
     "metrics": ["metrics", "{given}.png", "{given2}.png", "--json", "-"],
 }
 TIMES = re.compile(r"(^|_)(ms|seconds|per_second)$|^(frame_ratio|share)$")

@@ -124,6 +124,9 @@ bool isStrayFile(std::string_view word, const Subcommand& subcommand)
     if (subcommand.bit == kList) {
         return !word.starts_with("-") && !isListed(word);
     }
+    if (subcommand.bit == kGpus) {
+        return false; // it takes no words, which is said of any
+    }
     const auto worlds = scene::worlds();
     return !word.starts_with("-") && !hasExtension(word, ".gltf") && !hasExtension(word, ".glb") &&
            std::none_of(worlds.begin(), worlds.end(), [&](const scene::World& world) { return world.name == word; });

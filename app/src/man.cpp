@@ -179,13 +179,14 @@ std::string aroundText()
     text += entry("*.gltf, *.glb", "Scenes, of glTF 2.0.");
     text += entry("gnomon.png", "The picture of render without --out; gnomon_frames with --frames.");
     text += heading("EXAMPLES");
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kExamples{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kExamples{{
         {"gnomon render rts --camera camp -o camp.png", "A picture of a built-in world."},
         {"gnomon render model.glb --technique pcf+sdsm+lispsm+map-size=1024", "A file, by a technique in one word."},
         {"gnomon render rts --truth area --mask --light sun -o truth.png", "What is true, ray traced."},
         {"gnomon compare rts --techniques hard,pcf,vsm --report report", "A page of pictures and a table of errors."},
         {"gnomon compare rts --techniques @mine.txt --json mine.json", "The techniques of a file, one a line."},
         {"gnomon bench rts --technique pcf+cascades", "What each pass of a frame takes."},
+        {"gnomon gpus", "This machine's GPUs: what each can, and what is left out on it."},
         {"gnomon list msm", "A value's settings, rules and source."},
         {"source <(gnomon completion bash)", "Completion for this shell; gnomon completion zsh and fish likewise."},
     }};

@@ -32,6 +32,8 @@ constexpr std::array kSubcommands{
                runBench},
     Subcommand{"list", kList, "[NAME] [options]",
                "Prints the choices and what is refused and why, or one NAME in full.", runList},
+    Subcommand{"gpus", kGpus, "[options]", "Lists this machine's GPUs: what each can, what is left out and why.",
+               runGpus},
     Subcommand{"claims", kClaims, "[NAME|YEAR...] [options]",
                "Tries what the source documents claim; list has the claims.", runClaims},
     Subcommand{"completion", kCompletion, "bash|zsh|fish", "Prints the shell's completion of gnomon's command lines.",

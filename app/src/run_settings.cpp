@@ -297,7 +297,7 @@ const std::vector<Setting>& rows()
         {.key = "markdown", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the tables of docs/claims.md",
          .subcommands = kClaims, .apply = [](Settings& s, const Value& v) { s.markdown = v.flag; }},
         {.key = "json", .group = Group::result, .type = text, .form = "[FILE]", .doc = "JSON to FILE (*.json), or to stdout with - or nothing",
-         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kClaims, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
+         .subcommands = kPlan | kBench | kList | kCompare | kMetrics | kClaims | kGpus, .command_line_only = true, .apply = [](Settings& s, const Value& v) { s.json = v.text; }},
         // clang-format on
     };
     return table;

@@ -200,7 +200,8 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.parallel = !space.perspective;
     view.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.
-    view.clamp_near = recipe.filter->clamps_near && !recipe.resolved.integratesLight() && !space.perspective;
+    view.clamp_near = input.frame.clamps_depth && recipe.filter->clamps_near && !recipe.resolved.integratesLight() &&
+                      !space.perspective;
     view.fit = fit;
     view.texel_xy_m = fit.coarsest_texel;
     view.texel_m = std::max(view.texel_xy_m.x, view.texel_xy_m.y);

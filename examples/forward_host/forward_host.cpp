@@ -240,6 +240,7 @@ int run(const std::string& folder)
 {
     const Device d;
     Scene scene;
+    scene.frame.clamps_depth = d.features.depth_clamp;
     const Cube cube(d);
 
     gnomon::ShadowOptions wish;

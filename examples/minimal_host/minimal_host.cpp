@@ -136,6 +136,7 @@ int run(const std::string& folder)
 {
     const Device d;
     Scene scene;
+    scene.frame.clamps_depth = d.features.depth_clamp;
     const Buffer vertices(d, sizeof kCorners, vk::BufferUsageFlagBits::eVertexBuffer, kCorners.data());
     const Buffer indices(d, sizeof kIndices, vk::BufferUsageFlagBits::eIndexBuffer, kIndices.data());
     const Buffer pixels(d, vk::DeviceSize{4} * kSize.width * kSize.height, vk::BufferUsageFlagBits::eTransferDst);

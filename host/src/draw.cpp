@@ -282,6 +282,7 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
             shadows->planner.reset();
         }
         frame.draw_ms_per_texel = shadows->draw_rate.msPerTexel();
+        frame.clamps_depth = scene.gpu.view().features.depth_clamp;
         plan = shadows->plan = &shadows->planner.plan(frame);
     }
     (void)shadows->renderer.prepare(*plan, forward.on ? VkExtent2D{} : screen->targets.drawn);
@@ -351,7 +352,8 @@ bool FrameRenderer::Impl::hasTiles() const
 
 ForwardShadows* FrameRenderer::Impl::forwardShadows()
 {
-    const bool wanted = plan != nullptr && !plan->views.empty() && (forward.on || draws.anyBlended());
+    const bool wanted =
+        plan != nullptr && shadows->forward && !plan->views.empty() && (forward.on || draws.anyBlended());
     return wanted ? &*shadows->forward : nullptr;
 }
 

@@ -57,6 +57,9 @@ FrameRenderer::Impl::Impl(SceneData& the_scene, const RenderOptions& the_options
     if (options.sky == SkyModel::physical) {
         sky_table.emplace(scene, memory, slots.size());
     }
+    if (options.shading == Shading::forward && options.shadows && !scene.pipelines.readsMaps()) {
+        throw Error("shading forward", "the device has too few samplers for maps beside textures", "shade deferred");
+    }
     screen = makeScreen(options);
     shadows = makeShadows(scene, options);
 }
@@ -147,6 +150,7 @@ ImageF FrameRenderer::readMap(std::uint32_t layer)
     const void* const texels = copies.add(cmd, maps, layer);
     TexelCopies::end(cmd);
     self.read_commands.finish();
+    copies.makeVisible();
     if (!convert(texels, form.number, image.values)) {
         throw Error(kTried, "its format cannot be read");
     }

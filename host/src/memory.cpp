@@ -31,23 +31,51 @@ Memory::Memory(const Gpu& gpu)
     vkGetPhysicalDeviceMemoryProperties(gpu.view().physical_device, &properties_);
 }
 
-std::uint32_t Memory::typeFor(std::uint32_t bits, VkMemoryPropertyFlags properties) const
+std::vector<std::uint32_t> Memory::typesFor(std::uint32_t bits, Place place) const
 {
-    for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
-        if ((bits & (1U << i)) != 0 && (properties_.memoryTypes[i].propertyFlags & properties) == properties) {
-            return i;
+    // Others (protected, lazily allocated, uncached by AMD's extension) are for uses that ours are not.
+    constexpr VkMemoryPropertyFlags kPlain =
+        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT | kHostFlags;
+    std::vector<std::uint32_t> types;
+    const auto add = [&](VkMemoryPropertyFlags properties) {
+        for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
+            const VkMemoryPropertyFlags type = properties_.memoryTypes[i].propertyFlags;
+            const bool fits = (bits & (1U << i)) != 0 && (type & ~kPlain) == 0 && (type & properties) == properties;
+            if (fits && std::ranges::find(types, i) == types.end()) {
+                types.push_back(i);
+            }
         }
+    };
+    switch (place) {
+    case Place::device:
+        add(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+        add(0); // the host's, where the device's is full: slower, and there
+        break;
+    case Place::read_back: // from uncached memory the host reads many times more slowly
+        add(VK_MEMORY_PROPERTY_HOST_CACHED_BIT | kHostFlags);
+        add(VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT);
+        [[fallthrough]];
+    case Place::host:
+        add(kHostFlags);
+        break;
     }
-    throw Error("allocating device memory", "no memory type fits");
+    if (types.empty()) {
+        throw Error("allocating device memory", "no memory type fits");
+    }
+    return types;
 }
 
-OwnedMemory Memory::allocateBlock(VkDeviceSize size, std::uint32_t type) const
+OwnedMemory Memory::allocateBlock(VkDeviceSize size, std::uint32_t type, bool is_last) const
 {
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = size;
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device_, &info, nullptr, &memory), "allocating device memory");
+    const VkResult result = vkAllocateMemory(device_, &info, nullptr, &memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY && !is_last) {
+        return {};
+    }
+    check(result, "allocating device memory");
     return {gpu_, memory};
 }
 
@@ -68,39 +96,52 @@ VkDeviceSize aligned(VkDeviceSize offset, VkDeviceSize alignment)
 } // namespace
 
 // Buffers and images keep to blocks of their own, so bufferImageGranularity never matters.
-Memory::Block& Memory::blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped)
+Memory::Block* Memory::blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped,
+                                bool is_last)
 {
     const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
         return b.type == type && b.images == images && (b.mapped != nullptr) == mapped &&
                aligned(b.used, needs.alignment) + needs.size <= kBlockBytes;
     });
     if (block != blocks_.end()) {
-        return *block;
+        return &*block;
     }
     Block fresh;
-    fresh.memory = allocateBlock(kBlockBytes, type);
+    fresh.memory = allocateBlock(kBlockBytes, type, is_last);
+    if (!fresh.memory) {
+        return nullptr;
+    }
     fresh.type = type;
     fresh.images = images;
     fresh.mapped = mapped ? static_cast<char*>(map(fresh.memory.get())) : nullptr;
-    return blocks_.emplace_back(std::move(fresh));
+    return &blocks_.emplace_back(std::move(fresh));
 }
 
-Memory::Piece Memory::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, bool images)
+Memory::Piece Memory::allocateFrom(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped,
+                                   bool is_last)
 {
-    const std::uint32_t type = typeFor(needs.memoryTypeBits, properties);
-    const bool mapped = (properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
     Piece piece;
+    piece.type = type;
     if (needs.size >= kOwnFromBytes) {
-        piece.own = allocateBlock(needs.size, type);
+        piece.own = allocateBlock(needs.size, type, is_last);
         piece.memory = piece.own.get();
-        piece.mapped = mapped ? map(piece.memory) : nullptr;
-        return piece;
+        piece.mapped = mapped && piece.own ? map(piece.memory) : nullptr;
+    } else if (Block* const block = blockFor(needs, type, images, mapped, is_last)) {
+        piece.memory = block->memory.get();
+        piece.offset = aligned(block->used, needs.alignment);
+        piece.mapped = mapped ? block->mapped + piece.offset : nullptr;
+        block->used = piece.offset + needs.size;
     }
-    Block& block = blockFor(needs, type, images, mapped);
-    piece.memory = block.memory.get();
-    piece.offset = aligned(block.used, needs.alignment);
-    piece.mapped = mapped ? block.mapped + piece.offset : nullptr;
-    block.used = piece.offset + needs.size;
+    return piece;
+}
+
+Memory::Piece Memory::allocate(const VkMemoryRequirements& needs, Place place, bool images)
+{
+    const std::vector<std::uint32_t> types = typesFor(needs.memoryTypeBits, place);
+    Piece piece;
+    for (std::size_t i = 0; piece.memory == VK_NULL_HANDLE; ++i) {
+        piece = allocateFrom(needs, types[i], images, place != Place::device, i + 1 == types.size());
+    }
     return piece;
 }
 
@@ -142,11 +183,12 @@ Buffer Memory::buffer(const char* purpose, VkDeviceSize size, VkBufferUsageFlags
     names_.name(VK_OBJECT_TYPE_BUFFER, result.handle, purpose);
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device_, result.handle, &needs);
-    const VkMemoryPropertyFlags properties =
-        place == Place::host ? kHostFlags : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
-    Piece piece = allocate(needs, properties, false);
+    Piece piece = allocate(needs, place, false);
     check(vkBindBufferMemory(device_, result.handle, piece.memory, piece.offset), "binding a buffer's memory");
-    result.mapped = place == Place::host ? piece.mapped : nullptr;
+    result.mapped = piece.mapped;
+    const bool coherent =
+        (properties_.memoryTypes[piece.type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+    result.unseen = place == Place::read_back && !coherent ? piece.memory : VK_NULL_HANDLE;
     result.own_memory = piece.own.get();
     buffers_.push_back(std::move(owned));
     if (piece.own) {
@@ -171,14 +213,22 @@ void Memory::release(Buffer& buffer) noexcept
     buffer = {};
 }
 
-bool Memory::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose)
+bool Memory::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose, Place place)
 {
     if (buffer.handle != VK_NULL_HANDLE && buffer.size >= size) {
         return false;
     }
     release(buffer);
-    buffer = this->buffer(purpose, std::bit_ceil(std::max<VkDeviceSize>(size, 4096)), usage, Place::host);
+    buffer = this->buffer(purpose, std::bit_ceil(std::max<VkDeviceSize>(size, 4096)), usage, place);
     return true;
+}
+
+void Memory::makeVisible(const Buffer& buffer) const
+{
+    if (buffer.unseen != VK_NULL_HANDLE) {
+        const VkMappedMemoryRange all{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr, buffer.unseen, 0, VK_WHOLE_SIZE};
+        check(vkInvalidateMappedMemoryRanges(device_, 1, &all), "reading what the GPU has written");
+    }
 }
 
 Image Memory::image(const ImageWish& wish)
@@ -210,7 +260,7 @@ Image Memory::image(const ImageWish& wish)
     names_.name(VK_OBJECT_TYPE_IMAGE, result.handle, wish.name);
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device_, result.handle, &needs);
-    Piece piece = allocate(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, true);
+    Piece piece = allocate(needs, Place::device, true);
     check(vkBindImageMemory(device_, result.handle, piece.memory, piece.offset), "binding an image's memory");
     OwnedImageView view = makeView(result, wish);
     result.view = view.get();

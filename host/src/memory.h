@@ -18,6 +18,7 @@ struct Buffer {
     VkDeviceSize size = 0;
     void* mapped = nullptr; // host-visible buffers: for good
     VkDeviceMemory own_memory = VK_NULL_HANDLE;
+    VkDeviceMemory unseen = VK_NULL_HANDLE; // where what the GPU writes does not come to the host's sight by itself
     const char* purpose = "";
 };
 
@@ -41,7 +42,8 @@ struct ImageWish {
     bool array_view = false;
 };
 
-enum class Place : std::uint8_t { device, host };
+/// `read_back`: the host reads what the GPU has written, after makeVisible().
+enum class Place : std::uint8_t { device, host, read_back };
 
 class Memory {
 public:
@@ -55,7 +57,11 @@ public:
     [[nodiscard]] Image image(const ImageWish& wish);
     void release(Buffer& buffer) noexcept;
     /// Grows a host-visible buffer to at least `size` (in powers of two); its content is lost. True when it did.
-    bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose);
+    bool grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, const char* purpose,
+              Place place = Place::host);
+    /// What the GPU has written there, and is done with. Throws Error.
+    void makeVisible(const Buffer& buffer) const;
+    [[nodiscard]] const Gpu& gpu() const { return gpu_; }
     [[nodiscard]] const std::vector<vulkan::MemoryUse>& uses() const { return uses_; }
     [[nodiscard]] const DebugNames& names() const { return names_; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
@@ -73,13 +79,19 @@ private:
         VkDeviceSize offset = 0;
         void* mapped = nullptr;
         OwnedMemory own; // where it is no part of a block
+        std::uint32_t type = 0;
     };
-    Piece allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties, bool images);
-    [[nodiscard]] Block& blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped);
-    [[nodiscard]] OwnedMemory allocateBlock(VkDeviceSize size, std::uint32_t type) const;
+    Piece allocate(const VkMemoryRequirements& needs, Place place, bool images);
+    /// Nothing where the type has no more room and is not the last that fits.
+    [[nodiscard]] Piece allocateFrom(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped,
+                                     bool is_last);
+    [[nodiscard]] Block* blockFor(const VkMemoryRequirements& needs, std::uint32_t type, bool images, bool mapped,
+                                  bool is_last);
+    [[nodiscard]] OwnedMemory allocateBlock(VkDeviceSize size, std::uint32_t type, bool is_last) const;
     [[nodiscard]] void* map(VkDeviceMemory memory) const;
     [[nodiscard]] OwnedImageView makeView(const Image& image, const ImageWish& wish) const;
-    [[nodiscard]] std::uint32_t typeFor(std::uint32_t bits, VkMemoryPropertyFlags properties) const;
+    /// Those that fit, the best ones first. Throws Error when none does.
+    [[nodiscard]] std::vector<std::uint32_t> typesFor(std::uint32_t bits, Place place) const;
     /// To be found or made before anything that would have to be given back.
     [[nodiscard]] vulkan::MemoryUse& useFor(const char* purpose);
 

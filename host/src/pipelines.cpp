@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipelines.h"
 
+#include "devices.h"
 #include "geometry.h"
 #include "pipeline_wish.h"
 #include "shaders.h"
+
+#include <gnomon/error.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -104,7 +107,9 @@ Pipelines::Pipelines(const Gpu& gpu, const DebugNames& names, const Materials& m
         std::all_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.physical; });
     fades_ =
         std::any_of(materials.all().begin(), materials.all().end(), [](const MaterialFacts& m) { return m.fades; });
-    makeShadowedLayout(materials.layout());
+    if (hasForwardSamplers(gpu.properties().limits)) {
+        makeShadowedLayout(materials.layout());
+    }
     makeScene(materials);
     makeDepthAlone();
     sky = makeSky({});
@@ -252,6 +257,10 @@ SurfacePipelines Pipelines::makeSurface(Wish wish, bool cut)
     wish.vertex = without_colour ? "depth.vert" : "scene.vert";
     pipelines.whole = make(wish);
     if (cut) {
+        if (!gpu_.view().features.clip_planes) {
+            throw Error("drawing objects that planes cut", "the device has no shaderClipDistance",
+                        "draw a scene without such objects");
+        }
         wish.vertex = without_colour ? "depth_clipped.vert" : "scene_clipped.vert";
         pipelines.cut = make(wish);
     }

@@ -136,6 +136,10 @@ public:
     KindPipelines depth_alone; // of opaque surfaces
     VkPipeline sky = VK_NULL_HANDLE;
 
+    /// Whether surfaces can read maps as they are drawn (hasForwardSamplers()). Else blended ones are lit, and nothing
+    /// else is shaded forward.
+    [[nodiscard]] bool readsMaps() const { return static_cast<bool>(shadowed_layout); }
+
     // Compiled when first asked for, which is not to be while a frame is recorded.
     /// Opaque surfaces to the images of this shape.
     [[nodiscard]] const KindPipelines& gbufferFor(const GBufferShape& shape);
@@ -165,7 +169,7 @@ public:
     OwnedSetLayout tiles_layout;         // of a compact mask: ShadowRenderer::maskTiles()
     OwnedPipelineLayout compact_layout;  // as screen_layout, and set 1 tiles
     OwnedSetLayout maps_layout;          // the bindings of gnomon/visibility.glsl
-    OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps; pushed as there
+    OwnedPipelineLayout shadowed_layout; // as scene_layout, and set 2 maps; pushed as there. Or null
 
 private:
     void makeLayouts(VkDescriptorSetLayout material);

@@ -235,6 +235,7 @@ void ReadBack::record(VkCommandBuffer commands, const FinishedFrame& frame)
 Picture ReadBack::picture() const
 {
     const Impl& self = *impl_;
+    self.copies.makeVisible();
     Picture picture;
     if (self.at.picture != nullptr) {
         self.readColour(picture);

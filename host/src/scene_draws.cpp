@@ -27,7 +27,8 @@ void bind(VkCommandBuffer commands, VkPipeline pipeline, VkPipeline& bound)
 
 SceneDraws::SceneDraws(Memory& memory, const DrawTable& table, const Geometry& geometry, const Materials& materials,
                        std::uint32_t slots)
-    : table_(table), geometry_(geometry), materials_(materials), transforms_(table.transforms), slots_(slots)
+    : indirect_(memory.gpu().view().features.indirect_draws), table_(table), geometry_(geometry), materials_(materials),
+      transforms_(table.transforms), slots_(slots)
 {
     batcher_.setScene(table.parts, table.objects);
     const std::size_t count = table.objects.size();
@@ -135,8 +136,17 @@ std::uint32_t SceneDraws::recordBatch(VkCommandBuffer commands, const Pipelines&
                                       const vulkan::BatchDraws& some) const
 {
     setBatch(commands, pipelines, table_.batches[some.batch]);
-    vkCmdDrawIndexedIndirect(commands, now_->commands.handle, some.first_command * sizeof(VkDrawIndexedIndirectCommand),
-                             some.command_count, sizeof(VkDrawIndexedIndirectCommand));
+    if (indirect_) {
+        vkCmdDrawIndexedIndirect(commands, now_->commands.handle,
+                                 some.first_command * sizeof(VkDrawIndexedIndirectCommand), some.command_count,
+                                 sizeof(VkDrawIndexedIndirectCommand));
+        return some.command_count;
+    }
+    const auto* const all = static_cast<const VkDrawIndexedIndirectCommand*>(now_->commands.mapped);
+    for (const VkDrawIndexedIndirectCommand& one : std::span(all + some.first_command, some.command_count)) {
+        vkCmdDrawIndexed(commands, one.indexCount, one.instanceCount, one.firstIndex, one.vertexOffset,
+                         one.firstInstance);
+    }
     return some.command_count;
 }
 

@@ -56,6 +56,7 @@ private:
     /// What a batch's draws need besides the pipeline.
     void setBatch(VkCommandBuffer commands, const Pipelines& pipelines, const Batch& batch) const;
 
+    bool indirect_; // FeatureUses::indirect_draws is on
     const DrawTable& table_;
     const Geometry& geometry_;
     const Materials& materials_;

@@ -69,7 +69,7 @@ Shadows::Shadows(SceneData& scene, const RenderOptions& options)
         fins.emplace(scene.gpu.view(), vulkan::FinDrawerOptions{options.frames_in_flight, scene.gpu.pipelineCache()});
         fins->setScene(volume_meshes->objects());
     }
-    if (resolved.hasMaps()) {
+    if (resolved.hasMaps() && scene.pipelines.readsMaps()) {
         forward.emplace(scene, resolved, options.frames_in_flight);
     }
 }

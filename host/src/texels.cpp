@@ -88,7 +88,7 @@ VkDeviceSize TexelCopies::bytesOf(const vulkan::ImageRef& image)
 
 void TexelCopies::begin(VkDeviceSize bytes)
 {
-    memory_.grow(buffer_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
+    memory_.grow(buffer_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back", Place::read_back);
     used_ = 0;
 }
 

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] const void* add(VkCommandBuffer commands, const vulkan::ImageRef& image, std::uint32_t layer);
     /// After the last add(): the host may read once the GPU is done.
     static void end(VkCommandBuffer commands);
+    /// Once the GPU is done, before the host reads. Throws Error.
+    void makeVisible() const { memory_.makeVisible(buffer_); }
 
 private:
     Memory memory_;

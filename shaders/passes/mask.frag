@@ -82,7 +82,7 @@ uint receiver_object;
 uint receiver_piece;
 #define GNOMON_OBJECT receiver_object
 #define GNOMON_PIECE receiver_piece
-#define GNOMON_OBJECTS_BINDING 13
+#define GNOMON_OBJECTS_BINDING 4 // in place of layers of depth, which ids have none of
 #endif
 #include "gnomon/lib/light_visibility.glsl"
 

@@ -129,6 +129,15 @@ VKAPI_ATTR void VKAPI_CALL cmdDispatch(VkCommandBuffer commands, std::uint32_t x
     driverOf(commands).log(event);
 }
 
+VKAPI_ATTR void VKAPI_CALL cmdDrawIndexed(VkCommandBuffer commands, std::uint32_t indices, std::uint32_t instances,
+                                          std::uint32_t, std::int32_t, std::uint32_t)
+{
+    NullDriver::Impl& driver = driverOf(commands);
+    driver.counts.instances += instances;
+    driver.counts.indices += std::uint64_t{instances} * indices;
+    cmdLogged<Kind::draw>(commands);
+}
+
 // Reads the commands, as a GPU would.
 VKAPI_ATTR void VKAPI_CALL cmdDrawIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset,
                                            std::uint32_t count, std::uint32_t stride)
@@ -141,9 +150,11 @@ VKAPI_ATTR void VKAPI_CALL cmdDrawIndirect(VkCommandBuffer commands, VkBuffer bu
         std::memcpy(&command,
                     static_cast<const char*>(source.memory->mapped) + source.offset + offset + std::size_t{i} * stride,
                     sizeof command);
+        driver.lackIf(command.firstInstance != 0 && driver.limits.lacks.drawIndirectFirstInstance != VK_FALSE);
         driver.counts.instances += command.instanceCount;
         driver.counts.indices += std::uint64_t{command.instanceCount} * command.indexCount;
     }
+    driver.lackIf(count > 1 && driver.limits.lacks.multiDrawIndirect != VK_FALSE);
     driver.counts.indirect_draws += count;
     NullEvent event;
     event.kind = Kind::draw_indirect;
@@ -172,6 +183,7 @@ const NullEntry kEntries[] = {
     GNOMON_NULL(CmdCopyImage, cmdCopyImage),
     GNOMON_NULL(CmdCopyBuffer, cmdCopyBuffer),
     GNOMON_NULL(CmdDraw, cmdDraw),
+    GNOMON_NULL(CmdDrawIndexed, cmdDrawIndexed),
     GNOMON_NULL(CmdDrawIndexedIndirect, cmdDrawIndirect),
     GNOMON_NULL(CmdBeginQuery, cmdLogged<Kind::begin_query>),
     GNOMON_NULL(CmdEndQuery, cmdLogged<Kind::end_query>),

@@ -30,6 +30,7 @@ struct NullCounts {
     std::uint64_t freed_in_use = 0;
     std::uint64_t written_in_use = 0;
     std::uint64_t used_after_free = 0;
+    std::uint64_t lacking = 0; // things made or recorded that take what the device lacks (null_lacks.cpp)
 };
 
 struct NullEvent {
@@ -65,6 +66,13 @@ struct NullLimits {
     std::uint64_t memory_bytes = std::uint64_t{1} << 40;
     std::uint32_t timestamp_bits = 64;
     std::span<const std::uint64_t> query_results; // what reading queries back begins with; zeros follow
+    VkPhysicalDeviceFeatures lacks{};             // features that it has not, of those that are true here
+    bool lacks_output_layer = false;              // likewise shaderOutputLayer
+    VkFormat lacks_format = VK_FORMAT_UNDEFINED;  // can be used for nothing
+    std::uint32_t group_threads = 1024;           // maxComputeWorkGroupInvocations
+    std::uint32_t storage_buffers = 4;            // maxPerStageDescriptorStorageBuffers; 4 are promised
+    std::span<const VkMemoryType> memory_types;   // empty: one, for all
+    std::span<const VkDeviceSize> heap_bytes;     // of each heap; empty: endless
 };
 
 /// Its view() and commands() are good for as long as it lives. Not thread-safe.
@@ -103,6 +111,9 @@ public:
     /// The n-th such call from now on, counted from 1, fails with this result and does nothing; with
     /// VK_ERROR_DEVICE_LOST so do all that follow. 0: none.
     void failCall(std::uint64_t nth, VkResult result);
+
+    /// From now on view() says that all optional features are on, whatever the device lacks.
+    void claimAll();
 
     /// What the physical device says of itself; VK_API_VERSION_1_3 at first.
     void setApiVersion(std::uint32_t version);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace gnomon::test {
@@ -22,11 +23,20 @@ VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDevi
     properties->limits.minUniformBufferOffsetAlignment = 256;
     properties->limits.maxStorageBufferRange = 1U << 27U;
     properties->limits.timestampPeriod = 1.0F;
+    properties->limits.maxComputeWorkGroupInvocations = driverOf(device).limits.group_threads;
+    properties->limits.maxComputeWorkGroupSize[0] = driverOf(device).limits.group_threads;
+    properties->limits.maxPerStageDescriptorStorageBuffers = driverOf(device).limits.storage_buffers;
 }
 
-VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* properties)
+VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* properties)
 {
     *properties = {};
+    if (const auto types = driverOf(device).limits.memory_types; !types.empty()) {
+        std::ranges::copy(types, properties->memoryTypes);
+        properties->memoryTypeCount = static_cast<std::uint32_t>(types.size());
+        properties->memoryHeapCount = static_cast<std::uint32_t>(driverOf(device).limits.heap_bytes.size());
+        return;
+    }
     properties->memoryTypeCount = 1;
     properties->memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT |
                                                VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
@@ -34,10 +44,10 @@ VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryPro
     properties->memoryHeapCount = 1;
 }
 
-VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat, VkFormatProperties* properties)
+VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat format, VkFormatProperties* properties)
 {
     *properties = {};
-    properties->optimalTilingFeatures = ~driverOf(device).hidden_features;
+    properties->optimalTilingFeatures = driverOf(device).featuresOf(format);
 }
 
 VKAPI_ATTR void VKAPI_CALL getFamilies(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyProperties* families)
@@ -49,8 +59,23 @@ VKAPI_ATTR void VKAPI_CALL getFamilies(VkPhysicalDevice device, std::uint32_t* c
     *count = 1;
 }
 
-// All that were asked for are there. A structure of features is its head and VkBool32s.
-VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeatures2* features)
+void takeAway(const NullLimits& limits, VkBaseOutStructure* structure)
+{
+    if (structure->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2) {
+        constexpr std::size_t kCount = sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32);
+        auto* const has =
+            reinterpret_cast<VkBool32*>(&reinterpret_cast<VkPhysicalDeviceFeatures2*>(structure)->features);
+        const auto* const lacks = reinterpret_cast<const VkBool32*>(&limits.lacks);
+        std::transform(has, has + kCount, lacks, has,
+                       [](VkBool32 there, VkBool32 lacking) { return lacking != VK_FALSE ? VK_FALSE : there; });
+    } else if (structure->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES && limits.lacks_output_layer) {
+        reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(structure)->shaderOutputLayer = VK_FALSE;
+    }
+}
+
+// All that were asked for are there, but for what the limits take away. A structure of features is its head and
+// VkBool32s.
+VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features)
 {
     constexpr std::pair<VkStructureType, std::size_t> kSizes[] = {
         {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, sizeof(VkPhysicalDeviceFeatures2)},
@@ -63,6 +88,7 @@ VKAPI_ATTR void VKAPI_CALL getFeatures(VkPhysicalDevice, VkPhysicalDeviceFeature
                 std::fill_n(reinterpret_cast<VkBool32*>(next + 1), (size - sizeof *next) / sizeof(VkBool32), VK_TRUE);
             }
         }
+        takeAway(driverOf(device).limits, next);
     }
 }
 
@@ -78,9 +104,22 @@ VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAll
     if (driver.counts.bytes + info->allocationSize > driver.limits.memory_bytes) {
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     }
+    const NullLimits& limits = driver.limits;
+    const std::uint32_t heap = limits.memory_types.empty() ? 0 : limits.memory_types[info->memoryTypeIndex].heapIndex;
+    driver.heap_used.resize(std::max<std::size_t>(driver.heap_used.size(), heap + 1));
+    if (!limits.heap_bytes.empty() && driver.heap_used[heap] + info->allocationSize > limits.heap_bytes[heap]) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    constexpr VkMemoryPropertyFlags kSpecial = VK_MEMORY_PROPERTY_PROTECTED_BIT |
+                                               VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
+                                               VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
+    driver.lackIf(!limits.memory_types.empty() &&
+                  (limits.memory_types[info->memoryTypeIndex].propertyFlags & kSpecial) != 0);
+    driver.heap_used[heap] += info->allocationSize;
     ++driver.counts.allocations;
     driver.counts.bytes += info->allocationSize;
     *memory = makeObject<VkDeviceMemory>(driver);
+    objectOf(*memory)->heap = heap;
     objectOf(*memory)->size = info->allocationSize;
     return VK_SUCCESS;
 }
@@ -90,6 +129,7 @@ VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, co
     NullObject* const object = objectOf(memory);
     ++driverOf(device).counts.frees;
     driverOf(device).counts.bytes -= object->size;
+    driverOf(device).heap_used[object->heap] -= object->size;
     driverOf(device).destroy(object);
     std::free(std::exchange(object->mapped, nullptr));
 }
@@ -128,6 +168,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice device, const VkImageCreateI
         return outcome;
     }
     ++driverOf(device).counts.created;
+    driverOf(device).checkImage(*info);
     *image = makeObject<VkImage>(driverOf(device));
     objectOf(*image)->size = VkDeviceSize{info->extent.width} * info->extent.height * info->arrayLayers * 4;
     return VK_SUCCESS;
@@ -145,25 +186,26 @@ VKAPI_ATTR VkResult VKAPI_CALL createView(VkDevice device, const VkImageViewCrea
     return VK_SUCCESS;
 }
 
-void describeNeeds(const NullObject& object, bool dedicated, VkMemoryRequirements2& needs)
+void describeNeeds(VkDevice device, const NullObject& object, bool dedicated, VkMemoryRequirements2& needs)
 {
-    needs.memoryRequirements = {object.size, 16, 1};
+    const std::size_t types = std::max<std::size_t>(driverOf(device).limits.memory_types.size(), 1);
+    needs.memoryRequirements = {object.size, 16, (1U << types) - 1U};
     auto* const more = static_cast<VkMemoryDedicatedRequirements*>(needs.pNext);
     if (more != nullptr && more->sType == VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS) {
         more->prefersDedicatedAllocation = dedicated ? VK_TRUE : VK_FALSE;
     }
 }
 
-VKAPI_ATTR void VKAPI_CALL getBufferNeeds(VkDevice, const VkBufferMemoryRequirementsInfo2* info,
+VKAPI_ATTR void VKAPI_CALL getBufferNeeds(VkDevice device, const VkBufferMemoryRequirementsInfo2* info,
                                           VkMemoryRequirements2* needs)
 {
-    describeNeeds(*objectOf(info->buffer), false, *needs);
+    describeNeeds(device, *objectOf(info->buffer), false, *needs);
 }
 
-VKAPI_ATTR void VKAPI_CALL getImageNeeds(VkDevice, const VkImageMemoryRequirementsInfo2* info,
+VKAPI_ATTR void VKAPI_CALL getImageNeeds(VkDevice device, const VkImageMemoryRequirementsInfo2* info,
                                          VkMemoryRequirements2* needs)
 {
-    describeNeeds(*objectOf(info->image), true, *needs);
+    describeNeeds(device, *objectOf(info->image), true, *needs);
 }
 
 template <class Handle>
@@ -180,13 +222,23 @@ VKAPI_ATTR VkResult VKAPI_CALL bind(VkDevice device, Handle resource, VkDeviceMe
 // --- Other objects
 
 template <class Info, class Handle>
-VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const Info*, const VkAllocationCallbacks*, Handle* handle)
+VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const Info* info, const VkAllocationCallbacks*, Handle* handle)
 {
     if (const VkResult outcome = driverOf(device).outcome(); outcome != VK_SUCCESS) {
         return outcome;
     }
-    ++driverOf(device).counts.created;
-    *handle = makeObject<Handle>(driverOf(device));
+    NullDriver::Impl& driver = driverOf(device);
+    if constexpr (std::is_same_v<Info, VkShaderModuleCreateInfo>) {
+        driver.checkShader({info->pCode, info->codeSize / sizeof *info->pCode});
+    } else if constexpr (std::is_same_v<Info, VkDescriptorSetLayoutCreateInfo>) {
+        driver.checkLayout(*info);
+    } else if constexpr (std::is_same_v<Info, VkQueryPoolCreateInfo>) {
+        driver.lackIf(info->queryType == VK_QUERY_TYPE_PIPELINE_STATISTICS &&
+                      driver.limits.lacks.pipelineStatisticsQuery != VK_FALSE);
+        driver.lackIf(info->queryType == VK_QUERY_TYPE_TIMESTAMP && driver.limits.timestamp_bits == 0);
+    }
+    ++driver.counts.created;
+    *handle = makeObject<Handle>(driver);
     return VK_SUCCESS;
 }
 
@@ -198,7 +250,7 @@ VKAPI_ATTR void VKAPI_CALL destroy(VkDevice device, Handle handle, const VkAlloc
 }
 
 template <class Info>
-VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count, const Info*,
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache, std::uint32_t count, const Info* infos,
                                                const VkAllocationCallbacks*, VkPipeline* pipelines)
 {
     std::fill_n(pipelines, count, VkPipeline{VK_NULL_HANDLE}); // as the specification wants it where one fails
@@ -208,6 +260,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache,
     driverOf(device).counts.created += count;
     driverOf(device).counts.pipelines += count;
     for (std::uint32_t i = 0; i < count; ++i) {
+        driverOf(device).checkPipeline(infos[i]);
         pipelines[i] = makeObject<VkPipeline>(driverOf(device));
     }
     return VK_SUCCESS;

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace gnomon::test {
@@ -42,6 +43,7 @@ struct NullObject {
 
     VkDeviceSize size = 0;        // memory, buffers, images
     void* mapped = nullptr;       // memory
+    std::uint32_t heap = 0;       // memory
     NullObject* memory = nullptr; // of a buffer or an image
     VkDeviceSize offset = 0;      // there
     /// What is used when this is: of a view its image, of a descriptor set its pool and what was written to it.
@@ -59,9 +61,20 @@ struct NullDriver::Impl {
     const char* hidden = nullptr;
     std::uint32_t api_version = VK_API_VERSION_1_3;
     VkFormatFeatureFlags hidden_features = 0;
+    bool claims_all = false;
     std::uint64_t fallible_calls = 0;
     std::uint64_t failing_call = 0; // 0: none
     VkResult failure = VK_SUCCESS;
+    DriversVector<VkDeviceSize> heap_used;
+
+    /// Counts what takes something that the device lacks.
+    void lackIf(bool lacking) { counts.lacking += lacking ? 1 : 0; }
+    [[nodiscard]] VkFormatFeatureFlags featuresOf(VkFormat format) const;
+    void checkShader(std::span<const std::uint32_t> words);
+    void checkImage(const VkImageCreateInfo& info);
+    void checkPipeline(const VkGraphicsPipelineCreateInfo& info);
+    void checkPipeline(const VkComputePipelineCreateInfo&) {}
+    void checkLayout(const VkDescriptorSetLayoutCreateInfo& info);
 
     /// A command of the current slot uses it. Allocates nothing.
     void use(NullObject* object);

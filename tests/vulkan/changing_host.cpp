@@ -67,7 +67,7 @@ void ChangingHost::addObjects()
 {
     (void)objects_.add({{-30.0F, 0.0F, -30.0F}, {30.0F, 0.0F, 30.0F}}, {.pieces = 1});
     for (std::size_t i = 0; i < scene_.boxes.size(); ++i) {
-        (void)objects_.add(boundsOf(scene_.boxes[i]), {.dynamic = i >= 3, .pieces = 6});
+        (void)objects_.add(boundsOf(scene_.boxes[i]), {.dynamic = i >= 3, .closed = true, .pieces = 6});
     }
 }
 
@@ -135,6 +135,7 @@ Frame ChangingHost::nextFrame(const FrameSetup& setup)
     frame.size_px = {setup.screen.width, setup.screen.height};
     frame.lights = lights_;
     frame.objects = &objects_;
+    frame.clamps_depth = driver.view().features.depth_clamp;
     return frame;
 }
 

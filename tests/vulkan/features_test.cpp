@@ -15,17 +15,9 @@ namespace {
 using vulkan::FeatureMerge;
 using vulkan::FeatureUses;
 
-constexpr FeatureUses kMaskAlone{};
-constexpr FeatureUses kMost{.filterable = true, .caster_drawer = true, .statistics = true};
-
-std::string missingFor(const FeatureUses& uses)
-{
-    NullDriver driver;
-    driver.hideFunction("vkGetPhysicalDeviceFeatures2"); // then none is there
-    char missing[256] = "x";
-    vulkan::missingFeatures(driver.view(), missing, sizeof missing, uses);
-    return missing;
-}
+constexpr FeatureUses kMost{
+    .indirect_draws = true, .depth_clamp = true, .filterable = true, .sample_metric = true, .statistics = true};
+constexpr const char* kAlways = "hostQueryReset, dynamicRendering, synchronization2, maintenance4";
 
 /// In `chain`: how often a structure is there.
 std::size_t countOf(const void* chain, VkStructureType type)
@@ -52,39 +44,27 @@ TEST(Features, requiredOnesAreFound)
 {
     NullDriver driver;
     char missing[256] = "x";
-    vulkan::missingFeatures(driver.view(), missing, sizeof missing, kMost);
+    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
     EXPECT_STREQ(missing, "");
-    EXPECT_EQ(missingFor(kMost), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, pipelineStatisticsQuery, "
-                                 "sampleRateShading, shaderStorageImageWriteWithoutFormat, hostQueryReset, "
-                                 "dynamicRendering, synchronization2, maintenance4");
-    driver.hideFunction("vkGetPhysicalDeviceFeatures2");
-    vulkan::missingFeatures(driver.view(), missing, 24, kMost);
-    EXPECT_STREQ(missing, "multiDrawIndirect");
-    vulkan::missingFeatures(driver.view(), missing, 1, kMost);
+    driver.hideFunction("vkGetPhysicalDeviceFeatures2"); // then none is there
+    vulkan::missingFeatures(driver.view(), missing, sizeof missing);
+    EXPECT_STREQ(missing, kAlways);
+    vulkan::missingFeatures(driver.view(), missing, 24);
+    EXPECT_STREQ(missing, "hostQueryReset");
+    vulkan::missingFeatures(driver.view(), missing, 1);
     EXPECT_STREQ(missing, "");
 }
 
 TEST(Features, areThoseOfWhatIsUsed)
 {
-    EXPECT_EQ(missingFor(kMaskAlone), "hostQueryReset, dynamicRendering, synchronization2, maintenance4");
-    FeatureUses uses = kMaskAlone;
-    uses.caster_drawer = true;
-    EXPECT_EQ(missingFor(uses), "multiDrawIndirect, drawIndirectFirstInstance, depthClamp, hostQueryReset, "
-                                "dynamicRendering, synchronization2, maintenance4");
-    uses = kMaskAlone;
-    uses.statistics = true;
-    EXPECT_EQ(missingFor(uses),
-              "pipelineStatisticsQuery, hostQueryReset, dynamicRendering, synchronization2, maintenance4");
-    uses = kMaskAlone;
-    uses.layered = true;
-    EXPECT_EQ(missingFor(uses), "hostQueryReset, dynamicRendering, synchronization2, maintenance4, shaderOutputLayer");
-    uses = kMaskAlone;
-    uses.clip_planes = true;
-    EXPECT_EQ(missingFor(uses), "shaderClipDistance, hostQueryReset, dynamicRendering, synchronization2, maintenance4");
-    EXPECT_EQ(vulkan::requiredFeatures(uses).features.shaderClipDistance, VK_TRUE);
-    EXPECT_EQ(vulkan::requiredFeatures(kMost).features.shaderClipDistance, VK_FALSE);
-    EXPECT_EQ(vulkan::requiredFeatures(kMaskAlone).features.multiDrawIndirect, VK_FALSE);
-    EXPECT_EQ(vulkan::requiredFeatures(kMost).features.multiDrawIndirect, VK_TRUE);
+    const VkPhysicalDeviceFeatures& none = vulkan::requiredFeatures({}).features;
+    EXPECT_FALSE(none.multiDrawIndirect || none.depthClamp || none.pipelineStatisticsQuery || none.shaderClipDistance);
+    const VkPhysicalDeviceFeatures& most = vulkan::requiredFeatures(kMost).features;
+    EXPECT_TRUE(most.multiDrawIndirect && most.drawIndirectFirstInstance && most.depthClamp);
+    EXPECT_TRUE(most.pipelineStatisticsQuery && most.sampleRateShading && most.shaderStorageImageWriteWithoutFormat);
+    EXPECT_FALSE(most.shaderClipDistance || most.depthBounds);
+    EXPECT_TRUE(vulkan::requiredFeatures({.clip_planes = true}).features.shaderClipDistance);
+    EXPECT_TRUE(vulkan::requiredFeatures({.depth_bounds = true}).features.depthBounds);
 }
 
 TEST(Features, areAddedToAnEmptyChain)
@@ -104,7 +84,7 @@ TEST(Features, areTurnedOnInTheStructuresOfVersions)
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     core.features.samplerAnisotropy = VK_TRUE;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &core};
-    const FeatureMerge merge(info, {.filterable = true, .caster_drawer = true, .layered = true});
+    const FeatureMerge merge(info, {.indirect_draws = true, .depth_clamp = true, .layered = true});
     EXPECT_EQ(info.pNext, &core) << "nothing had to be added";
     EXPECT_TRUE(core.features.samplerAnisotropy && core.features.depthClamp && core.features.multiDrawIndirect);
     EXPECT_TRUE(v12.hostQueryReset && v12.shaderOutputLayer);

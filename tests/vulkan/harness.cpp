@@ -172,8 +172,7 @@ void Gpu::makeDevice()
     vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     physical_device_ = devices[0];
     char missing[256];
-    vulkan::missingFeatures(view(), missing, sizeof missing,
-                            {.filterable = true, .caster_drawer = true, .clip_planes = true});
+    vulkan::missingFeatures(view(), missing, sizeof missing);
     if (missing[0] != '\0') {
         throw std::runtime_error(std::string("the device lacks ") + missing);
     }

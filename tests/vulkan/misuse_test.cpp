@@ -35,8 +35,8 @@ TEST(Misuse, OfTheDeviceViewIsAnError)
     EXPECT_THROW(ShadowRenderer(half, {}), Error);
     char text[8];
     EXPECT_THROW(static_cast<void>(vulkan::supportedFeatures({})), Error);
-    EXPECT_THROW(vulkan::missingFeatures({}, text, sizeof text, {}), Error);
-    vulkan::missingFeatures({}, nullptr, 0, {});
+    EXPECT_THROW(vulkan::missingFeatures({}, text, sizeof text), Error);
+    vulkan::missingFeatures({}, nullptr, 0);
     EXPECT_EQ(driver.counts().created, driver.counts().destroyed);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layouts, pipelines and descriptor sets of the passes that fit cascades.
 #include "cascade_fitter.h"
+#include "optional_parts.h"
 #include "pipelines.h"
 
 #include <gnomon_spirv.h>
@@ -19,6 +20,7 @@ constexpr std::array kCompleteTypes{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
 
 void CascadeFitter::makePipelines()
 {
+    requireLargeGroups(device_, "find cascades");
     constexpr VkShaderStageFlags kStage = VK_SHADER_STAGE_COMPUTE_BIT;
     fit_sets_ = DescriptorSets(device_, kFitTypes, kStage);
     complete_sets_ = DescriptorSets(device_, kCompleteTypes, kStage);

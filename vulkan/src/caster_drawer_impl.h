@@ -56,6 +56,7 @@ struct CasterDrawer::Impl {
     void bindGeometry(const MapPass& pass) const;
     void bindPlaces(const MapPass& pass);
     /// Returns the number of indirect draws.
+    void drawCommands(VkCommandBuffer to, const BatchDraws& draws) const;
     std::uint32_t drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key);
 
     Device device;

@@ -77,6 +77,22 @@ void CasterDrawer::Impl::bindPlaces(const MapPass& pass)
                                sizeof first, &first);
 }
 
+void CasterDrawer::Impl::drawCommands(VkCommandBuffer to, const BatchDraws& draws) const
+{
+    const VkDeviceSize first = commands_used + draws.first_command * kCommandBytes;
+    if (device.uses().indirect_draws) {
+        device.vk.CmdDrawIndexedIndirect(to, slot->commands.buffer(), first, draws.command_count,
+                                         static_cast<std::uint32_t>(kCommandBytes));
+        return;
+    }
+    const auto* const written = reinterpret_cast<const VkDrawIndexedIndirectCommand*>(
+        static_cast<const std::byte*>(slot->commands.data()) + first);
+    for (const VkDrawIndexedIndirectCommand& one : std::span(written, draws.command_count)) {
+        device.vk.CmdDrawIndexed(to, one.indexCount, one.instanceCount, one.firstIndex, one.vertexOffset,
+                                 one.firstInstance);
+    }
+}
+
 std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraws& draws, CasterPipelineKey key)
 {
     const CasterBatch& batch = batches[draws.batch];
@@ -110,9 +126,7 @@ std::uint32_t CasterDrawer::Impl::drawBatch(const MapPass& pass, const BatchDraw
                                    offsetof(CasterMaterial, clip_planes), sizeof(CasterMaterial::clip_planes),
                                    &materials[draws.batch].clip_planes);
     }
-    device.vk.CmdDrawIndexedIndirect(pass.commands, slot->commands.buffer(),
-                                     commands_used + draws.first_command * kCommandBytes, draws.command_count,
-                                     static_cast<std::uint32_t>(kCommandBytes));
+    drawCommands(pass.commands, draws);
     return draws.command_count;
 }
 

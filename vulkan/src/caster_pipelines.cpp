@@ -3,6 +3,7 @@
 
 #include "caster_instances.h"
 #include "map_storage.h"
+#include "optional_parts.h"
 #include "pipelines.h"
 #include "usage.h"
 
@@ -97,7 +98,7 @@ std::span<const std::uint32_t> paraboloidFragmentCode(const MapPassFormats& form
 }
 
 // Empty where the rasteriser alone does the work.
-std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked)
+std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool masked, bool per_sample)
 {
     if (formats.paraboloid) {
         return paraboloidFragmentCode(formats, masked);
@@ -117,7 +118,7 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     if (formats.colour != VK_FORMAT_UNDEFINED) {
         return masked ? spirv::caster_colour_masked_frag : spirv::caster_colour_frag;
     }
-    if (formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT) {
+    if (formats.write_frag_depth && per_sample) {
         return masked ? spirv::caster_depth_samples_masked_frag : spirv::caster_depth_samples_frag;
     }
     if (formats.write_frag_depth) {
@@ -243,7 +244,8 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
 {
     const MapPassFormats& formats = key.formats;
     const ShaderModule vertex = makeShader(device_, vertexCode(formats, key));
-    const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked);
+    const bool per_sample = formats.samples != VK_SAMPLE_COUNT_1_BIT && device_.uses().sample_metric;
+    const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked, per_sample);
     ShaderModule fragment;
     const FragmentConstants constants{formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes
                                                                                  : shared::kDepthAlone,
@@ -279,8 +281,14 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     state.depth_format = formats.depth;
     state.samples = formats.samples;
     // The shader's inputs say so already (caster.frag); Mesa 22.3 wants to hear it here.
-    state.shade_samples = formats.write_frag_depth && formats.samples != VK_SAMPLE_COUNT_1_BIT;
+    state.shade_samples = formats.write_frag_depth && per_sample;
     state.cull = key.cull;
+    if (key.clamp) {
+        requirePart(device_, "draw casters that are clamped onto a near plane", &FeatureUses::depth_clamp);
+    }
+    if (key.clipped) {
+        requirePart(device_, "draw casters that planes cut", &FeatureUses::clip_planes);
+    }
     state.depth_clamp = key.clamp;
     state.cache = options_.pipeline_cache;
     state.name = key.masked ? "masked casters" : "casters";

@@ -104,20 +104,57 @@ Device::Device(const DeviceView& view) : vk(loadFunctions(view)), view_(view)
     vk.GetPhysicalDeviceMemoryProperties(view.physical_device, &memory_);
 }
 
-std::uint32_t Device::timestampBits() const
-{
-    std::uint32_t count = 0;
-    vk.GetPhysicalDeviceQueueFamilyProperties(view_.physical_device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vk.GetPhysicalDeviceQueueFamilyProperties(view_.physical_device, &count, families.data());
-    return view_.queue_family < count ? families[view_.queue_family].timestampValidBits : 0;
-}
-
 VkFormatFeatureFlags Device::features(VkFormat format) const
 {
     VkFormatProperties properties{};
     vk.GetPhysicalDeviceFormatProperties(view_.physical_device, format, &properties);
     return properties.optimalTilingFeatures;
+}
+
+/// What is for the GPU alone may lie in the host's memory where the device's is full: slower, and there.
+std::vector<std::uint32_t> Device::memoryTypesFor(const MemoryRequest& request) const
+{
+    // Others (protected, lazily allocated, uncached by AMD's extension) are for uses that ours are not.
+    constexpr VkMemoryPropertyFlags kPlain = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    std::vector<std::uint32_t> types;
+    const auto add = [&](bool with_properties) {
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+            const VkMemoryPropertyFlags type = memory_.memoryTypes[i].propertyFlags;
+            const bool fits = (request.needs.memoryTypeBits & (1U << i)) != 0 && (type & ~kPlain) == 0;
+            if (fits && ((type & request.properties) == request.properties) == with_properties) {
+                types.push_back(i);
+            }
+        }
+    };
+    add(true);
+    if (request.properties == VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) {
+        add(false);
+    }
+    return types;
+}
+
+VkDeviceMemory Device::allocateOwn(const MemoryRequest& request, const char* tried)
+{
+    const VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, nullptr,
+                                                  request.image, request.buffer};
+    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    info.pNext = request.prefers_dedicated || request.requires_dedicated ? &dedicated : nullptr;
+    info.allocationSize = request.needs.size;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkResult result = VK_ERROR_FORMAT_NOT_SUPPORTED; // there is no type
+    for (const std::uint32_t type : memoryTypesFor(request)) {
+        info.memoryTypeIndex = type;
+        result = vk.AllocateMemory(view_.device, &info, nullptr, &memory);
+        if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+            break;
+        }
+    }
+    if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) {
+        throw Error(tried, "the device has no memory type with the properties it needs");
+    }
+    check(result, tried);
+    return memory;
 }
 
 MemoryBlock Device::allocate(const MemoryRequest& request)
@@ -131,23 +168,7 @@ MemoryBlock Device::allocate(const MemoryRequest& request)
         account_.add(request.purpose, needs.size);
         return block;
     }
-    std::uint32_t type = memory_.memoryTypeCount;
-    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-        if ((needs.memoryTypeBits & (1U << i)) != 0 &&
-            (memory_.memoryTypes[i].propertyFlags & request.properties) == request.properties) {
-            type = i;
-            break;
-        }
-    }
-    if (type == memory_.memoryTypeCount) {
-        throw Error(tried, "the device has no memory type with the properties it needs");
-    }
-    const VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, nullptr,
-                                                  request.image, request.buffer};
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                    request.prefers_dedicated || request.requires_dedicated ? &dedicated : nullptr,
-                                    needs.size, type};
-    check(vk.AllocateMemory(view_.device, &info, nullptr, &block.memory), tried.c_str());
+    block.memory = allocateOwn(request, tried.c_str());
     if ((request.properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         const VkResult mapped = vk.MapMemory(view_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped);
         if (mapped != VK_SUCCESS) {

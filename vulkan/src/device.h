@@ -40,10 +40,9 @@ public:
     [[nodiscard]] VkDevice handle() const { return view_.device; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
     [[nodiscard]] const FeatureUses& uses() const { return view_.features; }
-    /// Of the queues that commands go to; 0: they have no timestamps.
-    [[nodiscard]] std::uint32_t timestampBits() const;
     /// By which it places vertices within a pixel: pack::DrawPrecision::sub_pixel_bits.
     [[nodiscard]] std::uint32_t subPixelBits() const { return std::clamp(limits_.subPixelPrecisionBits, 1U, 24U); }
+    [[nodiscard]] const DeviceView& view() const { return view_; }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;
     [[nodiscard]] const ShaderHook& shaderHook() const { return view_.shaders; }
@@ -73,6 +72,9 @@ public:
     Functions vk;
 
 private:
+    [[nodiscard]] std::vector<std::uint32_t> memoryTypesFor(const MemoryRequest& request) const;
+    [[nodiscard]] VkDeviceMemory allocateOwn(const MemoryRequest& request, const char* tried);
+
     DeviceView view_;
     VkPhysicalDeviceLimits limits_{};
     bool software_ = false;

@@ -46,20 +46,18 @@ constexpr VkStructureType k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEA
 #define GNOMON_CORE(name)                                                                                              \
     kCore, offsetof(VkPhysicalDeviceFeatures2, features) + offsetof(VkPhysicalDeviceFeatures, name)
 constexpr Feature kFeatures[] = {
-    // Indirect drawing of instances.
-    {"multiDrawIndirect", &FeatureUses::caster_drawer, GNOMON_CORE(multiDrawIndirect)},
-    {"drawIndirectFirstInstance", &FeatureUses::caster_drawer, GNOMON_CORE(drawIndirectFirstInstance)},
-    // Casters clamped onto the near plane.
-    {"depthClamp", &FeatureUses::caster_drawer, GNOMON_CORE(depthClamp)},
-    {"shaderClipDistance", &FeatureUses::clip_planes, GNOMON_CORE(shaderClipDistance)},
-    // Volumes counted no farther than a lamp reaches.
-    {"depthBounds", &FeatureUses::depth_bounds, GNOMON_CORE(depthBounds)},
-    {"pipelineStatisticsQuery", &FeatureUses::statistics, GNOMON_CORE(pipelineStatisticsQuery)},
-    // The linear metric of perspective views in each sample, not only in each texel.
-    {"sampleRateShading", &FeatureUses::filterable, GNOMON_CORE(sampleRateShading)},
+    {"multiDrawIndirect", &FeatureUses::indirect_draws, GNOMON_CORE(multiDrawIndirect)},
+    {"drawIndirectFirstInstance", &FeatureUses::indirect_draws, GNOMON_CORE(drawIndirectFirstInstance)},
+    {"depthClamp", &FeatureUses::depth_clamp, GNOMON_CORE(depthClamp)},
     // One compute shader for all formats of filterable maps.
     {"shaderStorageImageWriteWithoutFormat", &FeatureUses::filterable,
      GNOMON_CORE(shaderStorageImageWriteWithoutFormat)},
+    {"sampleRateShading", &FeatureUses::sample_metric, GNOMON_CORE(sampleRateShading)},
+    {"shaderOutputLayer", &FeatureUses::layered, k12, offsetof(VkPhysicalDeviceVulkan12Features, shaderOutputLayer)},
+    {"shaderClipDistance", &FeatureUses::clip_planes, GNOMON_CORE(shaderClipDistance)},
+    {"depthBounds", &FeatureUses::depth_bounds, GNOMON_CORE(depthBounds)},
+    {"pipelineStatisticsQuery", &FeatureUses::statistics, GNOMON_CORE(pipelineStatisticsQuery)},
+    // What every device of Vulkan 1.3 has.
     {"hostQueryReset", kAlways, k12, offsetof(VkPhysicalDeviceVulkan12Features, hostQueryReset),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
      offsetof(VkPhysicalDeviceHostQueryResetFeatures, hostQueryReset)},
@@ -73,8 +71,6 @@ constexpr Feature kFeatures[] = {
     {"maintenance4", kAlways, k13, offsetof(VkPhysicalDeviceVulkan13Features, maintenance4),
      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
      offsetof(VkPhysicalDeviceMaintenance4Features, maintenance4)},
-    // The maps of cascades in one pass.
-    {"shaderOutputLayer", &FeatureUses::layered, k12, offsetof(VkPhysicalDeviceVulkan12Features, shaderOutputLayer)},
 };
 #undef GNOMON_CORE
 
@@ -84,9 +80,9 @@ bool isNeeded(const Feature& feature, const FeatureUses& uses)
 }
 
 // Each use once; requiredFeatures() has a chain for every set of them.
-constexpr bool FeatureUses::*kUses[] = {&FeatureUses::filterable,  &FeatureUses::caster_drawer,
-                                        &FeatureUses::statistics,  &FeatureUses::layered,
-                                        &FeatureUses::clip_planes, &FeatureUses::depth_bounds};
+constexpr bool FeatureUses::*kUses[] = {
+    &FeatureUses::indirect_draws, &FeatureUses::depth_clamp, &FeatureUses::filterable,   &FeatureUses::sample_metric,
+    &FeatureUses::layered,        &FeatureUses::clip_planes, &FeatureUses::depth_bounds, &FeatureUses::statistics};
 constexpr std::size_t kUseCount = std::size(kUses);
 static_assert(sizeof(FeatureUses) == kUseCount);
 
@@ -246,7 +242,7 @@ FeatureMerge::FeatureMerge(VkDeviceCreateInfo& info, const FeatureUses& uses) : 
 
 FeatureMerge::~FeatureMerge() = default;
 
-void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses)
+void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity)
 {
     if (capacity == 0) {
         return;
@@ -258,7 +254,7 @@ void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity,
     for (const Feature& feature : kFeatures) {
         const char* separator = length == 0 ? "" : ", ";
         const std::size_t more = std::strlen(separator) + std::strlen(feature.name);
-        if (isNeeded(feature, uses) && bitIn(have, feature) == VK_FALSE && length + more < capacity) {
+        if (feature.use == kAlways && bitIn(have, feature) == VK_FALSE && length + more < capacity) {
             std::strcpy(text + length, separator);
             std::strcpy(text + length + std::strlen(separator), feature.name);
             length += static_cast<std::uint32_t>(more);

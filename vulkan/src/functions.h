@@ -7,8 +7,7 @@
 // clang-format off
 #define GNOMON_INSTANCE_FUNCTIONS(X) \
     X(GetDeviceProcAddr) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceMemoryProperties) \
-    X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceFeatures2) \
-    X(GetPhysicalDeviceQueueFamilyProperties)
+    X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceFeatures2)
 
 #define GNOMON_DEVICE_FUNCTIONS(X) \
     X(AllocateMemory) X(FreeMemory) X(MapMemory) X(BindImageMemory) X(BindBufferMemory) \
@@ -20,7 +19,7 @@
     X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) X(ResetQueryPool) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline) X(CmdBindDescriptorSets) \
     X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdPushConstants) X(CmdSetViewport) X(CmdSetScissor) X(CmdSetBlendConstants) X(CmdSetDepthBounds) X(CmdClearAttachments) \
-    X(CmdDispatch) X(CmdFillBuffer) X(CmdUpdateBuffer) X(CmdClearColorImage) X(CmdCopyImage) X(CmdCopyBuffer) X(CmdDraw) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
+    X(CmdDispatch) X(CmdFillBuffer) X(CmdUpdateBuffer) X(CmdClearColorImage) X(CmdCopyImage) X(CmdCopyBuffer) X(CmdDraw) X(CmdDrawIndexed) X(CmdDrawIndexedIndirect) X(CmdBeginQuery) X(CmdEndQuery) X(CmdWriteTimestamp2)
 
 #define GNOMON_DEBUG_FUNCTIONS(X) \
     X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)

@@ -2,6 +2,7 @@
 #include "layer_placer.h"
 
 #include "barriers.h"
+#include "optional_parts.h"
 
 #include <gnomon/pack/depth_layers.h>
 #include <gnomon/plan_views.h>
@@ -52,6 +53,7 @@ LayerPlacer::LayerPlacer(Device& device, const ResolvedOptions& options, VkPipel
     : device_(device), options_(options), of_world_(hasWorldLayers(options.filter(), options.moments()))
 {
     if (options.filter() == Filter::lvsm && followsDepths(options.moments().placement)) {
+        requireLargeGroups(device, "find layers of lvsm");
         passes_.emplace(device, options, cache);
     }
     makeBuffer(1);

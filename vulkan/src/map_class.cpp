@@ -3,6 +3,7 @@
 
 #include "map_pass.h"
 #include "moment_maps.h"
+#include "optional_parts.h"
 
 #include <gnomon/error.h>
 
@@ -15,7 +16,8 @@ const MapStorage& storageFor(const Device& device, const ResolvedOptions& option
     const VkFormatFeatureFlags attachment =
         storage.depthOnly() ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
     const VkFormatFeatureFlags needed = attachment | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
-    if ((device.features(storage.mapFormat()) & needed) != needed) {
+    if ((device.features(storage.mapFormat()) & needed) != needed ||
+        (device.features(storage.depth) & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
         throw Error("make shadow maps",
                     "the device cannot draw to and read maps of format " + std::string(nameOf(options.format())),
                     "choose another map format");
@@ -34,6 +36,7 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
 {
     const MapStorage& storage = storageFor(device, options);
     if (options.filterable()) {
+        requirePart(device, "make filterable shadow maps", &FeatureUses::filterable);
         return std::make_unique<MomentMaps>(device, options, storage, placer, slots, cache);
     }
     return std::make_unique<DepthMaps>(device, storage, options, cache);
@@ -43,8 +46,8 @@ std::unique_ptr<MapRecorder> makeRecorder(Device& device, const ResolvedOptions&
 
 MapClass::MapClass(Device& device, const ResolvedOptions& options, std::uint32_t slots, VkPipelineCache cache)
     : placer(device, options, cache), recorder(makeRecorder(device, options, placer, slots, cache)), tints(device),
-      filterable_(options.filterable()), filter_(options.filter()), format_(options.format()),
-      smoothies_(smoothiesOf(options)), moments_(options.moments())
+      filterable_(options.filterable()), has_ids_(options.traits().ids), filter_(options.filter()),
+      format_(options.format()), smoothies_(smoothiesOf(options)), moments_(options.moments())
 {
 }
 

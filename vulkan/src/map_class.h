@@ -21,6 +21,7 @@ public:
     [[nodiscard]] bool serves(const ResolvedOptions& options) const;
 
     [[nodiscard]] bool filterable() const { return filterable_; }
+    [[nodiscard]] bool hasIds() const { return has_ids_; }
 
     LayerPlacer placer;
     std::unique_ptr<MapRecorder> recorder;
@@ -28,6 +29,7 @@ public:
 
 private:
     bool filterable_;
+    bool has_ids_;
     Filter filter_;
     MapFormat format_;
     std::uint32_t smoothies_;

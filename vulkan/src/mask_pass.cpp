@@ -27,7 +27,7 @@ enum Binding : std::uint32_t {
     kMaps,
     kLights,
     kViews,
-    kLayers,
+    kLayersOrObjects, // of filters by depth, of filters by ids
     kDepth,
     kNormal,
     kObjectId,
@@ -36,7 +36,6 @@ enum Binding : std::uint32_t {
     kSmooth,
     kTints,
     kTiles,
-    kObjects,
     kBindingCount
 };
 constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
@@ -46,7 +45,9 @@ constexpr std::array<VkDescriptorType, kBindingCount> kTypes{
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+// No device has to take more in one stage.
+static_assert(std::ranges::count(kTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) <= 4);
 
 } // namespace
 
@@ -212,7 +213,8 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
         DescriptorSets::image(kMaps, of_maps, maps.recorder->maps().view(), kRead),
         DescriptorSets::buffer(kLights, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at),
         DescriptorSets::buffer(kViews, constants, room_.views * sizeof(shared::GpuView), room_.views_at),
-        DescriptorSets::buffer(kLayers, maps.placer.buffer()),
+        maps.hasIds() && slot.objects ? DescriptorSets::buffer(kLayersOrObjects, slot.objects.buffer())
+                                      : DescriptorSets::buffer(kLayersOrObjects, maps.placer.buffer()),
         DescriptorSets::image(kDepth, sampler, inputs.depth, inputs.depth_layout),
         orDepth(kNormal, inputs.normal),
         DescriptorSets::image(kObjectId, sampler,
@@ -225,10 +227,7 @@ void MaskPassRecorder::writeSet(const Slot& slot, std::uint32_t options, const M
                               maps.tints.inUse() ? maps.tints.image().view() : maps.recorder->maps().view(), kRead),
         isCompact()
             ? DescriptorSets::buffer(kTiles, slot.tiles.buffer())
-            : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at),
-        slot.objects
-            ? DescriptorSets::buffer(kObjects, slot.objects.buffer())
-            : DescriptorSets::buffer(kObjects, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
+            : DescriptorSets::buffer(kTiles, constants, room_.lights * sizeof(shared::GpuLight), room_.lights_at)};
     sets_.write(slot.sets[options], writes);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device.h"
+#include "optional_parts.h"
 #include "usage.h"
 
 #include <gnomon/error.h>
@@ -60,7 +60,7 @@ struct Profiler::Impl {
     };
 
     Impl(const DeviceView& view, std::uint32_t frames, std::uint32_t passes)
-        : device(view), max_passes(passes), tick_bits(device.timestampBits())
+        : device(view), max_passes(passes), tick_bits(timestampBits(view))
     {
         ticks.resize(std::size_t{2} * passes);
         counts.resize(kStatisticCount * passes);

@@ -2,6 +2,7 @@
 #include <gnomon/vulkan/volume_drawer.h>
 
 #include "descriptors.h"
+#include "optional_parts.h"
 #include "pipelines.h"
 #include "usage.h"
 
@@ -105,6 +106,7 @@ Pipeline VolumeDrawer::Impl::makePipeline(const VolumePass& pass)
     vertex.stage = VK_SHADER_STAGE_VERTEX_BIT;
     vertex.module = shader.get();
     vertex.pName = "main";
+    requirePart(device, "draw shadow volumes", &FeatureUses::depth_clamp);
     const VkPipelineDepthStencilStateCreateInfo counting = countingState(pass.reversed_z, device.uses().depth_bounds);
     GraphicsState state;
     state.stages = std::span(&vertex, 1);

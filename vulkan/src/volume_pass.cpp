@@ -6,6 +6,7 @@
 #include "volume_pass.h"
 
 #include "barriers.h"
+#include "optional_parts.h"
 #include "pipelines.h"
 #include "samplers.h"
 #include "specialisation.h"
@@ -21,9 +22,6 @@
 
 namespace gnomon::vulkan {
 namespace {
-
-// Its 8 bits of stencil count modulo 256: a pixel in as many volumes as that would be lit.
-constexpr VkFormat kDepthStencil = VK_FORMAT_D32_SFLOAT_S8_UINT;
 
 enum CountBinding : std::uint32_t {
     kCountConstants,
@@ -100,8 +98,8 @@ void awaitBefore(const Device& device, VkCommandBuffer commands, const Image& de
 } // namespace
 
 VolumePassRecorder::VolumePassRecorder(Device& device, std::uint32_t frames_in_flight, VkPipelineCache cache)
-    : device_(device), slot_count_(frames_in_flight), cache_(cache), nearest_(makeSampler(device, VK_FILTER_NEAREST)),
-      sets_(device, kCountTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
+    : device_(device), depth_stencil_(stencilFormat(device.view())), slot_count_(frames_in_flight), cache_(cache),
+      nearest_(makeSampler(device, VK_FILTER_NEAREST)), sets_(device, kCountTypes, VK_SHADER_STAGE_FRAGMENT_BIT),
       layout_(makePipelineLayout(device, sets_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(glm::vec4))),
       triangle_(makeShader(device, spirv::mask_vert))
 {
@@ -124,18 +122,15 @@ void VolumePassRecorder::makeSets(std::uint32_t options)
 
 void VolumePassRecorder::prepare(const Plan& plan, VkExtent2D screen, VkFormat mask_format, const MaskShape& shape)
 {
+    requirePart(device_, "count shadow volumes", &FeatureUses::depth_clamp);
     draws_.reserve(plan.lights.size());
     if (const auto options = static_cast<std::uint32_t>(plan.options->size()); options > options_) {
         makeSets(options);
     }
     const VkExtent2D have = depth_.info().extent;
     if (!depth_ || have.width != screen.width || have.height != screen.height) {
-        if ((device_.features(kDepthStencil) & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
-            refuseUse("make a stencil buffer for shadow volumes", "the device draws to no D32_SFLOAT_S8_UINT",
-                      "choose a filter with maps");
-        }
         device_.retire(std::move(depth_));
-        depth_ = Image(device_, {kDepthStencil, screen, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+        depth_ = Image(device_, {depth_stencil_, screen, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                  VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT, "volume stencil"});
     }
     for (const LightPlan& light : plan.lights) {
@@ -184,8 +179,8 @@ Pipeline VolumePassRecorder::makeMaskPipeline(const Key& key)
     state.layout = layout_.get();
     state.colour_format = key.format;
     state.colour_mask = key.channels; // channel i is bit i there, too
-    state.depth_format = kDepthStencil;
-    state.stencil_format = kDepthStencil;
+    state.depth_format = depth_stencil_;
+    state.stencil_format = depth_stencil_;
     state.depth_stencil = &counted;
     state.cache = cache_;
     state.name = "mask by volumes";
@@ -215,8 +210,8 @@ Pipeline VolumePassRecorder::makeCopyPipeline(VkFormat format, bool smooth)
     state.layout = layout_.get();
     state.colour_format = format;
     state.colour_mask = 0;
-    state.depth_format = kDepthStencil;
-    state.stencil_format = kDepthStencil;
+    state.depth_format = depth_stencil_;
+    state.stencil_format = depth_stencil_;
     state.depth_stencil = &written;
     state.cache = cache_;
     state.name = "depth for volumes";
@@ -305,7 +300,7 @@ void VolumePassRecorder::countLight(const Job& job, const pack::VolumeDraw& draw
     VolumePass pass;
     pass.commands = job.commands;
     pass.colour = job.format;
-    pass.depth_stencil = kDepthStencil;
+    pass.depth_stencil = depth_stencil_;
     pass.reversed_z = job.frame.camera.reversed_z;
     pass.plan = &job.plan;
     pass.light = draw.light;

@@ -73,6 +73,8 @@ private:
     void drawLight(const Job& job, const pack::VolumeDraw& draw);
 
     Device& device_;
+    /// Its 8 bits of stencil count modulo 256: a pixel in as many volumes as that would be lit.
+    VkFormat depth_stencil_;
     std::uint32_t slot_count_;
     VkPipelineCache cache_;
     Sampler nearest_;

@@ -98,6 +98,9 @@ struct Frame {
     /// gnomon/draw_rate.h). What ShadowOptions::draw_budget_ms goes by, and nothing else does. What is not a finite
     /// number above 0: not known.
     double draw_ms_per_texel = 0.0;
+    /// Whoever draws maps can clamp casters onto a near plane that they are before (Vulkan: depthClamp). False: near
+    /// planes lie before all that casts, at some precision of depth (View::clamp_near is false).
+    bool clamps_depth = true;
 };
 
 } // namespace gnomon

@@ -57,16 +57,17 @@ struct ShaderHook {
     std::span<const std::uint32_t> (*words)(void* user, const char* name) = nullptr;
 };
 
-/// What the library makes use of beyond what every device of Vulkan 1.3 has: vulkan/src/features.cpp has the table.
-/// supportedFeatures() says what of it a device can, and a host turns off what it has no use for. Whatever is not there
-/// has another way, or leaves out what the member's line says.
+/// What the library makes use of beyond what every device of Vulkan 1.3 has. supportedFeatures() says what of it a
+/// device can, and a host turns off what it has no use for. optionalParts() says what is done where one is off.
 struct FeatureUses {
-    bool filterable = false;    // maps of vsm, lvsm, esm, evsm, msm
-    bool caster_drawer = false; // CasterDrawer; a callback of the host's own that clamps needs depthClamp all the same
-    bool statistics = false;    // counts of PassRecord; without: has_statistics is false
-    bool layered = false;       // CascadePass::layered; without: it is refused, and automatic draws each map by itself
-    bool clip_planes = false;   // CasterBatch::clip_planes
-    bool depth_bounds = false;  // filter volumes counts no farther than lamps reach; without: to the picture's edges
+    bool indirect_draws = false; // CasterDrawer: few commands for many casters
+    bool depth_clamp = false;    // casters before a map's near plane (View::clamp_near); filter volumes
+    bool filterable = false;     // maps of vsm, lvsm, esm, evsm, msm
+    bool sample_metric = false;  // depths of each sample in such maps of perspective views
+    bool layered = false;        // CascadePass::layered
+    bool clip_planes = false;    // CasterBatch::clip_planes
+    bool depth_bounds = false;   // filter volumes counts no farther than lamps reach
+    bool statistics = false;     // counts of PassRecord
 };
 
 /// Precondition: the device was made with requiredFeatures(features). Whatever takes one throws Error when a handle or
@@ -87,6 +88,17 @@ struct DeviceView {
 
 /// What of it the physical device has. Of `view` instance, physical_device and get_instance_proc_addr are read.
 [[nodiscard]] GNOMON_API FeatureUses supportedFeatures(const DeviceView& view);
+
+/// Something that a device of Vulkan 1.3 may lack.
+struct OptionalPart {
+    const char* name;                    // of features and formats as the specification spells it
+    const char* serves;                  // what it is for
+    const char* without;                 // what becomes of that where it is lacking
+    bool FeatureUses::*use;              // what turns it on; null: it is no feature, and used where it is there
+    bool (*has)(const DeviceView& view); // reads what supportedFeatures() reads, and queue_family
+};
+/// Every one that the library uses. Static lifetime.
+[[nodiscard]] GNOMON_API std::span<const OptionalPart> optionalParts();
 
 /// The features that these uses and the library itself rely on, chained for VkDeviceCreateInfo::pNext: for a host that
 /// wants no others. Static lifetime.
@@ -110,8 +122,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Names of the features for these uses that a physical device lacks, separated by ", "; empty when it has all. Writes
-/// at most `capacity` bytes to `text`, the last one a zero.
-GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity, const FeatureUses& uses);
+/// Names of the features that the library cannot do without and the physical device lacks, separated by ", "; empty of
+/// every device of Vulkan 1.3. Writes at most `capacity` bytes to `text`, the last one a zero.
+GNOMON_API void missingFeatures(const DeviceView& view, char* text, std::uint32_t capacity);
 
 } // namespace gnomon::vulkan

@@ -73,7 +73,7 @@ struct ShadowRendererOptions {
 struct VolumePass {
     VkCommandBuffer commands = VK_NULL_HANDLE;             // to record into
     VkFormat colour = VK_FORMAT_UNDEFINED;                 // of the one colour attachment
-    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT; // of that attachment
+    VkFormat depth_stencil = VK_FORMAT_D32_SFLOAT_S8_UINT; // of that attachment, or D24_UNORM_S8_UINT
     bool reversed_z = true;                                // the camera's depth is 1 at the near plane
     const Plan* plan = nullptr;                            // never null
     std::uint32_t light = 0;                               // of the plan
@@ -274,7 +274,7 @@ struct WarmUp {
 ///   a plan recorded that needs other images than the last prepare() made            Error
 ///   views asked to have tints placed that are fewer than the plan's                 Error
 ///   a plan that a compact mask cannot hold, a CompactMaskRule that is wrong         Error
-///   volumes on a device that draws to no D32_SFLOAT_S8_UINT                         Error
+///   what an OptionalPart that the device lacks is for                               Error
 ///   filter smoothies without ShadowRendererOptions::draws_fins                      Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a null command buffer, depth, buffer of views or callback                       Error

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vulkan, started.
+#pragma once
+
+#include "host/gpu.h"
+
+namespace gnomon::host {
+
+inline constexpr const char* kLookingForDevice = "looking for a Vulkan device";
+inline constexpr const char* kInstallDriver = "install a Vulkan driver; mesa-vulkan-drivers has one for the CPU";
+
+/// With what `options` ask for, and devices of a subset of Vulkan (macOS) in sight. `debug_labels`: whether objects can
+/// be named. Throws Error.
+[[nodiscard]] VkInstance makeInstance(const GpuOptions& options, bool& debug_labels);
+
+} // namespace gnomon::host

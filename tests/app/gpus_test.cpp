@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon gpus`: the devices, what each can, and what is said where there is none.
+#include "folder.h"
+#include "process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+using nlohmann::json;
+
+test::Ran run(const std::vector<std::string>& arguments)
+{
+    const test::Folder folder;
+    return test::gnomon(arguments, {.folder = folder.path()});
+}
+
+TEST(Gpus, TellWhichIsTakenAndWhatEachHas)
+{
+    const test::Ran ran = run({"gpus", "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const json gpus = json::parse(ran.out).at("gpus");
+    ASSERT_FALSE(gpus.empty());
+    EXPECT_EQ(std::ranges::count_if(gpus, [](const json& gpu) { return gpu.at("taken").get<bool>(); }), 1);
+    for (const json& gpu : gpus) {
+        EXPECT_FALSE(gpu.at("name").get<std::string>().empty());
+        EXPECT_FALSE(gpu.at("taken").get<bool>() && !gpu.at("refusal").is_null());
+        for (const json& part : gpu.at("parts")) {
+            for (const char* key : {"name", "serves", "without"}) {
+                EXPECT_FALSE(part.at(key).get<std::string>().empty()) << part.dump();
+            }
+        }
+    }
+}
+
+TEST(Gpus, AreAPageOfText)
+{
+    const test::Ran ran = run({"gpus"});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    for (const char* wanted : {"(taken)", "driver", "Vulkan   1.", "it has", "timestamps"}) {
+        EXPECT_NE(ran.out.find(wanted), std::string::npos) << wanted << " in\n" << ran.out;
+    }
+}
+
+TEST(Gpus, OfNoDriverAreOneLine)
+{
+    const test::Folder folder;
+    const test::How none{
+        .folder = folder.path(),
+        .environment = {{"VK_ICD_FILENAMES", "/nonexistent.json"}, {"VK_DRIVER_FILES", "/nonexistent.json"}},
+        .in_process = false};
+    const test::Ran ran = test::gnomon({"gpus"}, none);
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_EQ(ran.out, "");
+    ASSERT_EQ(ran.errorLines().size(), 1U) << ran.err;
+    EXPECT_NE(ran.errorLines().front().find("no Vulkan driver is installed"), std::string::npos) << ran.err;
+}
+
+TEST(Gpus, TakeNoWordsAndNoOptionsOfPictures)
+{
+    EXPECT_EQ(run({"gpus", "rts"}).status, 2);
+    EXPECT_EQ(run({"gpus", "--json", "rts"}).status, 2);
+    EXPECT_EQ(run({"gpus", "--size", "8x8"}).status, 2);
+}
+
+} // namespace
+} // namespace gnomon

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What devices may lack: the one table that says what it is for and what is done without, and what asks for it.
+#pragma once
+
+#include "device.h"
+
+namespace gnomon::vulkan {
+
+/// Of queues that make timestamps: how many of their bits count; 0: they make none.
+[[nodiscard]] std::uint32_t timestampBits(const DeviceView& view);
+
+/// Depth and stencil to count shadow volumes in: the better of the two of which every device has one.
+[[nodiscard]] VkFormat stencilFormat(const DeviceView& view);
+
+/// Threads of a compute shader's group that no device has to take: 128 are promised.
+inline constexpr std::uint32_t kLargeGroup = 256;
+[[nodiscard]] bool hasLargeGroups(const VkPhysicalDeviceLimits& limits);
+
+/// Throws Error that says what is lacking and what becomes of it, unless it is on (or, where it is no feature, there).
+void requirePart(const Device& device, const char* tried, bool FeatureUses::*use);
+void requireLargeGroups(const Device& device, const char* tried);
+
+} // namespace gnomon::vulkan
