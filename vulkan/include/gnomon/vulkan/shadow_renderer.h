@@ -314,7 +314,7 @@ public:
     /// tints() or mask() is another image than before: a host that has them in descriptors of its own writes those
     /// anew, whatever the handles are. Throws Error for sizes beyond the device's limits or memory, for a map format
     /// that the device has not what it takes for, and for CascadePass::layered on a device without it
-    /// (DeviceView::layered).
+    /// (FeatureUses::layered).
     bool prepare(const Plan& plan, VkExtent2D screen);
 
     /// What was recorded last is never submitted: the next prepare() begins as a new renderer does.
