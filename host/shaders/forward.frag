@@ -9,8 +9,10 @@ layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
 #include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #ifdef GNOMON_FILTER
+#include "by_vertex.glsl" // kInSoftware
 #define GNOMON_SET 2
 #define GNOMON_TINTS kTints
+#define GNOMON_IN_SOFTWARE kInSoftware
 #define GNOMON_CONSTANT_ID 11
 #include "gnomon/technique_constants.glsl"
 #if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID

@@ -59,6 +59,7 @@ GpuConstants numbers;
 #define GNOMON_NUMBERS numbers
 #define GNOMON_FEW_PLACE (kInSoftware ? numbers_in[kLightPlace] : gnomon_lights[0].place)
 #define GNOMON_FEW_BINDING 8
+#define GNOMON_IN_SOFTWARE kInSoftware
 #define GNOMON_NEAREST_MAPS kInSoftware // filterable maps have a linear sampler, and no mapTexel() reads them
 #ifdef GNOMON_ONE_VIEW
 GpuView one_view;

@@ -46,6 +46,6 @@ void main()
     LightPoint at = lightPoint(p, n, s, towardLight(place, p));
     vec2 lighten = constants.rule.moment_shape.zw;
     float shaded = lightenedVisibility(kIsInside ? 0.0 : 1.0, lighten.x, lighten.y);
-    vec4 v = fadedVisibility(constants.screen.fade, vec4(shaded), length(p));
+    vec4 v = vec4(mix(shaded, 1.0, fadedShare(constants.screen.fade, length(p))));
     visibility = at.faces ? v : vec4(0.0);
 }

@@ -293,7 +293,7 @@ TEST(Raymarch, BlocksOnlySaveWork)
             const RayCone cone = rayCone(point, f);
             const double v = lookAround(point, f, cone, kStartsWithin, kRayEnd).visibility;
             if (v >= 0.0) {
-                EXPECT_NEAR(traceRays(point, f, cone, 0.0, 64, 64, startSquare(1.0)).lit, v, 0.08)
+                EXPECT_NEAR(traceRays(point, f, cone, 0.0, taskInSquare(64, true, 1.0)).lit, v, 0.08)
                     << round << ", " << i;
                 ++decided;
             }
@@ -326,7 +326,8 @@ TEST(Raymarch, SquaresThatArePassedOverChangeNoRay)
         for (int i = 0; i < 300; ++i) {
             auto [point, f] = stage.receiver({4.0 * uniform(rng) - 2.0, 4.0 * uniform(rng) - 2.0, 0.0}, pixelOf(i));
             const glm::dvec2 end(256.0 * uniform(rng), 256.0 * uniform(rng));
-            const LightRay ray{glm::dvec3(point.texel, 1.0), glm::dvec3(end, 1.0), point.depth, 0.1, true};
+            const RayRun run = rayRun(glm::dvec3(point.texel, 1.0), glm::dvec3(end, 1.0));
+            const LightRay ray{run, point.depth, 0.1, 1.0, 1.0, true};
             const RayEnd over = followRay(point, f, ray);
             f.coarsest = 0.0;
             const RayEnd through = followRay(point, f, ray);

@@ -24,8 +24,8 @@
 #define RayEnd gnomon_RayEnd
 #define RayRegion gnomon_RayRegion
 #define RayRun gnomon_RayRun
-#define RayStarts gnomon_RayStarts
 #define RayStep gnomon_RayStep
+#define RayTask gnomon_RayTask
 #define RayTexel gnomon_RayTexel
 #define RaysFound gnomon_RaysFound
 #define Receiver gnomon_Receiver
@@ -58,6 +58,7 @@
 #define casterRim gnomon_casterRim
 #define casterStored gnomon_casterStored
 #define casterTexel gnomon_casterTexel
+#define cellBeside gnomon_cellBeside
 #define chebyshevBound gnomon_chebyshevBound
 #define chebyshevOccluders gnomon_chebyshevOccluders
 #define compareGather gnomon_compareGather
@@ -97,7 +98,7 @@
 #define evsmVisibility gnomon_evsmVisibility
 #define facesDirection gnomon_facesDirection
 #define factorise gnomon_factorise
-#define fadedVisibility gnomon_fadedVisibility
+#define fadedShare gnomon_fadedShare
 #define filterDepthId gnomon_filterDepthId
 #define filterEsm gnomon_filterEsm
 #define filterEvsm gnomon_filterEvsm
@@ -315,6 +316,7 @@
 #define nearestOfFour gnomon_nearestOfFour
 #define nextShare gnomon_nextShare
 #define noLayer gnomon_noLayer
+#define noisePlace gnomon_noisePlace
 #define noneRises gnomon_noneRises
 #define objectDepth gnomon_objectDepth
 #define objectExtent gnomon_objectExtent
@@ -367,10 +369,10 @@
 #define sampleMoments gnomon_sampleMoments
 #define samplingLevel gnomon_samplingLevel
 #define secondPolynomial gnomon_secondPolynomial
-#define seenAlongEdge gnomon_seenAlongEdge
 #define shapeVisibility gnomon_shapeVisibility
 #define shareOfLogRounding gnomon_shareOfLogRounding
 #define shareOfWarpRounding gnomon_shareOfWarpRounding
+#define sharePerCell gnomon_sharePerCell
 #define sharedDepth gnomon_sharedDepth
 #define signNotZero gnomon_signNotZero
 #define sliceDepth gnomon_sliceDepth
@@ -383,13 +385,14 @@
 #define smoothieAlpha gnomon_smoothieAlpha
 #define smoothieVisibility gnomon_smoothieVisibility
 #define snapOf gnomon_snapOf
-#define startSquare gnomon_startSquare
 #define stepWeight gnomon_stepWeight
 #define steppedVisibility gnomon_steppedVisibility
 #define storedMetric gnomon_storedMetric
+#define straightness gnomon_straightness
 #define tapBlocks gnomon_tapBlocks
 #define tapOccluders gnomon_tapOccluders
 #define tapWeight gnomon_tapWeight
+#define taskInSquare gnomon_taskInSquare
 #define texelAt gnomon_texelAt
 #define texelBlocks gnomon_texelBlocks
 #define texelConfidence gnomon_texelConfidence
@@ -403,6 +406,7 @@
 #define uniformBegin gnomon_uniformBegin
 #define uniformLayer gnomon_uniformLayer
 #define unitOrZero gnomon_unitOrZero
+#define unknownOne gnomon_unknownOne
 #define unpackCount gnomon_unpackCount
 #define unpackSeen gnomon_unpackSeen
 #define unpackSmoothie gnomon_unpackSmoothie

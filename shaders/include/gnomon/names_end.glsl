@@ -24,8 +24,8 @@
 #undef RayEnd
 #undef RayRegion
 #undef RayRun
-#undef RayStarts
 #undef RayStep
+#undef RayTask
 #undef RayTexel
 #undef RaysFound
 #undef Receiver
@@ -58,6 +58,7 @@
 #undef casterRim
 #undef casterStored
 #undef casterTexel
+#undef cellBeside
 #undef chebyshevBound
 #undef chebyshevOccluders
 #undef compareGather
@@ -97,7 +98,7 @@
 #undef evsmVisibility
 #undef facesDirection
 #undef factorise
-#undef fadedVisibility
+#undef fadedShare
 #undef filterDepthId
 #undef filterEsm
 #undef filterEvsm
@@ -315,6 +316,7 @@
 #undef nearestOfFour
 #undef nextShare
 #undef noLayer
+#undef noisePlace
 #undef noneRises
 #undef objectDepth
 #undef objectExtent
@@ -367,10 +369,10 @@
 #undef sampleMoments
 #undef samplingLevel
 #undef secondPolynomial
-#undef seenAlongEdge
 #undef shapeVisibility
 #undef shareOfLogRounding
 #undef shareOfWarpRounding
+#undef sharePerCell
 #undef sharedDepth
 #undef signNotZero
 #undef sliceDepth
@@ -383,13 +385,14 @@
 #undef smoothieAlpha
 #undef smoothieVisibility
 #undef snapOf
-#undef startSquare
 #undef stepWeight
 #undef steppedVisibility
 #undef storedMetric
+#undef straightness
 #undef tapBlocks
 #undef tapOccluders
 #undef tapWeight
+#undef taskInSquare
 #undef texelAt
 #undef texelBlocks
 #undef texelConfidence
@@ -403,6 +406,7 @@
 #undef uniformBegin
 #undef uniformLayer
 #undef unitOrZero
+#undef unknownOne
 #undef unpackCount
 #undef unpackSeen
 #undef unpackSmoothie

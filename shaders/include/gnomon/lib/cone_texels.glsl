@@ -17,7 +17,7 @@ GN_CONST int kNarrowings = 4;
 // beyond what a perspective map shows gives a rectangle that holds nothing else either.
 GN_FN real4 coneTexels(RayCone c, real s)
 {
-    real2 here = real2(c.start.x, c.start.y) / c.start.z;
+    real2 here = c.at;
     real4 box = real4(here.x, here.y, here.x, here.y);
     for (int i = 0; i < 4; ++i) {
         real a = (i & 1) == 0 ? s : -s;

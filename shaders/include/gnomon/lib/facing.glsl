@@ -56,10 +56,10 @@ GN_FN real3 towardLight(GN_VEC4 place, real3 p)
     return real3(real(place.x), real(place.y), real(place.z)) - p * real(place.w);
 }
 
-// Visibility at a distance from the eye, of each colour: shadows fade away before the distance to which they are drawn.
-GN_FN real4 fadedVisibility(GN_VEC4 fade, real4 v, real distance)
+// How far shadows have faded away at a distance from the eye, before the distance to which they are drawn: 1, all of them.
+GN_FN real fadedShare(GN_VEC4 fade, real distance)
 {
-    return mix(v, real4(1.0), clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0)));
+    return clamp((distance - real(fade.x)) * real(fade.y), real(0.0), real(1.0));
 }
 
 GN_END

@@ -22,6 +22,11 @@
 #define GNOMON_FILTER_TYPES_GLSL
 #include "../shared/bias.h"
 #include "../shared/moment_rule.h"
+// Whether what is cheap to work out is worked out anew in a loop, and not kept over it: a constant. Registers that are
+// kept decide how many pixels a GPU has in flight; a software rasteriser has none to spare, and would do the work.
+#ifndef GNOMON_RECOMPUTES
+#define GNOMON_RECOMPUTES false
+#endif
 GN_BEGIN
 
 struct FilterInput {
@@ -33,6 +38,7 @@ struct FilterInput {
     real smoothies;     // texels that those beside the map reach (gnomon/shared/smoothies.h); 0: there are none
     real4 kernel;       // gaussianWeights(kernel_width, sigma); of id and depth-id IdRule
     real2 pixel;        // of the screen, for noise
+    real shift;         // of that noise from frame to frame, pixels along x and y
     real4 tile;         // the view's whole tile: x0, y0, x1, y1
     // Of filters that know how large the light is:
     MapRows rows;
@@ -54,6 +60,19 @@ struct FilterInput {
     real2 footprint_x;  // texels that the receiver's surface moves on the map to the next pixel on the right
     real2 footprint_y;  // and below
 };
+
+// What noise is worked out from.
+GN_FN real2 noisePlace(FilterInput f)
+{
+    return f.pixel + real2(f.shift);
+}
+
+// 1, which no compiler knows. What is multiplied by it is worked out anew (GNOMON_RECOMPUTES): else a compiler finds that it
+// is what it was, and keeps that.
+GN_FN real unknownOne(FilterInput f)
+{
+    return f.stood < 0 ? real(2.0) : real(1.0);
+}
 
 // The linear metric of what a map holds: of one that holds what a lamp's perspective makes of depth, zOverW() backwards.
 GN_FN real4 storedMetric(FilterInput f, real4 stored)

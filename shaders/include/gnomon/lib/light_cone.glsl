@@ -18,6 +18,7 @@ struct RayCone {
     real rise;    // what the metric loses along the axis; > 0
     real rise_x;  // and along the two directions, by sign
     real rise_y;
+    real2 at;     // of the receiver on the map: x and y of start, over its w
     real3 facing; // how far the axis and the two directions lead from the receiver's plane
 };
 
@@ -40,6 +41,7 @@ GN_FN RayCone rayCone(MapPoint point, FilterInput f)
     up = up * f.spread;
     RayCone c;
     c.start = real3(point.texel.x * point.w, point.texel.y * point.w, point.w);
+    c.at = GNOMON_RECOMPUTES ? point.texel : real2(c.start.x, c.start.y) / c.start.z;
     c.metric = point.depth;
     c.axis = mapGradient(f.rows, axis);
     c.side_x = mapGradient(f.rows, right);

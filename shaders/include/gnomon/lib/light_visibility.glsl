@@ -84,6 +84,12 @@ layout(set = GNOMON_SET, binding = GNOMON_FEW_BINDING, std140) uniform GnomonFew
 #endif
 #include "map_texture.glsl"
 
+// A pass may define GNOMON_IN_SOFTWARE, a constant: a software rasteriser runs it.
+#ifndef GNOMON_IN_SOFTWARE
+#define GNOMON_IN_SOFTWARE false
+#endif
+#define GNOMON_RECOMPUTES !GNOMON_IN_SOFTWARE
+
 vec2 discPoint(int i)
 {
     vec4 two = gnomon.rule.disc_points[i >> 1];
@@ -100,7 +106,10 @@ vec2 discPoint(int i)
 #endif
 #include "visibility.glsl"
 // A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
-#ifdef GNOMON_TINTS
+#ifndef GNOMON_TINTS
+#define GNOMON_TINTS false
+#else
+#define GNOMON_HAS_TINTS
 #ifndef GNOMON_TINTS_BINDING
 #define GNOMON_TINTS_BINDING GNOMON_BINDING + 6
 #endif
@@ -108,7 +117,10 @@ vec2 discPoint(int i)
 #endif
 
 // A pass may define GNOMON_CONFIDENCE, whether it wants to know how far the last lightVisibility() is to be trusted.
-#ifdef GNOMON_CONFIDENCE
+#ifndef GNOMON_CONFIDENCE
+#define GNOMON_CONFIDENCE false
+#else
+#define GNOMON_HAS_CONFIDENCE
 #include "../shared/converge.h"
 float lookup_confidence; // less than 0: no map was asked
 #endif
@@ -119,6 +131,7 @@ struct Receiver {
     vec3 n;
     vec3 own_tint;
     PixelSteps steps;
+    bool asks; // some view's map
 };
 
 FilterInput filterInput(vec2 pixel)
@@ -138,7 +151,8 @@ FilterInput filterInput(vec2 pixel)
 #endif
     f.stood = gnomon.rule.moments.w;
     // So far from frame to frame, the noise of discs.h is another one everywhere: J. Jimenez, as there.
-    f.pixel = pixel + 5.588238 * GNOMON_NUMBERS.rule.disc.y;
+    f.pixel = pixel;
+    f.shift = 5.588238 * GNOMON_NUMBERS.rule.disc.y;
     f.moments = momentsOf(GNOMON_MOMENT_FLAGS, GNOMON_MOMENT_SAMPLING, GNOMON_MOMENT_LAYERS, GNOMON_NUMBERS.rule.moment_warp,
                           GNOMON_NUMBERS.rule.moment_variance, GNOMON_NUMBERS.rule.moment_shape);
     return f;
@@ -219,6 +233,11 @@ uint slicesAt(vec3 p)
 }
 #endif
 
+// How a point's views are looked for. In software a pixel goes from one that serves it to the next, and never asks those
+// whose slice does not hold it; the filter is reached once, for the lanes of a group share each branch. Otherwise all
+// pixels ask all views in turn, so that a view is the same for all of them: a GPU then has its numbers in scalar registers,
+// which leaves the others to the filter, and skips the filter where no pixel of a group needs it.
+
 // The views among which a point's are looked for.
 struct Search {
     uint next;
@@ -228,73 +247,93 @@ struct Search {
 
 bool isLeft(Search s)
 {
-    return GNOMON_FEW_VIEWS > 0 ? GNOMON_FEW_VIEWS > 1 && s.slices != 0u : s.next < s.end;
+    return GNOMON_FEW_VIEWS != 1 && (GNOMON_FEW_VIEWS > 0 && GNOMON_IN_SOFTWARE ? s.slices != 0u : s.next < s.end);
 }
 
-// The next view that serves the point, and what it counts for; 0: there is none. A loop tests at its end, because a
-// device that runs the lanes of a group together runs a body once more for a test at its beginning.
+// The next view, and what it counts for; 0: it does not serve the point. In software the next one that does, or 0: there is
+// none. A loop tests at its end, because a device that runs the lanes of a group together runs a body once more for a test
+// at its beginning.
 float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
 {
     float share = 0.0;
     do {
-        view = GNOMON_FEW_VIEWS > 1 ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
-        bool is_held = !GNOMON_SLICES_ALONE || s.slices != 0u; // a slice in which nobody casts has no view
-        s.slices &= s.slices - 1u;
+        view = GNOMON_FEW_VIEWS > 1 && GNOMON_IN_SOFTWARE ? min(uint(findLSB(s.slices)), GNOMON_FEW_VIEWS - 1) : s.next;
+        uint slice = GNOMON_IN_SOFTWARE ? ~0u : 1u << view;
+        bool is_held = !GNOMON_SLICES_ALONE || (s.slices & slice) != 0u; // a slice in which nobody casts has no view
+        s.slices &= GNOMON_IN_SOFTWARE ? s.slices - 1u : ~0u;
         ++s.next;
         GpuView asked = viewAt(view);
         share = is_first ? 1.0 : viewShare(asked, GNOMON_SLICES_ALONE ? sharedDepth(r.p) : sliceDepth(asked, r.p));
         bool is_within = viewContains(asked, r.p);
-        share = is_within && is_held ? share : 0.0;
-    } while (share == 0.0 && isLeft(s));
+        share = is_within && is_held && r.asks ? share : 0.0;
+    } while (GNOMON_IN_SOFTWARE && share == 0.0 && isLeft(s));
     return share;
 }
 
 // Visibility by the views [first, end) of one position of a light, which are in the order in which they fade over into
-// each other. A pixel looks for its view first and filters then: once, and again only where another view fades in.
-// Here as in what follows, a: the visibility, in which blended casters count by their luminance; rgb: the same for each
-// colour, which costs nothing where nobody reads it.
-vec4 viewsVisibility(uint first, uint end, BiasRule bias, FilterInput f, Receiver r)
+// each other. Here as in what follows, a: the visibility, in which blended casters count by their luminance; rgb: the
+// same for each colour, which without GNOMON_TINTS is never looked at on the way.
+vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
 {
-    vec4 v = vec4(1.0);
+    float seen = r.asks ? 1.0 : 0.0;
+    vec3 colour = vec3(seen);
     uint view = first;
     Search s = Search(first, end, slicesAt(r.p));
-    float share = nextShare(s, true, r, view);
-    // Of one view alone nearly every pixel is in it: none branches, and what lies outside throws away what it found.
-    // lavapipe 22.3 crashes on the branch, where all that it depends on is at fixed places of uniforms.
-    const bool is_alone = GNOMON_FEW_VIEWS == 1;
+    bool is_first = true;
+    float share = 1.0;
+    if (GNOMON_IN_SOFTWARE) {
+        share = nextShare(s, true, r, view);
+    }
+    // Of one view alone nearly every pixel is in it: in software none branches, and what lies outside throws away what it
+    // found. lavapipe 22.3 crashes on the branch, where all that it depends on is at fixed places of uniforms.
+    const bool is_alone = GNOMON_FEW_VIEWS == 1 && GNOMON_IN_SOFTWARE;
+    bool more = false;
     if (is_alone || share > 0.0) {
         do {
-            GpuView read = viewAt(view);
-            MapRows rows = rowsAt(read, r.p);
-            MapPoint point = projectReceiver(rows, bias, r.p, r.n);
-            vec4 here = vec4(viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n));
-#ifdef GNOMON_TINTS
-            if (GNOMON_TINTS) {
-                here *= viewTint(read, point, r.own_tint);
+            if (!GNOMON_IN_SOFTWARE) {
+                share = nextShare(s, is_first, r, view);
             }
+            if (GNOMON_IN_SOFTWARE || share > 0.0) {
+                GpuView read = viewAt(view);
+                float off_plane_m = offPlane(r.steps, r.p, r.n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
+                BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, off_plane_m);
+                bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
+                MapRows rows = rowsAt(read, r.p);
+                MapPoint point = projectReceiver(rows, bias, r.p, r.n);
+                float here = viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n);
+#ifdef GNOMON_HAS_TINTS
+                if (GNOMON_TINTS) {
+                    vec4 tint = viewTint(read, point, r.own_tint);
+                    vec3 tinted = here * tint.rgb;
+                    here *= tint.a;
+                    colour = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? tinted : colour) : colour * (1.0 - share) + tinted * share;
+                }
 #endif
-            // Of the first one just what is there, which mix() does not promise.
-            v = is_alone ? (share > 0.0 ? here : v) : v * (1.0 - share) + here * share;
-#ifdef GNOMON_CONFIDENCE
-            if (GNOMON_CONFIDENCE) {
-                float confidence = texelConfidence(point.texel);
-                lookup_confidence = lookup_confidence * (1.0 - share) + confidence * share;
+                // Of the first one just what is there, which mix() does not promise.
+                seen = GNOMON_FEW_VIEWS == 1 ? (share > 0.0 ? here : seen) : seen * (1.0 - share) + here * share;
+#ifdef GNOMON_HAS_CONFIDENCE
+                if (GNOMON_CONFIDENCE) {
+                    float confidence = texelConfidence(point.texel);
+                    lookup_confidence = lookup_confidence * (1.0 - share) + confidence * share;
+                }
+#endif
+                is_first = false;
             }
-#endif
             share = 0.0;
-            if (isLeft(s)) {
+            more = isLeft(s);
+            if (GNOMON_IN_SOFTWARE && more) {
                 share = nextShare(s, false, r, view);
             }
-        } while (share > 0.0);
+        } while (GNOMON_IN_SOFTWARE ? share > 0.0 : more);
     }
-    return v;
+    return GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
 }
 
 // `p` eye-relative, `n` its unit geometric normal, `s` the smooth surface over it; `own_tint` of a blended caster, else
 // 1; `pixel` of the screen; `w` of the point by GpuScreen's eye_w: one over clip space's w.
 vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint, vec2 pixel, float w)
 {
-#ifdef GNOMON_CONFIDENCE
+#ifdef GNOMON_HAS_CONFIDENCE
     lookup_confidence = -1.0;
 #endif
     GpuLight light;
@@ -317,6 +356,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     r.p = at.p;
     r.n = at.n;
     r.own_tint = own_tint;
+    r.asks = at.faces || GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE;
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
     FilterInput f = filterInput(pixel);
@@ -326,22 +366,28 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     placeObject(f, light.options, at.p);
     f.lifted = at.p == p ? 0.0 : 1.0;
 #endif
-    float off_plane_m = offPlane(r.steps, p, n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
-    BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, off_plane_m);
-    bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
-    vec4 v = vec4(1.0);
+    float faded = fadedShare(GNOMON_NUMBERS.screen.fade, length(p));
+    faded = r.asks ? faded : 0.0; // and what does not ask is dark
+    float seen = 1.0;
+    vec3 colour = vec3(1.0);
     uvec2 range = light.views.xy;
     bool is_later = false;
     bool more = light.views.w > 0u;
     do { // over the positions of the sun, so that the filter is compiled once
-        vec4 here = viewsVisibility(range.x, range.x + range.y, bias, f, r);
-        v = is_later ? steppedVisibility(v, here, stepWeight(light.steps, pixel.x * GNOMON_NUMBERS.screen.size.z)) : here;
+        vec4 here = viewsVisibility(range.x, range.x + range.y, f, r);
+        float weight = stepWeight(light.steps, pixel.x * GNOMON_NUMBERS.screen.size.z);
+        seen = is_later ? steppedVisibility(seen, here.a, weight) : here.a;
+        if (GNOMON_TINTS) {
+            colour = is_later ? steppedVisibility(vec4(colour, 1.0), here, weight).rgb : here.rgb;
+        }
         more = more && !is_later;
         range = light.views.zw;
         is_later = true;
     } while ((GNOMON_FEW_VIEWS == 0 || GNOMON_PAIRED) && more); // else few views are of one position
-    v = fadedVisibility(GNOMON_NUMBERS.screen.fade, v, length(p));
-    return at.faces ? v : vec4(0.0);
+    vec4 v = GNOMON_TINTS ? vec4(colour, seen) : vec4(seen);
+    v = mix(v, vec4(1.0), faded);
+    bool is_dark = (GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE) && !at.faces;
+    return is_dark ? vec4(0.0) : v;
 }
 
 #endif

@@ -88,7 +88,7 @@ GN_FN real applyMoments(int filter_number, MapPoint point, FilterInput f)
 {
     bool follows_light = hasFlag(f.moments.flags, kMomentPenumbra);
     RayCone cone = rayCone(point, f);
-    ConeNoise noise = coneNoise(f.pixel);
+    ConeNoise noise = coneNoise(noisePlace(f));
     real s = real(0.0);
     if (follows_light) {
         s = occluderReach(filter_number, point, f, cone, noise);

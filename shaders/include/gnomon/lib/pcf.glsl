@@ -44,7 +44,7 @@ GN_FN real pcfBilinear(MapPoint point, real2 offset, FilterInput f)
 // Bilinear taps in a disc that is turned by a different angle at every pixel.
 GN_FN real pcfDisc(MapPoint point, FilterInput f)
 {
-    real angle = interleavedGradientNoise(f.pixel) * real(6.2831853);
+    real angle = interleavedGradientNoise(noisePlace(f)) * real(6.2831853);
     real2 turn = real2(cos(angle), sin(angle)) * f.disc_radius;
     real sum = real(0.0);
     for (int i = 0; i < f.disc_taps; ++i) {

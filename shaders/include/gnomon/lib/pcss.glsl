@@ -51,7 +51,7 @@ GN_FN real filterPcss(MapPoint point, FilterInput f)
     if (around.visibility >= real(0.0)) {
         return around.visibility;
     }
-    ConeNoise noise = coneNoise(f.pixel);
+    ConeNoise noise = coneNoise(noisePlace(f));
     real blocker = meanBlocker(point, f, cone, noise, around.nearest);
     real s = coneReach(cone, blocker, kDiscEnd);
     real lit = real(0.0);

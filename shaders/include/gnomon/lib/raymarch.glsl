@@ -70,12 +70,38 @@ GN_CONST real kShowsDecided = real(0.25);
 GN_CONST real kShowsRays = real(0.5);
 GN_CONST real kShowsCeiling = real(0.75);
 
+// Where a ray is on the map: between two places it runs straight from texel to texel.
+struct RayRun {
+    real2 first;    // texels, where it begins
+    real2 run;      // to where it ends
+    real2 per_cell; // share of the run over one texel along x and along y; negative: it runs to lower ones
+};
+
+GN_FN real2 sharePerCell(real2 run)
+{
+    real2 share = real2(real(1.0) / max(abs(run.x), real(1e-9)), real(1.0) / max(abs(run.y), real(1e-9)));
+    return real2(run.x < real(0.0) ? -share.x : share.x, run.y < real(0.0) ? -share.y : share.y);
+}
+
+GN_FN RayRun rayRun(real3 start, real3 end)
+{
+    RayRun r;
+    r.first = real2(start.x, start.y) / start.z;
+    r.run = real2(end.x, end.y) / end.z - r.first;
+    r.per_cell = real2(real(0.0));
+    if (!GNOMON_RECOMPUTES) {
+        r.per_cell = sharePerCell(r.run);
+    }
+    return r;
+}
+
 // A ray from the receiver's plane to a point of the light.
 struct LightRay {
-    real3 start; // homogeneous, texels
-    real3 end;
-    real from; // the metric at start
-    real to;
+    RayRun on_map;
+    real from; // the metric where it begins
+    real to;   // and where it ends
+    real from_w; // the map's w likewise, or both over the first one's
+    real to_w;
     bool faces; // the light's point is above the receiver's surface
 };
 
@@ -87,52 +113,53 @@ GN_FN LightRay lightRay(MapPoint point, RayCone cone, real nearest, real2 offset
     real rise = cone.rise + cone.rise_x * at.x + cone.rise_y * at.y;
     LightRay ray;
     ray.from = (point.depth + dot(point.depth_slope, offset)) / w;
-    ray.start = real3(point.texel.x + offset.x, point.texel.y + offset.y, real(1.0)) * (cone.start.z / w);
-    real s = rayLength(kRayBeyond * (ray.from - nearest), max(rise, real(0.05) * cone.rise), ray.start.z, way.z, kRayEnd);
-    ray.end = ray.start + way * s;
+    real3 start = real3(point.texel.x + offset.x, point.texel.y + offset.y, real(1.0)) * (cone.start.z / w);
+    real s = rayLength(kRayBeyond * (ray.from - nearest), max(rise, real(0.05) * cone.rise), start.z, way.z, kRayEnd);
+    real3 end = start + way * s;
+    ray.on_map = rayRun(start, end);
     ray.to = ray.from - rise * s;
+    ray.from_w = start.z;
+    ray.to_w = end.z;
+    if (GNOMON_RECOMPUTES) { // one number fewer
+        ray.from_w = real(1.0);
+        ray.to_w = end.z / start.z;
+    }
     ray.faces = dot(cone.facing, real3(real(1.0), at.x, at.y)) > real(0.0);
     return ray;
 }
 
-// Where a ray is on the map: between two places it runs straight from texel to texel.
-struct RayRun {
-    real2 first;    // texels, where it begins
-    real2 run;      // to where it ends
-    real2 per_cell; // share of the run over one texel along x and along y
-    real2 sense;    // 1 or -1
-};
-
-GN_FN RayRun rayRun(real3 start, real3 end)
+// The texel beside `cell` towards which the ray runs, or from which it comes, along one axis.
+GN_FN real2 cellBeside(RayRun r, real2 cell, bool along_x, real way)
 {
-    RayRun r;
-    r.first = real2(start.x, start.y) / start.z;
-    r.run = real2(end.x, end.y) / end.z - r.first;
-    r.sense = real2(r.run.x < real(0.0) ? real(-1.0) : real(1.0), r.run.y < real(0.0) ? real(-1.0) : real(1.0));
-    r.per_cell = real2(real(1.0) / max(abs(r.run.x), real(1e-9)), real(1.0) / max(abs(r.run.y), real(1e-9)));
-    return r;
+    real2 sense = real2(r.run.x < real(0.0) ? -way : way, r.run.y < real(0.0) ? -way : way);
+    return cell + real2(along_x ? sense.x : real(0.0), along_x ? real(0.0) : sense.y);
 }
 
 // Where the ray leaves the square of `size` texels around a cell, as a share of the run, and the cell that it comes to.
 struct RayStep {
     real t;
     real2 cell;
-    real2 back; // from that cell to the one that it came from
+    bool along_x; // it leaves through a side that lies across x
 };
 
 GN_FN RayStep leaveSquare(RayRun r, real2 cell, real size)
 {
+    bool falls_x = r.run.x < real(0.0);
+    bool falls_y = r.run.y < real(0.0);
     real2 low = floor(cell / size) * size;
-    real2 border = low + max(r.sense, real2(real(0.0))) * size;
-    real2 next = r.sense * (border - r.first) * r.per_cell;
-    bool along_x = next.x <= next.y;
+    real2 border = real2(falls_x ? low.x : low.x + size, falls_y ? low.y : low.y + size);
+    real2 next = (border - r.first) * r.per_cell;
     RayStep step;
+    step.along_x = next.x <= next.y;
     step.t = min(next.x, next.y);
     // Rounding must not lead out of the square along the other axis.
-    real2 at = clamp(floor(r.first + r.run * step.t), low, low + real2(size - real(1.0)));
-    real2 beyond = border - max(-r.sense, real2(real(0.0)));
-    step.cell = real2(along_x ? beyond.x : at.x, along_x ? at.y : beyond.y);
-    step.back = real2(along_x ? -r.sense.x : real(0.0), along_x ? real(0.0) : -r.sense.y);
+    real first = step.along_x ? r.first.y : r.first.x;
+    real run = step.along_x ? r.run.y : r.run.x;
+    real least = step.along_x ? low.y : low.x;
+    real beside = clamp(floor(first + run * step.t), least, least + (size - real(1.0)));
+    bool falls = step.along_x ? falls_x : falls_y;
+    real beyond = (step.along_x ? border.x : border.y) - (falls ? real(1.0) : real(0.0));
+    step.cell = real2(step.along_x ? beyond : beside, step.along_x ? beside : beyond);
     return step;
 }
 
@@ -171,49 +198,54 @@ struct RayEnd {
 // Squares of texels none of which comes up to the ray are passed over in one step, larger ones the farther it goes.
 GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
 {
-    RayRun r = rayRun(ray.start, ray.end);
+    RayRun r = ray.on_map;
     real2 cell = floor(r.first);
     RayTexel before;
     before.depth = real(2.0);
     before.rises = false;
-    real2 back = real2(real(0.0));
+    bool came_along_x = false;
     bool passed = false; // over the square before: its last texel was not read
-    real surface = kOneSurface * point.texel_depth;
     real enters = ray.from;
     real level = real(0.0);
     bool blocked = false;
     bool more = true;
     int steps = 0;
     do {
+        bool advances = true;
+        RayTexel here = before;
+        if (level > real(0.0)) {
+            real2 square = floor(cell * exp2(-level));
+            advances = mapBlock(square, int(level), f.layer).x > enters;
+            passed = passed || advances;
+        } else {
+            bool is_here = false;
+            do { // the one that was not read first
+                is_here = !passed;
+                before = here;
+                here = rayTexel(point, f, is_here ? cell : cellBeside(r, cell, came_along_x, real(-1.0)));
+                passed = false;
+            } while (!is_here);
+        }
+        if (GNOMON_RECOMPUTES) {
+            r.per_cell = sharePerCell(r.run);
+        }
         RayStep step = leaveSquare(r, cell, exp2(level));
         real t = min(step.t, real(1.0));
 #ifdef GNOMON_ORTHOGRAPHIC_ONLY
         real s = t;
 #else
         // Of the ray's own length: lines stay straight in a perspective map, but not their measure.
-        real s = t * ray.start.z / (t * ray.start.z + (real(1.0) - t) * ray.end.z);
+        real s = t * ray.from_w / (t * ray.from_w + (real(1.0) - t) * ray.to_w);
 #endif
         real leaves = ray.from + (ray.to - ray.from) * s;
-        bool advances = true;
-        if (level > real(0.0)) {
-            real2 square = floor(cell * exp2(-level));
-            advances = mapBlock(square, int(level), f.layer).x > enters;
-            passed = passed || advances;
-        } else {
-            if (passed) {
-                before = rayTexel(point, f, cell + back);
-                passed = false;
-            }
-            RayTexel here = rayTexel(point, f, cell);
-            blocked = texelBlocks(before, here, enters, leaves, surface);
-            before = here;
-        }
+        blocked = level == real(0.0) && texelBlocks(before, here, enters, leaves, kOneSurface * point.texel_depth);
+        before = here;
         // Out from under a texel's surface a ray may come through its side, which is found between two texels alone.
         bool beneath = level == real(0.0) && before.depth < leaves;
         level = beneath ? real(0.0) : clamp(level + (advances ? real(1.0) : real(-1.0)), real(0.0), f.coarsest);
         if (advances) {
             cell = step.cell;
-            back = step.back;
+            came_along_x = step.along_x;
             enters = leaves;
         }
         ++steps;
@@ -227,35 +259,44 @@ GN_FN RayEnd followRay(MapPoint point, FilterInput f, LightRay ray)
     return found;
 }
 
-// Where rays start around their receiver, on its plane: a rectangle of the map.
-struct RayStarts {
+// Which rays of a pixel are traced.
+struct RayTask {
+    int count;
+    bool all; // else the first kRaysToAgree if these agree
+    // Where they start around their receiver, on its plane: a rectangle of the map.
     real2 way;  // unit vector along its first side
-    real2 size; // texels, along `way` and across it
+    real side;  // texels
+    bool strip; // the other side is kStripLong; else as the first
 };
 
-GN_FN RayStarts startSquare(real side)
+GN_FN RayTask taskInSquare(int count, bool all, real side)
 {
-    RayStarts starts;
-    starts.way = real2(real(1.0), real(0.0));
-    starts.size = real2(side);
-    return starts;
+    RayTask task;
+    task.count = count;
+    task.all = all;
+    task.way = real2(real(1.0), real(0.0));
+    task.side = side;
+    task.strip = false;
+    return task;
 }
 
 // What the rays of a pixel found.
 struct RaysFound {
-    real lit;      // share of them that reach the light
-    real straight; // 1: those that are blocked start on one side of a straight edge; 0: all around
-    real2 to_lit;  // from the middle of all starts to that of those in light, texels
-    real fall;     // of the metric, from the receiver to what blocks: mean
-    bool cut;      // kRaySteps or kPixelSteps were too few
+    real lit;     // share of them that reach the light
+    real2 to_lit; // from the middle of all starts to that of those in light, texels
+    real fall;    // of the metric, from the receiver to what blocks: mean
+    bool cut;     // kRaySteps or kPixelSteps were too few
 };
 
-// `count` rays, or kRaysToAgree if these agree and not `all` are wanted. Above depth `nearest` nothing casts.
-GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real nearest, int count, bool all,
-                          RayStarts within)
+// Above depth `nearest` nothing casts.
+GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone kept, real nearest, RayTask task)
 {
-    ConeNoise noise = coneNoise(f.pixel);
-    int enough = all ? count : kRaysToAgree;
+    ConeNoise noise;
+    noise.turn = real2(real(0.0));
+    noise.shift = real2(real(0.0));
+    if (!GNOMON_RECOMPUTES) {
+        noise = coneNoise(noisePlace(f));
+    }
     bool agree = true;
     bool cut = false;
     int steps = 0;
@@ -264,10 +305,23 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
     real2 starts = real2(real(0.0));
     real2 starts_lit = real2(real(0.0));
     int i = 0;
+    int strewn = kRayOffset; // (i * kRayStride + kRayOffset) % count, for which software has no quick division
     do {
-        real2 at = pointOfLight(noise, all ? (i * kRayStride + kRayOffset) % count : i, count);
-        real2 place = pointOfTexel(noise, i) * within.size;
-        real2 from = within.way * place.x + real2(-within.way.y, within.way.x) * place.y;
+        RayCone cone = kept;
+        if (GNOMON_RECOMPUTES) {
+            noise = coneNoise(noisePlace(f));
+            FilterInput anew = f;
+            anew.toward = f.toward * unknownOne(f);
+            cone = rayCone(point, anew);
+        }
+        if (GNOMON_RECOMPUTES) {
+            int whole = int(floor((real(i * kRayStride + kRayOffset) + real(0.5)) / real(task.count)));
+            strewn = i * kRayStride + kRayOffset - whole * task.count;
+        }
+        int turn = task.all ? strewn : i;
+        real2 at = task.strip ? pointOfLight(noise, turn, kStripRays) : pointOfLight(noise, turn, task.count);
+        real2 place = pointOfTexel(noise, i) * real2(task.side, task.strip ? kStripLong : task.side);
+        real2 from = task.way * place.x + real2(-task.way.y, task.way.x) * place.y;
         LightRay ray = lightRay(point, cone, nearest, from, at);
         real fall = real(0.0);
         if (ray.faces) {
@@ -276,34 +330,44 @@ GN_FN RaysFound traceRays(MapPoint point, FilterInput f, RayCone cone, real near
             steps += end.steps;
             cut = cut || end.steps >= kRaySteps;
         }
+        if (GNOMON_RECOMPUTES) { // where the ray began
+            from = ray.on_map.first - point.texel;
+        }
         bool reaches = fall < real(0.0);
         lit += reaches ? real(1.0) : real(0.0);
         falls += max(fall, real(0.0));
         starts = starts + from;
         starts_lit = starts_lit + (reaches ? from : real2(real(0.0)));
         ++i;
+        strewn += kRayStride;
+        strewn -= strewn >= task.count ? task.count : 0;
         agree = lit == real(0.0) || lit == real(i);
-        cut = cut || (steps >= kPixelSteps && i < count && i >= kRaysToAgree);
-    } while (i < count && !(agree && i >= enough) && !(steps >= kPixelSteps && i >= kRaysToAgree));
+        cut = cut || (steps >= kPixelSteps && i < task.count && i >= kRaysToAgree);
+    } while (i < task.count && !(agree && !task.all && i >= kRaysToAgree) && !(steps >= kPixelSteps && i >= kRaysToAgree));
     real n = real(i);
     RaysFound found;
     found.lit = lit / n;
     found.cut = cut;
     found.fall = falls / max(n - lit, real(1.0));
-    // An edge along a square leaves a slab of starts in light, whose middle is that far from the middle of all.
-    real apart = real(0.5) * within.size.x * (real(1.0) - found.lit);
     found.to_lit = starts_lit / max(lit, real(1.0)) - starts / n;
-    found.straight = length(found.to_lit) / max(apart, real(0.01));
     return found;
+}
+
+// How sure it is that rays which are blocked start on one side of a straight edge: 1; all around: 0. An edge along the
+// first side of what they start in leaves a slab of starts in light, whose middle is `reach` from the middle of all.
+GN_FN real straightness(RaysFound found, real side, real reach)
+{
+    real apart = real(0.5) * side * (real(1.0) - found.lit);
+    return reach / max(apart, real(0.01));
 }
 
 // The starts of rays make a ramp of what is a step where the light is small or its blocker near. Rays tell how far off
 // that is, and so how wide the penumbra is, texels. A straight edge's ramp is narrowed to that about its middle, but to
 // no less than `narrowest`. Around leaves and wires rays are blocked on all sides, and there the mean stays as it is.
-GN_FN real narrowed(RaysFound found, real penumbra, real within, real narrowest)
+GN_FN real narrowed(RaysFound found, real straightness, real penumbra, real within, real narrowest)
 {
     real steeper = (within + penumbra) / max(penumbra, narrowest);
-    real straight = clamp((found.straight - kStraightFrom) / (kStraightTo - kStraightFrom), real(0.0), real(1.0));
+    real straight = clamp((straightness - kStraightFrom) / (kStraightTo - kStraightFrom), real(0.0), real(1.0));
     real share = straight * clamp((kWideTo - penumbra) / (kWideTo - kWideFrom), real(0.0), real(1.0));
     return clamp(real(0.5) + (found.lit - real(0.5)) * mix(real(1.0), steeper, share), real(0.0), real(1.0));
 }
@@ -323,22 +387,6 @@ GN_FN real penumbraWidth(MapPoint point, RaysFound found, real widest, real near
     return widest * found.fall / max(point.depth - nearest, real(1e-9));
 }
 
-// A second opinion on an edge, `seen` being what the first rays say: by a strip of the map along it.
-GN_FN real seenAlongEdge(MapPoint point, FilterInput f, RayCone cone, real nearest, real widest, RaysFound first,
-                         real seen)
-{
-    RayStarts strip;
-    strip.way = first.to_lit / max(length(first.to_lit), real(1e-6));
-    strip.size = real2(kStripWide, kStripLong);
-    RaysFound found = traceRays(point, f, cone, nearest, kStripRays, true, strip);
-    // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
-    real apart = real(0.5) * kStripWide * (real(1.0) - found.lit);
-    found.straight = dot(found.to_lit, strip.way) / max(apart, real(0.01));
-    real share = clamp((found.straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0));
-    real penumbra = penumbraWidth(point, found, widest, nearest);
-    return mix(seen, narrowed(found, penumbra, kStripWide, kNarrowestInStrip), share);
-}
-
 GN_FN real filterRaymarch(MapPoint point, FilterInput f)
 {
     RayCone cone = rayCone(point, f);
@@ -349,17 +397,31 @@ GN_FN real filterRaymarch(MapPoint point, FilterInput f)
     real spread = real(0.5) * (around.texels.z - around.texels.x + around.texels.w - around.texels.y);
     real widest = spread - kStartsWithin; // of the light's disc, where it is farthest from the receiver
     real within = widest < kWideTo ? kStartsWithin : real(1.0);
-    within = f.stood > 0 ? kStartsAtRest : within;
-    RaysFound found = traceRays(point, f, cone, around.nearest, rayCount(spread), spread >= kWideFrom, startSquare(within));
-    if (GNOMON_SHOWS_RAYS) {
-        return found.cut ? kShowsCeiling : kShowsRays;
-    }
-    real seen = narrowed(found, penumbraWidth(point, found, widest, around.nearest), within, kNarrowest);
-    // Frames at rest find the edge's place together.
-    bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && found.straight > kEdgeFrom;
-    if (is_edge && widest < kWideTo && f.stood == 0) {
-        seen = seenAlongEdge(point, f, cone, around.nearest, widest, found, seen);
-    }
+    RayTask task =
+        taskInSquare(rayCount(spread), spread >= kWideFrom, f.stood > 0 ? kStartsAtRest : within);
+    real seen = real(0.0);
+    bool more = false;
+    do { // rays all around the receiver, and a second opinion on an edge: by a strip of the map along it
+        RaysFound found = traceRays(point, f, cone, around.nearest, task);
+        if (GNOMON_SHOWS_RAYS) {
+            return found.cut ? kShowsCeiling : kShowsRays;
+        }
+        // Across the strip alone: where it runs into a corner, light and dark lie behind each other.
+        real reach = task.strip ? dot(found.to_lit, task.way) : length(found.to_lit);
+        real straight = straightness(found, task.side, reach);
+        real share = task.strip ? clamp((straight - kStripFrom) / (kStripTo - kStripFrom), real(0.0), real(1.0)) : real(1.0);
+        real penumbra = penumbraWidth(point, found, widest, around.nearest);
+        real narrowest = task.strip ? kNarrowestInStrip : kNarrowest;
+        seen = mix(seen, narrowed(found, straight, penumbra, task.side, narrowest), share);
+        // Frames at rest find the edge's place together.
+        bool is_edge = found.lit > real(0.0) && found.lit < real(1.0) && straight > kEdgeFrom;
+        more = is_edge && !task.strip && widest < kWideTo && f.stood == 0;
+        task.count = kStripRays;
+        task.all = true;
+        task.way = found.to_lit / max(length(found.to_lit), real(1e-6));
+        task.side = kStripWide;
+        task.strip = true;
+    } while (more);
     return seen;
 }
 
