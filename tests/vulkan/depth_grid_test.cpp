@@ -103,6 +103,7 @@ TEST(DepthGrid, isNotFartherOffThanTheBiasTakesForGranted)
         RecordProperty(sun ? "steps_of_sun" : "steps_of_spot", std::to_string(worst));
         EXPECT_LE(worst, double(shared::kSnapSteps));
     }
+    RecordProperty("sub_pixel_bits", std::to_string(gpu().limits().subPixelPrecisionBits));
     expectSilence(gpu());
 }
 

@@ -170,7 +170,14 @@ void Gpu::makeDevice()
     }
     std::vector<VkPhysicalDevice> devices(count);
     vkEnumeratePhysicalDevices(instance_, &count, devices.data());
-    physical_device_ = devices[0];
+    // As `--gpu` does: part of its name. Unless GNOMON_GPU says one, the first.
+    const char* const wanted = std::getenv("GNOMON_GPU");
+    const auto named = std::find_if(devices.begin(), devices.end(), [&](VkPhysicalDevice device) {
+        VkPhysicalDeviceProperties properties{};
+        vkGetPhysicalDeviceProperties(device, &properties);
+        return wanted != nullptr && std::strstr(properties.deviceName, wanted) != nullptr;
+    });
+    physical_device_ = named != devices.end() ? *named : devices[0];
     char missing[256];
     vulkan::missingFeatures(view(), missing, sizeof missing);
     if (missing[0] != '\0') {

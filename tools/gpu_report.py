@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes one file of what tools/on_gpu.sh found, and tables of such files.
+
+usage: gpu_report.py collect FOLDER FILE.json    what a run left in FOLDER
+       gpu_report.py table FILE.json...          docs/gpus.md, to standard output
+"""
+
+import json
+import sys
+from pathlib import Path
+
+OUTCOMES = {"0": "done", "124": "not reached in time"}
+
+
+def read(file: Path) -> dict:
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+
+
+def cases_of(results: dict) -> dict:
+    """How many cases there were, and which failed or were skipped."""
+    found: dict = {"passed": 0, "failed": [], "skipped": []}
+    for suite in results.get("testsuites", []):
+        for case in suite["testsuite"]:
+            name = f"{suite['name']}.{case['name']}"
+            if case.get("failures"):
+                found["failed"].append(name)
+            elif case.get("result") == "SKIPPED":
+                found["skipped"].append(name)
+            elif case.get("status") == "RUN":
+                found["passed"] += 1
+    return found
+
+
+def properties_of(results: dict, *names: str) -> dict:
+    return {name: float(case[name]) for suite in results.get("testsuites", []) for case in suite["testsuite"]
+            for name in names if name in case}
+
+
+def bench_of(result: dict) -> dict:
+    return {"device": result.get("device"), "driver": result.get("driver"),
+            "baseline_ms": (result.get("baseline", {}).get("time_ms") or {}).get("frame"),
+            "techniques": {one["technique"]: {"frame_ms": one["time_ms"].get("frame"), "maps_ms": one["time_ms"].get("maps"),
+                                              "filter_ms": one["time_ms"].get("filter"), "mask_ms": one["time_ms"].get("mask"),
+                                              "frame_ratio": one.get("frame_ratio"),
+                                              "filter_bytes": (one.get("counters") or {}).get("filter_bytes")}
+                           for one in result.get("results", [])}}
+
+
+def collect(folder: Path, file: Path) -> int:
+    grid, benches = read(folder / "grid.json"), sorted(folder.glob("bench-*.json"))
+    report = {
+        "device": read(folder / "device.json"),
+        "steps": {status.stem: OUTCOMES.get(code := status.read_text().strip(), f"ended with {code}")
+                  for status in sorted(folder.glob("*.status"))},
+        "grid": properties_of(grid, "steps_of_sun", "steps_of_spot", "sub_pixel_bits"),
+        "copy_bytes_per_s": properties_of(grid, "copy_bytes_per_s").get("copy_bytes_per_s"),
+        "masks": cases_of(read(folder / "masks.json")),
+        "cases": cases_of(read(folder / "cases.json")),
+        "bench": {bench.stem.removeprefix("bench-"): bench_of(read(bench)) for bench in benches},
+        "blur": bench_of(read(folder / "blur.json")),
+        "lamps": bench_of(read(folder / "lamps.json")),
+    }
+    file.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    return 0
+
+
+def number(value, digits: int = 2) -> str:
+    return "not measured" if value is None else f"{value:.{digits}f}"
+
+
+def device_section(report: dict) -> list[str]:
+    benches = [*report["bench"].values(), report["lamps"], report["blur"]]
+    name = next((bench["device"] for bench in benches if bench.get("device")), "a device that drew nothing")
+    driver = next((bench["driver"] for bench in benches if bench.get("driver")), "")
+    lines = [f"## {name}", "", driver, ""]
+    for what, key in (("drawing cases under validation", "cases"), ("masks beside lavapipe's", "masks")):
+        found = report[key]
+        lines.append(f"- {what}: {found['passed']} pass, {len(found['failed'])} fail, {len(found['skipped'])} are skipped")
+        lines += [f"  - fails: {case}" for case in found["failed"]]
+    grid = report["grid"]
+    if grid:
+        lines.append(f"- depths are off by {number(grid.get('steps_of_sun'))} (sun) and {number(grid.get('steps_of_spot'))} (spot) "
+                     "steps of the grid at most; the bias allows for 2")
+    copy = report["copy_bytes_per_s"]
+    for technique, one in report["blur"]["techniques"].items():
+        if copy and one["filter_ms"] and one["filter_bytes"]:
+            share = one["filter_bytes"] / (one["filter_ms"] * 1e-3) / copy
+            lines.append(f"- the blur of {technique} moves its bytes at {number(share)} of a copy's rate")
+    left_out = [f"{step} ({outcome})" for step, outcome in report["steps"].items() if outcome != "done"]
+    if left_out:
+        lines.append("- left out: " + ", ".join(left_out))
+    tables = {**report["bench"], "one sun and 32 lamps, 3840x2160": report["lamps"]}
+    for view, bench in tables.items():
+        if not bench["techniques"]:
+            continue
+        lines += ["", f"{view}, frame without shadows {number(bench['baseline_ms'])} ms", "",
+                  "| technique | maps ms | filter ms | mask ms | frame ms | frame ratio |", "|---|---|---|---|---|---|"]
+        for technique, one in bench["techniques"].items():
+            cells = [number(one[key]) for key in ("maps_ms", "filter_ms", "mask_ms", "frame_ms", "frame_ratio")]
+            lines.append(f"| `{technique}` | " + " | ".join(cells) + " |")
+    return [*lines, ""]
+
+
+def table(files: list[str]) -> int:
+    print("# Devices\n")
+    print("Each part is of one file that `tools/on_gpu.sh FILE.json` wrote on a machine with that device; "
+          "`tools/gpu_report.py table FILE.json... >docs/gpus.md` makes this page.\n")
+    for file in files:
+        print("\n".join(device_section(json.loads(Path(file).read_text(encoding="utf-8")))))
+    return 0
+
+
+def main() -> int:
+    if len(sys.argv) == 4 and sys.argv[1] == "collect":
+        return collect(Path(sys.argv[2]), Path(sys.argv[3]))
+    if len(sys.argv) > 2 and sys.argv[1] == "table":
+        return table(sys.argv[2:])
+    print(__doc__, file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
