@@ -5,10 +5,15 @@ namespace gnomon::test {
 
 Drawing::Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in,
                  std::uint32_t frames_in_flight)
+    : Drawing(gpu.view(), mesh, compact_in, frames_in_flight)
+{
+}
+
+Drawing::Drawing(const vulkan::DeviceView& view, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in,
+                 std::uint32_t frames_in_flight)
     : compact(compact_in),
-      renderer(gpu.view(), {.frames_in_flight = frames_in_flight, .compact = compact_in, .draws_fins = true}),
-      drawer(gpu.view(), {.frames_in_flight = frames_in_flight}),
-      fins(gpu.view(), {.frames_in_flight = frames_in_flight})
+      renderer(view, {.frames_in_flight = frames_in_flight, .compact = compact_in, .draws_fins = true}),
+      drawer(view, {.frames_in_flight = frames_in_flight}), fins(view, {.frames_in_flight = frames_in_flight})
 {
     drawer.setScene(mesh.parts, mesh.objects, mesh.batches);
     fins.setScene(mesh.outlines);

@@ -14,6 +14,8 @@ namespace gnomon::test {
 struct Drawing {
     Drawing(Gpu& gpu, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {},
             std::uint32_t frames_in_flight = 2);
+    Drawing(const vulkan::DeviceView& view, const SceneMesh& mesh, const pack::CompactMaskRule& compact_in = {},
+            std::uint32_t frames_in_flight = 2);
 
     pack::CompactMaskRule compact;
     vulkan::ShadowRenderer renderer;
