@@ -165,7 +165,8 @@ Figures AmdDevice::figuresOf(VkPipeline pipeline, std::uint32_t executable) cons
     statistics_(device_, &info, &count, all.data());
     Figures figures;
     for (const auto& [name, said] : kFigures) {
-        const auto found = std::ranges::find_if(all, [&](const auto& one) { return std::strcmp(one.name, said) == 0; });
+        const auto found =
+            std::ranges::find_if(all, [wanted = said](const auto& one) { return std::strcmp(one.name, wanted) == 0; });
         if (found != all.end()) {
             figures[name] = found->value.u64; // RADV counts everything in whole numbers
         }
