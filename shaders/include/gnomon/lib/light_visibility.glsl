@@ -132,6 +132,7 @@ struct Receiver {
     vec3 own_tint;
     PixelSteps steps;
     bool asks; // some view's map
+    float off_plane_m; // BiasRule
 };
 
 FilterInput filterInput(vec2 pixel)
@@ -295,8 +296,7 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
             }
             if (GNOMON_IN_SOFTWARE || share > 0.0) {
                 GpuView read = viewAt(view);
-                float off_plane_m = offPlane(r.steps, r.p, r.n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
-                BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, off_plane_m);
+                BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, r.off_plane_m);
                 bias.automatic = GNOMON_AUTOMATIC_BIAS ? 1.0 : 0.0;
                 MapRows rows = rowsAt(read, r.p);
                 MapPoint point = projectReceiver(rows, bias, r.p, r.n);
@@ -359,6 +359,8 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     r.asks = at.faces || GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE;
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
+    // One number, so that the steps need not be kept where no filter asks for them.
+    r.off_plane_m = offPlane(r.steps, p, n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
     FilterInput f = filterInput(pixel);
     f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);
