@@ -61,14 +61,14 @@ struct FilterInput {
     real2 footprint_y;  // and below
 };
 
-// What noise is worked out from.
+// Noise is worked out from this place.
 GN_FN real2 noisePlace(FilterInput f)
 {
     return f.pixel + real2(f.shift);
 }
 
-// 1, which no compiler knows. What is multiplied by it is worked out anew (GNOMON_RECOMPUTES): else a compiler finds that it
-// is what it was, and keeps that.
+// 1, which no compiler knows. Numbers that depend on a product with it are worked out anew (GNOMON_RECOMPUTES): else a
+// compiler finds them equal to those of before, and keeps those.
 GN_FN real unknownOne(FilterInput f)
 {
     return f.stood < 0 ? real(2.0) : real(1.0);

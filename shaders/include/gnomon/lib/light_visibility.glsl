@@ -281,19 +281,13 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
     uint view = first;
     Search s = Search(first, end, slicesAt(r.p));
     bool is_first = true;
-    float share = 1.0;
-    if (GNOMON_IN_SOFTWARE) {
-        share = nextShare(s, true, r, view);
-    }
+    float share = nextShare(s, true, r, view);
     // Of one view alone nearly every pixel is in it: in software none branches, and what lies outside throws away what it
     // found. lavapipe 22.3 crashes on the branch, where all that it depends on is at fixed places of uniforms.
     const bool is_alone = GNOMON_FEW_VIEWS == 1 && GNOMON_IN_SOFTWARE;
     bool more = false;
-    if (is_alone || share > 0.0) {
+    if (is_alone || share > 0.0 || !GNOMON_IN_SOFTWARE) {
         do {
-            if (!GNOMON_IN_SOFTWARE) {
-                share = nextShare(s, is_first, r, view);
-            }
             if (GNOMON_IN_SOFTWARE || share > 0.0) {
                 GpuView read = viewAt(view);
                 BiasRule bias = biasOf(GNOMON_NUMBERS.rule.bias, GNOMON_NUMBERS.rule.bias_more, r.off_plane_m);
@@ -321,8 +315,8 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
             }
             share = 0.0;
             more = isLeft(s);
-            if (GNOMON_IN_SOFTWARE && more) {
-                share = nextShare(s, false, r, view);
+            if (more) {
+                share = nextShare(s, is_first, r, view);
             }
         } while (GNOMON_IN_SOFTWARE ? share > 0.0 : more);
     }
