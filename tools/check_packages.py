@@ -105,7 +105,8 @@ def imported_by_python(text: str) -> set[str]:
 def called_by_shell(text: str) -> set[str]:
     text = re.sub(r"(?:^|\s)#.*", "", text.replace("\\\n", " "))
     text = re.sub(r"(?<=\w)'(?=\w)", "", text) # an apostrophe
-    return set(COMMAND.findall(re.sub(r"'[^']*'", "''", text))) # programs of awk, sed and other roots are in quotes
+    found = set(COMMAND.findall(re.sub(r"'[^']*'", "''", text))) # programs of awk, sed and other roots are in quotes
+    return found - {"time"} # bash's own word; where there is such a program, too, it is not this one
 
 
 def called_by(file: Path, root: Path) -> set[str]:
