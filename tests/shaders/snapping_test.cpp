@@ -49,7 +49,13 @@ protected:
     // Where the receiver is: on the ray of its pixel, at the depth that the plane has some way from there.
     struct Seen {
         dvec3 p;
-        PixelSteps steps;
+        std::array<dvec4, 4> rows; // of the matrix from normalised device coordinates
+        double w;
+
+        [[nodiscard]] double offPlane(const dvec3& n, double snap_px, double rounding) const
+        {
+            return shared::offPlane(rows[0], rows[1], rows[2], rows[3], w, 2.0 / kScreen, p, n, snap_px, rounding);
+        }
     };
     Seen see(const PlaneUnderLight& s, const glm::dmat4& world_from_ndc, const Grid& grid)
     {
@@ -66,7 +72,7 @@ protected:
                              uniform(-1.0, 1.0) * grid.rounding;
         const dvec4 ndc(dvec2(clip) / clip.w, depth, 1.0);
         const dvec4 h = world_from_ndc * ndc;
-        return {dvec3(h) / h.w, pixelSteps(row(0), row(1), row(2), row(3), h.w, 2.0 / kScreen)};
+        return {dvec3(h) / h.w, {row(0), row(1), row(2), row(3)}, h.w};
     }
 };
 
@@ -88,7 +94,7 @@ TEST_F(Snapping, oneStepIsTheLeastThatNeverShowsAPlaneItsOwnShadow)
             const MapPoint plain = projectReceiver(s.map, s.rule, seen.p, s.normal);
             const double step = std::exp2(-grid.bits);
             s.rule.snap_texels = step;
-            s.rule.off_plane_m = offPlane(seen.steps, seen.p, s.normal, step, grid.rounding);
+            s.rule.off_plane_m = seen.offPlane(s.normal, step, grid.rounding);
             const double bias = plain.depth - projectReceiver(s.map, s.rule, seen.p, s.normal).depth;
             const dvec2 texel = glm::floor(plain.texel + dvec2(uniform(-3.0, 3.0), uniform(-3.0, 3.0))) + 0.5;
             const dvec2 at = texel - plain.texel;

@@ -353,8 +353,8 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     r.asks = at.faces || GNOMON_IN_SOFTWARE || GNOMON_CONFIDENCE;
     r.steps = pixelSteps(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
                          2.0 * GNOMON_NUMBERS.screen.size.zw);
-    // One number, so that the steps need not be kept where no filter asks for them.
-    r.off_plane_m = offPlane(r.steps, p, n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
+    r.off_plane_m = offPlane(GNOMON_NUMBERS.screen.eye_x, GNOMON_NUMBERS.screen.eye_y, GNOMON_NUMBERS.screen.eye_z, GNOMON_NUMBERS.screen.eye_w, w,
+                             2.0 * GNOMON_NUMBERS.screen.size.zw, p, n, GNOMON_NUMBERS.rule.bias.z, GNOMON_NUMBERS.rule.bias_more.x);
     FilterInput f = filterInput(pixel);
     f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);

@@ -42,11 +42,13 @@ GN_FN real towardsPlane(real3 n, real3 p, real4 d)
 
 // How far a receiver that comes from the camera's depth may be off its plane, metres: `snap_px` is how far along each
 // axis of the picture the point may lie whose depth the pixel has, `rounding` by how much that depth may be rounded. At
-// one depth the neighbouring pixel's point is as far off the plane as it would have been there.
-GN_FN real offPlane(PixelSteps s, real3 p, real3 n, real snap_px, real rounding)
+// one depth the neighbouring pixel's point is as far off the plane as it would have been there: towardsPlane() of
+// pixelSteps(), whose rows, w and pixel these are, for all three at once.
+GN_FN real offPlane(real4 row_x, real4 row_y, real4 row_z, real4 row_w, real w, real2 pixel, real3 p, real3 n,
+                    real snap_px, real rounding)
 {
-    return snap_px * (abs(towardsPlane(n, p, s.right)) + abs(towardsPlane(n, p, s.below))) +
-           rounding * abs(towardsPlane(n, p, s.along));
+    real4 towards = row_x * n.x + row_y * n.y + row_z * n.z - row_w * dot(n, p);
+    return (snap_px * (abs(towards.x) * pixel.x + abs(towards.y) * pixel.y) + rounding * abs(towards.z)) / abs(w);
 }
 
 // Texels from the receiver's place in the map, `texel`, to where one step takes it. `w` is that of the map at p.
