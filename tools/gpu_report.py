@@ -10,7 +10,7 @@ import json
 import sys
 from pathlib import Path
 
-OUTCOMES = {"0": "done", "124": "not reached in time"}
+OUTCOMES = {"0": "done", "124": "not reached in time", "137": "not reached in time"}
 
 
 def read(file: Path) -> dict:

@@ -29,7 +29,7 @@ run() {
     shift 2
     [[ $left -gt 5 ]] || { echo 124 >"$work/$name.status"; return; }
     echo "on_gpu: $name"
-    timeout $((left < most ? left : most)) "$@" >"$work/$name.log" 2>&1 || status=$?
+    timeout --kill-after=5 $((left < most ? left : most)) "$@" >"$work/$name.log" 2>&1 || status=$?
     echo "$status" >"$work/$name.status"
 }
 
