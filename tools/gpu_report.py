@@ -3,6 +3,7 @@
 """Makes one file of what tools/on_gpu.sh found, and tables of such files.
 
 usage: gpu_report.py collect FOLDER FILE.json    what a run left in FOLDER
+       gpu_report.py taken DEVICE.json           the name of the device that `gnomon gpus` says is taken
        gpu_report.py table FILE.json...          docs/gpus.md, to standard output
 """
 
@@ -117,6 +118,9 @@ def table(files: list[str]) -> int:
 def main() -> int:
     if len(sys.argv) == 4 and sys.argv[1] == "collect":
         return collect(Path(sys.argv[2]), Path(sys.argv[3]))
+    if len(sys.argv) == 3 and sys.argv[1] == "taken":
+        print(next((gpu["name"] for gpu in read(Path(sys.argv[2])).get("gpus", []) if gpu["taken"]), ""))
+        return 0
     if len(sys.argv) > 2 and sys.argv[1] == "table":
         return table(sys.argv[2:])
     print(__doc__, file=sys.stderr)

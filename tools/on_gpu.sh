@@ -33,12 +33,12 @@ run() {
     echo "$status" >"$work/$name.status"
 }
 
-pick=()
-[[ -n $gpu ]] && pick=(--gpu "$gpu")
+run device 60 "$build/gnomon" gpus --json "$work/device.json"
+[[ -n $gpu ]] || gpu=$("$tools/gpu_report.py" taken "$work/device.json")
+pick=(--gpu "$gpu")
 export GNOMON_GPU=$gpu GNOMON_OTHER_GPU=$gpu
 "$tools/lamps_scene.py" "$work/lamps.gltf"
 
-run device 60 "$build/gnomon" gpus --json "$work/device.json"
 run grid 60 "$build/test_vulkan" --gtest_filter='DepthGrid.*:CopyRate.*' --gtest_output="json:$work/grid.json"
 run masks 120 "$build/test_drivers" --gtest_filter='-*640x360*' --gtest_output="json:$work/masks.json"
 for size in 1280x720 3840x2160; do
