@@ -246,8 +246,8 @@ float normalErrorFromDepth(std::uint32_t sub_pixel_bits)
 
 void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out)
 {
-    assert(precision.sub_pixel_bits >= 1 && precision.sub_pixel_bits <= 24 && precision.normal_error_rad >= 0.0F &&
-           precision.normal_error_rad <= 0.1F && precision.depth_rounding >= 0.0F && precision.depth_rounding <= 0.01F);
+    assert(precision.sub_pixel_bits >= 4 && precision.sub_pixel_bits <= 24 && precision.normal_error_rad >= 0.0F &&
+           precision.normal_error_rad <= 0.2F && precision.depth_rounding >= 0.0F && precision.depth_rounding <= 0.01F);
     const BiasOptions& bias = options.bias();
     const PcfOptions& pcf = options.pcf();
     const float snap = shared::snapOf(static_cast<float>(precision.sub_pixel_bits));

@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
     [[nodiscard]] const FeatureUses& uses() const { return view_.features; }
     /// By which it places vertices within a pixel: pack::DrawPrecision::sub_pixel_bits.
-    [[nodiscard]] std::uint32_t subPixelBits() const { return std::clamp(limits_.subPixelPrecisionBits, 1U, 24U); }
+    [[nodiscard]] std::uint32_t subPixelBits() const { return std::clamp(limits_.subPixelPrecisionBits, 4U, 24U); }
     [[nodiscard]] const DeviceView& view() const { return view_; }
     [[nodiscard]] bool software() const { return software_; } // a CPU draws
     [[nodiscard]] VkFormatFeatureFlags features(VkFormat format) const;

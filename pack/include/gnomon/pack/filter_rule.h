@@ -32,7 +32,7 @@ namespace gnomon::pack {
 /// How exactly casters are drawn and receivers are known: the automatic bias allows for what is lost.
 struct DrawPrecision {
     /// Bits of a pixel by which the device that draws places vertices (VkPhysicalDeviceLimits::subPixelPrecisionBits,
-    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 1 to 24. What Vulkan and OpenGL promise, unless given.
+    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24. What Vulkan and OpenGL promise, unless given.
     std::uint32_t sub_pixel_bits = 4;
     /// Receivers' points come from a depth buffer that the same device has drawn; false: a shading pass interpolates
     /// them, or they come from rays.
@@ -40,7 +40,8 @@ struct DrawPrecision {
     /// Half a step of that depth buffer, 0 to 0.01: 2^-17 of 16 bits, 2^-25 of 24 bits, and of floats where 1 is far
     /// (Camera::reversed_z false); 0 of floats where 0 is far.
     float depth_rounding = 0x1p-25F;
-    /// Bound on the error of receivers' geometric normals, radians, 0 to 0.1: normalError() of how they are stored.
+    /// Bound on the error of receivers' geometric normals, radians, 0 to 0.2: normalError() of how they are stored, or
+    /// normalErrorFromDepth().
     float normal_error_rad = 2e-4F;
 };
 
