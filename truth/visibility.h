@@ -67,6 +67,9 @@ struct Options {
     std::function<void(double)> progress;
     /// Becomes true from anywhere (a signal handler, say) to give up. May be null.
     const std::atomic<bool>* cancel = nullptr;
+    /// Where no thread finishes a row of 16 pixels for this long, some call never comes back: the process says so and
+    /// ends with status 1. At most some seconds are usual, for the most rays through the densest leaves.
+    std::uint32_t patience_s = 600;
 };
 
 /// Shadow rays that each pixel gets by these options, where its centre or all of its points count.

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -69,6 +70,34 @@ TEST(Run, ends_when_cancelled)
     EXPECT_FALSE(tracer.trace(traced.surfaces, kView, kSun, options).has_value());
     EXPECT_GT(told, 0.0);
     EXPECT_LT(told, 1.0);
+}
+
+TEST(RunDeathTest, EndsWhereRaysDoNotComeBack)
+{
+    Options options{.threads = 2};
+    options.patience_s = 2;
+    const auto standStill = [&] {
+        (void)forEachTile({32, 32}, options, [](const Tile& tile) {
+            tile.forEachPixel([](std::uint32_t x, std::uint32_t y) {
+                while (x == 17 && y == 9) {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                }
+            });
+        });
+    };
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(standStill(), testing::ExitedWithCode(1), "^gnomon: error: tracing rays: .* for 2 s,");
+}
+
+TEST(Run, IsPatientWithSlowRows)
+{
+    Options options{.threads = 2};
+    options.patience_s = 2;
+    EXPECT_TRUE(forEachTile({32, 4}, options, [](const Tile& tile) {
+        tile.forEachPixel([](std::uint32_t x, std::uint32_t) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(x == 0 ? 1000 : 0));
+        });
+    }));
 }
 
 /// So many triangles that Embree tells of a building's progress more than once.

@@ -56,7 +56,7 @@ scene::Hash128 keyBy(std::uint64_t identity, const scene::Scene& scene, const sc
     add(hasher, scene::stateHash(state));
     add(hasher, view);
     add(hasher, light);
-    const auto& [kind, samples, pixels, seed, threads, progress, cancel] = options;
+    const auto& [kind, samples, pixels, seed, threads, progress, cancel, patience_s] = options;
     hasher.add(kind);
     hasher.add(pixels);
     if (kind == Kind::area || pixels == PixelTruth::area) {

@@ -50,15 +50,17 @@ bool forEachTile(const glm::uvec2& size_px, const Options& options, const std::f
     std::atomic<std::uint32_t> next{0};
     std::atomic<std::uint32_t> done{0};
     std::atomic<bool> failed{false};
+    Patience patience(options.patience_s);
     const auto takeTiles = [&](const std::function<void(double)>& progress) {
         try {
             for (std::uint32_t i = next++; i < count && !failed && !(options.cancel && *options.cancel); i = next++) {
                 {
                     const NoDenormals no_denormals;
                     const glm::uvec2 min = glm::uvec2(i % tiles.x, i / tiles.x) * kTileSide;
-                    work({min, glm::min(min + kTileSide, size_px)});
+                    work({min, glm::min(min + kTileSide, size_px), &patience});
                 }
                 ++done;
+                patience.goOn();
                 if (progress) {
                     progress(static_cast<double>(done) / count);
                 }

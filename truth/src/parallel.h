@@ -2,6 +2,8 @@
 // Tiles of an image over threads.
 #pragma once
 
+#include "patience.h"
+
 #include "truth/visibility.h"
 
 #include <glm/vec2.hpp>
@@ -14,12 +16,25 @@ namespace gnomon::truth {
 struct Tile {
     glm::uvec2 min{0};
     glm::uvec2 max{0};
+    Patience* patience = nullptr; // of whoever waits for it
+
+    /// Calls `f(x, y)` for each pixel, row by row.
+    template <typename F>
+    void forEachPixel(const F& f) const
+    {
+        for (std::uint32_t y = min.y; y < max.y; ++y) {
+            for (std::uint32_t x = min.x; x < max.x; ++x) {
+                f(x, y);
+            }
+            patience->goOn();
+        }
+    }
 };
 
 /// Calls `work` once for each tile of an image of `size_px`, in any order. The calling thread and options.threads - 1
 /// others take the tiles, with denormal numbers off as Embree asks; where the system gives fewer threads, fewer do. The
 /// calling thread reports progress after each tile of its own. Returns false when cancelled: then tiles were left out.
-/// Throws what `work` or options.progress throws.
+/// Where no row of any tile is finished for options.patience_s seconds, the process ends (patience.h). Throws what `work` or options.progress throws.
 [[nodiscard]] bool forEachTile(const glm::uvec2& size_px, const Options& options,
                                const std::function<void(const Tile&)>& work);
 

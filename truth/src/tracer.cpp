@@ -59,16 +59,6 @@ void write3(float* values, const glm::dvec3& v)
     values[2] = static_cast<float>(v.z);
 }
 
-template <typename F>
-void forEachPixel(const Tile& tile, const F& f)
-{
-    for (std::uint32_t y = tile.min.y; y < tile.max.y; ++y) {
-        for (std::uint32_t x = tile.min.x; x < tile.max.x; ++x) {
-            f(x, y);
-        }
-    }
-}
-
 } // namespace
 
 struct Tracer::Impl {
@@ -117,7 +107,7 @@ std::optional<Surfaces> Tracer::see(const View& view, const Options& options) co
                       ImageF(size.x, size.y, 3, 0.0F), ImageF(size.x, size.y, 3, 0.0F)};
     const CameraRays rays(*impl_->geometry, view);
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
-        forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
+        tile.forEachPixel([&](std::uint32_t x, std::uint32_t y) {
             if (const auto seen = rays.trace({x + 0.5, y + 0.5})) {
                 *surfaces.object_ids.pixel(x, y) = seen->object + 1;
                 *surfaces.triangle_ids.pixel(x, y) = seen->triangle;
@@ -148,7 +138,7 @@ std::optional<Visibility> Tracer::trace(const Surfaces& surfaces, const View& vi
     std::atomic<std::uint64_t> rays{0};
     const bool finished = forEachTile(size, options, [&](const Tile& tile) {
         std::uint64_t rays_of_tile = 0;
-        forEachPixel(tile, [&](std::uint32_t x, std::uint32_t y) {
+        tile.forEachPixel([&](std::uint32_t x, std::uint32_t y) {
             if (const auto receiver = impl_->receiverAt(surfaces, view, x, y)) {
                 const ShadowRays::Result traced =
                     over_pixels ? traceOverPixel(*impl_->geometry, view, camera, shadow_rays, options.seed, {x, y})
