@@ -5,7 +5,7 @@
 usage: unity_groups.py (--target NAME SOURCE...)...     prints one line for each source: its target, its group's name, its path
 
 Two sources may not share a group when one declares a name in an unnamed namespace, as a static, or as a macro, that the
-other declares or uses too. What both bring in from the same namespace, as in "using nlohmann::json;", is one name. The
+other declares or uses too, or a header beside it that it includes. What both bring in from the same namespace, as in "using nlohmann::json;", is one name. The
 layout puts every declaration of a namespace at the start of a line, so the names are found without parsing C++. A group
 is of one folder: another may mean something else by a name. A source that opens a namespace for all that follows has a
 group for itself; so has one that defines a macro for a header, which other sources include without it, and one with a
@@ -26,6 +26,7 @@ TEST = re.compile(r"^(?:TYPED_)?(?:TEST|TEST_F|TEST_P|INSTANTIATE_TEST_SUITE_P)\
 ALONE = re.compile(r"^using (?:namespace|enum) |^// Compiled alone: ", re.MULTILINE)
 FOR_A_HEADER = re.compile(r"^#define (?:.*\n)*#include ", re.MULTILINE)
 BROUGHT = re.compile(r"^using ([\w:]*::(\w+));", re.MULTILINE)
+INCLUDED = re.compile(r'^#include "([^"/]+)"', re.MULTILINE)
 # The same alias may stand twice.
 OTHER_NAME = re.compile(r"^namespace (\w+) =", re.MULTILINE)
 # What may name a thing declared elsewhere: a type, a constant or macro, a function that is called; members not.
@@ -64,15 +65,26 @@ def names_of(text: str) -> set[str]:
     return names - {None}
 
 
+def used_by(text: str, folder: Path, seen: set[Path]) -> set[str]:
+    """Names that a text and the headers in `folder` that it includes may use; adds those to `seen`."""
+    used = set(USED.findall(LITERALS.sub('""', text)) + OTHER_NAME.findall(text))
+    for name in INCLUDED.findall(text):
+        header = folder / name
+        if header not in seen and header.is_file():
+            seen.add(header)
+            used |= used_by(header.read_text(encoding="utf-8"), folder, seen)
+    return used
+
+
 def groups_of(sources: list[str]) -> list[list[str]]:
     """Each source goes into its folder's first group that has room and none of its names."""
     groups = []
     for source in sources:
         folder = Path(source).parent
         text = Path(source).read_text(encoding="utf-8")
+        used = used_by(text, folder, set())
         text = LITERALS.sub('""', text)
         names, brought = names_of(text), {name: whole for whole, name in BROUGHT.findall(text)}
-        used = set(USED.findall(text) + OTHER_NAME.findall(text))
         alone = ALONE.search(text) or FOR_A_HEADER.search(text)
         lines = MOST_LINES + 1 if alone else text.count("\n")
         for group in groups:
