@@ -1,7 +1,8 @@
 # Registers googletest binaries with ctest: a process for many cases, since opening a device is dearer than most of them.
 #
-# tests/stages.txt names what is long: such cases are ctest tests of their own with the label `long`. GNOMON_RAN_IN is the
-# folder of results of a run in another build, usually Release: what drew there is left out here (.ci/run, sanitizers).
+# tests/stages.txt names what is long: such cases are ctest tests of their own with the label `long`, and not
+# run under sanitizers. GNOMON_RAN_IN is the folder of results of a run in another build, usually Release: what drew there is
+# left out here (.ci/run, sanitizers).
 include(${PROJECT_SOURCE_DIR}/cmake/python.cmake)
 set(GNOMON_RAN_IN "" CACHE PATH "Results of another build's tests: cases that drew there are left out; empty: all are run")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/stages.txt)
@@ -46,7 +47,7 @@ function(gnomon_cases name)
         set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1800 COST ${arg_COST} ENVIRONMENT
             "GTEST_FILTER=*-${without};GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${name}.${shard}.json")
     endforeach()
-    if(long)
+    if(long AND NOT GNOMON_SANITIZE)
         add_test(NAME ${name}.long COMMAND test_${name})
         set_tests_properties(${name}.long PROPERTIES TIMEOUT 1800 LABELS long ENVIRONMENT
             "GTEST_FILTER=${long};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${name}.long.json")

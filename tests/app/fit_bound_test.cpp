@@ -27,11 +27,7 @@ namespace gnomon {
 namespace {
 
 constexpr double kTexels = 2048.0;
-#ifdef NDEBUG
 constexpr int kAngles = 36;
-#else
-constexpr int kAngles = 12; // the sanitizers' builds take some twenty times as long
-#endif
 
 struct Pixel {
     glm::dvec2 at;                 // across the sun, metres

@@ -20,11 +20,7 @@
 namespace gnomon {
 namespace {
 
-#ifdef NDEBUG
 constexpr std::uint32_t kFrames = 300; // 10 s
-#else
-constexpr std::uint32_t kFrames = 40; // the sanitizers' builds take some twenty times as long
-#endif
 /// A warp that comes or goes changes texels at the ends by more than this.
 constexpr double kJump = 1.2;
 

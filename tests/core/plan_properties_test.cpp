@@ -21,12 +21,8 @@ using test::RandomScene;
 using test::randomScene;
 using test::Tally;
 
-// Debug builds, the sanitizers' among them, take some twenty times as long a scene.
-#ifdef NDEBUG
-constexpr int kScenes = 10000;
-#else
 constexpr int kScenes = 1000;
-#endif
+constexpr int kManyScenes = 10000;
 
 /// From each position of a sun that moves in steps the maps are right, for a light that shines from there.
 TEST(PlanPropertiesOfSteps, HoldForEachPosition)
@@ -109,11 +105,10 @@ void checkSameBits(const RandomScene& scene, std::uint64_t seed, const Plan& pla
                       : test::bytesOf(plan) == test::bytesOf(same));
 }
 
-TEST_P(PlanProperties, HoldForRandomScenes)
+void checkRandomScenes(const Technique& technique, int scenes)
 {
-    const Technique& technique = GetParam();
     Tally tally;
-    for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+    for (int seed = 1; seed <= scenes; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomScene scene = randomScene(seed, technique);
         Planner planner(scene.options);
@@ -123,38 +118,48 @@ TEST_P(PlanProperties, HoldForRandomScenes)
         ASSERT_NO_FATAL_FAILURE(checkSameBits(scene, seed, plan));
     }
     // The sum of it must not be empty praise.
-    EXPECT_GT(tally.seen, 15 * kScenes);
-    EXPECT_GT(tally.blocked, 15 * kScenes);
-    EXPECT_GT(tally.count(OutcomeKind::ok) + tally.count(OutcomeKind::fallback), kScenes / 2);
-    EXPECT_GT(tally.count(OutcomeKind::no_receiver), kScenes / 30);
+    EXPECT_GT(tally.seen, 15 * scenes);
+    EXPECT_GT(tally.blocked, 15 * scenes);
+    EXPECT_GT(tally.count(OutcomeKind::ok) + tally.count(OutcomeKind::fallback), scenes / 2);
+    EXPECT_GT(tally.count(OutcomeKind::no_receiver), scenes / 30);
     const bool around = technique.partition == Partition::cube || technique.partition == Partition::paraboloid;
     // Around a point light there is hardly ever nothing that casts.
-    EXPECT_GT(tally.count(OutcomeKind::no_caster), kScenes / (around ? 200 : 100));
+    EXPECT_GT(tally.count(OutcomeKind::no_caster), scenes / (around ? 200 : 100));
     EXPECT_EQ(tally.count(OutcomeKind::degenerate), 0);
     for (int i = 0; i < test::kAwkwardCount; ++i) {
-        EXPECT_GT(tally.seen_awkward[i], kScenes / 100) << nameOf(static_cast<Awkward>(i));
-        EXPECT_GT(tally.blocked_awkward[i], kScenes / 100) << nameOf(static_cast<Awkward>(i));
+        EXPECT_GT(tally.seen_awkward[i], scenes / 100) << nameOf(static_cast<Awkward>(i));
+        EXPECT_GT(tally.blocked_awkward[i], scenes / 100) << nameOf(static_cast<Awkward>(i));
     }
     if (technique.fit == Fit::uniform) {
         EXPECT_EQ(tally.warped, 0);
         EXPECT_EQ(tally.count(OutcomeKind::fallback), 0);
     } else {
-        EXPECT_GT(tally.warped, kScenes / 6);
+        EXPECT_GT(tally.warped, scenes / 6);
         if (technique.fit == Fit::automatic) { // to draw without a warp is its choice
             EXPECT_EQ(tally.count(OutcomeKind::fallback), 0);
         } else {
-            EXPECT_GT(tally.count(OutcomeKind::fallback), kScenes / 6);
+            EXPECT_GT(tally.count(OutcomeKind::fallback), scenes / 6);
         }
     }
 }
 
+TEST_P(PlanProperties, HoldForRandomScenes)
+{
+    checkRandomScenes(GetParam(), kScenes);
+}
+
+TEST_P(PlanProperties, HoldForManyRandomScenes)
+{
+    checkRandomScenes(GetParam(), kManyScenes);
+}
+
 /// Partition auto takes other maps, so a used planner's have other names; all else holds.
-TEST(PlanPropertiesOfAuto, HoldForRandomScenes)
+void checkRandomScenesOfAuto(int scenes)
 {
     Tally tally;
     std::map<Partition, int> taken;
     for (const Motion motion : {Motion::free, Motion::snap})
-        for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+        for (int seed = 1; seed <= scenes; ++seed) {
             SCOPED_TRACE("seed " + std::to_string(seed));
             const Technique technique{
                 .partition = Partition::automatic, .fit = Fit::automatic, .filter = Filter::pcf, .motion = motion};
@@ -168,11 +173,21 @@ TEST(PlanPropertiesOfAuto, HoldForRandomScenes)
             for (const LightPlan& light : plan.lights)
                 taken[light.choice.made ? light.choice.partition : Partition::automatic] += 1;
         }
-    EXPECT_GT(tally.seen, 15 * kScenes);
-    EXPECT_GT(tally.blocked, 15 * kScenes);
-    EXPECT_GT(taken[Partition::single], kScenes / 10);
+    EXPECT_GT(tally.seen, 15 * scenes);
+    EXPECT_GT(tally.blocked, 15 * scenes);
+    EXPECT_GT(taken[Partition::single], scenes / 10);
     EXPECT_GT(taken[Partition::cascades], 0);
     EXPECT_EQ(taken[Partition::sdsm], 0);
+}
+
+TEST(PlanPropertiesOfAuto, HoldForRandomScenes)
+{
+    checkRandomScenesOfAuto(kScenes);
+}
+
+TEST(PlanPropertiesOfAuto, HoldForManyRandomScenes)
+{
+    checkRandomScenesOfAuto(kManyScenes);
 }
 
 /// The bytes above are a list of what a plan says; its JSON is another.
