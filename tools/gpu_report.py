@@ -8,6 +8,7 @@ usage: gpu_report.py collect FOLDER FILE.json    what a run left in FOLDER
 """
 
 import json
+import statistics
 import sys
 from pathlib import Path
 
@@ -69,8 +70,31 @@ def collect(folder: Path, file: Path) -> int:
     return 0
 
 
+def middle(values: list[float]) -> str:
+    return number(statistics.median(values) if values else None)
+
+
 def number(value, digits: int = 2) -> str:
     return "not measured" if value is None else f"{value:.{digits}f}"
+
+
+def times_of(title: str, benches: list[dict]) -> list[str]:
+    """A table of each technique's medians over several views."""
+    techniques = list(dict.fromkeys(technique for bench in benches for technique in bench["techniques"]))
+    if not techniques:
+        return []
+    bare = [bench["baseline_ms"] for bench in benches if bench["baseline_ms"] is not None]
+    lines = ["", f"{title}; the frame without shadows takes {middle(bare)} ms:", "",
+             "| technique | maps ms | filter ms | mask ms | frame ms | frame / frame without shadows |", "|---|---|---|---|---|---|"]
+    for technique in techniques:
+        found = [bench["techniques"][technique] for bench in benches if technique in bench["techniques"]]
+        cells = [middle([one[key] for one in found if one[key] is not None])
+                 for key in ("maps_ms", "filter_ms", "mask_ms", "frame_ms", "frame_ratio")]
+        ratios = [one["frame_ratio"] for one in found if one["frame_ratio"] is not None]
+        if len(ratios) > 1:
+            cells[-1] += f" ({min(ratios):.2f} to {max(ratios):.2f})"
+        lines.append(f"| `{technique}` | " + " | ".join(cells) + " |")
+    return lines
 
 
 def device_section(report: dict) -> list[str]:
@@ -94,15 +118,10 @@ def device_section(report: dict) -> list[str]:
     left_out = [f"{step} ({outcome})" for step, outcome in report["steps"].items() if outcome != "done"]
     if left_out:
         lines.append("- left out: " + ", ".join(left_out))
-    tables = {**report["bench"], "one sun and 32 lamps, 3840x2160": report["lamps"]}
-    for view, bench in tables.items():
-        if not bench["techniques"]:
-            continue
-        lines += ["", f"{view}, frame without shadows {number(bench['baseline_ms'])} ms", "",
-                  "| technique | maps ms | filter ms | mask ms | frame ms | frame ratio |", "|---|---|---|---|---|---|"]
-        for technique, one in bench["techniques"].items():
-            cells = [number(one[key]) for key in ("maps_ms", "filter_ms", "mask_ms", "frame_ms", "frame_ratio")]
-            lines.append(f"| `{technique}` | " + " | ".join(cells) + " |")
+    for size in sorted({view.split("-")[0] for view in report["bench"]}):
+        views = [bench for view, bench in report["bench"].items() if view.startswith(size) and bench["techniques"]]
+        lines += times_of(f"{len(views)} views, {size}", views)
+    lines += times_of("one sun and 32 lamps, 3840x2160", [report["lamps"]])
     return [*lines, ""]
 
 

@@ -39,11 +39,12 @@ pick=(--gpu "$gpu")
 export GNOMON_GPU=$gpu GNOMON_OTHER_GPU=$gpu
 "$tools/lamps_scene.py" "$work/lamps.gltf"
 
+filters=hard,pcf,pcss,raymarch,vsm,lvsm,esm,evsm,msm,id,depth-id,smoothies,volumes
 run grid 60 "$build/test_vulkan" --gtest_filter='DepthGrid.*:CopyRate.*' --gtest_output="json:$work/grid.json"
 run masks 120 "$build/test_drivers" --gtest_filter='-*640x360*' --gtest_output="json:$work/masks.json"
 for size in 1280x720 3840x2160; do
     for view in rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs; do
-        run "bench-$size-$view" 60 "$build/gnomon" bench "${view%:*}" --camera "${view#*:}" --size "$size" --techniques all \
+        run "bench-$size-$view" 60 "$build/gnomon" bench "${view%:*}" --camera "${view#*:}" --size "$size" --techniques "$filters" \
             --repetitions 5 --warmup 2 "${pick[@]}" --json "$work/bench-$size-$view.json"
     done
 done
