@@ -77,8 +77,9 @@ struct GpuReport {
     std::string driver; // name and version; empty of a device before Vulkan 1.3
     std::uint32_t api_version = 0;
     bool software = false;
-    std::string refusal; // why the program cannot use it; empty: it can
-    bool taken = false;  // by a Gpu of no name
+    std::uint32_t sub_pixel_bits = 0; // pack::DrawPrecision::sub_pixel_bits
+    std::string refusal;              // why the program cannot use it; empty: it can
+    bool taken = false;               // by a Gpu of no name
     std::vector<GpuPart> parts;
 };
 /// All of them, in the drivers' order. Of `options` only what starting Vulkan needs is used. Throws Error when there is

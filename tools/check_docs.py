@@ -10,6 +10,7 @@ usage: check_docs.py [--write | --write-claims] ROOT [GNOMON]
   option in a `gnomon` command of a document is one of them;
 - docs/claims.md has a row for each of its claims, with the verdict and the commands that are recorded. Their figures take
   minutes and are not looked at; --write-claims tries all claims and puts the tables there;
+- docs/gpus.md is what tools/gpu_report.py makes of docs/gpus/*.json (--write puts it there);
 - the source that `gnomon list` gives of a technique is the first that its page names.
 Exit status 1 when something is not so.
 """
@@ -21,6 +22,7 @@ import sys
 import textwrap
 from pathlib import Path
 
+import gpu_report
 from sources import project_files
 
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
@@ -178,11 +180,22 @@ def unknown_options(root: Path, settings: dict[str, dict]) -> list[str]:
     return found
 
 
+def gpu_differences(root: Path, write: bool) -> list[str]:
+    page = root / "docs/gpus.md"
+    files = [str(file) for file in sorted((root / "docs/gpus").glob("*.json"))]
+    made = gpu_report.table(files) if files else ""
+    if write and files:
+        page.write_text(made, encoding="utf-8")
+    if files and (not page.is_file() or page.read_text(encoding="utf-8") != made):
+        return ["docs/gpus.md: is not what tools/gpu_report.py makes of docs/gpus; tools/check_docs.py --write ROOT makes it so"]
+    return []
+
+
 def main() -> int:
     write = "--write" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
     root = Path(arguments[0]).resolve()
-    found = broken_links(root) + snippet_differences(root)
+    found = broken_links(root) + snippet_differences(root) + gpu_differences(root, write)
     if len(arguments) > 1:
         listed = listed_by(arguments[1])
         settings = {setting["key"]: setting for setting in listed["settings"]}

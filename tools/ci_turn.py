@@ -54,6 +54,7 @@ ITEMS = {
                  paths=("tests/fuzz/", "tools/fuzz.sh", "app/src/preset", "app/src/setting", "app/src/bench_figures")),
     "roots": Item("make -s package-test JOBS=$JOBS", needs="debootstrap", takes_turns=False),
     "bare": Item("tools/bare_root_test.sh", needs="debootstrap", takes_turns=False),
+    # In build/, which `make check-all` has by then.
     "sweeps": Item("GNOMON_SWEEP=all GNOMON_SOAK_FRAMES=100000 ctest --test-dir build --output-on-failure --no-tests=error"
                    " -j $JOBS -R '^(faults|memory|vulkan.long)'", takes_turns=False),
     "long": Item(BUILT + "long -E '^view'", paths=("tests/stages.txt",), built=True),
@@ -125,12 +126,12 @@ def due(kept: dict, changed: list[str]) -> dict[str, str]:
     return found
 
 
-def files_of(name: str) -> list[str]:
-    """Those that an item is about in this run; none are all."""
+def files_of(name: str) -> list[str] | None:
+    """Those that an item is about in this run; None: all."""
     kept = state()
     changed = changed_since(kept["commit"])
     if not ITEMS[name].suffix or due(kept, changed).get(name, TURN) == TURN:
-        return []
+        return None
     return [path for path in changed if touched_by(path, ITEMS[name]) and (project_root() / path).is_file()]
 
 
@@ -140,15 +141,18 @@ def run(name: str) -> int:
     if needed and subprocess.run(["sh", "-c", f"command -v {needed}"], capture_output=True, check=False).returncode != 0:
         print(f"{name}: there is no {needed}\n0 passed, 0 failed, 1 skipped")
         return 0
+    files = files_of(name)
+    if files == []: # those that have changed are gone
+        return 0
     jobs = os.environ.get("JOBS", str(os.cpu_count()))
     return subprocess.run(["bash", "-euo", "pipefail", "-c", item.command], cwd=project_root(), check=False,
-                          env={**os.environ, "JOBS": jobs, "FILES": " ".join(files_of(name))}).returncode
+                          env={**os.environ, "JOBS": jobs, "FILES": " ".join(files or [])}).returncode
 
 
 def note(passed: list[str]) -> None:
     kept = state()
     # An item that goes by files was done as a whole in its turn alone.
-    passed = [name for name in passed if not files_of(name)]
+    passed = [name for name in passed if files_of(name) is None]
     number = kept["run"] + 1
     # An item that has never run keeps the place it has without this file.
     first = {name: number - (number + place) % EVERY for place, name in enumerate(TURNS)}

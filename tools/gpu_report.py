@@ -4,7 +4,8 @@
 
 usage: gpu_report.py collect FOLDER FILE.json    what a run left in FOLDER
        gpu_report.py taken DEVICE.json           the name of the device that `gnomon gpus` says is taken
-       gpu_report.py table FILE.json...          docs/gpus.md, to standard output
+       gpu_report.py filters DEVICE.json GPU     those that a device can have, with commas between
+       gpu_report.py table FILE.json...          a page of these files, to standard output
 """
 
 import json
@@ -22,8 +23,18 @@ def read(file: Path) -> dict:
         return {}
 
 
+def filters_of(gpus: list[dict], name: str) -> list[str]:
+    """Those of one map that the first device of this name can have."""
+    gpu = next((gpu for gpu in gpus if (gpu["software"] if name == "software" else name.lower() in gpu["name"].lower())), {"parts": []})
+    lacks = {part["name"] for part in gpu["parts"] if not part["there"]}
+    filterable = [] if "shaderStorageImageWriteWithoutFormat" in lacks else ["vsm", "lvsm", "esm", "evsm", "msm"]
+    return ["hard", "pcf", "pcss", "raymarch", *filterable, "id", "depth-id", "smoothies"]
+
+
 def cases_of(results: dict) -> dict:
-    """How many cases there were, and which failed or were skipped."""
+    """How many cases there were, and which failed or were skipped; nothing where no results were written."""
+    if not results:
+        return {}
     found: dict = {"passed": 0, "failed": [], "skipped": []}
     for suite in results.get("testsuites", []):
         for case in suite["testsuite"]:
@@ -104,6 +115,9 @@ def device_section(report: dict) -> list[str]:
     lines = [f"## {name}", "", driver, ""]
     for what, key in (("drawing cases under validation", "cases"), ("masks beside lavapipe's", "masks")):
         found = report[key]
+        if not found:
+            lines.append(f"- {what}: not reached in time")
+            continue
         lines.append(f"- {what}: {found['passed']} pass, {len(found['failed'])} fail, {len(found['skipped'])} are skipped")
         lines += [f"  - fails: {case}" for case in found["failed"]]
     grid = report["grid"]
@@ -125,13 +139,14 @@ def device_section(report: dict) -> list[str]:
     return [*lines, ""]
 
 
-def table(files: list[str]) -> int:
-    print("# Devices\n")
-    print("Each part is of one file that `tools/on_gpu.sh FILE.json` wrote on a machine with that device; "
-          "`tools/gpu_report.py table FILE.json... >docs/gpus.md` makes this page.\n")
+def table(files: list[str]) -> str:
+    lines = ["# Devices", "",
+             "This page says how Gnomon does on devices that it was tried on. Each part is of one file of [docs/gpus](gpus), which "
+             "`tools/on_gpu.sh FILE.json` wrote on a machine with that device; `tools/check_docs.py --write .` makes this page of them. "
+             "Ratios are medians over the views, with the least and the largest.", ""]
     for file in files:
-        print("\n".join(device_section(json.loads(Path(file).read_text(encoding="utf-8")))))
-    return 0
+        lines += device_section(json.loads(Path(file).read_text(encoding="utf-8")))
+    return "\n".join(lines)
 
 
 def main() -> int:
@@ -140,8 +155,12 @@ def main() -> int:
     if len(sys.argv) == 3 and sys.argv[1] == "taken":
         print(next((gpu["name"] for gpu in read(Path(sys.argv[2])).get("gpus", []) if gpu["taken"]), ""))
         return 0
+    if len(sys.argv) == 4 and sys.argv[1] == "filters":
+        print(",".join(filters_of(read(Path(sys.argv[2])).get("gpus", []), sys.argv[3])))
+        return 0
     if len(sys.argv) > 2 and sys.argv[1] == "table":
-        return table(sys.argv[2:])
+        print(table(sys.argv[2:]))
+        return 0
     print(__doc__, file=sys.stderr)
     return 2
 

@@ -2,16 +2,20 @@
 # Tries Gnomon on the GPU of this machine and writes what came out to one JSON file, of which docs/gpus.md is made.
 # Takes 8 minutes at most; what is not reached in time is left out, and the file says so. Needs a build (`make test`, or
 # `cmake --build build`), a driver, and for pictures to compare with Mesa's lavapipe.
-# usage: tools/on_gpu.sh [--gpu NAME] [--build FOLDER] [--seconds N] FILE.json
+# usage: tools/on_gpu.sh [--gpu NAME] [--build FOLDER] [--seconds N] [--quick] FILE.json
 #   --gpu      part of the device's name, or "software"; else the first real GPU (`gnomon gpus` lists them)
 #   --build    where the programs are (build)
 #   --seconds  how long it may take (480)
+#   --quick    few cases and small pictures: says that the script works, and nothing of the GPU
 set -euo pipefail
 gpu= build=build seconds=480
+sizes=(1280x720 3840x2160) views=(rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs)
+masks='-*640x360*' cases='-*Null*:Soak.*:*Faults*'
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --gpu) gpu=${2:?--gpu needs a name}; shift 2 ;;
         --build) build=${2:?--build needs a folder}; shift 2 ;;
+        --quick) sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.*; shift ;;
         --seconds) seconds=${2:?--seconds needs a number}; shift 2 ;;
         *) echo "on_gpu: there is no option $1" >&2; exit 2 ;;
     esac
@@ -35,24 +39,29 @@ run() {
 
 run device 60 "$build/gnomon" gpus --json "$work/device.json"
 [[ -n $gpu ]] || gpu=$("$tools/gpu_report.py" taken "$work/device.json")
-pick=(--gpu "$gpu")
+[[ -n $gpu ]] || { echo "on_gpu: no GPU can be used: $build/gnomon gpus says why" >&2; exit 1; }
 export GNOMON_GPU=$gpu GNOMON_OTHER_GPU=$gpu
 "$tools/lamps_scene.py" "$work/lamps.gltf"
 
-filters=hard,pcf,pcss,raymarch,vsm,lvsm,esm,evsm,msm,id,depth-id,smoothies,volumes
 run grid 60 "$build/test_vulkan" --gtest_filter='DepthGrid.*:CopyRate.*' --gtest_output="json:$work/grid.json"
-run masks 120 "$build/test_drivers" --gtest_filter='-*640x360*' --gtest_output="json:$work/masks.json"
-for size in 1280x720 3840x2160; do
-    for view in rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs; do
-        run "bench-$size-$view" 60 "$build/gnomon" bench "${view%:*}" --camera "${view#*:}" --size "$size" --techniques "$filters" \
-            --repetitions 5 --warmup 2 "${pick[@]}" --json "$work/bench-$size-$view.json"
+run masks 120 "$build/test_drivers" --gtest_filter="$masks" --gtest_output="json:$work/masks.json"
+run cases 150 "$build/test_vulkan" --gtest_filter="$cases" --gtest_output="json:$work/cases.json"
+
+# bench NAME SECONDS TECHNIQUES SCENE OPTIONS...
+bench() {
+    local name=$1 most=$2 techniques=$3
+    shift 3
+    run "$name" "$most" "$build/gnomon" bench "$@" --techniques "$techniques" --repetitions 5 --warmup 2 --gpu "$gpu" --json "$work/$name.json"
+}
+
+filters=$("$tools/gpu_report.py" filters "$work/device.json" "$gpu")
+bench blur 30 vsm+single,evsm+single,msm+single rts --camera camp --size "${sizes[0]}" --map-size 4096
+bench lamps 30 auto,pcf "$work/lamps.gltf" --size "${sizes[-1]}"
+for size in "${sizes[@]}"; do
+    for view in "${views[@]}"; do
+        bench "bench-$size-$view" 60 "$filters" "${view%:*}" --camera "${view#*:}" --size "$size"
     done
 done
-run blur 60 "$build/gnomon" bench rts --camera camp --size 1280x720 --map-size 4096 --techniques vsm+single,evsm+single,msm+single \
-    --repetitions 9 "${pick[@]}" --json "$work/blur.json"
-run lamps 60 "$build/gnomon" bench "$work/lamps.gltf" --size 3840x2160 --techniques auto,pcf --repetitions 5 --warmup 2 \
-    "${pick[@]}" --json "$work/lamps.json"
-run cases 180 "$build/test_vulkan" --gtest_filter='-*Null*:Soak.*:*Faults*' --gtest_output="json:$work/cases.json"
 
 "$tools/gpu_report.py" collect "$work" "$file.new"
 mv "$file.new" "$file"

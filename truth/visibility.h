@@ -67,8 +67,8 @@ struct Options {
     std::function<void(double)> progress;
     /// Becomes true from anywhere (a signal handler, say) to give up. May be null.
     const std::atomic<bool>* cancel = nullptr;
-    /// Where no thread finishes a row of 16 pixels for this long, some call never comes back: the process says so and
-    /// ends with status 1. At most some seconds are usual, for the most rays through the densest leaves.
+    /// Seconds, at least 1. Where no thread finishes a row of a tile, 16 pixels, for so long, a call has not come back:
+    /// the process says so and ends with status 1. The dearest rows take a few seconds.
     std::uint32_t patience_s = 600;
 };
 

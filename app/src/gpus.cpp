@@ -29,6 +29,7 @@ Json gpuJson(const host::GpuReport& gpu)
               {"driver", gpu.driver},
               {"vulkan", versionText(gpu.api_version)},
               {"software", gpu.software},
+              {"sub_pixel_bits", gpu.sub_pixel_bits},
               {"refusal", gpu.refusal.empty() ? Json(nullptr) : Json(gpu.refusal)},
               {"taken", gpu.taken}};
     json["parts"] = Json::array();
@@ -40,9 +41,10 @@ Json gpuJson(const host::GpuReport& gpu)
 
 std::string gpuText(const host::GpuReport& gpu)
 {
-    std::string text = fmt::format("{}{}\n  driver   {}\n  Vulkan   {}{}\n", gpu.name, gpu.taken ? " (taken)" : "",
-                                   gpu.driver.empty() ? "unknown" : gpu.driver, versionText(gpu.api_version),
-                                   gpu.software ? ", drawn by the processor" : "");
+    std::string text =
+        fmt::format("{}{}\n  driver   {}\n  Vulkan   {}{}\n  places   vertices by 1/2^{} of a pixel\n", gpu.name,
+                    gpu.taken ? " (taken)" : "", gpu.driver.empty() ? "unknown" : gpu.driver,
+                    versionText(gpu.api_version), gpu.software ? ", drawn by the processor" : "", gpu.sub_pixel_bits);
     if (!gpu.refusal.empty()) {
         text += fmt::format("  refused  {}\n", gpu.refusal);
     }

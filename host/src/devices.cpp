@@ -129,6 +129,7 @@ GpuReport reportOf(VkInstance instance, VkPhysicalDevice device, const GpuOption
     report.name = properties.deviceName;
     report.software = isSoftware(properties);
     report.api_version = properties.apiVersion;
+    report.sub_pixel_bits = properties.limits.subPixelPrecisionBits;
     report.refusal = refusalOf(instance, device, options);
     if (properties.apiVersion < VK_API_VERSION_1_3) {
         return report; // which may not know the functions that tell more
@@ -167,7 +168,7 @@ std::string driverOf(VkPhysicalDevice device)
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
     vkGetPhysicalDeviceProperties2(device, &all);
-    return std::string(driver.driverName) + " " + driver.driverInfo;
+    return std::string(driver.driverName) + (driver.driverInfo[0] != '\0' ? " " : "") + driver.driverInfo;
 }
 
 bool hasForwardSamplers(const VkPhysicalDeviceLimits& limits)

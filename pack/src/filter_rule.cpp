@@ -117,6 +117,12 @@ void lighten(const ResolvedOptions& options, shared::MomentRule& rule)
     rule.lighten_cut = options.asked().lighten_as == LightenAs::remap ? rule.lighten : 0.0F;
 }
 
+/// In pixels, by the bits that a device says it has.
+float snapOfBits(std::uint32_t bits)
+{
+    return shared::snapOf(static_cast<float>(std::clamp(bits, 4U, 24U)));
+}
+
 } // namespace
 
 /// Of hard and pcf the metric alone counts.
@@ -241,16 +247,16 @@ float normalError(float rounding)
 
 float normalErrorFromDepth(std::uint32_t sub_pixel_bits)
 {
-    return normalError(0.0F) + shared::snapOf(static_cast<float>(sub_pixel_bits));
+    return normalError(0.0F) + snapOfBits(sub_pixel_bits);
 }
 
 void fillRule(const ResolvedOptions& options, const DrawPrecision& precision, shared::GpuRule& out)
 {
-    assert(precision.sub_pixel_bits >= 4 && precision.sub_pixel_bits <= 24 && precision.normal_error_rad >= 0.0F &&
-           precision.normal_error_rad <= 0.2F && precision.depth_rounding >= 0.0F && precision.depth_rounding <= 0.01F);
+    assert(precision.normal_error_rad >= 0.0F && precision.normal_error_rad <= 0.2F &&
+           precision.depth_rounding >= 0.0F && precision.depth_rounding <= 0.01F);
     const BiasOptions& bias = options.bias();
     const PcfOptions& pcf = options.pcf();
-    const float snap = shared::snapOf(static_cast<float>(precision.sub_pixel_bits));
+    const float snap = snapOfBits(precision.sub_pixel_bits);
     out.bias = bias.automatic
                    ? glm::vec4(1.0F, snap, precision.receivers_from_depth ? snap : 0.0F, precision.normal_error_rad)
                    : glm::vec4(0.0F, bias.constant_m, bias.slope, bias.normal_texels);

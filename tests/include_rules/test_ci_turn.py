@@ -76,13 +76,17 @@ class Turns(unittest.TestCase):
         kept = {"run": 9, "commit": "", "last": dict.fromkeys(TOOL.TURNS, 9)}
         with mock.patch.object(TOOL, "state", lambda: kept), mock.patch.object(TOOL, "changed_since", lambda _: changed):
             self.assertEqual(TOOL.files_of("tidy"), ["core/src/planner.cpp"])
-            self.assertEqual(TOOL.files_of("fuzz"), [])
+            self.assertIsNone(TOOL.files_of("fuzz"))
             self.file.parent.mkdir()
             TOOL.note(["tidy", "fuzz"])
             noted = json.loads(self.file.read_text(encoding="utf-8"))["last"]
             self.assertEqual((noted["tidy"], noted["fuzz"]), (9, 10))
             kept["last"]["tidy"] = 5
+            self.assertIsNone(TOOL.files_of("tidy"))
+            kept["last"]["tidy"] = 9
+            changed[:] = ["core/src/gone.cpp"]
             self.assertEqual(TOOL.files_of("tidy"), [])
+            self.assertEqual(TOOL.run("tidy"), 0)
 
     def test_say_what_they_lack(self):
         with mock.patch.dict(TOOL.ITEMS, {"roots": TOOL.Item("false", needs="no-such-program")}), \

@@ -73,7 +73,9 @@ void sweepTracing(std::uint32_t threads, FailingAllocation::Of whose, std::uint6
     const Seen expected = traceAll(scene, state, options);
     std::optional<Seen> seen;
     sweepMemory(
-        {"tracing by " + std::to_string(threads), most, whose}, [&] { seen.emplace(traceAll(scene, state, options)); },
+        // The system keeps what a thread had for the next: each trace has one that watches it.
+        {"tracing by " + std::to_string(threads), most, whose, true},
+        [&] { seen.emplace(traceAll(scene, state, options)); },
         [&](bool ended) {
             EXPECT_EQ(seen.has_value(), ended);
             EXPECT_TRUE(!seen || same(*seen, expected));

@@ -77,6 +77,20 @@ TEST(ShadingBuffers, ConstantsAreThoseOfTheOptionsAskedFor)
     EXPECT_EQ(second.screen.size, glm::vec4(320.0F, 200.0F, 1.0F / 320.0F, 1.0F / 200.0F));
 }
 
+TEST(ShadingBuffers, TakeEveryPrecisionThatADeviceMayHave)
+{
+    PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}});
+    float before = 1.0F;
+    for (const std::uint32_t bits : {4U, 8U, 24U}) {
+        pack::DrawPrecision precision{.sub_pixel_bits = bits};
+        precision.normal_error_rad = pack::normalErrorFromDepth(bits);
+        shared::GpuConstants constants{};
+        pack::fillConstants(by_hand.frame, by_hand.plan, 0, {320, 200}, {{512, 256}, 1}, precision, constants);
+        EXPECT_LT(constants.rule.bias.w, before) << bits;
+        before = constants.rule.bias.w;
+    }
+}
+
 TEST(ShadingBuffers, LightsWithoutAMapHaveNoViews)
 {
     PlanByHand by_hand({ShadowOptions{.technique = kPlainTechnique}, filteredBy(Filter::vsm)});

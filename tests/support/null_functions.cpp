@@ -323,7 +323,9 @@ VKAPI_ATTR VkResult VKAPI_CALL getQueries(VkDevice device, VkQueryPool, std::uin
     }
     std::memset(data, 0, bytes);
     const std::span<const std::uint64_t> results = driverOf(device).limits.query_results;
-    std::memcpy(data, results.data(), std::min(bytes, results.size_bytes()));
+    if (!results.empty()) {
+        std::memcpy(data, results.data(), std::min(bytes, results.size_bytes()));
+    }
     return VK_SUCCESS;
 }
 

@@ -55,6 +55,7 @@ bool forEachTile(const glm::uvec2& size_px, const Options& options, const std::f
         try {
             for (std::uint32_t i = next++; i < count && !failed && !(options.cancel && *options.cancel); i = next++) {
                 {
+                    const Patience::Work at_work(patience);
                     const NoDenormals no_denormals;
                     const glm::uvec2 min = glm::uvec2(i % tiles.x, i / tiles.x) * kTileSide;
                     work({min, glm::min(min + kTileSide, size_px), &patience});

@@ -34,7 +34,8 @@ struct Tile {
 /// Calls `work` once for each tile of an image of `size_px`, in any order. The calling thread and options.threads - 1
 /// others take the tiles, with denormal numbers off as Embree asks; where the system gives fewer threads, fewer do. The
 /// calling thread reports progress after each tile of its own. Returns false when cancelled: then tiles were left out.
-/// Where no row of any tile is finished for options.patience_s seconds, the process ends (patience.h). Throws what `work` or options.progress throws.
+/// Where no row of any tile is finished for options.patience_s seconds, the process ends (patience.h). Throws what
+/// `work` or options.progress throws.
 [[nodiscard]] bool forEachTile(const glm::uvec2& size_px, const Options& options,
                                const std::function<void(const Tile&)>& work);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patience.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -9,7 +10,7 @@
 
 namespace gnomon::truth {
 
-Patience::Patience(std::uint32_t seconds) : seconds_(seconds)
+Patience::Patience(std::uint32_t seconds) : seconds_(std::max(seconds, 1U))
 {
     try {
         watcher_ = std::thread(&Patience::watch, this);
@@ -38,7 +39,7 @@ void Patience::watch()
     std::uint32_t waited = 0;
     while (!ends_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) {
         const std::uint64_t now = steps_;
-        waited = now == before ? waited + 1 : 0;
+        waited = now == before && at_work_ > 0 ? waited + 1 : 0;
         before = now;
         if (waited >= seconds_) {
             std::fprintf(stderr,

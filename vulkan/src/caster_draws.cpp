@@ -81,8 +81,12 @@ void CasterDrawer::Impl::drawCommands(VkCommandBuffer to, const BatchDraws& draw
 {
     const VkDeviceSize first = commands_used + draws.first_command * kCommandBytes;
     if (device.uses().indirect_draws) {
-        device.vk.CmdDrawIndexedIndirect(to, slot->commands.buffer(), first, draws.command_count,
-                                         static_cast<std::uint32_t>(kCommandBytes));
+        const std::uint32_t most = std::max(device.limits().maxDrawIndirectCount, 1U);
+        for (std::uint32_t i = 0; i < draws.command_count; i += std::min(most, draws.command_count - i)) {
+            device.vk.CmdDrawIndexedIndirect(to, slot->commands.buffer(), first + i * kCommandBytes,
+                                             std::min(most, draws.command_count - i),
+                                             static_cast<std::uint32_t>(kCommandBytes));
+        }
         return;
     }
     const auto* const written = reinterpret_cast<const VkDrawIndexedIndirectCommand*>(

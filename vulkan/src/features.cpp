@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The device features that the backend uses: asked for, and looked for, from the same chain.
-#include "functions.h"
+#include "optional_parts.h"
 
 #include <gnomon/error.h>
 
@@ -108,11 +108,7 @@ VkBool32& bitIn(Chain& chain, const Feature& feature)
 /// What is not there stays false.
 void query(const DeviceView& view, Chain& chain)
 {
-    if (view.get_instance_proc_addr == nullptr || view.instance == VK_NULL_HANDLE ||
-        view.physical_device == VK_NULL_HANDLE) {
-        throw Error("ask for the features of a device",
-                    "the DeviceView has no instance, physical device or get_instance_proc_addr", "fill in all three");
-    }
+    requireInstance(view);
     const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
         view.get_instance_proc_addr(view.instance, "vkGetPhysicalDeviceFeatures2"));
     if (get != nullptr) {
@@ -121,6 +117,15 @@ void query(const DeviceView& view, Chain& chain)
 }
 
 } // namespace
+
+void requireInstance(const DeviceView& view)
+{
+    if (view.get_instance_proc_addr == nullptr || view.instance == VK_NULL_HANDLE ||
+        view.physical_device == VK_NULL_HANDLE) {
+        throw Error("ask what a device has",
+                    "the DeviceView has no instance, physical device or get_instance_proc_addr", "fill in all three");
+    }
+}
 
 const VkPhysicalDeviceFeatures2& requiredFeatures(const FeatureUses& uses)
 {

@@ -32,7 +32,7 @@ float roundingOf(VkFormat format)
     case VK_FORMAT_R16G16_SNORM:
         return 0x1p-16F;
     case VK_FORMAT_R16G16_SFLOAT:
-        return 0x1p-12F;
+        return 0x1p-11F;
     default:
         return 0x1p-8F;
     }

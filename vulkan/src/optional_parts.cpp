@@ -12,6 +12,7 @@ namespace {
 template <class Function>
 Function functionOf(const DeviceView& view, const char* name)
 {
+    requireInstance(view);
     return reinterpret_cast<Function>(view.get_instance_proc_addr(view.instance, name));
 }
 
@@ -35,9 +36,9 @@ VkPhysicalDeviceLimits limitsOf(const DeviceView& view)
 }
 
 template <bool FeatureUses::*kUse>
-constexpr OptionalPart feature(const char* name, const char* serves, const char* without)
+constexpr OptionalPart feature(const char* name, const char* serves, const char* without, const char* instead = "")
 {
-    return {name, serves, without, kUse, [](const DeviceView& view) {
+    return {name, serves, without, instead, kUse, [](const DeviceView& view) {
                 return supportedFeatures(view).*kUse;
             }};
 }
@@ -50,29 +51,32 @@ constexpr OptionalPart kParts[] = {
                                           "each mesh is drawn by a command of its own"),
     feature<&FeatureUses::depth_clamp>(
         "depthClamp", "maps whose near plane casters may be before, and filter volumes",
-        "near planes lie before all casters (Frame::clamps_depth), and filter volumes is refused"),
+        "near planes lie before all casters (Frame::clamps_depth), and filter volumes is refused",
+        "set Frame::clamps_depth to false, and take a filter with maps"),
     feature<&FeatureUses::filterable>("shaderStorageImageWriteWithoutFormat", "maps of vsm, lvsm, esm, evsm and msm",
-                                      "these filters are refused"),
+                                      "these filters are refused", "take hard, pcf, pcss or raymarch"),
     feature<&FeatureUses::sample_metric>("sampleRateShading",
                                          "depths of each sample in filterable maps of perspective views",
                                          "the samples of a texel share one depth there"),
     feature<&FeatureUses::layered>("shaderOutputLayer", "cascades.pass=layered",
                                    "it is refused, and cascades are drawn one after the other"),
-    feature<&FeatureUses::clip_planes>("shaderClipDistance", "casters that planes cut", "they are refused"),
+    feature<&FeatureUses::clip_planes>("shaderClipDistance", "casters that planes cut", "they are refused",
+                                       "cut them before they are handed over"),
     feature<&FeatureUses::depth_bounds>("depthBounds", "shadow volumes counted no farther than lamps reach",
                                         "they are counted wherever they are seen"),
     feature<&FeatureUses::statistics>("pipelineStatisticsQuery", "counts of shaders run in each pass",
                                       "they are not measured"),
-    {"timestamps", "GPU times of passes", "they are not measured, and draw-budget bounds nothing", nullptr,
+    {"timestamps", "GPU times of passes", "they are not measured, and draw-budget bounds nothing", "", nullptr,
      [](const DeviceView& view) {
          return timestampBits(view) > 0;
      }},
-    {"D32_SFLOAT_S8_UINT", "shadow volumes counted at depths of 32 bits", "they are counted at depths of 24 bits",
+    {"D32_SFLOAT_S8_UINT", "shadow volumes counted at depths of 32 bits", "they are counted at depths of 24 bits", "",
      nullptr,
      [](const DeviceView& view) {
          return stencilFormat(view) == VK_FORMAT_D32_SFLOAT_S8_UINT;
      }},
-    {kLargeGroups, "partition sdsm, and layers of lvsm that are found", "they are refused", nullptr,
+    {kLargeGroups, "partition sdsm, and layers of lvsm that are found", "they are refused",
+     "take partition cascades, and give lvsm its layers", nullptr,
      [](const DeviceView& view) {
          return hasLargeGroups(limitsOf(view));
      }},
@@ -80,7 +84,7 @@ constexpr OptionalPart kParts[] = {
 
 [[noreturn]] void refusePart(const char* tried, const OptionalPart& part, const char* because)
 {
-    throw Error(tried, std::string(because) + part.name + ", which is for " + part.serves, part.without);
+    throw Error(tried, std::string(because) + part.name + ", which is for " + part.serves, part.instead);
 }
 
 const OptionalPart& namedPart(const char* name)

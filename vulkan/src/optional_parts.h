@@ -6,6 +6,9 @@
 
 namespace gnomon::vulkan {
 
+/// Throws Error unless `view` has all that asking takes.
+void requireInstance(const DeviceView& view);
+
 /// Of queues that make timestamps: how many of their bits count; 0: they make none.
 [[nodiscard]] std::uint32_t timestampBits(const DeviceView& view);
 
@@ -16,7 +19,7 @@ namespace gnomon::vulkan {
 inline constexpr std::uint32_t kLargeGroup = 256;
 [[nodiscard]] bool hasLargeGroups(const VkPhysicalDeviceLimits& limits);
 
-/// Throws Error that says what is lacking and what becomes of it, unless it is on (or, where it is no feature, there).
+/// Throws Error that says what is lacking and what to do instead, unless it is on (or, where it is no feature, there).
 void requirePart(const Device& device, const char* tried, bool FeatureUses::*use);
 void requireLargeGroups(const Device& device, const char* tried);
 

@@ -94,10 +94,12 @@ struct OptionalPart {
     const char* name;                    // of features and formats as the specification spells it
     const char* serves;                  // what it is for
     const char* without;                 // what becomes of that where it is lacking
+    const char* instead;                 // what to do there, of parts whose lack is refused; else empty
     bool FeatureUses::*use;              // what turns it on; null: it is no feature, and used where it is there
     bool (*has)(const DeviceView& view); // reads what supportedFeatures() reads, and queue_family
 };
-/// Every one that the library uses. Static lifetime.
+/// Every one that the library uses, formats of maps apart: ShadowRenderer::prepare() refuses those that the device
+/// cannot draw to or filter. Static lifetime. OptionalPart::has() throws Error as supportedFeatures() does.
 [[nodiscard]] GNOMON_API std::span<const OptionalPart> optionalParts();
 
 /// The features that these uses and the library itself rely on, chained for VkDeviceCreateInfo::pNext: for a host that
