@@ -75,7 +75,7 @@ def collect(folder: Path, file: Path) -> int:
         "cases": cases_of(read(folder / "cases.json")),
         "bench": {bench.stem.removeprefix("bench-"): bench_of(read(bench)) for bench in benches},
         "blur": bench_of(read(folder / "blur.json")),
-        "lamps": bench_of(read(folder / "lamps.json")),
+        "lamps": {file.stem.removeprefix("lamps-"): bench_of(read(file)) for file in folder.glob("lamps-*.json")},
     }
     file.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     return 0
@@ -109,7 +109,7 @@ def times_of(title: str, benches: list[dict]) -> list[str]:
 
 
 def device_section(report: dict) -> list[str]:
-    benches = [*report["bench"].values(), report["lamps"], report["blur"]]
+    benches = [*report["bench"].values(), *report["lamps"].values(), report["blur"]]
     name = next((bench["device"] for bench in benches if bench.get("device")), "a device that drew nothing")
     driver = next((bench["driver"] for bench in benches if bench.get("driver")), "")
     lines = [f"## {name}", "", driver, ""]
@@ -135,7 +135,8 @@ def device_section(report: dict) -> list[str]:
     for size in sorted({view.split("-")[0] for view in report["bench"]}):
         views = [bench for view, bench in report["bench"].items() if view.startswith(size) and bench["techniques"]]
         lines += times_of(f"{len(views)} views, {size}", views)
-    lines += times_of("one sun and 32 lamps, 3840x2160", [report["lamps"]])
+    for size, bench in report["lamps"].items():
+        lines += times_of(f"one sun and 32 lamps, {size}", [bench])
     return [*lines, ""]
 
 

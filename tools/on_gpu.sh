@@ -10,12 +10,12 @@
 set -euo pipefail
 gpu= build=build seconds=480
 sizes=(1280x720 3840x2160) views=(rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs)
-masks='-*640x360*' cases='-*Null*:Soak.*:*Faults*'
+blurred=4096 more=() masks='-*640x360*' cases='-*Null*:Soak.*:*Faults*'
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --gpu) gpu=${2:?--gpu needs a name}; shift 2 ;;
         --build) build=${2:?--build needs a folder}; shift 2 ;;
-        --quick) sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.*; shift ;;
+        --quick) sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.* blurred=256 more=(--map-size 256); shift ;;
         --seconds) seconds=${2:?--seconds needs a number}; shift 2 ;;
         *) echo "on_gpu: there is no option $1" >&2; exit 2 ;;
     esac
@@ -55,11 +55,11 @@ bench() {
 }
 
 filters=$("$tools/gpu_report.py" filters "$work/device.json" "$gpu")
-bench blur 30 vsm+single,evsm+single,msm+single rts --camera camp --size "${sizes[0]}" --map-size 4096
-bench lamps 30 auto,pcf "$work/lamps.gltf" --size "${sizes[-1]}"
+bench blur 60 vsm+single,evsm+single,msm+single rts --camera camp --size "${sizes[0]}" --map-size $blurred
+bench "lamps-${sizes[-1]}" 60 auto,pcf "$work/lamps.gltf" --size "${sizes[-1]}" "${more[@]}"
 for size in "${sizes[@]}"; do
     for view in "${views[@]}"; do
-        bench "bench-$size-$view" 60 "$filters" "${view%:*}" --camera "${view#*:}" --size "$size"
+        bench "bench-$size-$view" 60 "$filters" "${view%:*}" --camera "${view#*:}" --size "$size" "${more[@]}"
     done
 done
 
