@@ -5,6 +5,7 @@
 usage: gpu_report.py collect FOLDER FILE.json    what a run left in FOLDER
        gpu_report.py taken DEVICE.json           the name of the device that `gnomon gpus` says is taken
        gpu_report.py filters DEVICE.json GPU     those that a device can have, with commas between
+       gpu_report.py software DEVICE.json GPU    status 0 where that draws by the processor
        gpu_report.py table FILE.json...          a page of these files, to standard output
 """
 
@@ -23,9 +24,15 @@ def read(file: Path) -> dict:
         return {}
 
 
-def filters_of(gpus: list[dict], name: str) -> list[str]:
-    """Those of one map that the first device of this name can have."""
-    gpu = next((gpu for gpu in gpus if (gpu["software"] if name == "software" else name.lower() in gpu["name"].lower())), {"parts": []})
+def named(device: Path, name: str) -> dict:
+    """The first device of this name, as --gpu finds it."""
+    gpus = read(device).get("gpus", [])
+    return next((gpu for gpu in gpus if (gpu["software"] if name == "software" else name.lower() in gpu["name"].lower())),
+                {"parts": [], "software": False})
+
+
+def filters_of(gpu: dict) -> list[str]:
+    """Those of one map that it can have."""
     lacks = {part["name"] for part in gpu["parts"] if not part["there"]}
     filterable = [] if "shaderStorageImageWriteWithoutFormat" in lacks else ["vsm", "lvsm", "esm", "evsm", "msm"]
     return ["hard", "pcf", "pcss", "raymarch", *filterable, "id", "depth-id", "smoothies"]
@@ -157,8 +164,10 @@ def main() -> int:
         print(next((gpu["name"] for gpu in read(Path(sys.argv[2])).get("gpus", []) if gpu["taken"]), ""))
         return 0
     if len(sys.argv) == 4 and sys.argv[1] == "filters":
-        print(",".join(filters_of(read(Path(sys.argv[2])).get("gpus", []), sys.argv[3])))
+        print(",".join(filters_of(named(Path(sys.argv[2]), sys.argv[3]))))
         return 0
+    if len(sys.argv) == 4 and sys.argv[1] == "software":
+        return 0 if named(Path(sys.argv[2]), sys.argv[3])["software"] else 1
     if len(sys.argv) > 2 and sys.argv[1] == "table":
         print(table(sys.argv[2:]))
         return 0

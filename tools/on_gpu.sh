@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
 # Tries Gnomon on the GPU of this machine and writes what came out to one JSON file, of which docs/gpus.md is made.
 # Takes 8 minutes at most; what is not reached in time is left out, and the file says so. Needs a build (`make test`, or
-# `cmake --build build`), a driver, and for pictures to compare with Mesa's lavapipe.
+# `cmake --build build`), a driver, and for pictures to compare with Mesa's lavapipe. A software rasteriser gets fewer cases
+# and smaller pictures.
 # usage: tools/on_gpu.sh [--gpu NAME] [--build FOLDER] [--seconds N] [--quick] FILE.json
 #   --gpu      part of the device's name, or "software"; else the first real GPU (`gnomon gpus` lists them)
 #   --build    where the programs are (build)
 #   --seconds  how long it may take (480)
 #   --quick    few cases and small pictures: says that the script works, and nothing of the GPU
 set -euo pipefail
-gpu= build=build seconds=480
+gpu= build=build seconds=480 quick=
 sizes=(1280x720 3840x2160) views=(rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs)
 blurred=4096 more=() masks='-*640x360*' cases='-*Null*:Soak.*:*Faults*'
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --gpu) gpu=${2:?--gpu needs a name}; shift 2 ;;
         --build) build=${2:?--build needs a folder}; shift 2 ;;
-        --quick) sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.* blurred=256 more=(--map-size 256); shift ;;
+        --quick) quick=yes; shift ;;
         --seconds) seconds=${2:?--seconds needs a number}; shift 2 ;;
         *) echo "on_gpu: there is no option $1" >&2; exit 2 ;;
     esac
@@ -40,6 +41,11 @@ run() {
 run device 60 "$build/gnomon" gpus --json "$work/device.json"
 [[ -n $gpu ]] || gpu=$("$tools/gpu_report.py" taken "$work/device.json")
 [[ -n $gpu ]] || { echo "on_gpu: no GPU can be used: $build/gnomon gpus says why" >&2; exit 1; }
+if [[ -n $quick ]]; then
+    sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.* blurred=256 more=(--map-size 256)
+elif "$tools/gpu_report.py" software "$work/device.json" "$gpu"; then
+    sizes=(160x90 320x180) cases=OnGpu.*:*Parity.*hard*:CascadePass*:SteppingSun.* blurred=512 more=(--map-size 512)
+fi
 export GNOMON_GPU=$gpu GNOMON_OTHER_GPU=$gpu
 "$tools/lamps_scene.py" "$work/lamps.gltf"
 
