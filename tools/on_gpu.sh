@@ -11,7 +11,7 @@
 set -euo pipefail
 gpu= build=build seconds=480 quick=
 sizes=(1280x720 3840x2160) views=(rts:camp rts:unit sundial:meadow ring:deck spotlit:stage canopies:roofs)
-blurred=4096 more=() masks='-*640x360*' cases='-*Null*:Soak.*:*Faults*'
+blurs=vsm+single,evsm+single,msm+single blurred=4096 more=() masks=*filter_*:*160x90*:*partition_*:*lamp_*:*fit_*:*motion_* cases='-*Null*:Soak.*:*Faults*'
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --gpu) gpu=${2:?--gpu needs a name}; shift 2 ;;
@@ -41,10 +41,11 @@ run() {
 run device 60 "$build/gnomon" gpus --json "$work/device.json"
 [[ -n $gpu ]] || gpu=$("$tools/gpu_report.py" taken "$work/device.json")
 [[ -n $gpu ]] || { echo "on_gpu: no GPU can be used: $build/gnomon gpus says why" >&2; exit 1; }
+if "$tools/gpu_report.py" software "$work/device.json" "$gpu"; then
+    sizes=(160x90 320x180) masks=*filter_*:*160x90* cases=OnGpu.*:*Parity.*hard*:CascadePass*:SteppingSun.* blurs=vsm+single blurred=512 more=(--map-size 512)
+fi
 if [[ -n $quick ]]; then
     sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.* blurred=256 more=(--map-size 256)
-elif "$tools/gpu_report.py" software "$work/device.json" "$gpu"; then
-    sizes=(160x90 320x180) cases=OnGpu.*:*Parity.*hard*:CascadePass*:SteppingSun.* blurred=512 more=(--map-size 512)
 fi
 export GNOMON_GPU=$gpu GNOMON_OTHER_GPU=$gpu
 "$tools/lamps_scene.py" "$work/lamps.gltf"
@@ -61,7 +62,7 @@ bench() {
 }
 
 filters=$("$tools/gpu_report.py" filters "$work/device.json" "$gpu")
-bench blur 60 vsm+single,evsm+single,msm+single rts --camera camp --size "${sizes[0]}" --map-size $blurred
+bench blur 60 "$blurs" rts --camera camp --size "${sizes[0]}" --map-size $blurred
 bench "lamps-${sizes[-1]}" 60 auto,pcf "$work/lamps.gltf" --size "${sizes[-1]}" "${more[@]}"
 for size in "${sizes[@]}"; do
     for view in "${views[@]}"; do
