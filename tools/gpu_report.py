@@ -154,7 +154,7 @@ def table(files: list[str]) -> str:
     lines = ["# Devices", "",
              "This page says how Gnomon does on devices that it was tried on. Each part is of one file of [docs/gpus](gpus), which "
              "`tools/on_gpu.sh FILE.json` wrote on a machine with that device; `tools/check_docs.py --write .` makes this page of them. "
-             "Ratios are medians over the views, with the least and the largest.", ""]
+             "Ratios are medians over the views, with the least and the largest. Times of a processor say little, for other work may share it.", ""]
     for file in files:
         lines += device_section(json.loads(Path(file).read_text(encoding="utf-8")))
     return "\n".join(lines)

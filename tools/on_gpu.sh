@@ -42,7 +42,7 @@ run device 60 "$build/gnomon" gpus --json "$work/device.json"
 [[ -n $gpu ]] || gpu=$("$tools/gpu_report.py" taken "$work/device.json")
 [[ -n $gpu ]] || { echo "on_gpu: no GPU can be used: $build/gnomon gpus says why" >&2; exit 1; }
 if "$tools/gpu_report.py" software "$work/device.json" "$gpu"; then
-    sizes=(160x90 320x180) masks=*filter_*:*160x90* cases=OnGpu.*:*Parity.*hard*:CascadePass*:SteppingSun.* blurs=vsm+single blurred=512 more=(--map-size 512)
+    sizes=(160x90 320x180) masks=*160x90_* cases=OnGpu.*:*Parity.*hard*:CascadePass*:SteppingSun.* blurs=vsm+single blurred=512 more=(--map-size 512)
 fi
 if [[ -n $quick ]]; then
     sizes=(64x36) views=(rts:camp spotlit:stage) masks=*filter_hard cases=OnGpu.* blurred=256 more=(--map-size 256)
