@@ -5,7 +5,8 @@
 usage: unity_groups.py (--target NAME SOURCE...)...     prints one line for each source: its target, its group's name, its path
 
 Two sources may not share a group when one declares a name in an unnamed namespace, as a static, or as a macro, that the
-other declares or uses too, or a header beside it that it includes. What both bring in from the same namespace, as in "using nlohmann::json;", is one name. The
+other declares or uses too, or a header beside it that it includes. A name that
+both bring in from the same namespace, as in "using nlohmann::json;", is one. The
 layout puts every declaration of a namespace at the start of a line, so the names are found without parsing C++. A group
 is of one folder: another may mean something else by a name. A source that opens a namespace for all that follows has a
 group for itself; so has one that defines a macro for a header, which other sources include without it, and one with a

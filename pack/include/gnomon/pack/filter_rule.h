@@ -32,8 +32,8 @@ namespace gnomon::pack {
 /// How exactly casters are drawn and receivers are known: the automatic bias allows for what is lost.
 struct DrawPrecision {
     /// Bits of a pixel by which the device that draws places vertices (VkPhysicalDeviceLimits::subPixelPrecisionBits,
-    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24; beyond, the nearer of these counts. What Vulkan and OpenGL promise,
-    /// unless given.
+    /// GL_SUBPIXEL_BITS; 8 in Direct3D), 4 to 24; beyond, the nearer of these counts. The default is as many as
+    /// Vulkan and OpenGL promise.
     std::uint32_t sub_pixel_bits = 4;
     /// Receivers' points come from a depth buffer that the same device has drawn; false: a shading pass interpolates
     /// them, or they come from rays.
@@ -46,11 +46,11 @@ struct DrawPrecision {
     float normal_error_rad = 2e-4F;
 };
 
-/// Of normals that are stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at most
+/// In radians, for normals stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at most
 /// `rounding`: 2^-16 of 16-bit integers, 2^-8 of 8-bit ones, 2^-11 of 16-bit floats, 0 of 32-bit ones. Integers are
 /// taken to be rounded to the nearest, as Direct3D asks of every device; Vulkan leaves open how floats are.
 [[nodiscard]] GNOMON_API float normalError(float rounding);
-/// Of normals that are found by differences of a depth buffer.
+/// In radians, for normals that are found by differences of a depth buffer.
 [[nodiscard]] GNOMON_API float normalErrorFromDepth(std::uint32_t sub_pixel_bits);
 
 /// All that a filter reads besides the view and the map. GpuRule::disc.zw, one over the size of the maps' image, is
