@@ -46,9 +46,9 @@ struct DrawPrecision {
     float normal_error_rad = 2e-4F;
 };
 
-/// In radians, for normals stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at most
-/// `rounding`: 2^-16 of 16-bit integers, 2^-8 of 8-bit ones, 2^-11 of 16-bit floats, 0 of 32-bit ones. Integers are
-/// taken to be rounded to the nearest, as Direct3D asks of every device; Vulkan leaves open how floats are.
+/// In radians, for normals stored octahedrally (gnomon/shared/octahedral.h) in two numbers of [-1, 1], each off by at
+/// most `rounding`: 2^-16 of 16-bit integers, 2^-8 of 8-bit ones, 2^-11 of 16-bit floats, 0 of 32-bit ones. Integers
+/// are taken to be rounded to the nearest, as Direct3D asks of every device; Vulkan leaves open how floats are.
 [[nodiscard]] GNOMON_API float normalError(float rounding);
 /// In radians, for normals that are found by differences of a depth buffer.
 [[nodiscard]] GNOMON_API float normalErrorFromDepth(std::uint32_t sub_pixel_bits);
