@@ -40,12 +40,13 @@ def filters_of(gpu: dict) -> list[str]:
     return ["hard", "pcf", "pcss", "raymarch", *filterable, "id", "depth-id", "smoothies"]
 
 
-def cases_of(results: dict) -> dict:
+def cases_of(files: list[Path]) -> dict:
     """How many cases there were, and which failed or were skipped; nothing where no results were written."""
-    if not results:
+    results = [read(file) for file in files]
+    if not any(results):
         return {}
     found: dict = {"passed": 0, "failed": [], "skipped": []}
-    for suite in results.get("testsuites", []):
+    for suite in [suite for result in results for suite in result.get("testsuites", [])]:
         for case in suite["testsuite"]:
             name = f"{suite['name']}.{case['name']}"
             if case.get("failures"):
@@ -75,16 +76,17 @@ def bench_of(result: dict) -> dict:
 def collect(folder: Path, file: Path) -> int:
     grid, benches = read(folder / "grid.json"), sorted(folder.glob("bench-*.json"))
     report = {
+        "note": (folder / "note.txt").read_text(encoding="utf-8"),
         "device": read(folder / "device.json"),
         "steps": {status.stem: OUTCOMES.get(code := status.read_text().strip(), f"ended with {code}")
                   for status in sorted(folder.glob("*.status"))},
-        "grid": properties_of(grid, "steps_of_sun", "steps_of_spot", "sub_pixel_bits"),
+        "grid": properties_of(grid, "steps_of_sun", "steps_of_spot", "sub_pixel_bits", "unorm_read_steps", "half_read_steps"),
         "copy_bytes_per_s": properties_of(grid, "copy_bytes_per_s").get("copy_bytes_per_s"),
-        "masks": cases_of(read(folder / "masks.json")),
-        "cases": cases_of(read(folder / "cases.json")),
+        "masks": cases_of(sorted(folder.glob("masks-*.json"))),
+        "cases": cases_of(sorted(folder.glob("cases-*.json"))),
         "bench": {bench.stem.removeprefix("bench-"): bench_of(read(bench)) for bench in benches},
         "blur": bench_of(read(folder / "blur.json")),
-        "lamps": {file.stem.removeprefix("lamps-"): bench_of(read(file)) for file in folder.glob("lamps-*.json")},
+        "lamps": {file.stem.removeprefix("lamps-"): bench_of(read(file)) for file in sorted(folder.glob("lamps-*.json"))},
     }
     file.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     return 0
@@ -122,7 +124,7 @@ def device_section(report: dict) -> list[str]:
     taken = next((gpu for gpu in report["device"].get("gpus", []) if gpu["taken"]), {"name": "no device", "driver": ""})
     name = next((bench["device"] for bench in benches if bench.get("device")), taken["name"])
     driver = next((bench["driver"] for bench in benches if bench.get("driver")), taken["driver"])
-    lines = [f"## {name}", "", driver, ""]
+    lines = [f"## {name}", "", driver, "", *([report["note"], ""] if report.get("note") else [])]
     for what, key in (("drawing cases under validation", "cases"), ("masks beside lavapipe's", "masks")):
         found = report[key]
         if not found:
@@ -134,19 +136,22 @@ def device_section(report: dict) -> list[str]:
     if grid:
         lines.append(f"- depths are off by {number(grid.get('steps_of_sun'))} (sun) and {number(grid.get('steps_of_spot'))} (spot) "
                      "steps of the grid at most; the bias allows for 2")
+        if "unorm_read_steps" in grid:
+            lines.append(f"- a filtered read of 16 bits is off by {number(grid['unorm_read_steps'])} (UNORM) and "
+                         f"{number(grid['half_read_steps'])} (SFLOAT) steps of its format at most")
     copy = report["copy_bytes_per_s"]
     for technique, one in report["blur"]["techniques"].items():
         if copy and one["filter_ms"] and one["filter_bytes"]:
             share = one["filter_bytes"] / (one["filter_ms"] * 1e-3) / copy
-            lines.append(f"- the blur of {technique} moves its bytes at {number(share)} of a copy's rate")
+            lines.append(f"- the blur of {technique} moves its bytes at {number(share)} of the rate of vkCmdCopyBuffer")
     left_out = [f"{step} ({outcome})" for step, outcome in report["steps"].items() if outcome != "done"]
     if left_out:
         lines.append("- left out: " + ", ".join(left_out))
     for size in sorted({view.split("-")[0] for view in report["bench"]}):
         views = [bench for view, bench in report["bench"].items() if view.startswith(size) and bench["techniques"]]
         lines += times_of(f"{len(views)} views, {size}", views)
-    for size, bench in report["lamps"].items():
-        lines += times_of(f"one sun and 32 lamps, {size}", [bench])
+    for size in sorted({name.split("-")[0] for name in report["lamps"]}):
+        lines += times_of(f"one sun and 32 lamps, {size}", [bench for name, bench in report["lamps"].items() if name.startswith(size)])
     return [*lines, ""]
 
 

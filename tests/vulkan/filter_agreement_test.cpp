@@ -3,6 +3,7 @@
 #include "moment_bench.h"
 #include "moment_numbers.h"
 #include "parity.h"
+#include "read_error.h"
 
 #include <gtest/gtest.h>
 
@@ -167,9 +168,25 @@ std::ostream& operator<<(std::ostream& out, const PathCase& c)
 
 class BlurPaths : public testing::TestWithParam<PathCase> {};
 
-// Merged taps round otherwise than single ones, and the mask by half a step more.
+/// Of the finest level of a map in steps of 16 bits.
+double mostStepsApart(const CpuMap& a, const CpuMap& b)
+{
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.levels[0].size(); ++i) {
+        const glm::dvec4 off = glm::abs(glm::dvec4(a.levels[0][i]) - glm::dvec4(b.levels[0][i])) * 65535.0;
+        most = std::max({most, off.x, off.y, off.z, off.w});
+    }
+    return most;
+}
+
+// Merged taps round otherwise than single ones, and the mask by half a step more. GPUs have 8 bits of a sampler's
+// weight or so, which makes another kernel of merged taps: maps of 16 bits may be off by that share of what neighbours
+// are apart, which a mask of moments can show. Then MomentParity holds it to its own map, and here the maps count.
 TEST_P(BlurPaths, giveTheSameMask)
 {
+    const bool is_short = GetParam().format == MapFormat::rg16 || GetParam().format == MapFormat::rgba16;
+    const bool exact = !is_short || readErrorOf(VK_FORMAT_R16G16B16A16_UNORM).absolute == 0.0;
+    const double of_weights = 3.0 + 65535.0 / std::exp2(gpu().limits().subTexelPrecisionBits + 1.0);
     ShadowOptions filter{.technique = kPlainTechnique};
     filter.technique.filter = GetParam().filter;
     filter.format = GetParam().format;
@@ -195,7 +212,11 @@ TEST_P(BlurPaths, giveTheSameMask)
         }
         std::printf("%-22s light %zu: %4zu of %zu pixels differ by more than a step, at most by %d\n", GetParam().name,
                     light, different, a.masks[light].size(), worst);
-        EXPECT_LE(different, a.masks[light].size() / 1000) << "light " << light << ", at most by " << worst;
+        if (exact) {
+            EXPECT_LE(different, a.masks[light].size() / 1000) << "light " << light << ", at most by " << worst;
+        } else {
+            EXPECT_LE(mostStepsApart(a.maps[light], b.maps[light]), of_weights) << "light " << light;
+        }
         EXPECT_GT(blurred, a.masks[light].size() / 100) << "the blur must be seen";
     }
     expectSilence(gpu());

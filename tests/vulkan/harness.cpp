@@ -303,7 +303,7 @@ TestImage Gpu::makeImage(VkFormat format, VkExtent2D extent, std::span<const std
     create.mipLevels = 1;
     create.arrayLayers = 1;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
-    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     require(vkCreateImage(device_, &create, nullptr, &result.image), "vkCreateImage");
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device_, result.image, &needs);
@@ -411,6 +411,24 @@ void Gpu::write(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t 
         recordTransition(commands, ref.image, kColour, layer, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, ref.layout, level);
     });
     dropLastBuffer();
+}
+
+void Gpu::blit(const TestImage& from, VkExtent2D of, const TestImage& to, VkExtent2D size)
+{
+    VkImageBlit blit{};
+    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.srcOffsets[1] = {static_cast<std::int32_t>(of.width), static_cast<std::int32_t>(of.height), 1};
+    blit.dstOffsets[1] = {static_cast<std::int32_t>(size.width), static_cast<std::int32_t>(size.height), 1};
+    run([&](VkCommandBuffer commands) {
+        constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        constexpr VkImageLayout kFrom = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+        constexpr VkImageLayout kTo = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        recordTransition(commands, from.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, kRead, kFrom);
+        recordTransition(commands, to.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, kRead, kTo);
+        vkCmdBlitImage(commands, from.image, kFrom, to.image, kTo, 1, &blit, VK_FILTER_LINEAR);
+        recordTransition(commands, from.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, kFrom, kRead);
+        recordTransition(commands, to.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, kTo, kRead);
+    });
 }
 
 void Gpu::dropLastBuffer()

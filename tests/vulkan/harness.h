@@ -74,6 +74,8 @@ public:
     /// The reverse: colour texels of one layer and mip level, which must be as many as it has.
     void write(const vulkan::ImageRef& ref, std::uint32_t layer, std::uint32_t level,
                std::span<const std::byte> texels);
+    /// All of an image over all of another, through a linear filter; both are of makeImage().
+    void blit(const TestImage& from, VkExtent2D of, const TestImage& to, VkExtent2D size);
     /// Validation messages since the last call.
     [[nodiscard]] std::vector<std::string> takeMessages();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parity.h"
 
+#include "read_error.h"
+
 #include "fixture.h"
 #include "moment_numbers.h"
 #include "write_pgm.h"
@@ -262,9 +264,36 @@ namespace {
 // by half a step, 2^-24 of the value. Differences of moments lose digits, so that this can be visible.
 constexpr double kRoundings = 8.0 / 16777216.0;
 
-bool isSingle(MapFormat format)
+/// What a read of a filterable map may be off by; nothing where the device reads its 16 bits exactly.
+ReadError errorOf(MapFormat format)
 {
-    return format == MapFormat::r32f || format == MapFormat::rg32f || format == MapFormat::rgba32f;
+    switch (format) {
+    case MapFormat::r32f:
+    case MapFormat::rg32f:
+    case MapFormat::rgba32f:
+        return {0.0, kRoundings};
+    case MapFormat::r16f:
+    case MapFormat::rg16f:
+    case MapFormat::rgba16f:
+        return readErrorOf(VK_FORMAT_R16G16B16A16_SFLOAT);
+    default:
+        return readErrorOf(VK_FORMAT_R16G16B16A16_UNORM);
+    }
+}
+
+int channelsOf(MapFormat format)
+{
+    switch (format) {
+    case MapFormat::r32f:
+    case MapFormat::r16f:
+        return 1;
+    case MapFormat::rg32f:
+    case MapFormat::rg16f:
+    case MapFormat::rg16:
+        return 2;
+    default:
+        return 4;
+    }
 }
 
 /// The least and the most that the reference can become when each channel is off by that, up or down.
@@ -276,17 +305,21 @@ Bounds boundsOf(const Rendered& r, std::uint32_t light, const ShadowOptions& opt
                 const std::vector<double>& reference)
 {
     Bounds bounds{reference, reference};
-    if (!isFilterable(options.technique.filter) || !isSingle(formatOf(options))) {
+    if (!isFilterable(options.technique.filter)) {
         return bounds;
     }
-    const MapFormat format = formatOf(options);
-    const int channels = format == MapFormat::r32f ? 1 : format == MapFormat::rg32f ? 2 : 4;
+    const ReadError error = errorOf(formatOf(options));
+    if (error.absolute == 0.0 && error.relative == 0.0) {
+        return bounds;
+    }
+    const int channels = channelsOf(formatOf(options));
     for (int signs = 0; signs < 1 << channels; ++signs) {
-        glm::dvec4 nudge(0.0);
+        glm::dvec4 side(0.0);
         for (int c = 0; c < channels; ++c) {
-            nudge[c] = (signs >> c & 1) != 0 ? kRoundings : -kRoundings;
+            side[c] = (signs >> c & 1) != 0 ? 1.0 : -1.0;
         }
-        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, nudge, &r.scene};
+        const ReferenceScene scene{
+            r.picture, r.camera, r.lights, r.plan, r.maps, side * error.absolute, side * error.relative, &r.scene};
         const auto mask = referenceMask(scene, light, options, r.layers[r.plan.lights[light].first_view]);
         for (std::size_t i = 0; i < mask.size(); ++i) {
             bounds.low[i] = std::min(bounds.low[i], mask[i]);
@@ -302,7 +335,7 @@ ParityFigures expectParity(const Rendered& r, const ShadowOptions& options, cons
 {
     ParityFigures worst;
     for (std::uint32_t light = 0; light < r.lights.size(); ++light) {
-        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, {}, &r.scene};
+        const ReferenceScene scene{r.picture, r.camera, r.lights, r.plan, r.maps, {}, {}, &r.scene};
         const auto reference = referenceMask(scene, light, options, r.layers[r.plan.lights[light].first_view]);
         const Bounds bounds = boundsOf(r, light, options, reference);
         ParityFigures figures;

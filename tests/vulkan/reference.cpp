@@ -312,6 +312,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     current_maps = scene.maps;
     current_layers = layers;
     current_nudge = scene.nudge;
+    current_relative_nudge = scene.relative_nudge;
     current_poisson = options.pcf.kernel == PcfKernel::poisson;
     current_taps = int(options.pcf.taps);
     current_holding = holdingOf(options);
@@ -381,6 +382,7 @@ std::vector<double> maskOfView(const ReferenceScene& scene, const Light& light, 
     current_maps = {};
     current_layers = {};
     current_nudge = {};
+    current_relative_nudge = {};
     return mask;
 }
 

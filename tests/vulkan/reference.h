@@ -14,8 +14,10 @@ struct ReferenceScene {
     std::span<const Light> lights;
     const Plan& plan;
     std::span<const CpuMap> maps; // by layer of the image
-    /// By this much of itself, each channel of what is read of a filterable map is off: what rounding may amount to.
+    /// By this much, and by this much of itself, each channel of what is read of a filterable map is off: what rounding
+    /// may amount to.
     glm::dvec4 nudge{0.0};
+    glm::dvec4 relative_nudge{0.0};
     const Scene* scene = nullptr; // of filter smoothies: what has the edges
 };
 

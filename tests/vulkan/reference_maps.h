@@ -23,6 +23,7 @@ namespace {
 std::span<const CpuMap> current_maps;
 std::span<const pack::DepthLayer> current_layers;
 glm::dvec4 current_nudge(0.0);
+glm::dvec4 current_relative_nudge(0.0);
 bool current_poisson = false;
 int current_taps = 0;
 
@@ -100,7 +101,8 @@ inline int mapSmoothie(real2 texel, real)
 }
 inline real4 mapMoments(real2 texel, real level, real layer)
 {
-    return test::sampleAt(test::mapOf(layer), texel, level) * (1.0 + test::current_nudge);
+    return test::sampleAt(test::mapOf(layer), texel, level) * (1.0 + test::current_relative_nudge) +
+           test::current_nudge;
 }
 inline real4 mapDepthLayer(int, int i)
 {
