@@ -2,6 +2,8 @@
 // Whole files in and out, for everything that reads what it did not write, and writes what others may read meanwhile.
 #pragma once
 
+#include <gnomon/error.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +12,13 @@
 #include <string_view>
 
 namespace gnomon {
+
+/// Whoever read the pipe that is written to has closed it, as `head` does once it has its lines. Not a failure that
+/// anybody has to hear of: a program ends without a word.
+class ClosedPipe : public Error {
+public:
+    using Error::Error;
+};
 
 /// A plain file, open for reading. Pipes, sockets, devices and folders are none: they may have no end, or nothing yet.
 class PlainFile {
@@ -42,8 +51,8 @@ void requireWritable(const std::filesystem::path& file);
 
 /// Writes to a temporary name in the same folder, flushes, then renames: either the whole file is there or none of it,
 /// whoever else writes it at the same time. What a killed process left of an earlier try is removed. Devices and pipes
-/// are written to in place, and a pipe's reader is waited for. Throws Error, and what callWhileWaiting()'s function
-/// throws.
+/// are written to in place, and a pipe's reader is waited for. Throws Error, ClosedPipe where that reader goes, and
+/// what callWhileWaiting()'s function throws.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
 /// For the whole process: called some times a second, in the thread that waits, while writeFile() waits for a pipe's

@@ -79,8 +79,9 @@ struct State {
 /// warm; static objects are not touched.
 void advance(const Scene& scene, double time_s, State& state, const std::string& animation = {});
 
-/// Fills what can be derived: primitive bounds, flat normals where missing, tangents where a normal map needs them,
-/// Node::dynamic. Readers and world makers call it last. Throws Error when a parent does not precede its child.
+/// Fills what can be derived: primitive bounds, normals that are missing or of length 0, tangents where a normal map
+/// needs them, Node::dynamic. Readers and world makers call it last. Throws Error when a parent does not precede its
+/// child.
 void finishScene(Scene& scene);
 
 } // namespace gnomon::scene

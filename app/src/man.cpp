@@ -171,6 +171,7 @@ std::string aroundText()
         entry("2", "Wrong usage, with one line on standard error. Options that are known and change nothing are told "
                    "there too, but refused with --strict alone.");
     text += entry("129, 130, 143", "Ended by SIGHUP, SIGINT or SIGTERM. What was complete by then stays.");
+    text += entry("141", "The reader of standard output, or of a pipe that is written to, has closed it.");
     text += heading("ENVIRONMENT");
     text += entry("XDG_CACHE_HOME", "Where the folder gnomon/truth is that keeps ray-traced truths, 4 GiB at most; "
                                     "without it ~/.cache. --no-cache leaves it alone.");

@@ -83,10 +83,13 @@ int runProgram(std::span<const std::string> arguments)
     callWhileWaiting(requireNotInterrupted);
     constexpr int kFailure = 1;
     constexpr int kWrongUsage = 2;
+    constexpr int kClosedPipe = 128 + SIGPIPE; // that of a program which the signal ends, as shells have it
     try {
         return dispatch(arguments);
     } catch (const Interrupted& interrupted) {
         return complain(interrupted.what(), interruptStatus());
+    } catch (const ClosedPipe&) {
+        return kClosedPipe;
     } catch (const UsageError& error) {
         return complain(error.what(), kWrongUsage);
     } catch (const std::bad_alloc&) {

@@ -3,7 +3,7 @@
 
 #include "interrupt.h"
 
-#include <gnomon/error.h>
+#include "files/files.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 #include <climits>
 #include <fcntl.h>
 #include <poll.h>
+#include <string>
 #include <system_error>
 #include <unistd.h>
 
@@ -80,7 +81,12 @@ void writeStdout(std::string_view text)
         if (error == EINTR) {
             throw Interrupted();
         }
-        throw Error("writing to standard output", std::generic_category().message(error));
+        const std::string tried = "writing to standard output";
+        const std::string found = std::generic_category().message(error);
+        if (error == EPIPE) {
+            throw ClosedPipe(tried, found);
+        }
+        throw Error(tried, found);
     }
 }
 

@@ -11,8 +11,8 @@ namespace gnomon::app {
 /// opened.
 void holdStandardStreams() noexcept;
 
-/// Throws Error when standard output is closed, full or a pipe without a reader; Interrupted when the run is to end
-/// while a reader takes nothing.
+/// Throws Error when standard output is closed or full, ClosedPipe (files/files.h) when it is a pipe without a reader,
+/// Interrupted when the run is to end while a reader takes nothing.
 void writeStdout(std::string_view text);
 
 /// As it is; what cannot be written is lost without a word, for there is nobody to tell. Takes no memory.

@@ -102,8 +102,9 @@ int openInPlace(const fs::path& file)
         const int descriptor = ::open(file.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
         const int error = descriptor < 0 ? errno : 0;
         std::error_code ignored;
-        if (error != ENXIO || !fs::is_fifo(file, ignored)) {
-            errno = error;
+        const bool unread = error == ENXIO && fs::is_fifo(file, ignored);
+        if (!unread || fs::canonical(file, ignored).empty()) { // a pipe without a name gets no other reader
+            errno = unread ? EPIPE : error;
             return descriptor;
         }
         lookUp();
@@ -140,6 +141,11 @@ void callWhileWaiting(void (*look)())
 
 void failWriting(const fs::path& file, int error)
 {
+    const std::string tried = "writing " + file.string();
+    const std::string found = std::generic_category().message(error);
+    if (error == EPIPE) {
+        throw ClosedPipe(tried, found);
+    }
     const char* todo = "";
     if (error == ENOSPC || error == EDQUOT) {
         todo = "make room there or write elsewhere";
@@ -150,7 +156,7 @@ void failWriting(const fs::path& file, int error)
     } else if (error == ENAMETOOLONG) {
         todo = "give it a shorter name";
     }
-    throw Error("writing " + file.string(), std::generic_category().message(error), todo);
+    throw Error(tried, found, todo);
 }
 
 void requireWritable(const fs::path& file)

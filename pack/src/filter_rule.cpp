@@ -77,7 +77,7 @@ int flagsOf(const ResolvedOptions& options)
     set(o.log_space && (options.filter() == Filter::esm || options.filter() == Filter::evsm), shared::kMomentLogSpace);
     set(options.format() == MapFormat::rgba16f || options.format() == MapFormat::rgba32f, shared::kMomentFourChannels);
     set(o.solver == MomentSolver::hausdorff, shared::kMomentHausdorff);
-    set(options.format() == MapFormat::rgba16, shared::kMomentQuantised);
+    set(options.filter() == Filter::msm && options.format() == MapFormat::rgba16, shared::kMomentQuantised);
     set(o.derivative_variance, shared::kMomentDerivatives);
     set(followsLight(options.filter(), o), shared::kMomentPenumbra);
     return flags;

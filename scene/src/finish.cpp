@@ -61,6 +61,41 @@ void addFlatNormals(Primitive& primitive)
     }
 }
 
+/// Along the normal of the triangle of vertices v[0] to v[2], twice as long as its area.
+glm::dvec3 acrossTriangle(const Primitive& primitive, const std::uint32_t* v)
+{
+    const glm::dvec3 first(primitive.positions[v[0]]);
+    return glm::cross(glm::dvec3(primitive.positions[v[1]]) - first, glm::dvec3(primitive.positions[v[2]]) - first);
+}
+
+/// Normals of length 0 become those of the triangles around the vertex, by their areas.
+void mendNormals(Primitive& primitive)
+{
+    std::vector<std::uint8_t> missing(primitive.normals.size(), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < primitive.normals.size(); ++i) {
+        missing[i] = primitive.normals[i] == glm::vec3(0.0F) ? 1 : 0;
+        any = any || missing[i] != 0;
+    }
+    if (!any) {
+        return;
+    }
+    std::vector<glm::dvec3> sums(primitive.normals.size(), glm::dvec3(0.0));
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const std::uint32_t* v = &primitive.indices[i];
+        const glm::dvec3 across = acrossTriangle(primitive, v);
+        for (int k = 0; k < 3; ++k) {
+            sums[v[k]] += across;
+        }
+    }
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+        const double length = glm::length(sums[i]);
+        if (missing[i] != 0) { // around a vertex without a surface it does not matter
+            primitive.normals[i] = length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0.0F, 1.0F, 0.0F);
+        }
+    }
+}
+
 glm::vec3 anyPerpendicular(const glm::vec3& n)
 {
     const glm::vec3 axis = std::abs(n.x) < 0.8F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
@@ -107,9 +142,7 @@ void markCreases(Primitive& primitive)
     primitive.creased.assign(primitive.positions.size(), 0);
     for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
         const std::uint32_t* v = &primitive.indices[i];
-        const glm::dvec3 first(primitive.positions[v[0]]);
-        const glm::dvec3 across =
-            glm::cross(glm::dvec3(primitive.positions[v[1]]) - first, glm::dvec3(primitive.positions[v[2]]) - first);
+        const glm::dvec3 across = acrossTriangle(primitive, v);
         const double length = glm::length(across);
         for (int k = 0; k < 3; ++k) {
             // Mirrored objects and backs have their normals turned.
@@ -127,6 +160,7 @@ void finishPrimitive(const Scene& scene, Primitive& primitive)
         addFlatNormals(primitive);
         primitive.tangents.clear(); // they belonged to normals that nobody gave
     }
+    mendNormals(primitive);
     if (primitive.tangents.empty() && primitive.material < scene.materials.size()) {
         const TextureUse& use = scene.materials[primitive.material].normal_texture;
         const std::vector<glm::vec2>& uv = use.uv_set == 1 ? primitive.uv1 : primitive.uv0;

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <csignal>
+
 namespace gnomon {
 namespace {
 
@@ -40,6 +42,8 @@ const std::vector<Subject> kSubjects{
 constexpr std::pair<const char*, test::Stream> kUnwritable[] = {
     {"closed", test::Stream::closed}, {"full", test::Stream::full}, {"broken", test::Stream::broken}};
 
+constexpr int kClosedPipe = 128 + SIGPIPE;
+
 class Streams : public testing::TestWithParam<std::tuple<Subject, std::pair<const char*, test::Stream>>> {
 protected:
     Streams() { writePng(folder / "m.png", Image8(8, 8, 1)); }
@@ -48,12 +52,17 @@ protected:
     test::Folder folder;
 };
 
-TEST_P(Streams, OutputThatCannotBeWrittenIsAFailureOfOneLine)
+TEST_P(Streams, OutputThatCannotBeWrittenIsAFailureOfOneLineAndAClosedPipeOfNone)
 {
     const auto& [subject, stream] = GetParam();
     test::How out = how();
     out.out = stream.second;
     const test::Ran ran = test::gnomon(subject.works, out);
+    if (stream.second == test::Stream::broken) { // the reader has what it wanted, and nobody wants to hear of it
+        EXPECT_EQ(ran.status, kClosedPipe);
+        EXPECT_TRUE(ran.errorLines().empty()) << ran.err;
+        return;
+    }
     EXPECT_EQ(ran.status, 1);
     const auto lines = ran.errorLines();
     ASSERT_EQ(lines.size(), 1U) << ran.err;
@@ -73,7 +82,7 @@ TEST_P(Streams, ErrorsThatCannotBeToldChangeNothing)
         EXPECT_EQ(test::gnomon({subject.wrong[0], "nofile"}, err).status, 1);
     }
     err.out = stream.second;
-    EXPECT_EQ(test::gnomon(subject.works, err).status, 1);
+    EXPECT_EQ(test::gnomon(subject.works, err).status, stream.second == test::Stream::broken ? kClosedPipe : 1);
     EXPECT_EQ(test::gnomon(subject.wrong, err).status, 2);
 }
 
@@ -81,6 +90,25 @@ INSTANTIATE_TEST_SUITE_P(All, Streams, testing::Combine(testing::ValuesIn(kSubje
                          [](const auto& test) {
                              return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).first;
                          });
+
+/// Results go to pipes by other ways than standard output's: as a file's name, in text and as a picture.
+TEST(ClosedPipes, EndFilesWithoutAWord)
+{
+    const test::Folder folder;
+    std::filesystem::create_symlink("/dev/stdout", folder / "pipe.png"); // its ending says what is written
+    const test::How how{.folder = folder.path(), .out = test::Stream::broken};
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"plan", "planes", "--json=/dev/stdout"},
+          std::vector<std::string>{"bench", "planes", "--size", "8x8", "--map-size", "16", "--repetitions", "1",
+                                   "--warmup", "0", "--filter", "hard", "--json", "-"},
+          std::vector<std::string>{"render", "planes", "--size", "8x8", "--map-size", "16", "-o", "pipe.png"}}) {
+        SCOPED_TRACE(arguments[0]);
+        const test::Ran ran = test::gnomon(arguments, how);
+        EXPECT_EQ(ran.status, kClosedPipe);
+        EXPECT_TRUE(ran.errorLines().empty()) << ran.err;
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe.png"});
+    }
+}
 
 /// A file must not become descriptor 1 or 2, where others then write into it.
 TEST(ClosedStreams, AreNotTakenByFiles)

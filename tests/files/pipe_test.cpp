@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <csignal>
 #include <fcntl.h>
 #include <string>
 #include <sys/stat.h>
@@ -109,6 +110,25 @@ TEST_F(Pipe, WithoutANameIsReachedThroughALink)
     ::close(ends[1]);
     EXPECT_EQ(readToEnd(ends[0]), "whole");
     ::close(ends[0]);
+}
+
+/// Whether the reader goes before the writing begins or during it; nobody else can come to read a pipe without a name.
+TEST_F(Pipe, WhoseReaderHasGoneIsClosed)
+{
+    auto* const before = std::signal(SIGPIPE, SIG_IGN);
+    int ends[2] = {-1, -1};
+    ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+    const std::string name = "/proc/self/fd/" + std::to_string(ends[1]);
+    std::thread reader([&] {
+        char first = 0;
+        EXPECT_EQ(::read(ends[0], &first, 1), 1);
+        ::close(ends[0]);
+    });
+    EXPECT_THROW(writeFile(name, std::string(kMoreThanAPipeHolds, 'x')), ClosedPipe);
+    reader.join();
+    EXPECT_THROW(writeFile(name, "x"), ClosedPipe);
+    ::close(ends[1]);
+    std::signal(SIGPIPE, before);
 }
 
 } // namespace

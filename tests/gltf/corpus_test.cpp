@@ -25,6 +25,17 @@ constexpr Exemption kExempt[] = {
     {"TYPE_MISMATCH", "/extensions/KHR_materials_variants/", "an extension that has no effect here"},
     {"MESH_PRIMITIVE_NO_TANGENT_SPACE", "/material",
      "only anisotropy and clear coat need tangents without a normal map, and neither has an effect here"},
+    {"SCENE_NON_ROOT_NODE", "/scenes/", "where a node is follows from the tree, whatever a scene names"},
+    {"NODE_SKIN_NO_SCENE", "/nodes/", "joints come along with what they move"},
+    {"ACCESSOR_MIN_MISMATCH", "/accessors/", "the data count"},
+    {"ACCESSOR_MAX_MISMATCH", "/accessors/", "the data count"},
+    {"ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "/accessors/", "the data count"},
+    {"ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "/accessors/", "the data count"},
+    {"ACCESSOR_NON_CLAMPED", "", "colours are clamped as the specification asks for"},
+    {"BUFFER_VIEW_TARGET_OVERRIDE", "", "what a view is used for says what its data are"},
+    {"ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE", "", "the stride is obeyed"},
+    {"SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", "", "the stride is obeyed"},
+    {"IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", "", "an image has no use for a stride"},
 };
 
 struct Problem {

@@ -273,6 +273,83 @@ TEST(GltfStructure, ExtensionsRequiredAndUsed)
     EXPECT_TRUE(contains(scene.notices[0], "KHR_materials_sheen"));
 }
 
+/// They change no geometry. The first of these an exporter of many clothes needs, and so requires.
+TEST(GltfStructure, ExtensionsThatLeaveGeometryMayBeRequired)
+{
+    for (const char* name : {"KHR_materials_variants", "KHR_materials_transmission", "KHR_materials_clearcoat",
+                             "ADOBE_materials_thin_transparency", "KHR_xmp_json_ld", "KHR_node_hoverability"}) {
+        const json root = {{"asset", {{"version", "2.0"}}}, {"extensionsUsed", {name}}, {"extensionsRequired", {name}}};
+        const Scene scene = readText(root.dump());
+        ASSERT_EQ(scene.notices.size(), 1U) << name;
+        EXPECT_TRUE(contains(scene.notices[0], name));
+    }
+    EXPECT_TRUE(contains(errorOfText(R"({"asset":{"version":"2.0"},"extensionsUsed":["materials_x"],
+        "extensionsRequired":["materials_x"]})"),
+                         "not supported"));
+}
+
+TEST(GltfStructure, SpecularGlossinessHasColourAndCoverage)
+{
+    const Scene scene = readText(R"({"asset":{"version":"2.0"},
+        "extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],
+        "extensionsRequired":["KHR_materials_pbrSpecularGlossiness"],
+        "materials":[{"alphaMode":"BLEND","extensions":{"KHR_materials_pbrSpecularGlossiness":
+            {"diffuseFactor":[0.1,0.2,0.3,0.4],"glossinessFactor":0.25}}}]})");
+    EXPECT_TRUE(scene.notices.empty());
+    EXPECT_EQ(scene.materials.at(0).base_colour, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+    EXPECT_EQ(scene.materials[0].roughness, 0.75F);
+    EXPECT_EQ(scene.materials[0].metallic, 0.0F);
+}
+
+/// With what is below it, whatever that says of itself. What moves others and what the camera looks from stays.
+TEST(GltfStructure, HiddenNodesShowAndLightNothing)
+{
+    FileBuilder file;
+    file.root["extensionsUsed"] = {"KHR_node_visibility", "KHR_lights_punctual"};
+    file.root["extensionsRequired"] = {"KHR_node_visibility"};
+    file.root["extensions"] = {{"KHR_lights_punctual", {{"lights", json::array({{{"type", "point"}}})}}}};
+    file.root["cameras"] = json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}});
+    file.addMesh({{"attributes", {{"POSITION", file.addTriangle()}}}});
+    const auto visible = [](bool yes) {
+        return json{{"KHR_node_visibility", {{"visible", yes}}}};
+    };
+    file.root["nodes"] = json::array({{{"mesh", 0}, {"extensions", visible(true)}},
+                                      {{"mesh", 0}, {"children", {2, 3, 4}}, {"extensions", visible(false)}},
+                                      {{"mesh", 0}, {"extensions", visible(true)}},
+                                      {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+                                      {{"camera", 0}}});
+    const Scene scene = file.read();
+    const State state = evaluate(scene, 0.0);
+    EXPECT_TRUE(scene.notices.empty()) << testing::PrintToString(scene.notices);
+    ASSERT_EQ(state.objects.size(), 1U);
+    EXPECT_EQ(state.objects[0].node, 0U);
+    EXPECT_TRUE(state.lights.empty());
+    EXPECT_EQ(state.cameras.size(), 1U);
+}
+
+/// A node's place follows from all nodes above it; these themselves are not shown.
+TEST(GltfStructure, ASceneMayNameAChild)
+{
+    FileBuilder file;
+    file.addMesh({{"attributes", {{"POSITION", file.addTriangle()}}}});
+    file.root["nodes"] =
+        json::array({{{"mesh", 0}, {"name", "parent"}, {"translation", {1, 0, 0}}, {"children", {1, 2}}},
+                     {{"mesh", 0}, {"name", "child"}, {"translation", {0, 2, 0}}, {"children", {3}}},
+                     {{"mesh", 0}, {"name", "sister"}},
+                     {{"mesh", 0}, {"name", "grandchild"}, {"translation", {0, 0, 3}}}});
+    for (const json& named : {json{1}, json{1, 3}, json{3, 1}}) {
+        file.root["scenes"] = json::array({{{"nodes", named}}});
+        const Scene scene = file.read();
+        const State state = evaluate(scene, 0.0);
+        ASSERT_EQ(state.objects.size(), 2U) << named;
+        EXPECT_EQ(glm::vec3(state.objects[0].world_from_object[3]), glm::vec3(1, 2, 0));
+        EXPECT_EQ(glm::vec3(state.objects[1].world_from_object[3]), glm::vec3(1, 2, 3));
+        EXPECT_EQ(scene.notices.size(), 1U);
+    }
+    file.root["scenes"] = json::array({{{"nodes", {0, 1, 2, 3}}}}); // as kits list them
+    EXPECT_EQ(evaluate(file.read(), 0.0).objects.size(), 4U);
+}
+
 TEST(GltfStructure, AssetVersion)
 {
     EXPECT_TRUE(contains(errorOfText("{}"), "'asset' must be defined"));

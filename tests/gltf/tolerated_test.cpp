@@ -3,6 +3,7 @@
 // does change it is refused, here and in the other tests.
 #include "support.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace gnomon::scene::test {
@@ -13,6 +14,7 @@ struct Fault {
     std::function<void(FileBuilder&)> plant;
     const char* refusal = nullptr;                // part of the message; null: tolerated
     std::function<void(const Primitive&)> expect; // what is read all the same, where the fault could change it
+    const char* notice = nullptr;                 // part of a notice that is given
 };
 
 /// A triangle with two joints, a material with a texture, and an animation, in which nothing is wrong.
@@ -164,11 +166,129 @@ const Fault kFaults[] = {
      "two channels animate the same property"},
     {"OffsetThatIsNoMultipleOfTheComponent", [](FileBuilder& f) { f.root["accessors"][3]["byteOffset"] = 2; },
      "must be a multiple of the component's 4 bytes"},
-    {"BoundsThatAreWrong",
+};
+
+const std::vector<glm::vec3> kTriangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+void expectTriangle(const Primitive& read)
+{
+    EXPECT_EQ(read.positions, kTriangle);
+}
+
+void expectUpNormals(const Primitive& read)
+{
+    EXPECT_EQ(read.normals, std::vector<glm::vec3>(3, {0, 0, 1}));
+    EXPECT_TRUE(read.tangents.empty());
+}
+
+/// Adds indices 0 1 2 behind other data of a view that all share, whose stride is `stride` where it is not 0.
+void shareView(FileBuilder& f, bool indices_first, std::uint32_t stride)
+{
+    std::vector<std::uint16_t> both(24, 0); // positions and indices, each 36 and 6 bytes
+    const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::uint16_t indices[3] = {0, 1, 2};
+    std::memcpy(both.data() + (indices_first ? 4 : 0), positions, sizeof positions);
+    std::memcpy(both.data() + (indices_first ? 0 : 18), indices, sizeof indices);
+    const int view = f.addView(both);
+    if (stride != 0) {
+        f.root["bufferViews"][view]["byteStride"] = stride;
+    }
+    attributesOf(f)["POSITION"] = f.addAccessor({{"bufferView", view},
+                                                 {"byteOffset", indices_first ? 8 : 0},
+                                                 {"type", "VEC3"},
+                                                 {"componentType", 5126},
+                                                 {"count", 3}});
+    f.root["meshes"][0]["primitives"][0]["indices"] = f.addAccessor({{"bufferView", view},
+                                                                     {"byteOffset", indices_first ? 0 : 36},
+                                                                     {"type", "SCALAR"},
+                                                                     {"componentType", 5123},
+                                                                     {"count", 3}});
+}
+
+/// Errors of the specification that a notice tells.
+const Fault kTold[] = {
+    {"BoundsThatAreRounded",
      [](FileBuilder& f) {
-         f.root["accessors"][0]["max"] = {2, 1, 0};
+         f.root["accessors"][0]["max"] = {1.0001, 1, 0};
      },
-     "the declared maximum differs"},
+     nullptr,
+     [](const Primitive& read) {
+         expectTriangle(read);
+         EXPECT_EQ(read.bounds.max, glm::vec3(1, 1, 0));
+     },
+     "differ from its data"},
+    {"BoundsOfKeyTimesThatAreRounded", [](FileBuilder& f) { f.root["accessors"][4]["min"] = {0.01}; }, nullptr,
+     expectTriangle, "declared bounds of /accessors/4"},
+    {"NormalsOfLengthZero",
+     [](FileBuilder& f) {
+         attributesOf(f)["NORMAL"] = f.add<float>("VEC3", 5126, 3, {0, 0, 0, 0, 0, 1, 0, 0, 1});
+     },
+     nullptr, expectUpNormals, "1 vectors of /meshes/0/primitives/0/attributes/NORMAL of length 0"},
+    {"NormalsThatAreAllZero",
+     [](FileBuilder& f) { attributesOf(f)["NORMAL"] = f.add<float>("VEC3", 5126, 3, std::vector<float>(9)); }, nullptr,
+     expectUpNormals, "3 vectors of"},
+    {"NormalsThatAreNoUnits",
+     [](FileBuilder& f) {
+         attributesOf(f)["NORMAL"] = f.add<float>("VEC3", 5126, 3, {0, 0, 1.02F, 0, 0, 1e-30F, 0, 0, 1e30F});
+     },
+     nullptr, expectUpNormals, "not of unit length"},
+    {"QuantisedNormalsThatAreNoUnits",
+     [](FileBuilder& f) {
+         f.root["extensionsUsed"] = {"KHR_mesh_quantization"};
+         attributesOf(f)["NORMAL"] = f.add<std::int8_t>("VEC3", 5120, 3, {0, 0, 64, 0, 0, 127, 0, 0, 0}, true);
+     },
+     nullptr, expectUpNormals, "of length 0"},
+    {"TangentsOfLengthZero",
+     [](FileBuilder& f) {
+         attributesOf(f)["NORMAL"] = f.add<float>("VEC3", 5126, 3, {0, 0, 1, 0, 0, 1, 0, 0, 1});
+         attributesOf(f)["TANGENT"] = f.add<float>("VEC4", 5126, 3, {0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1});
+     },
+     nullptr, expectUpNormals, "all tangents of the primitive are derived"},
+    {"ColoursAboveOne",
+     [](FileBuilder& f) {
+         attributesOf(f)["COLOR_0"] = f.add<float>("VEC4", 5126, 3, {2, 0, 0, 1, 1, -0.5F, 0, 1.5F, 0, 0, 0.5F, 1});
+     },
+     nullptr,
+     [](const Primitive& read) {
+         EXPECT_EQ(read.colours, (std::vector<glm::vec4>{{1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 0.5F, 1}}));
+     },
+     "were clamped to 0 to 1"},
+    {"OneViewForVerticesAndIndices", [](FileBuilder& f) { shareView(f, false, 0); }, nullptr, expectTriangle,
+     "holds both vertices and indices"},
+    {"OneViewForVerticesAndIndicesWithAStride", [](FileBuilder& f) { shareView(f, false, 12); }, nullptr,
+     expectTriangle, "with indices has a byteStride; they are taken as packed"},
+    {"OneViewForIndicesAndVerticesWithAStride", [](FileBuilder& f) { shareView(f, true, 12); }, nullptr, expectTriangle,
+     "they are taken as packed"},
+    {"ATargetForVerticesOnIndices",
+     [](FileBuilder& f) {
+         const int indices = f.add<std::uint16_t>("SCALAR", 5123, 3, {0, 1, 2});
+         f.root["bufferViews"][f.root["accessors"][indices]["bufferView"].get<int>()]["target"] = 34962;
+         f.root["meshes"][0]["primitives"][0]["indices"] = indices;
+     },
+     nullptr, expectTriangle, "or its target says so"},
+    {"AStrideOnInverseBindMatrices",
+     [](FileBuilder& f) {
+         std::vector<float> matrices(2 * 16);
+         for (const int i : {0, 5, 10, 15, 16, 21, 26, 31}) {
+             matrices[i] = 1;
+         }
+         const int accessor = f.add<float>("MAT4", 5126, 2, matrices);
+         f.root["bufferViews"][f.root["accessors"][accessor]["bufferView"].get<int>()]["byteStride"] = 64;
+         f.root["skins"][0]["inverseBindMatrices"] = accessor;
+     },
+     nullptr, expectTriangle, "with inverse bind matrices has a byteStride"},
+    {"ASceneThatNamesAChild",
+     [](FileBuilder& f) {
+         f.root["scenes"][0]["nodes"] = {0, 2, 1};
+     },
+     nullptr, expectTriangle, "names children of other nodes"},
+    {"ASceneThatNamesANodeTwice",
+     [](FileBuilder& f) {
+         f.root["scenes"][0]["nodes"] = {0, 1, 0};
+     },
+     nullptr, expectTriangle, "names a node twice"},
+    {"JointsOutsideTheScene", [](FileBuilder& f) { f.root["scenes"][0]["nodes"] = {0}; }, nullptr, expectTriangle,
+     "joints outside the scene"},
 };
 
 class GltfFaults : public testing::TestWithParam<Fault> {};
@@ -189,11 +309,34 @@ TEST_P(GltfFaults, IsReadOrRefusedAsDocumented)
     if (GetParam().expect) {
         GetParam().expect(read);
     }
+    if (GetParam().notice != nullptr) {
+        EXPECT_TRUE(std::any_of(scene.notices.begin(), scene.notices.end(), [](const std::string& notice) {
+            return notice.find(GetParam().notice) != std::string::npos;
+        })) << testing::PrintToString(scene.notices);
+    }
     EXPECT_FALSE(evaluate(scene, 0.5).objects.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GltfFaults, testing::ValuesIn(kFaults),
                          [](const auto& one) { return std::string(one.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(Told, GltfFaults, testing::ValuesIn(kTold),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+/// Time and place of each key one after the other, as in interleaved vertices.
+TEST(GltfFaults, AStrideOnKeysOfAnimationsIsObeyed)
+{
+    FileBuilder file = faultless();
+    const int view = file.addView<float>({0, 5, 6, 7, 1, 8, 9, 10});
+    file.root["bufferViews"][view]["byteStride"] = 16;
+    json keys = {{"bufferView", view}, {"type", "SCALAR"}, {"componentType", 5126}, {"count", 2}};
+    file.root["animations"][0]["samplers"][0]["input"] = file.addAccessor(keys);
+    keys.update({{"byteOffset", 4}, {"type", "VEC3"}});
+    file.root["animations"][0]["samplers"][0]["output"] = file.addAccessor(keys);
+    const Scene scene = file.read();
+    EXPECT_EQ(scene.animations.at(0).channels.at(0).times_s, (std::vector<float>{0, 1}));
+    EXPECT_EQ(scene.animations[0].channels[0].values, (std::vector<float>{5, 6, 7, 8, 9, 10}));
+}
 
 TEST(GltfFaults, BehindTheLastColumnOfAMatrixNothingNeedsToBe)
 {

@@ -98,6 +98,17 @@ TEST(FilterRule, HoldsWhatTheFormatDoes)
     EXPECT_LT(pack::depthQuantum(MapFormat::d32f), 1e-5F);
 }
 
+/// The first channel holds the mean, whatever the format; msm alone has a basis of its own for 16 bits.
+TEST(FilterRule, DepthOfATexelIsItsFirstMoment)
+{
+    const std::array texel{0.25F, 0.0625F, 1.0F, 1.0F};
+    for (const MapFormat format : {MapFormat::rgba16, MapFormat::rgba16f, MapFormat::rgba32f}) {
+        ShadowOptions options = filteredBy(Filter::lvsm);
+        options.format = format;
+        EXPECT_NEAR(pack::mapDepth(resolvedOrThrow(options), texel), 0.25F, 1e-6F) << static_cast<int>(format);
+    }
+}
+
 TEST(DepthLayers, KeepTheirPlaceAsLongAsTheirMapHasItsName)
 {
     PlanByHand by_hand({filteredBy(Filter::lvsm)});

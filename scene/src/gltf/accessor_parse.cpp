@@ -43,8 +43,64 @@ void readShape(const JsonView& view, Accessor& accessor)
     type.fail("the accessor type must be one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
 }
 
+/// What primitives use accessors for, by accessor and view. Mistakes are told when the primitives are read.
+struct Uses {
+    std::vector<bool> vertices;
+    std::vector<bool> indices;
+    std::vector<bool> vertex_views;
+};
+
+/// An empty value where there is no such member.
+const nlohmann::json& memberOf(const nlohmann::json& object, const char* key)
+{
+    static const nlohmann::json kNothing;
+    return object.is_object() && object.contains(key) ? object[key] : kNothing;
+}
+
+void mark(std::vector<bool>& used, const nlohmann::json& index)
+{
+    if (index.is_number_unsigned() && index.get<std::uint64_t>() < used.size()) {
+        used[index.get<std::size_t>()] = true;
+    }
+}
+
+Uses findUses(const Document& document)
+{
+    const nlohmann::json& root = document.root.value();
+    const nlohmann::json& accessors = memberOf(root, "accessors");
+    Uses uses{std::vector<bool>(accessors.size()), std::vector<bool>(accessors.size()),
+              std::vector<bool>(document.views.size())};
+    for (const nlohmann::json& mesh : memberOf(root, "meshes")) {
+        for (const nlohmann::json& primitive : memberOf(mesh, "primitives")) {
+            for (const nlohmann::json& attribute : memberOf(primitive, "attributes")) {
+                mark(uses.vertices, attribute);
+            }
+            for (const nlohmann::json& target : memberOf(primitive, "targets")) {
+                for (const nlohmann::json& attribute : target) {
+                    mark(uses.vertices, attribute);
+                }
+            }
+            mark(uses.indices, memberOf(primitive, "indices"));
+        }
+    }
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        if (uses.vertices[i]) {
+            mark(uses.vertex_views, memberOf(accessors[i], "bufferView"));
+        }
+    }
+    return uses;
+}
+
+/// Whether elements lie one after the other although their view has a stride. A stride is for vertices (glTF 2.0,
+/// 3.6.2.1). With other data in one view it is not theirs where it leads out of the view, and of indices never: no API
+/// takes indices with a stride.
+bool ignoresStride(const Uses& uses, std::size_t index, const Accessor& accessor, bool fits)
+{
+    return !uses.vertices[index] && (!fits || (uses.indices[index] && uses.vertex_views[accessor.view]));
+}
+
 /// Where the data of an accessor lie within its view.
-void attachData(const Document& document, const JsonView& view, Accessor& accessor)
+void attachData(const Document& document, const JsonView& view, const Uses& uses, Accessor& accessor)
 {
     const std::optional<JsonView> offset_view = view.find("byteOffset");
     const std::uint64_t offset = offset_view ? offset_view->uint() : 0;
@@ -81,7 +137,14 @@ void attachData(const Document& document, const JsonView& view, Accessor& access
         accessor.stride = data.stride;
     }
     // count < 2^32 and stride <= 252, so the product cannot wrap; the offset is at most 2^53.
-    const std::uint64_t span = (accessor.count - 1ULL) * accessor.stride + accessor.lastBytes();
+    const auto spanOf = [&] {
+        return (accessor.count - 1ULL) * accessor.stride + accessor.lastBytes();
+    };
+    const bool fits = offset <= data.length && spanOf() <= data.length - offset;
+    if (ignoresStride(uses, document.accessors.size(), accessor, fits)) {
+        accessor.stride = element_bytes;
+    }
+    const std::uint64_t span = spanOf();
     if (offset > data.length || span > data.length - offset) {
         where.failFound("the accessor does not fit its buffer view of " + std::to_string(data.length) + " bytes",
                         "offset " + std::to_string(offset) + ", length " + std::to_string(span));
@@ -98,7 +161,8 @@ std::span<const std::byte> packedData(const Document& document, const JsonView& 
     const BufferView& data = document.views[object.at("bufferView").index(document.views.size())];
     const std::uint64_t offset = object.uint("byteOffset", 0);
     if (data.stride != 0 || data.use != ViewUse::none) {
-        object.at("bufferView").fail("sparse data must lie in a buffer view without target and byteStride");
+        object.context().notice("sparse data lie in a buffer view with target or byteStride, as at " +
+                                object.pointer() + "; they are taken as packed");
     }
     if ((data.offset + offset) % alignment != 0) {
         object.failFound("the data must start at a multiple of " + std::to_string(alignment) + " bytes",
@@ -172,47 +236,31 @@ std::vector<ComponentRange> measure(const JsonView& view, const Accessor& access
     return ranges;
 }
 
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
-}
-
-/// Bounds are compared as floats: JSON has more digits than the data.
-float toFloat(const JsonView& bound)
-{
-    return bound.number();
-}
-
+/// Declared bounds are for whoever does not read the data; exporters round them. The data count.
 void checkBounds(const JsonView& view, const Accessor& accessor)
 {
-    const std::optional<JsonView> low = view.find("min");
-    const std::optional<JsonView> high = view.find("max");
-    for (const std::optional<JsonView>& bound : {low, high}) {
+    const std::vector<ComponentRange> ranges =
+        accessor.hasContent() ? measure(view, accessor) : std::vector<ComponentRange>{};
+    bool differ = false;
+    for (const char* key : {"min", "max"}) {
+        const std::optional<JsonView> bound = view.find(key);
         if (bound && bound->size() != accessor.components) {
             bound->fail("one number per component is needed, " + std::to_string(accessor.components));
         }
+        for (std::uint32_t c = 0; bound && c < accessor.components; ++c) {
+            const float declared = bound->element(c).number();
+            if (!ranges.empty()) { // compared as floats, for JSON has more digits than the data
+                const double found = key[1] == 'i' ? ranges[c].low : ranges[c].high;
+                differ = differ || static_cast<float>(found) != declared;
+            }
+        }
     }
-    const std::vector<ComponentRange> ranges =
-        accessor.hasContent() ? measure(view, accessor) : std::vector<ComponentRange>{};
-    for (std::uint32_t c = 0; c < accessor.components; ++c) {
-        if (low) {
-            const auto declared = toFloat(low->element(c));
-            if (!ranges.empty() && static_cast<float>(ranges[c].low) != declared) {
-                low->element(c).fail("the declared minimum differs from the data's " + number(ranges[c].low));
-            }
-        }
-        if (high) {
-            const auto declared = toFloat(high->element(c));
-            if (!ranges.empty() && static_cast<float>(ranges[c].high) != declared) {
-                high->element(c).fail("the declared maximum differs from the data's " + number(ranges[c].high));
-            }
-        }
+    if (differ) {
+        view.context().notice("declared bounds of " + view.pointer() + " differ from its data, which count");
     }
 }
 
-Accessor readAccessor(const Document& document, const JsonView& view)
+Accessor readAccessor(const Document& document, const JsonView& view, const Uses& uses)
 {
     checkExtensions(view, Place::other);
     Accessor accessor;
@@ -224,7 +272,7 @@ Accessor readAccessor(const Document& document, const JsonView& view)
     if (accessor.normalized && (accessor.component == Component::f32 || accessor.component == Component::u32)) {
         view.at("normalized").fail("only BYTE and SHORT components can be normalized");
     }
-    attachData(document, view, accessor);
+    attachData(document, view, uses, accessor);
     if (const std::optional<JsonView> sparse = view.find("sparse")) {
         attachSparse(document, *sparse, accessor);
     }
@@ -238,8 +286,9 @@ void readAccessors(Document& document)
 {
     const std::size_t count = topLevelCount(document, "accessors");
     document.accessors.reserve(count);
+    const Uses uses = findUses(document);
     for (std::size_t i = 0; i < count; ++i) {
-        document.accessors.push_back(readAccessor(document, document.root.at("accessors").element(i)));
+        document.accessors.push_back(readAccessor(document, document.root.at("accessors").element(i), uses));
     }
 }
 

@@ -32,10 +32,7 @@ struct Sampler {
 const Accessor& samplerAccessor(const Document& document, const JsonView& where)
 {
     const Accessor& accessor = document.accessor(where);
-    if (accessor.view != kNone && document.views[accessor.view].stride != 0) {
-        where.failFound("a buffer view with animation data must have no byteStride",
-                        std::to_string(document.views[accessor.view].stride));
-    }
+    noticeStride(document, accessor, "keys of animations");
     return accessor;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/attributes.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ const Accessor& checked(Document& document, const JsonView& where, const Formats
 {
     const Accessor& accessor = document.accessor(where);
     expectFormat(where, accessor, document.quantization ? formats.all : formats.all.first(formats.core));
-    claimView(document, where, accessor, ViewUse::vertices);
+    claimView(document, accessor, ViewUse::vertices);
     return accessor;
 }
 
@@ -84,12 +85,33 @@ std::vector<Vector> readVectors(Document& document, const Accessor& accessor)
     return out;
 }
 
-void expectUnit(const JsonView& where, const Accessor& accessor, std::size_t i, const glm::vec3& v)
+/// What was found wrong with the lengths of vectors that ought to be units.
+struct Lengths {
+    bool inexact = false;
+    std::size_t zeros = 0;
+};
+
+/// Makes a vector a unit, which has a direction whatever its length is. One of length 0 stays.
+glm::vec3 makeUnit(const Accessor& accessor, const glm::vec3& v, Lengths& found)
 {
     const float tolerance = accessor.component == Component::f32 ? kUnitTolerance : kQuantizedUnitTolerance;
-    const float length = glm::length(v);
-    if (!(std::abs(length - 1.0F) <= tolerance)) {
-        where.failFound("element " + std::to_string(i) + " must have unit length", std::to_string(length));
+    const double length = glm::length(glm::dvec3(v)); // squares of any float fit
+    if (length == 0.0) {
+        ++found.zeros;
+        return v;
+    }
+    found.inexact = found.inexact || !(std::abs(length - 1.0) <= double{tolerance});
+    return glm::vec3(glm::dvec3(v) / length);
+}
+
+void noticeLengths(const JsonView& where, const Lengths& found, const char* instead)
+{
+    if (found.inexact) {
+        where.context().notice("vectors of " + where.pointer() + " that are not of unit length were made so");
+    }
+    if (found.zeros > 0) {
+        where.context().notice(std::to_string(found.zeros) + " vectors of " + where.pointer() + " of length 0 " +
+                               instead);
     }
 }
 
@@ -98,10 +120,13 @@ void readNormals(Document& document, const JsonView& attributes, Primitive& out)
     const Accessor* normals = findAttribute(document, attributes, "NORMAL", {kNormals, 1}, out.positions.size());
     if (normals != nullptr && normals->hasContent()) {
         out.normals = readVectors<glm::vec3>(document, *normals);
-        const JsonView where = attributes.at("NORMAL");
-        for (std::size_t i = 0; i < out.normals.size(); ++i) {
-            expectUnit(where, *normals, i, out.normals[i]);
-            out.normals[i] = glm::normalize(out.normals[i]);
+        Lengths found;
+        for (glm::vec3& normal : out.normals) {
+            normal = makeUnit(*normals, normal, found);
+        }
+        noticeLengths(attributes.at("NORMAL"), found, "were taken from the triangles");
+        if (found.zeros == out.normals.size()) {
+            out.normals.clear(); // as if there were none: flat ones are made
         }
     }
     const Accessor* tangents = findAttribute(document, attributes, "TANGENT", {kTangents, 1}, out.positions.size());
@@ -110,17 +135,20 @@ void readNormals(Document& document, const JsonView& attributes, Primitive& out)
     }
     out.tangents = readVectors<glm::vec4>(document, *tangents);
     const JsonView where = attributes.at("TANGENT");
+    Lengths found;
     for (std::size_t i = 0; i < out.tangents.size(); ++i) {
-        const glm::vec4& t = out.tangents[i];
-        expectUnit(where, *tangents, i, glm::vec3(t));
+        glm::vec4& t = out.tangents[i];
         if (t.w != 1.0F && t.w != -1.0F) {
             where.failFound("w of element " + std::to_string(i) + " must be 1 or -1", std::to_string(t.w));
         }
-        out.tangents[i] = glm::vec4(glm::normalize(glm::vec3(t)), t.w);
+        t = glm::vec4(makeUnit(*tangents, glm::vec3(t), found), t.w);
     }
+    noticeLengths(where, found, "were found, so all tangents of the primitive are derived");
     if (out.normals.empty()) {
         document.context().notice("tangents without normals in " + attributes.pointer() + " were left out");
-        out.tangents.clear();
+    }
+    if (out.normals.empty() || found.zeros > 0) {
+        out.tangents.clear(); // finishScene() derives what a normal map needs
     }
 }
 
@@ -131,17 +159,17 @@ void readColours(Document& document, const JsonView& attributes, Primitive& out)
         return;
     }
     out.colours = readVectors<glm::vec4>(document, *colours);
-    for (std::size_t i = 0; i < out.colours.size(); ++i) {
-        glm::vec4& colour = out.colours[i];
+    bool beyond = false;
+    for (glm::vec4& colour : out.colours) {
         if (colours->components == 3) {
             colour.w = 1.0F;
         }
-        for (glm::length_t c = 0; c < 4; ++c) {
-            if (!(colour[c] >= 0.0F && colour[c] <= 1.0F)) {
-                attributes.at("COLOR_0").failFound("element " + std::to_string(i) + " must lie between 0 and 1",
-                                                   std::to_string(colour[c]));
-            }
-        }
+        const glm::vec4 clamped = glm::clamp(colour, 0.0F, 1.0F);
+        beyond = beyond || clamped != colour;
+        colour = clamped;
+    }
+    if (beyond) { // glTF 2.0, 3.7.2.1, asks for what is clamped
+        document.context().notice("colours of " + attributes.pointer() + "/COLOR_0 were clamped to 0 to 1");
     }
 }
 
@@ -214,17 +242,17 @@ void checkOther(Document& document, const JsonView& attributes, std::size_t coun
 
 } // namespace
 
-void claimView(Document& document, const JsonView& where, const Accessor& accessor, ViewUse use)
+void claimView(Document& document, const Accessor& accessor, ViewUse use)
 {
     if (accessor.view == kNone) {
         return;
     }
     BufferView& view = document.views[accessor.view];
     if (view.use != ViewUse::none && view.use != use) {
-        where.failFound("buffer view " + std::to_string(accessor.view) + " holds both vertices and indices",
-                        use == ViewUse::indices ? "it used for vertices before" : "it used for indices before");
+        document.context().notice("buffer view " + std::to_string(accessor.view) +
+                                  " holds both vertices and indices, or its target says so");
     }
-    view.use = use;
+    view.use = view.use == ViewUse::none ? use : view.use;
 }
 
 void checkSemantic(const JsonView& attribute, std::string_view name)

@@ -14,7 +14,7 @@ void checkSemantic(const JsonView& attribute, std::string_view name);
 [[nodiscard]] MorphTarget readMorphTarget(Document& document, const JsonView& target, const JsonView& attributes,
                                           std::size_t vertex_count);
 
-/// Marks the accessor's buffer view; fails at `where` when it has been used for the other kind.
-void claimView(Document& document, const JsonView& where, const Accessor& accessor, ViewUse use);
+/// Marks the accessor's buffer view; a notice when it is for the other kind, too.
+void claimView(Document& document, const Accessor& accessor, ViewUse use);
 
 } // namespace gnomon::scene::gltf

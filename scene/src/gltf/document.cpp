@@ -7,9 +7,46 @@ namespace gnomon::scene::gltf {
 
 namespace {
 
-constexpr const char* kSupported[] = {"KHR_lights_punctual",   "KHR_texture_transform",
-                                      "KHR_materials_unlit",   "KHR_materials_emissive_strength",
-                                      "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+constexpr std::string_view kSupported[] = {"KHR_lights_punctual",
+                                           "KHR_texture_transform",
+                                           "KHR_materials_unlit",
+                                           "KHR_materials_emissive_strength",
+                                           "KHR_materials_pbrSpecularGlossiness",
+                                           "KHR_mesh_quantization",
+                                           "KHR_node_visibility",
+                                           "EXT_mesh_gpu_instancing"};
+
+/// Without effect here, and a file may require them: they change neither where surfaces are nor where these are seen
+/// through. So may all whose second word is "materials".
+constexpr std::string_view kLeavesGeometry[] = {"KHR_xmp",
+                                                "KHR_xmp_json_ld",
+                                                "KHR_node_selectability",
+                                                "KHR_node_hoverability",
+                                                "KHR_interactivity",
+                                                "KHR_audio_emitter",
+                                                "KHR_implicit_shapes",
+                                                "KHR_physics_rigid_bodies",
+                                                "EXT_lights_ies",
+                                                "EXT_lights_image_based",
+                                                "EXT_mesh_features",
+                                                "EXT_instance_features",
+                                                "EXT_structural_metadata",
+                                                "EXT_mesh_manifold",
+                                                "EXT_mesh_primitive_edge_visibility",
+                                                "ADOBE_physical_properties",
+                                                "AGI_articulations",
+                                                "AGI_stk_metadata",
+                                                "CESIUM_primitive_outline",
+                                                "FB_geometry_metadata",
+                                                "GODOT_single_root",
+                                                "MSFT_lod",
+                                                "MSFT_packing_normalRoughnessMetallic",
+                                                "MSFT_packing_occlusionRoughnessMetallic",
+                                                "OMI_physics_body",
+                                                "OMI_physics_shape",
+                                                "VRM",
+                                                "VRMC_vrm",
+                                                "VRMC_springBone"};
 
 struct Rule {
     std::string_view name; // or its start
@@ -27,9 +64,26 @@ constexpr Rule kPlaces[] = {
     {"EXT_texture_webp", Place::texture, Place::texture},
 };
 
-bool isSupported(const std::string& name)
+bool isSupported(std::string_view name)
 {
-    return std::any_of(std::begin(kSupported), std::end(kSupported), [&](const char* s) { return name == s; });
+    return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
+}
+
+bool leavesGeometry(std::string_view name)
+{
+    const std::string_view behind_vendor = name.substr(std::min(name.find('_'), name.size()));
+    return behind_vendor.starts_with("_materials_") ||
+           std::find(std::begin(kLeavesGeometry), std::end(kLeavesGeometry), name) != std::end(kLeavesGeometry);
+}
+
+std::string supportedNames()
+{
+    std::string names;
+    for (const std::string_view& name : kSupported) {
+        const bool last = &name == std::end(kSupported) - 1;
+        names += std::string(names.empty() ? "" : last ? " and " : ", ") + std::string(name);
+    }
+    return names;
 }
 
 struct Version {
@@ -114,6 +168,16 @@ void checkExtensions(const JsonView& object, Place place)
     }
 }
 
+void noticeStride(const Document& document, const Accessor& accessor, const std::string& what)
+{
+    const std::uint32_t stride = accessor.view == kNone ? 0 : document.views[accessor.view].stride;
+    if (stride != 0) {
+        document.context().notice("buffer view " + std::to_string(accessor.view) + " with " + what +
+                                  " has a byteStride; they are taken as " +
+                                  (accessor.stride == stride ? "it says" : "packed"));
+    }
+}
+
 void readAsset(Document& document)
 {
     const JsonView& root = document.root;
@@ -127,11 +191,9 @@ void readAsset(Document& document)
     const std::size_t required_count = required ? required->size() : 0;
     for (std::size_t i = 0; i < required_count; ++i) {
         const JsonView view = required->element(i);
-        if (!isSupported(view.string())) {
+        if (!isSupported(view.string()) && !leavesGeometry(view.string())) {
             view.fail("the file requires an extension that is not supported",
-                      "export the scene without it; supported are KHR_lights_punctual, KHR_texture_transform, "
-                      "KHR_materials_unlit, KHR_materials_emissive_strength, KHR_mesh_quantization and "
-                      "EXT_mesh_gpu_instancing");
+                      "export the scene without it; supported are " + supportedNames());
         }
         if (!used.contains(view.string())) {
             view.fail("a required extension must be among extensionsUsed");

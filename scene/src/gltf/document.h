@@ -55,6 +55,8 @@ void readNodes(Document& document);
 void readSkins(Document& document);
 void readAnimations(Document& document);
 
+/// Says so where the view of an accessor that is not of vertices has a stride. `what` it is of, in the plural.
+void noticeStride(const Document& document, const Accessor& accessor, const std::string& what);
 /// Refuses a known extension in a place where it has no meaning.
 void checkExtensions(const JsonView& object, Place place);
 /// Number of entries of a top-level array; 0 when there is none.

@@ -62,6 +62,23 @@ void readMetallicRoughness(const Document& document, const JsonView& view, Mater
     material.metallic_roughness_texture = readUse(document, view, "metallicRoughnessTexture");
 }
 
+/// Of what came before metallic-roughness: diffuse colour with its alpha, and how smooth it is. It goes before
+/// `pbrMetallicRoughness`, which is a substitute then.
+void readSpecularGlossiness(const Document& document, const JsonView& view, Material& material)
+{
+    material.base_colour = glm::vec4(1.0F);
+    if (const std::optional<JsonView> factor = view.find("diffuseFactor")) {
+        factor->numbers({glm::value_ptr(material.base_colour), 4}, 0.0, 1.0);
+    }
+    material.base_colour_texture = readUse(document, view, "diffuseTexture");
+    material.metallic = 0.0F;
+    material.roughness = 1.0F - view.number("glossinessFactor", 1.0F, 0.0, 1.0);
+    material.metallic_roughness_texture = {};
+    if (view.has("specularFactor") || view.has("specularGlossinessTexture")) {
+        document.context().notice("the specular colour of " + view.pointer() + " has no effect");
+    }
+}
+
 void readAlpha(const JsonView& view, Material& material)
 {
     const std::string mode = view.string("alphaMode", "OPAQUE");
@@ -93,6 +110,9 @@ Material readMaterial(const Document& document, const JsonView& view)
     material.name = view.string("name", "");
     if (const std::optional<JsonView> pbr = view.find("pbrMetallicRoughness")) {
         readMetallicRoughness(document, *pbr, material);
+    }
+    if (const std::optional<JsonView> older = extension(view, "KHR_materials_pbrSpecularGlossiness")) {
+        readSpecularGlossiness(document, *older, material);
     }
     readAlpha(view, material);
     readEmission(view, material);

@@ -33,11 +33,8 @@ std::vector<std::uint32_t> readIndices(Document& document, const JsonView& view,
     }
     const Accessor& accessor = document.accessor(*where);
     expectFormat(*where, accessor, kIndexFormats);
-    claimView(document, *where, accessor, ViewUse::indices);
-    if (accessor.view != kNone && document.views[accessor.view].stride != 0) {
-        where->failFound("a buffer view with indices must have no byteStride",
-                         std::to_string(document.views[accessor.view].stride));
-    }
+    claimView(document, accessor, ViewUse::indices);
+    noticeStride(document, accessor, "indices");
     std::vector<std::uint32_t> indices = readIntegers(document.context(), accessor);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] == restartValue(accessor.component)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/instancing.h"
+#include "gltf/scene_part.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -10,125 +11,6 @@
 namespace gnomon::scene::gltf {
 
 namespace {
-
-/// The node tree of the whole file, before a scene is picked.
-struct Tree {
-    std::vector<std::vector<std::uint32_t>> children;
-    std::vector<std::uint32_t> parents;
-};
-
-JsonView nodeView(const Document& document, std::size_t i)
-{
-    return document.root.at("nodes").element(i);
-}
-
-Tree readTree(const Document& document)
-{
-    const std::size_t count = topLevelCount(document, "nodes");
-    Tree tree{std::vector<std::vector<std::uint32_t>>(count), std::vector<std::uint32_t>(count, kNone)};
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::optional<JsonView> children = nodeView(document, i).find("children");
-        const std::size_t child_count = children ? children->size() : 0;
-        for (std::size_t k = 0; k < child_count; ++k) {
-            const JsonView where = children->element(k);
-            const std::uint32_t child = where.index(count);
-            if (tree.parents[child] != kNone) {
-                where.failFound("node " + std::to_string(child) + " has two parents",
-                                std::to_string(tree.parents[child]) + " and " + std::to_string(i));
-            }
-            tree.parents[child] = static_cast<std::uint32_t>(i);
-            tree.children[i].push_back(child);
-        }
-    }
-    return tree;
-}
-
-/// Nodes below `roots`, parents first, and no deeper than the limit.
-std::vector<std::uint32_t> parentsFirst(const Document& document, const Tree& tree,
-                                        const std::vector<std::uint32_t>& roots)
-{
-    const std::uint32_t limit = document.context().limits().max_node_depth;
-    std::vector<std::uint32_t> order = roots;
-    std::size_t level_end = order.size();
-    std::uint32_t depth = 1;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i == level_end) {
-            level_end = order.size();
-            ++depth;
-        }
-        if (depth > limit) {
-            document.context().failLimit(nodeView(document, order[i]).pointer(), "the depth of the node tree",
-                                         "node-depth", limit, depth);
-        }
-        order.insert(order.end(), tree.children[order[i]].begin(), tree.children[order[i]].end());
-    }
-    return order;
-}
-
-/// Every node has at most one parent here, so a loop is what no root leads to.
-void refuseLoops(const Document& document, const Tree& tree)
-{
-    std::vector<std::uint32_t> roots;
-    for (std::uint32_t i = 0; i < tree.parents.size(); ++i) {
-        if (tree.parents[i] == kNone) {
-            roots.push_back(i);
-        }
-    }
-    std::vector<bool> reached(tree.parents.size(), false);
-    for (const std::uint32_t node : parentsFirst(document, tree, roots)) {
-        reached[node] = true;
-    }
-    for (std::uint32_t i = 0; i < reached.size(); ++i) {
-        if (reached[i]) {
-            continue;
-        }
-        std::uint32_t node = i; // walk up for long enough to be on the loop itself
-        for (std::size_t step = 0; step < reached.size(); ++step) {
-            node = tree.parents[node];
-        }
-        nodeView(document, node).failFound("the node is part of a loop", "its own descendant as its parent");
-    }
-}
-
-/// Roots of the scene to show: `scene`, else the first, else every node without a parent.
-std::vector<std::uint32_t> sceneRoots(const Document& document, const Tree& tree, std::string& name)
-{
-    const std::size_t scene_count = topLevelCount(document, "scenes");
-    const std::uint32_t shown = document.root.index("scene", scene_count);
-    std::vector<std::uint32_t> roots;
-    if (scene_count == 0) {
-        for (std::uint32_t i = 0; i < tree.parents.size(); ++i) {
-            if (tree.parents[i] == kNone) {
-                roots.push_back(i);
-            }
-        }
-        return roots;
-    }
-    for (std::size_t s = 0; s < scene_count; ++s) {
-        const JsonView view = document.root.at("scenes").element(s);
-        checkExtensions(view, Place::other);
-        const std::string scene_name = view.string("name", "");
-        const std::optional<JsonView> nodes = view.find("nodes");
-        const std::size_t count = nodes ? nodes->size() : 0;
-        std::set<std::uint32_t> seen;
-        for (std::size_t i = 0; i < count; ++i) {
-            const JsonView where = nodes->element(i);
-            const std::uint32_t node = where.index(tree.parents.size());
-            if (tree.parents[node] != kNone) {
-                where.fail("a scene's node must be a root, but it is a child of node " +
-                           std::to_string(tree.parents[node]));
-            }
-            if (!seen.insert(node).second) {
-                where.fail("the scene names a node twice");
-            }
-            if (s == (shown == kNone ? 0 : shown)) {
-                roots.push_back(node);
-                name = scene_name;
-            }
-        }
-    }
-    return roots;
-}
 
 void readMatrix(const JsonView& matrix, const JsonView& view, Node& node)
 {
@@ -231,14 +113,26 @@ Node readNode(Document& document, const JsonView& view)
         const std::uint32_t index = light->at("light").index(document.lights.size());
         node.light = document.lights[index];
     }
-    if (const std::optional<JsonView> pointer = extension(view, "KHR_node_visibility")) {
-        if (!pointer->boolean("visible", true)) {
-            document.context().notice("node " + view.pointer() + " is shown, KHR_node_visibility has no effect");
-        }
-    }
     node.instances = readInstances(document, view);
     readExtras(view, node);
     return node;
+}
+
+/// By KHR_node_visibility, which hides all that is below the node as well.
+bool isHidden(const JsonView& view)
+{
+    const std::optional<JsonView> visibility = extension(view, "KHR_node_visibility");
+    return visibility && !visibility->boolean("visible", true);
+}
+
+/// Leaves what moves others and what the camera looks from: neither is hidden with a node.
+void hide(Node& node)
+{
+    node.mesh = kNone;
+    node.skin = kNone;
+    node.light = kNone;
+    node.morph_weights.clear();
+    node.instances.clear();
 }
 
 /// What evaluating the scene will ask for: a million nodes may share a mesh of a million primitives, and each node of
@@ -273,25 +167,33 @@ void checkObjects(Document& document, const std::vector<std::uint32_t>& order)
 void readNodes(Document& document)
 {
     const Tree tree = readTree(document);
-    refuseLoops(document, tree);
     std::vector<Node> all;
+    std::vector<bool> hidden;
     all.reserve(tree.parents.size());
     for (std::size_t i = 0; i < tree.parents.size(); ++i) {
         all.push_back(readNode(document, nodeView(document, i)));
+        hidden.push_back(isHidden(nodeView(document, i)));
     }
-    std::string name;
-    const std::vector<std::uint32_t> order = parentsFirst(document, tree, sceneRoots(document, tree, name));
-    if (!name.empty()) {
-        document.scene.name = name;
+    const ScenePart part = pickScene(document, tree, all);
+    if (!part.name.empty()) {
+        document.scene.name = part.name;
     }
     document.nodes.assign(all.size(), kNone);
-    for (const std::uint32_t old : order) {
+    for (const std::uint32_t old : part.nodes) {
         document.nodes[old] = static_cast<std::uint32_t>(document.scene.nodes.size());
         Node& node = all[old];
-        node.parent = tree.parents[old] == kNone ? kNone : document.nodes[tree.parents[old]];
+        const std::uint32_t parent = tree.parents[old];
+        node.parent = parent == kNone ? kNone : document.nodes[parent];
+        hidden[old] = hidden[old] || (parent != kNone && hidden[parent]);
+        if (hidden[old] || !part.shown[old]) {
+            hide(node);
+        }
+        if (!part.shown[old]) {
+            node.camera = kNone;
+        }
         document.scene.nodes.push_back(std::move(node));
     }
-    checkObjects(document, order);
+    checkObjects(document, part.nodes);
 }
 
 } // namespace gnomon::scene::gltf

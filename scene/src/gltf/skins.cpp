@@ -25,10 +25,7 @@ std::vector<glm::mat4> readInverseBind(Document& document, const JsonView& skin,
         where->failFound("there must be a matrix for every joint, " + std::to_string(joint_count),
                          std::to_string(accessor.count));
     }
-    if (accessor.view != kNone && document.views[accessor.view].stride != 0) {
-        where->failFound("a buffer view with inverse bind matrices must have no byteStride",
-                         std::to_string(document.views[accessor.view].stride));
-    }
+    noticeStride(document, accessor, "inverse bind matrices");
     if (!accessor.hasContent()) {
         document.context().notice("skin " + skin.pointer() + " has no inverse bind matrices; identity was taken");
         return out;
@@ -100,9 +97,6 @@ void readSkins(Document& document)
                                     "a vertex names a joint that skin " + std::to_string(index) + " of " +
                                         std::to_string(skin.joints.size()) + " joints does not have",
                                     "joint " + std::to_string(document.joint_limits[mesh] - 1));
-        }
-        if (document.nodes[i] != kNone && !allInScene(document, skin)) {
-            view.failFound("the node's skin has joints outside the scene", "skin " + std::to_string(index));
         }
     }
     // A skin that the scene does not use may have joints elsewhere; it is emptied rather than left dangling.
