@@ -40,6 +40,9 @@ struct CasterBatch {
     /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
     glm::vec4 tint{1.0F}; // linear colour and alpha; blended batches alone
+    /// CasterVertices::colour multiplies `texture` and `tint`. Of a masked batch its alpha alone counts, of one without
+    /// a texture nothing.
+    bool vertex_colours = false;
     /// What cuts its objects, in the space of their vertices, before world_from_object: a point is not drawn where
     /// dot(plane.xyz, p) + plane.w < 0 for either plane. Finite; those here by default cut nothing. A mesh that is cut
     /// is open, so all its triangles cast, whatever `two_sided` says. Bounds in the ObjectSet may be those of what is
@@ -57,7 +60,7 @@ struct VertexAttribute {
     std::uint32_t offset = 0;              // bytes from a vertex's first
 };
 
-/// How the host's vertices and indices are stored. Interleaved vertices have both attributes in one buffer.
+/// How the host's vertices and indices are stored. Interleaved vertices have all attributes in one buffer.
 struct CasterVertices {
     /// R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT, R16G16B16A16_SNORM or R16G16B16A16_UNORM; a fourth
     /// number is not read. Of normalised ones, world_from_object says how large an object is.
@@ -65,6 +68,9 @@ struct CasterVertices {
     /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. UNDEFINED: there are none. Read for batches with a
     /// texture alone.
     VertexAttribute uv{VK_FORMAT_R32G32_SFLOAT, 8, 0};
+    /// R8G8B8A8_UNORM, R16G16B16A16_UNORM, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: linear colour and alpha, 0 .. 1.
+    /// UNDEFINED: there are none. Read for batches with CasterBatch::vertex_colours alone.
+    VertexAttribute colour;
     /// R16_UINT or R32_UINT: which piece of its object a vertex is of, in the lower 12 bits; the three of a triangle
     /// have one. For lights with IdOf::face alone. UNDEFINED: vertices do not say so.
     VertexAttribute piece;
@@ -82,6 +88,8 @@ struct CasterGeometry {
     VkDeviceSize indices_offset = 0;     // bytes
     VkBuffer pieces = VK_NULL_HANDLE;    // of CasterVertices::piece
     VkDeviceSize pieces_offset = 0;      // bytes
+    VkBuffer colours = VK_NULL_HANDLE;   // of CasterVertices::colour; may be null when no batch has vertex colours
+    VkDeviceSize colours_offset = 0;     // bytes
 };
 
 /// How a CasterDrawer is made.
@@ -101,6 +109,7 @@ struct CasterDrawerOptions {
 ///   a part that names no batch, an object that names no part                        Error
 ///   a clip plane that is not finite                                                 Error
 ///   a batch with a texture without CasterVertices::uv or CasterGeometry::uvs        Error
+///   one with vertex colours without CasterVertices::colour or CasterGeometry::colours Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a plan whose numbers point beyond its own lists or pages                        Error
 ///   a plan with IdOf::face without CasterVertices::piece or CasterGeometry::pieces Error
