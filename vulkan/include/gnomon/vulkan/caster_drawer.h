@@ -32,7 +32,8 @@ struct CasterBatch {
     /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
     /// VK_NULL_HANDLE: opaque.
     VkDescriptorSet texture = VK_NULL_HANDLE;
-    float cutoff = 0.5F;          // kept where alpha >= cutoff; divide by the material's own alpha factor
+    float cutoff = 0.5F;          // 0 or above; kept where alpha >= alphaLimit(cutoff) (gnomon/shared/alpha_cutoff.h);
+                                  // divide by the material's own alpha factor
     glm::vec2 uv_scale{1.0F};     // KHR_texture_transform
     glm::vec2 uv_offset{0.0F};    // likewise
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
