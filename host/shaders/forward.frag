@@ -54,13 +54,13 @@ vec3 seenBy(uint light, vec3 p, Surface surface, vec3 own_tint)
     return vec3(1.0);
 }
 
-// Of a blended surface that casts, which must not tint itself. Casters are drawn without colours of vertices.
-vec3 ownTint()
+// Of a blended surface that casts, which must not tint itself.
+vec3 ownTint(vec4 base)
 {
     if (kOpaque || ids.z == 0u) {
         return vec3(1.0);
     }
-    vec4 own = clamp(baseColour(uvs, vec4(1.0)), 0.0, 1.0);
+    vec4 own = clamp(base, 0.0, 1.0);
     return 1.0 - own.a * (1.0 - own.rgb);
 }
 
@@ -88,7 +88,7 @@ void main()
     float second = model == 1.0 ? MATERIAL_MODEL.y : surface.roughness;
     Lit s = litSurface(p, surface.shading_normal, base.rgb, phong_2005 ? 0.0 : surface.metallic, second,
                        phong_2005 ? 1.0 : model);
-    vec3 own_tint = ownTint();
+    vec3 own_tint = ownTint(base);
     vec3 sum = emitted + (kOpaque ? lampLight(surface.lit) : vec3(0.0));
     if (!phong_2005) {
         sum += ambient(s, model == 1.0 ? 1.0 : second, vec3(surface.occlusion), surface.occlusion);

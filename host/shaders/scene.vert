@@ -15,7 +15,7 @@ layout(constant_id = 2) const bool kAllTextures = false;
 layout(location = 1) in vec2 uv_base; // of the base colour
 layout(location = 2) in vec4 normal; // w: 4096 where it is creased, and the vertex's piece, over 32767
 layout(location = 3) in vec4 tangent;
-layout(location = 4) in vec4 colour; // square root of the linear colour
+layout(location = 4) in vec4 colour; // linear
 layout(location = 5) in vec2 uv_other;
 layout(location = 9) in uvec3 ids; // object id + 1; the same where it receives, else 0; 1 where it tints the light
 
@@ -44,7 +44,7 @@ void main()
     uint more = uint(normal.w * 32767.0 + 0.5);
     out_normal.w = smoothPlane(out_normal.xyz, q, more >= uint(kMostPieces));
     out_uvs = vec4(uv_base, uv_other);
-    out_colour = colour * colour;
+    out_colour = colour;
     out_ids = ids;
     if (kInSoftware) {
         numbers[kSceneRayX] = frame.ray_x;

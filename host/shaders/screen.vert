@@ -7,7 +7,7 @@
 #include "frame.glsl"
 #ifdef OVER_SURFACE
 #include "scene_position.glsl"
-layout(location = 4) in vec4 colour; // square root of the linear colour
+layout(location = 4) in vec4 colour;
 layout(location = kScreenShare) out float share;
 #endif
 
@@ -19,7 +19,7 @@ void main()
 #ifdef OVER_SURFACE
     placeVertex();
     place = vec2(0.0);
-    share = 1.0 - colour.a * colour.a;
+    share = 1.0 - colour.a;
 #else
     vec2 p = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
     gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);

@@ -48,7 +48,7 @@ std::string sentenceOf(Fault fault, std::uint32_t open_edges)
 {
     switch (fault) {
     case Fault::masked:
-        return "is masked by its texture";
+        return "is masked";
     case Fault::blended:
         return "is blended";
     case Fault::cut:

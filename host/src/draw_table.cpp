@@ -51,6 +51,22 @@ private:
     std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::uint32_t> ids_; // by batch, cut and mirrored
 };
 
+/// Of each material: vertex colours change where it casts, or what it lets through.
+std::vector<bool> colouredMaterials(const Materials& materials, const scene::Scene& scene)
+{
+    std::vector<bool> coloured(materials.all().size(), false);
+    for (const scene::Mesh& mesh : scene.meshes) {
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            const std::uint32_t material = materials.indexOf(primitive.material);
+            const bool whole = materials.all()[material].blended;
+            coloured[material] = coloured[material] || std::ranges::any_of(primitive.colours, [&](const glm::vec4& c) {
+                                     return c.a != 1.0F || (whole && c != glm::vec4(1.0F));
+                                 });
+        }
+    }
+    return coloured;
+}
+
 } // namespace
 
 vulkan::Rows3x4 rowsOf(const glm::mat4& m)
@@ -135,6 +151,7 @@ std::vector<std::uint32_t> DrawTable::numberCuts(const scene::State& state)
 std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materials, const scene::Scene& scene)
 {
     std::vector<std::uint32_t> ids(materials.all().size(), kOpaque);
+    const std::vector<bool> coloured = colouredMaterials(materials, scene);
     caster_batches.resize(2);
     caster_batches[kOpaqueClosed].two_sided = false;
     for (std::uint32_t i = 0; i < materials.all().size(); ++i) {
@@ -144,7 +161,7 @@ std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materia
             ids[i] = static_cast<std::uint32_t>(caster_batches.size());
             const float cutoff = material.alpha_cutoff / std::max(material.base_colour.a, 1e-6F);
             caster_batches.push_back({true, materials.all()[i].caster_set, cutoff, use.scale, use.offset,
-                                      use.rotation_rad, materials.all()[i].blended, material.base_colour});
+                                      use.rotation_rad, materials.all()[i].blended, material.base_colour, coloured[i]});
         }
     }
     return ids;

@@ -23,9 +23,9 @@ T snorm(float value)
     return static_cast<T>(std::lround(glm::clamp(value, -1.0F, 1.0F) * kMax));
 }
 
-std::uint8_t rootUnorm(float value)
+std::uint16_t unorm(float value)
 {
-    return static_cast<std::uint8_t>(std::lround(std::sqrt(glm::clamp(value, 0.0F, 1.0F)) * 255.0F));
+    return static_cast<std::uint16_t>(std::lround(glm::clamp(value, 0.0F, 1.0F) * 65535.0F));
 }
 
 std::uint32_t baseUvSet(const scene::Scene& scene, const scene::Primitive& primitive)
@@ -54,11 +54,8 @@ void packConstant(const scene::Primitive& primitive, std::uint32_t base_set, std
 {
     const std::vector<glm::vec2>& other = base_set == 0 ? primitive.uv1 : primitive.uv0;
     out.uv_other = other.empty() ? glm::vec2{0.0F} : other[i];
-    out.colour = {255, 255, 255, 255};
-    if (!primitive.colours.empty()) {
-        const glm::vec4 c = primitive.colours[i];
-        out.colour = {rootUnorm(c.x), rootUnorm(c.y), rootUnorm(c.z), rootUnorm(c.w)};
-    }
+    const glm::vec4 c = primitive.colours.empty() ? glm::vec4(1.0F) : primitive.colours[i];
+    out.colour = {unorm(c.x), unorm(c.y), unorm(c.z), unorm(c.w)};
 }
 
 // smooth_surface.h takes normals for flat below four times this. Transforms may stretch a mesh: one that an uneven

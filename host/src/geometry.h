@@ -19,12 +19,12 @@ namespace gnomon::host {
 
 /// One vertex of the attribute stream.
 struct VertexAttributes {
-    std::array<std::int16_t, 4> normal{};                   // snorm; w: kCreasedVertex and scene::Pieces, as integers
-    std::array<std::int8_t, 4> tangent{};                   // snorm; w handedness, 0: no tangent
-    std::array<std::uint8_t, 4> colour{255, 255, 255, 255}; // unorm, square root of linear
-    glm::vec2 uv_other{0.0F};                               // the set that the base colour does not use
+    std::array<std::int16_t, 4> normal{};  // snorm; w: kCreasedVertex and scene::Pieces, as integers
+    std::array<std::int8_t, 4> tangent{};  // snorm; w handedness, 0: no tangent
+    std::array<std::uint16_t, 4> colour{}; // unorm, linear: casters read it, too
+    glm::vec2 uv_other{0.0F};              // the set that the base colour does not use
 };
-static_assert(sizeof(VertexAttributes) == 24);
+static_assert(sizeof(VertexAttributes) == 28);
 
 /// In the last of VertexAttributes::normal, above the vertex's piece: Primitive::creased.
 inline constexpr std::int16_t kCreasedVertex = 4096;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materials.h"
 
+#include <gnomon/shared/alpha_cutoff.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,7 +21,7 @@ MaterialData dataOf(const scene::Material& m)
     MaterialData data{};
     data.base_colour = m.base_colour;
     data.emissive = glm::vec4(m.emissive, m.normal_scale);
-    data.numbers = {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff};
+    data.numbers = {m.metallic, m.roughness, m.occlusion_strength, shared::alphaLimit(m.alpha_cutoff)};
     float model = m.model == scene::ShadingModel::phong ? 1.0F : 0.0F;
     model = m.model == scene::ShadingModel::unlit ? 2.0F : model;
     data.model = {model, m.phong_exponent, m.lit_by_night, 0.0F};

@@ -26,7 +26,7 @@ constexpr std::array<VkVertexInputAttributeDescription, 10> kAttributes{
      {1, 1, VK_FORMAT_R32G32_SFLOAT, 0},
      {2, 2, VK_FORMAT_R16G16B16A16_SNORM, offsetof(VertexAttributes, normal)},
      {3, 2, VK_FORMAT_R8G8B8A8_SNORM, offsetof(VertexAttributes, tangent)},
-     {4, 2, VK_FORMAT_R8G8B8A8_UNORM, offsetof(VertexAttributes, colour)},
+     {4, 2, VK_FORMAT_R16G16B16A16_UNORM, offsetof(VertexAttributes, colour)},
      {5, 2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexAttributes, uv_other)},
      {6, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_x)},
      {7, 3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, row_y)},

@@ -43,8 +43,17 @@ struct SceneData {
     }
     [[nodiscard]] vulkan::CasterGeometry casterGeometry() const
     {
-        return {geometry.positions.handle, 0, geometry.uvs.handle,        0,
-                geometry.indices.handle,   0, geometry.attributes.handle, 0};
+        const VkBuffer attributes = geometry.attributes.handle;
+        return {geometry.positions.handle,
+                0,
+                geometry.uvs.handle,
+                0,
+                geometry.indices.handle,
+                0,
+                attributes,
+                0,
+                attributes,
+                0};
     }
 };
 

@@ -38,6 +38,7 @@ vulkan::CasterDrawerOptions casterOptions(const Gpu& gpu, const RenderOptions& o
     wish.pipeline_cache = gpu.pipelineCache();
     wish.vertices.piece = {VK_FORMAT_R16_UINT, sizeof(VertexAttributes),
                            offsetof(VertexAttributes, normal) + 3 * sizeof(std::int16_t)};
+    wish.vertices.colour = {VK_FORMAT_R16G16B16A16_UNORM, sizeof(VertexAttributes), offsetof(VertexAttributes, colour)};
     return wish;
 }
 

@@ -35,6 +35,8 @@ layout(constant_id = 0) const int kHolding = kDepthAlone;
 #endif
 #ifdef MASKED
 layout(location = 1) AT in vec2 uv;
+layout(location = 5) AT in vec4 colour; // of vertices
+layout(constant_id = 2) const bool kColoured = false;
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
 {
@@ -55,7 +57,7 @@ void main()
 #ifdef MASKED
     // The finest level, whatever the texel's size: coarser ones hold means, which for sparse leaves all fall below the cutoff,
     // and the shadow would vanish as texels grow. A texel in or out by one sample is right on average.
-    if (textureLod(base_colour, uv, 0.0).a < cutoff) {
+    if (textureLod(base_colour, uv, 0.0).a * (kColoured ? colour.a : 1.0) < cutoff) {
         discard;
     }
 #endif

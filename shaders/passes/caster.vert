@@ -50,6 +50,9 @@ layout(location = 0) out float metric; // for fragment shaders that store it
 #ifdef MASKED
 layout(location = UV_LOCATION) in vec2 uv_in;
 layout(location = 1) out vec2 uv;
+layout(constant_id = 2) const bool kColoured = false;
+layout(location = 11) in vec4 colour_in; // linear; where not kColoured some other attribute, which nobody reads
+layout(location = 5) out vec4 colour;
 #endif
 #if defined(MASKED) || defined(CLIPPED) || (defined(LAYERED) && defined(PLACED))
 layout(push_constant) uniform Material
@@ -106,5 +109,6 @@ void main()
 #ifdef MASKED
     vec3 t = vec3(uv_in, 1.0);
     uv = vec2(dot(uv_u.xyz, t), dot(uv_v.xyz, t));
+    colour = kColoured ? colour_in : vec4(1.0);
 #endif
 }

@@ -12,6 +12,8 @@ layout(location = 2) in vec3 rim;
 layout(location = 0) in float metric;
 #endif
 layout(location = 1) in vec2 uv;
+layout(location = 5) in vec4 colour_of_vertices;
+layout(constant_id = 2) const bool kColoured = false;
 layout(set = 0, binding = 0) uniform sampler2D base_colour;
 layout(push_constant) uniform Material
 {
@@ -31,7 +33,8 @@ void main()
         discard;
     }
 #endif
-    vec4 colour = clamp(texture(base_colour, uv) * tint, 0.0, 1.0);
+    vec4 all = texture(base_colour, uv) * tint;
+    vec4 colour = clamp(kColoured ? all * colour_of_vertices : all, 0.0, 1.0);
     float depth = casterStored(metric);
     stored = vec4(1.0 - colour.a * (1.0 - colour.rgb), depth);
     gl_FragDepth = depth;

@@ -74,13 +74,17 @@ constexpr const char* kFurther[] = {"filter=pcf pcf.kernel=2x2",
 
 std::vector<CasterBatch> batches(VkDescriptorSet texture)
 {
-    std::vector<CasterBatch> all(5);
+    std::vector<CasterBatch> all(7);
     all[1].texture = texture;
     all[2].clip_planes[0] = {1.0F, 0.0F, 0.0F, 0.5F};
     all[3] = all[2];
     all[3].texture = texture;
     all[4].texture = texture;
     all[4].blended = true;
+    all[5].texture = texture;
+    all[5].vertex_colours = true;
+    all[6] = all[5];
+    all[6].blended = true;
     return all;
 }
 
@@ -91,7 +95,8 @@ void warmUp(const vulkan::DeviceView& view, VkDescriptorSet texture, const char*
     ShadowRenderer renderer(view, {.draws_fins = true});
     renderer.warmUp(options, what);
     if (options.hasMaps()) {
-        CasterDrawer drawer(view, {.vertices = {.piece = {VK_FORMAT_R32_UINT, 4, 0}}});
+        CasterDrawer drawer(
+            view, {.vertices = {.colour = {VK_FORMAT_R8G8B8A8_UNORM, 4, 0}, .piece = {VK_FORMAT_R32_UINT, 4, 0}}});
         drawer.setScene({}, {}, batches(texture));
         drawer.warmUp(options, what.perspective);
     }

@@ -271,8 +271,7 @@ TEST(Volumes, SayWhyTheyCannotBeHad)
         };
     };
     EXPECT_EQ(sentencesOf([](scene::Scene&) {}), std::vector<std::string>{});
-    EXPECT_EQ(sentencesOf(of(scene::AlphaMode::mask)),
-              std::vector<std::string>{"mesh leaves is masked by its texture"});
+    EXPECT_EQ(sentencesOf(of(scene::AlphaMode::mask)), std::vector<std::string>{"mesh leaves is masked"});
     EXPECT_EQ(sentencesOf(of(scene::AlphaMode::blend)), std::vector<std::string>{"mesh leaves is blended"});
     EXPECT_EQ(sentencesOf([](scene::Scene& scene) {
                   scene.meshes[1].name = "post";

@@ -97,6 +97,21 @@ TEST(Blended, InstancesTintAsWell)
     }
 }
 
+TEST(Blended, VerticesSayWhereAndByWhatItTints)
+{
+    scene::Scene scene = panes({1.0F});
+    scene.materials[0].base_colour = glm::vec4(1.0F);
+    std::vector<glm::vec4>& colours = scene.meshes[1].primitives[0].colours;
+    for (const glm::vec3& p : scene.meshes[1].primitives[0].positions) {
+        colours.emplace_back(kTint, p.x > 2.0F ? kAlpha : 0.0F); // from nothing at x = 0 to half at x = 4
+    }
+    const Traced traced = trace(scene, lookDown(2.0, 8.0, 2.0, {16, 4}), sun({0.0, -1.0, 0.0}), hard());
+    for (std::uint32_t x = 0; x < 16; ++x) {
+        const double share = (x + 0.5) / 16.0;
+        EXPECT_NEAR(traced.at(x, 2), 1.0 - share * kAlpha * (1.0 - kLuminance), 1e-5) << x;
+    }
+}
+
 /// The texture's alpha, too, and its colours, which are stored by the curve of sRGB.
 TEST(Blended, TextureSaysWhereAndByWhatItTints)
 {

@@ -220,6 +220,9 @@ TEST(VertexFormatsRefused, areNamed)
     options = {};
     options.vertices.index = VK_INDEX_TYPE_NONE_KHR;
     EXPECT_THROW(CasterDrawer(gpu().view(), options), Error);
+    options = {};
+    options.vertices.colour.format = VK_FORMAT_R8G8B8_UNORM;
+    EXPECT_THROW(CasterDrawer(gpu().view(), options), Error);
 }
 
 } // namespace

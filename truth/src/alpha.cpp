@@ -76,6 +76,14 @@ Value sample(const scene::Image& image, const scene::Texture& sampler, const glm
     return glm::mix(upper, lower, lower_share);
 }
 
+/// What alpha is compared with. Sums of weights and texels are off by their last bits, and alpha that is equal to the
+/// cutoff is solid; what rasterisers store of a vertex's colour is a number of 16 bits at best.
+float limitOf(float cutoff)
+{
+    constexpr float kStep = 1.0F / 65536.0F;
+    return cutoff - std::min(kStep, 0.5F * cutoff);
+}
+
 /// Of the sRGB transfer function; IEC 61966-2-1, 1999.
 float linearOf(std::uint8_t byte)
 {
@@ -103,7 +111,7 @@ float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, cons
 }
 
 AlphaTest::AlphaTest(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Material& material)
-    : primitive_(primitive), factor_(material.base_colour), cutoff_(material.alpha_cutoff)
+    : primitive_(primitive), factor_(material.base_colour), limit_(limitOf(material.alpha_cutoff))
 {
     const scene::TextureUse& use = material.base_colour_texture;
     if (use.texture == scene::kNone || use.texture >= scene.textures.size()) {
@@ -139,7 +147,7 @@ bool AlphaTest::isSolid(std::uint32_t triangle, float u, float v) const
     if (image_ != nullptr) {
         alpha *= sampleAlpha(*image_, sampler_, placeAt(corners, u, v));
     }
-    return alpha >= cutoff_;
+    return alpha >= limit_;
 }
 
 glm::vec2 AlphaTest::placeAt(const std::uint32_t* corners, float u, float v) const

@@ -34,7 +34,7 @@ private:
     glm::vec2 v_axis_{0.0F, 1.0F};
     glm::vec2 offset_{0.0F};
     glm::vec4 factor_{1.0F};
-    float cutoff_ = 0.5F;
+    float limit_ = 0.5F;
 };
 
 /// Alpha of the finest level at `uv`, [0, 1], as GPUs sample: `magnify_linear` blends the four nearest texels. Texel

@@ -7,6 +7,7 @@
 #include "usage.h"
 
 #include <gnomon/plan_views.h>
+#include <gnomon/shared/alpha_cutoff.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +27,7 @@ CasterMaterial material(const CasterBatch& batch)
     const float s = std::sin(batch.uv_rotation_rad);
     return {{c * batch.uv_scale.x, s * batch.uv_scale.y, batch.uv_offset.x, 0.0F},
             {-s * batch.uv_scale.x, c * batch.uv_scale.y, batch.uv_offset.y, 0.0F},
-            batch.cutoff,
+            shared::alphaLimit(batch.cutoff),
             0,
             {},
             batch.tint,
@@ -43,6 +44,11 @@ bool isFinite(const CasterBatch& batch)
 bool readsUvs(const CasterBatch& batch)
 {
     return batch.texture != VK_NULL_HANDLE;
+}
+
+bool readsColours(const CasterBatch& batch)
+{
+    return batch.vertex_colours && batch.texture != VK_NULL_HANDLE;
 }
 
 } // namespace
@@ -68,6 +74,11 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
         refuseUse("list what objects draw", "a batch has a texture, and vertices have no texture coordinates",
                   "fill in CasterVertices::uv");
     }
+    const bool reads_colours = std::ranges::any_of(batches, readsColours);
+    if (reads_colours && impl_->options.vertices.colour.format == VK_FORMAT_UNDEFINED) {
+        refuseUse("list what objects draw", "a batch has vertex colours, and vertices have none",
+                  "fill in CasterVertices::colour");
+    }
     // All of the scene or, when memory runs out, none of it.
     DrawBatcher batcher;
     batcher.setScene(parts, objects);
@@ -81,6 +92,7 @@ void CasterDrawer::setScene(std::span<const DrawPart> parts, std::span<const Dra
     impl_->batches = std::move(copied);
     impl_->materials = std::move(materials);
     impl_->reads_uvs = reads_uvs;
+    impl_->reads_colours = reads_colours;
     impl_->tints = std::ranges::any_of(impl_->batches, &CasterBatch::blended);
 }
 
@@ -186,6 +198,7 @@ VkCullModeFlags CasterDrawer::Impl::cullOf(const CasterBatch& batch, const MapPa
 void CasterDrawer::Impl::setBatch(CasterPipelineKey& key, const CasterBatch& batch) const
 {
     key.masked = batch.texture != VK_NULL_HANDLE;
+    key.coloured = readsColours(batch);
     key.clipped = isClipped(batch);
     key.cull = cullOf(batch, key.formats);
 }
@@ -293,6 +306,10 @@ void CasterDrawer::beginFrame(std::uint32_t slot, const Plan& plan, const Caster
     if (impl_->object_count > 0 && impl_->reads_uvs && geometry.uvs == VK_NULL_HANDLE) {
         refuseUse(kBeginning, "a batch has a texture, and the buffer of texture coordinates is null",
                   "fill in CasterGeometry::uvs");
+    }
+    if (impl_->object_count > 0 && impl_->reads_colours && geometry.colours == VK_NULL_HANDLE) {
+        refuseUse(kBeginning, "a batch has vertex colours, and the buffer of colours is null",
+                  "fill in CasterGeometry::colours");
     }
     if (geometry.pieces == VK_NULL_HANDLE && hasPieces(plan)) {
         refuseUse(kBeginning, "id.of face tells pieces of objects apart, and the buffer of pieces is null",

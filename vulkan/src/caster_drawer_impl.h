@@ -72,6 +72,7 @@ struct CasterDrawer::Impl {
     std::vector<float> biases_m;        // by object index
     bool tints = false;                 // some batch is blended
     bool reads_uvs = false;             // some batch has a texture
+    bool reads_colours = false;         // and vertex colours
     bool together = false;              // some of this plan's views may be drawn in passes of several
 
     // This frame's.

@@ -55,6 +55,9 @@ void CasterDrawer::Impl::bindGeometry(const MapPass& pass) const
     }
     const VkBuffer instances = slot->instances.buffer();
     device.vk.CmdBindVertexBuffers(pass.commands, 1, 1, &instances, &instances_used);
+    if (geometry.colours != VK_NULL_HANDLE) {
+        device.vk.CmdBindVertexBuffers(pass.commands, kColourBinding, 1, &geometry.colours, &geometry.colours_offset);
+    }
     if (pass.formats.pieces) {
         device.vk.CmdBindVertexBuffers(pass.commands, kPieceBinding, 1, &geometry.pieces, &geometry.pieces_offset);
     }

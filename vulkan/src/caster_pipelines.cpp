@@ -29,10 +29,10 @@ struct VertexCodes {
     {                                                                                                                  \
         spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_clipped_vert, spirv::name##_masked_clipped_vert   \
     }
-// What is clipped hands on the metric, whether a fragment shader takes it or not.
+// What is masked or clipped hands on the metric, whether a fragment shader takes it or not.
 #define GNOMON_ORTHOGRAPHIC(name)                                                                                      \
     {                                                                                                                  \
-        spirv::name##_vert, spirv::name##_masked_vert, spirv::name##_metric_clipped_vert,                              \
+        spirv::name##_vert, spirv::name##_metric_masked_vert, spirv::name##_metric_clipped_vert,                       \
             spirv::name##_metric_masked_clipped_vert                                                                   \
     }
 #define GNOMON_VERTEX_CODES(name)                                                                                      \
@@ -129,10 +129,11 @@ std::span<const std::uint32_t> fragmentCode(const MapPassFormats& formats, bool 
     return masked ? spirv::caster_masked_frag : std::span<const std::uint32_t>{};
 }
 
-// The constants of caster.frag, by constant_id.
-struct FragmentConstants {
+// The constants of the casters' shaders, by constant_id.
+struct CasterConstants {
     std::int32_t holding = 0;
     float quantum = 0.0F;
+    VkBool32 coloured = VK_FALSE;
 };
 
 void checkVertices(const CasterVertices& vertices)
@@ -152,6 +153,10 @@ void checkVertices(const CasterVertices& vertices)
             "choose three or four floats of 32 bits, or four numbers of 16 bits, float, snorm or unorm");
     require(kUvs, vertices.uv.format, "a format of texture coordinates",
             "choose two floats of 32 or 16 bits, or two unorm of 16 bits");
+    require(std::array{VK_FORMAT_UNDEFINED, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_UNORM,
+                       VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT},
+            vertices.colour.format, "a format of vertex colours",
+            "choose four unorm of 8 or 16 bits, or four floats of 16 or 32 bits");
     require(std::array{VK_FORMAT_UNDEFINED, VK_FORMAT_R16_UINT, VK_FORMAT_R32_UINT}, vertices.piece.format,
             "a format of pieces", "choose 16 or 32 bits of unsigned integers");
     require(std::array{VK_INDEX_TYPE_UINT32, VK_INDEX_TYPE_UINT16}, vertices.index, "a type of indices",
@@ -159,8 +164,8 @@ void checkVertices(const CasterVertices& vertices)
 }
 
 struct VertexInput {
-    std::array<VkVertexInputBindingDescription, 5> bindings{};
-    std::array<VkVertexInputAttributeDescription, 11> attributes{};
+    std::array<VkVertexInputBindingDescription, 6> bindings{};
+    std::array<VkVertexInputAttributeDescription, 12> attributes{};
     std::uint32_t binding_count = 0;
     std::uint32_t attribute_count = 0;
 };
@@ -180,6 +185,14 @@ VertexInput vertexInput(const CasterPipelineKey& key, const CasterVertices& vert
     if (key.masked) {
         input.bindings[input.binding_count++] = {2, vertices.uv.stride, VK_VERTEX_INPUT_RATE_VERTEX};
         input.attributes[input.attribute_count++] = {1 + rows, 2, vertices.uv.format, vertices.uv.offset};
+        if (key.coloured) {
+            input.bindings[input.binding_count++] = {kColourBinding, vertices.colour.stride,
+                                                     VK_VERTEX_INPUT_RATE_VERTEX};
+            input.attributes[input.attribute_count++] = {11, kColourBinding, vertices.colour.format,
+                                                         vertices.colour.offset};
+        } else { // Vulkan wants something for every input that a module declares
+            input.attributes[input.attribute_count++] = {11, 0, vertices.position.format, vertices.position.offset};
+        }
     }
     if (key.formats.ids) {
         input.attributes[input.attribute_count++] = {8, 1, VK_FORMAT_R32G32B32A32_SFLOAT, rows * kRowBytes};
@@ -247,24 +260,26 @@ Pipeline CasterPipelines::make(const CasterPipelineKey& key)
     const bool per_sample = formats.samples != VK_SAMPLE_COUNT_1_BIT && device_.uses().sample_metric;
     const std::span<const std::uint32_t> fragment_code = fragmentCode(formats, key.masked, per_sample);
     ShaderModule fragment;
-    const FragmentConstants constants{formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes
-                                                                                 : shared::kDepthAlone,
-                                      depthRounding(formats.depth)};
+    const CasterConstants constants{formats.colour == VK_FORMAT_R8G8B8A8_UNORM ? shared::kDepthBytes
+                                                                               : shared::kDepthAlone,
+                                    depthRounding(formats.depth), key.coloured ? VK_TRUE : VK_FALSE};
     const std::array entries{
-        VkSpecializationMapEntry{0, offsetof(FragmentConstants, holding), sizeof constants.holding},
-        VkSpecializationMapEntry{1, offsetof(FragmentConstants, quantum), sizeof constants.quantum}};
+        VkSpecializationMapEntry{0, offsetof(CasterConstants, holding), sizeof constants.holding},
+        VkSpecializationMapEntry{1, offsetof(CasterConstants, quantum), sizeof constants.quantum},
+        VkSpecializationMapEntry{2, offsetof(CasterConstants, coloured), sizeof constants.coloured}};
     const VkSpecializationInfo specialisation{entries.size(), entries.data(), sizeof constants, &constants};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     stages[0].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
     stages[0].module = vertex.get();
     stages[0].pName = "main";
+    stages[0].pSpecializationInfo = key.coloured ? &specialisation : nullptr;
     if (!fragment_code.empty()) {
         fragment = makeShader(device_, fragment_code);
         stages[1] = stages[0];
         stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[1].module = fragment.get();
-        if ((formats.colour != VK_FORMAT_UNDEFINED && !formats.blended) || formats.behind_first) {
+        if ((formats.colour != VK_FORMAT_UNDEFINED && !formats.blended) || formats.behind_first || key.coloured) {
             stages[1].pSpecializationInfo = &specialisation;
         }
     }

@@ -14,9 +14,10 @@ namespace gnomon::vulkan {
 struct CasterPipelineKey {
     MapPassFormats formats;
     bool perspective = false;
-    bool masked = false;
-    bool clipped = false; // CasterBatch::clip_planes
-    bool clamp = true;    // casters before the near plane are clamped onto it
+    bool masked = false;   // or blended: it has a texture
+    bool coloured = false; // CasterBatch::vertex_colours, of what is masked
+    bool clipped = false;  // CasterBatch::clip_planes
+    bool clamp = true;     // casters before the near plane are clamped onto it
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     TexelPart part = TexelPart::whole;
     bool placed = false;  // MapPass::placement
@@ -41,8 +42,9 @@ inline constexpr VkShaderStageFlags kMaterialStages = VK_SHADER_STAGE_VERTEX_BIT
 /// Vertex buffer of MapPass::placement.
 inline constexpr std::uint32_t kPlacementBinding = 3;
 
-/// Vertex buffer of CasterGeometry::pieces.
+/// Vertex buffers of CasterGeometry::pieces and colours.
 inline constexpr std::uint32_t kPieceBinding = 4;
+inline constexpr std::uint32_t kColourBinding = 5;
 
 class CasterPipelines {
 public:

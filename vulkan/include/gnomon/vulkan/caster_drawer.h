@@ -32,7 +32,8 @@ struct CasterBatch {
     /// Alpha-masked: a set with one COMBINED_IMAGE_SAMPLER at binding 0, FRAGMENT stage, whose alpha is tested;
     /// VK_NULL_HANDLE: opaque.
     VkDescriptorSet texture = VK_NULL_HANDLE;
-    float cutoff = 0.5F;          // kept where alpha >= cutoff; divide by the material's own alpha factor
+    float cutoff = 0.5F;          // 0 or above; kept where alpha >= alphaLimit(cutoff) (gnomon/shared/alpha_cutoff.h);
+                                  // divide by the material's own alpha factor
     glm::vec2 uv_scale{1.0F};     // KHR_texture_transform
     glm::vec2 uv_offset{0.0F};    // likewise
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
@@ -40,6 +41,9 @@ struct CasterBatch {
     /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
     glm::vec4 tint{1.0F}; // linear colour and alpha; blended batches alone
+    /// CasterVertices::colour multiplies `texture` and `tint`. Of a masked batch its alpha alone counts, of one without
+    /// a texture nothing.
+    bool vertex_colours = false;
     /// What cuts its objects, in the space of their vertices, before world_from_object: a point is not drawn where
     /// dot(plane.xyz, p) + plane.w < 0 for either plane. Finite; those here by default cut nothing. A mesh that is cut
     /// is open, so all its triangles cast, whatever `two_sided` says. Bounds in the ObjectSet may be those of what is
@@ -57,7 +61,7 @@ struct VertexAttribute {
     std::uint32_t offset = 0;              // bytes from a vertex's first
 };
 
-/// How the host's vertices and indices are stored. Interleaved vertices have both attributes in one buffer.
+/// How the host's vertices and indices are stored. Interleaved vertices have all attributes in one buffer.
 struct CasterVertices {
     /// R32G32B32_SFLOAT, R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT, R16G16B16A16_SNORM or R16G16B16A16_UNORM; a fourth
     /// number is not read. Of normalised ones, world_from_object says how large an object is.
@@ -65,6 +69,9 @@ struct CasterVertices {
     /// R32G32_SFLOAT, R16G16_SFLOAT or R16G16_UNORM. UNDEFINED: there are none. Read for batches with a
     /// texture alone.
     VertexAttribute uv{VK_FORMAT_R32G32_SFLOAT, 8, 0};
+    /// R8G8B8A8_UNORM, R16G16B16A16_UNORM, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT: linear colour and alpha, 0 .. 1.
+    /// UNDEFINED: there are none. Read for batches with CasterBatch::vertex_colours alone.
+    VertexAttribute colour;
     /// R16_UINT or R32_UINT: which piece of its object a vertex is of, in the lower 12 bits; the three of a triangle
     /// have one. For lights with IdOf::face alone. UNDEFINED: vertices do not say so.
     VertexAttribute piece;
@@ -82,6 +89,8 @@ struct CasterGeometry {
     VkDeviceSize indices_offset = 0;     // bytes
     VkBuffer pieces = VK_NULL_HANDLE;    // of CasterVertices::piece
     VkDeviceSize pieces_offset = 0;      // bytes
+    VkBuffer colours = VK_NULL_HANDLE;   // of CasterVertices::colour; may be null when no batch has vertex colours
+    VkDeviceSize colours_offset = 0;     // bytes
 };
 
 /// How a CasterDrawer is made.
@@ -101,6 +110,7 @@ struct CasterDrawerOptions {
 ///   a part that names no batch, an object that names no part                        Error
 ///   a clip plane that is not finite                                                 Error
 ///   a batch with a texture without CasterVertices::uv or CasterGeometry::uvs        Error
+///   one with vertex colours without CasterVertices::colour or CasterGeometry::colours Error
 ///   a slot beyond frames_in_flight, frames_in_flight 0 or more than kMostFrames     Error
 ///   a plan whose numbers point beyond its own lists or pages                        Error
 ///   a plan with IdOf::face without CasterVertices::piece or CasterGeometry::pieces Error
