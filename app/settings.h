@@ -79,6 +79,7 @@ struct Settings {
     host::Shading shading = host::Shading::deferred;
     pack::CompactMaskRule compact_mask;
     std::string material_override; // empty or "diffuse"
+    bool stained = false;          // blended surfaces are stained glass
     Ground ground = Ground::automatic;
     UpAxis up_axis = UpAxis::y;
     // camera

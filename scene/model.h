@@ -66,6 +66,8 @@ struct Material {
     glm::vec4 base_colour{1.0F}; // linear, alpha is coverage
     float metallic = 1.0F;
     float roughness = 1.0F;
+    /// Blended: light that goes through is coloured, 1 - alpha (1 - colour) of it goes on; else 1 - alpha does.
+    bool stained = false;
     float phong_exponent = 8.0F; // for ShadingModel::phong only
     /// Of opaque materials: windows that are lit when it is dark outside, by a physical sky. How brightly; where the
     /// vertex colours' alpha is 0, not at all where it is 1.

@@ -276,6 +276,18 @@ void turnFile(Shot& shot, const Settings& settings)
     }
 }
 
+void stainMaterials(Shot& shot, const Settings& settings)
+{
+    bool any = false;
+    for (scene::Material& material : shot.scene.materials) {
+        material.stained = settings.stained && material.alpha_mode == scene::AlphaMode::blend;
+        any = any || material.stained;
+    }
+    if (settings.stained && !any) {
+        tellNoEffect(settings, shot.notices, "--blended has an effect on blended surfaces only; the scene has none");
+    }
+}
+
 /// What the scene is like when nothing has moved decides on outlook and ground, whatever the time and the animation.
 /// True: a ground was put in, and the state is to be made anew.
 bool furnish(Shot& shot, const Settings& settings)
@@ -309,6 +321,7 @@ Shot makeShot(const Settings& settings)
     if (settings.material_override == "diffuse") {
         overrideMaterials(shot.scene);
     }
+    stainMaterials(shot, settings);
     requireAnimation(shot.scene, settings.animation);
     const std::uint32_t first = settings.frames ? settings.frames->first : 0;
     const double time_s = momentOf(shot, settings, first);

@@ -8,6 +8,7 @@ layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
 #include "shown.glsl" // first: the library's headers take the macros of portability.h back
+#include "gnomon/shared/blended_tint.h"
 #ifdef GNOMON_FILTER
 #include "by_vertex.glsl" // kInSoftware
 #define GNOMON_SET 2
@@ -60,8 +61,7 @@ vec3 ownTint(vec4 base)
     if (kOpaque || ids.z == 0u) {
         return vec3(1.0);
     }
-    vec4 own = clamp(base, 0.0, 1.0);
-    return 1.0 - own.a * (1.0 - own.rgb);
+    return blendedTint(clamp(base, 0.0, 1.0), MATERIAL_MODEL.w);
 }
 
 void main()

@@ -24,7 +24,7 @@ MaterialData dataOf(const scene::Material& m)
     data.numbers = {m.metallic, m.roughness, m.occlusion_strength, shared::alphaLimit(m.alpha_cutoff)};
     float model = m.model == scene::ShadingModel::phong ? 1.0F : 0.0F;
     model = m.model == scene::ShadingModel::unlit ? 2.0F : model;
-    data.model = {model, m.phong_exponent, m.lit_by_night, 0.0F};
+    data.model = {model, m.phong_exponent, m.lit_by_night, m.stained ? 1.0F : 0.0F};
     const auto uses = usesOf(m);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         // KHR_texture_transform: scaled, then turned counter-clockwise in texture space (v down), then moved.

@@ -3,6 +3,7 @@
 // What a blended caster writes to a map of tints: the colour that it multiplies the light behind it by, and its depth, of
 // which the nearest stays.
 #extension GL_GOOGLE_include_directive : require
+#include "gnomon/shared/blended_tint.h"
 #include "gnomon/lib/caster.glsl"
 
 #ifdef PARABOLOID
@@ -19,7 +20,7 @@ layout(push_constant) uniform Material
 {
     vec4 uv_u;
     vec4 uv_v;
-    float cutoff;
+    float stained; // in the place of a masked caster's cutoff
     int first_view;
     layout(offset = 48) vec4 tint;
 };
@@ -36,6 +37,6 @@ void main()
     vec4 all = texture(base_colour, uv) * tint;
     vec4 colour = clamp(kColoured ? all * colour_of_vertices : all, 0.0, 1.0);
     float depth = casterStored(metric);
-    stored = vec4(1.0 - colour.a * (1.0 - colour.rgb), depth);
+    stored = vec4(blendedTint(colour, stained), depth);
     gl_FragDepth = depth;
 }

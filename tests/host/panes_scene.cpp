@@ -37,6 +37,7 @@ scene::Scene panes(const std::vector<Pane>& panes)
     for (const Pane& pane : panes) {
         scene::Material& glass = scene.materials.emplace_back();
         glass.alpha_mode = scene::AlphaMode::blend;
+        glass.stained = true;
         glass.double_sided = true;
         glass.base_colour = glm::vec4(pane.colour, kPaneAlpha);
         addLevel(scene, 0.0F, 4.0F, pane.height_m, static_cast<std::uint32_t>(scene.materials.size() - 1));

@@ -87,6 +87,7 @@ void addMaterials(scene::Scene& scene)
     fence.base_colour_texture.texture = 0;
     scene::Material glass;
     glass.alpha_mode = scene::AlphaMode::blend;
+    glass.stained = true;
     glass.base_colour = {0.3F, 0.6F, 1.0F, 0.4F};
     scene::Material glow;
     glow.model = scene::ShadingModel::phong;

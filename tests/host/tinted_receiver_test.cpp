@@ -60,6 +60,7 @@ scene::Scene sceneOf(const Wish& wish)
     if (wish.pane) {
         scene.materials.push_back(matte(wish.colour));
         scene.materials.back().alpha_mode = scene::AlphaMode::blend;
+        scene.materials.back().stained = true;
         addLevel(scene, -4.0F, 4.0F, kReceiver_m, static_cast<std::uint32_t>(scene.materials.size() - 1));
         scene.nodes.back().casts = wish.pane_casts;
     }

@@ -50,8 +50,10 @@ scene::Scene panesAndWall()
         material.double_sided = true;
     }
     scene.materials[1].alpha_mode = scene::AlphaMode::blend;
+    scene.materials[1].stained = true;
     scene.materials[1].base_colour = {1.0F, 0.1F, 0.1F, 0.8F};
     scene.materials[2].alpha_mode = scene::AlphaMode::blend;
+    scene.materials[2].stained = true;
     scene.materials[2].base_colour = {0.2F, 0.4F, 1.0F, 0.5F};
     addQuad(scene, {{{-6, 0, -6}, {-6, 0, 6}, {6, 0, 6}, {6, 0, -6}}}, 0);
     addQuad(scene, {{{-3, 0, -1}, {-1, 0, -1}, {-1, 2.5F, -1}, {-3, 2.5F, -1}}}, 0);

@@ -24,6 +24,7 @@ scene::Scene panes(const std::vector<float>& heights)
     scene::Scene scene;
     scene::Material glass;
     glass.alpha_mode = scene::AlphaMode::blend;
+    glass.stained = true;
     glass.base_colour = glm::vec4(kTint, kAlpha);
     scene.materials.push_back(glass);
     place(scene, addQuad(scene, level(0.0F, 32.0F)));
@@ -54,6 +55,17 @@ TEST(Blended, OnePaneTintsWhatLiesBehindItAndNothingElse)
             EXPECT_EQ(sides.free, 1.0);
             EXPECT_NEAR(sides.under, once, 1e-6);
         }
+    }
+}
+
+TEST(Blended, PaneThatIsNotStainedTakesWhatItCovers)
+{
+    for (const Options& options : {hard(), area(64)}) {
+        scene::Scene one = panes({1.0F});
+        one.materials[0].stained = false;
+        EXPECT_NEAR(sidesOf(one, sun({0.0, -1.0, 0.0}), options).under, 1.0 - kAlpha, 1e-6);
+        one.materials[0].base_colour = glm::vec4(1.0F);
+        EXPECT_EQ(sidesOf(one, sun({0.0, -1.0, 0.0}), options).under, 0.0) << "white, and there all the same";
     }
 }
 

@@ -194,7 +194,7 @@ TEST(Flags, decide_what_is_seen_casts_and_receives)
     expect(middleUnder([](scene::Scene& s) { s.materials[0].double_sided = true; }), 2, 1.0);
     expect(middleUnder([](scene::Scene& s) { s.nodes[1].casts = false; }), 1, 1.0);
     expect(middleUnder([](scene::Scene& s) { s.nodes[0].receives = false; }), 1, 1.0);
-    expect(middleUnder([](scene::Scene& s) { s.materials[0].alpha_mode = scene::AlphaMode::blend; }), 1, 1.0);
+    expect(middleUnder([](scene::Scene& s) { s.materials[0].alpha_mode = scene::AlphaMode::blend; }), 1, 0.0);
     // What does not cast is still seen, and what is blended is not, from its front.
     const auto flip = [](scene::Scene& s) {
         std::reverse(s.meshes[1].primitives[0].indices.begin(), s.meshes[1].primitives[0].indices.end());
@@ -209,7 +209,7 @@ TEST(Flags, decide_what_is_seen_casts_and_receives)
                flip(s);
                s.materials[0].alpha_mode = scene::AlphaMode::blend;
            }),
-           1, 1.0);
+           1, 0.0);
     // Nearer than the camera's near plane, or beyond its far plane, nothing is seen.
     expect(middleUnder(flip, 1.0005), 1, 0.0);
 }

@@ -111,7 +111,8 @@ float sampleAlpha(const scene::Image& image, const scene::Texture& sampler, cons
 }
 
 AlphaTest::AlphaTest(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Material& material)
-    : primitive_(primitive), factor_(material.base_colour), limit_(limitOf(material.alpha_cutoff))
+    : primitive_(primitive), factor_(material.base_colour), limit_(limitOf(material.alpha_cutoff)),
+      stained_(material.stained)
 {
     const scene::TextureUse& use = material.base_colour_texture;
     if (use.texture == scene::kNone || use.texture >= scene.textures.size()) {
@@ -176,7 +177,7 @@ glm::vec3 AlphaTest::transmittance(std::uint32_t triangle, float u, float v) con
         colour *= sampleColour(*image_, sampler_, placeAt(corners, u, v));
     }
     colour = glm::clamp(colour, 0.0F, 1.0F);
-    return 1.0F - colour.a * (1.0F - glm::vec3(colour));
+    return stained_ ? 1.0F - colour.a * (1.0F - glm::vec3(colour)) : glm::vec3(1.0F - colour.a);
 }
 
 } // namespace gnomon::truth

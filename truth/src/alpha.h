@@ -19,8 +19,8 @@ public:
 
     /// At the point of triangle `triangle` whose weights are 1 - u - v, u and v for its three vertices.
     [[nodiscard]] bool isSolid(std::uint32_t triangle, float u, float v) const;
-    /// There, of a blended surface: the share of red, green and blue light that goes on behind it, [0, 1]. It is
-    /// stained glass, which where its alpha covers it takes away what its colour does not have: 1 - alpha (1 - colour).
+    /// There, of a blended surface: the share of red, green and blue light that goes on behind it, [0, 1]: 1 - alpha.
+    /// Stained glass takes away what its colour does not have where its alpha covers it: 1 - alpha (1 - colour).
     [[nodiscard]] glm::vec3 transmittance(std::uint32_t triangle, float u, float v) const;
 
 private:
@@ -35,6 +35,7 @@ private:
     glm::vec2 offset_{0.0F};
     glm::vec4 factor_{1.0F};
     float limit_ = 0.5F;
+    bool stained_ = false;
 };
 
 /// Alpha of the finest level at `uv`, [0, 1], as GPUs sample: `magnify_linear` blends the four nearest texels. Texel

@@ -27,7 +27,7 @@ CasterMaterial material(const CasterBatch& batch)
     const float s = std::sin(batch.uv_rotation_rad);
     return {{c * batch.uv_scale.x, s * batch.uv_scale.y, batch.uv_offset.x, 0.0F},
             {-s * batch.uv_scale.x, c * batch.uv_scale.y, batch.uv_offset.y, 0.0F},
-            shared::alphaLimit(batch.cutoff),
+            batch.blended ? float(batch.stained) : shared::alphaLimit(batch.cutoff),
             0,
             {},
             batch.tint,

@@ -37,10 +37,12 @@ struct CasterBatch {
     glm::vec2 uv_scale{1.0F};     // KHR_texture_transform
     glm::vec2 uv_offset{0.0F};    // likewise
     float uv_rotation_rad = 0.0F; // as KHR_texture_transform has it: scaled, then rotated, then moved
-    /// Blended: it tints light by 1 - alpha (1 - colour), and is drawn to maps of tints alone. `texture` is its colour,
-    /// linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
+    /// Blended: 1 - alpha of the light goes on behind it, and it is drawn to maps of tints alone. `texture` is its
+    /// colour, linear when sampled, and must be there: a white texel where the material has none. `tint` multiplies it.
     bool blended = false;
     glm::vec4 tint{1.0F}; // linear colour and alpha; blended batches alone
+    /// Of blended batches: stained glass, behind which 1 - alpha (1 - colour) goes on (gnomon/shared/blended_tint.h).
+    bool stained = false;
     /// CasterVertices::colour multiplies `texture` and `tint`. Of a masked batch its alpha alone counts, of one without
     /// a texture nothing.
     bool vertex_colours = false;
