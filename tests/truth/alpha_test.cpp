@@ -255,5 +255,38 @@ TEST(SampleAlpha, coordinates_that_are_no_numbers_or_huge_do_no_harm)
     }
 }
 
+/// Wherever on its triangle: weights and texels are off by their last bits.
+TEST(AlphaAtTheCutoff, IsSolid)
+{
+    scene::Scene scene;
+    scene.images.push_back({.name = "even", .width = 2, .height = 2});
+    scene.textures.push_back({.image = 0});
+    scene.materials.resize(1);
+    scene::Primitive primitive;
+    primitive.positions.assign(3, glm::vec3(0.0F));
+    primitive.indices = {0, 1, 2};
+    primitive.uv0 = {{0.1F, 0.2F}, {5.3F, 0.7F}, {0.4F, 6.1F}};
+    for (int byte = 1; byte < 256; ++byte) {
+        const auto texel = static_cast<std::uint8_t>(byte);
+        scene.images[0].rgba.assign(16, texel);
+        const float alpha = static_cast<float>(byte) / 255.0F;
+        for (const bool by_texture : {false, true}) {
+            scene::Material& material = scene.materials[0];
+            material.base_colour_texture.texture = by_texture ? 0 : scene::kNone;
+            primitive.colours.assign(3, glm::vec4(by_texture ? 1.0F : alpha));
+            material.alpha_cutoff = alpha;
+            const AlphaTest at(scene, primitive, material);
+            material.alpha_cutoff = alpha + 0.0001F;
+            const AlphaTest below(scene, primitive, material);
+            for (int i = 0; i < 64; ++i) {
+                const float u = static_cast<float>(i) / 97.0F;
+                const float v = (1.0F - u) * static_cast<float>((i * 29) % 64) / 67.0F;
+                ASSERT_TRUE(at.isSolid(0, u, v)) << byte << ' ' << by_texture << ' ' << u << ' ' << v;
+                ASSERT_FALSE(below.isSolid(0, u, v)) << byte << ' ' << by_texture << ' ' << u << ' ' << v;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace gnomon::truth::test

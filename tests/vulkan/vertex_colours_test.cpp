@@ -92,6 +92,7 @@ TEST_P(VertexColours, DecideWhatIsMasked)
         const ShadowOptions options{.technique = kPlainTechnique, .format = map};
         const auto solid = mapsWith(options, 0.75F, true);
         EXPECT_TRUE(solid == mapsWith(options, 0.25F, false)) << "they count where the batch says so";
+        EXPECT_TRUE(solid == mapsWith(options, 0.5F, true)) << "the cutoff itself is solid";
         const auto clear = mapsWith(options, 0.25F, true);
         for (std::size_t light = 0; light < 2; ++light) {
             std::size_t farther = 0;
