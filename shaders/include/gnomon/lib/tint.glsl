@@ -9,10 +9,13 @@
 
 layout(set = GNOMON_SET, binding = GNOMON_TINTS_BINDING) uniform sampler2DArray gnomon_tints;
 
-vec3 tintTexel(vec2 texel, float layer, float depth, vec3 own)
+// Compared as filters compare: with the depth that the receiver's plane has at the texel, lest a blended surface that
+// leans to the light lies behind itself; and a step of the map's depth is no depth.
+vec3 tintTexel(vec2 texel, float layer, MapPoint point, vec3 own)
 {
     vec4 tint = texelFetch(gnomon_tints, ivec3(texel, layer), 0);
-    return depth > tint.a ? min(tint.rgb / own, 1.0) : vec3(1.0);
+    float before = compareTexel(point, texel + 0.5 - point.texel, tint.a + 1.0 / 65535.0);
+    return before > 0.0 ? vec3(1.0) : min(tint.rgb / own, 1.0);
 }
 
 // What arrives of white light at a receiver, projectReceiver() of it: red, green, blue, and their luminance
@@ -30,8 +33,8 @@ vec4 viewTint(GpuView view, MapPoint point, vec3 own_tint)
     vec2 low = max(first, view.whole.xy);
     vec2 high = min(first + 1.0, view.whole.zw - 1.0);
     vec3 own = max(own_tint, vec3(1.0 / 65535.0)); // the map's step
-    vec3 above = mix(tintTexel(low, layer, point.depth, own), tintTexel(vec2(high.x, low.y), layer, point.depth, own), share.x);
-    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point.depth, own), tintTexel(high, layer, point.depth, own), share.x);
+    vec3 above = mix(tintTexel(low, layer, point, own), tintTexel(vec2(high.x, low.y), layer, point, own), share.x);
+    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point, own), tintTexel(high, layer, point, own), share.x);
     vec3 tint = mix(above, below, share.y);
     return vec4(tint, dot(tint, vec3(0.2126, 0.7152, 0.0722)));
 }
