@@ -20,8 +20,8 @@ vec3 tintTexel(vec2 texel, float layer, MapPoint point, vec3 own)
 
 // What arrives of white light at a receiver, projectReceiver() of it: red, green, blue, and their luminance
 // (ITU-R BT.709). Bilinear, each texel being compared on its own. `own_tint`: what the surface itself multiplies the
-// light behind it by. It is a factor of the product and has to come out again: 0 cannot, but what lets nothing of a
-// colour through reflects nothing of it either.
+// light behind it by. It is a factor of the product and has to come out again: 0 cannot, so what lets nothing through is
+// lit where it is the nearest, and dark behind another.
 vec4 viewTint(GpuView view, MapPoint point, vec3 own_tint)
 {
     float layer = view.more.w - 1.0;
@@ -30,12 +30,14 @@ vec4 viewTint(GpuView view, MapPoint point, vec3 own_tint)
     }
     vec2 first = floor(point.texel - 0.5);
     vec2 share = point.texel - 0.5 - first;
-    vec2 low = max(first, view.whole.xy);
-    vec2 high = min(first + 1.0, view.whole.zw - 1.0);
     vec3 own = max(own_tint, vec3(1.0 / 65535.0)); // the map's step
-    vec3 above = mix(tintTexel(low, layer, point, own), tintTexel(vec2(high.x, low.y), layer, point, own), share.x);
-    vec3 below = mix(tintTexel(vec2(low.x, high.y), layer, point, own), tintTexel(high, layer, point, own), share.x);
-    vec3 tint = mix(above, below, share.y);
+    vec3 tint = vec3(0.0);
+    for (int i = 0; i < 4; ++i) { // not four times in the module
+        vec2 corner = vec2(i & 1, i >> 1);
+        vec2 weight = mix(1.0 - share, share, corner);
+        vec2 texel = clamp(first + corner, view.whole.xy, view.whole.zw - 1.0);
+        tint += weight.x * weight.y * tintTexel(texel, layer, point, own);
+    }
     return vec4(tint, dot(tint, vec3(0.2126, 0.7152, 0.0722)));
 }
 
