@@ -118,6 +118,26 @@ TEST(BlendedCaster, CastsNothingAndCostsNothingWithTranslucentNone)
     EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
 }
 
+// As exporters have it that call opaque things blended.
+TEST(BlendedCaster, TakesWhatItCoversUnlessItIsStained)
+{
+    Gpu gpu({.gpu = "software", .validate = true});
+    for (const float alpha : {kPaneAlpha, 1.0F}) {
+        scene::Scene scene = panes({Pane{2.0F, glm::vec3(1.0F)}});
+        scene.materials[1].base_colour.a = alpha;
+        scene.materials[1].stained = false;
+        for (const Translucent translucent : {Translucent::grey, Translucent::colour}) {
+            ShadowOptions shadow = plainWith(Filter::pcf);
+            shadow.translucent = translucent;
+            for (const Sides& sides : sidesOf(gpu, scene, shadow)) {
+                EXPECT_NEAR(sides.free, 1.0F, kStep);
+                EXPECT_NEAR(sides.under, 1.0F - alpha, kStep);
+            }
+        }
+    }
+    EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
+}
+
 TEST(BlendedCaster, PanesMultiplyColourByColour)
 {
     Gpu gpu({.gpu = "software", .validate = true});
