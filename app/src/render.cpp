@@ -63,7 +63,7 @@ void noteOutcomes(const Shot& shot, const Plan& plan)
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
         const Outcome& outcome = plan.lights[i].outcome;
         if (outcome.kind == OutcomeKind::fallback || outcome.kind == OutcomeKind::degenerate ||
-            outcome.kind == OutcomeKind::atlas_full) {
+            outcome.kind == OutcomeKind::refused || outcome.kind == OutcomeKind::atlas_full) {
             notice(fmt::format("light {}: {}: {}", shot.lights[i].name, nameOf(outcome.kind), outcome.reason));
         }
     }

@@ -109,9 +109,9 @@ void applySpot(Settings& s, const Value& v)
 {
     const SpotLight spot{vec3(v.numbers), vec3(v.numbers, 3), v.numbers[6]};
     (void)direction("spot", spot.target_ws - spot.position_ws);
-    if (!(spot.angle_deg >= 0.1 && spot.angle_deg <= 120.0)) {
+    if (!(spot.angle_deg >= 0.1 && spot.angle_deg <= 180.0)) {
         throw UsageError(
-            fmt::format("--spot: its cone of {} degrees is not in the range 0.1 to 120 degrees", spot.angle_deg));
+            fmt::format("--spot: its cone of {} degrees is not in the range 0.1 to 180 degrees", spot.angle_deg));
     }
     s.spot = spot;
 }
@@ -309,7 +309,7 @@ const std::vector<Setting>& rows()
         {.key = "light-size", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "diameter of spot and point lights, spheres; else their own, or 0", .subcommands = kFrames, .used = lightHasSize, .used_when = "--truth area, filter pcss or raymarch, penumbra light, filter or soften smoothies, or soften converge",
          .apply = [](Settings& s, const Value& v) { s.light_size_m = v.real; }},
-        {.key = "spot.cone", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 120,
+        {.key = "spot.cone", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 180,
          .doc = "the whole cone of spot lights; else their own", .own_option = false, .apply = [](Settings& s, const Value& v) { s.cone_deg = v.real; }},
         {.key = "spot.near", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "nothing nearer to a spot light casts; else its own, or its reach / 1000", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},

@@ -33,11 +33,14 @@ constexpr std::array kRules{
             return light == LightType::point && !goesAround(t.partition) && !isVolumes(t);
         },
         "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart",
-        "a point light shines all around, and no one frustum does; it needs partition cube, paraboloid, multi or auto"},
+        "a point light, or a spot light wider than 120 degrees, shines farther around than one frustum holds; it needs "
+        "partition cube, paraboloid, multi or auto"},
     ChoiceRule{
-        [](LightType light, const Technique& t) { return light != LightType::point && t.partition == Partition::cube; },
-        "partition cube with every light but point",
-        "cube is the six faces around a point light; a sun or a spot light needs another partition, or auto"},
+        [](LightType light, const Technique& t) {
+            return light == LightType::directional && t.partition == Partition::cube;
+        },
+        "partition cube with light directional",
+        "cube is the six faces around a light that has a place; a sun needs another partition, or auto"},
     ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "

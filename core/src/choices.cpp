@@ -43,7 +43,7 @@ constexpr std::string_view kMotion = "motion";
 
 constexpr std::array kValues{
     ChoiceValue{kLight, "directional", number(LightType::directional), "a sun: parallel rays", kMarinescu},
-    ChoiceValue{kLight, "spot", number(LightType::spot), "a cone of at most 120 degrees, with a cookie texture",
+    ChoiceValue{kLight, "spot", number(LightType::spot), "a cone, with a cookie texture; one wider than 120 degrees is divided as a point light is",
                 kShastry},
     ChoiceValue{kLight, "point", number(LightType::point), "shines all around", kForsyth},
 
@@ -54,7 +54,7 @@ constexpr std::array kValues{
                 "F. Zhang et al., Parallel-split shadow maps for large-scale virtual environments, 2006"},
     ChoiceValue{kPartition, "sdsm", number(Partition::sdsm), "slices fitted to the depth buffer",
                 "A. Lauritzen, M. Salvi, A. Lefohn, Sample Distribution Shadow Maps, 2011"},
-    ChoiceValue{kPartition, "cube", number(Partition::cube), "six faces around a point light", kForsyth},
+    ChoiceValue{kPartition, "cube", number(Partition::cube), "six faces around a light that has a place", kForsyth},
     ChoiceValue{
         kPartition, "paraboloid", number(Partition::paraboloid), "two half spaces around a point light",
         "S. Brabec, T. Annen, H.-P. Seidel, Shadow Mapping for Hemispherical and Omnidirectional Light Sources, 2002"},

@@ -92,7 +92,7 @@ void FrustumPlanner::outlinePlaces(const FrustumInput& input, const Lie& lie)
 {
     places_.clear();
     scratch_.clear();
-    if (!input.recipe.takesDepth(input.light.type) || lit_.empty()) {
+    if (!input.recipe.takesDepth(layoutOf(input.light)) || lit_.empty()) {
         return;
     }
     for (const LitPoint& point : lit_) {

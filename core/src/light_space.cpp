@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kWidestSun_rad = 1.5708;       // 90 degrees and a rounding
 constexpr double kWidestHalfAngle_rad = 1.0472; // 60 degrees and a rounding
+constexpr double kWidestSpot_rad = 1.5708;      // 90 degrees and a rounding
 
 bool finite(const glm::dvec3& v)
 {
@@ -77,11 +78,27 @@ Outcome checkLight(const Light& light)
         if (!(light.outer_half_angle_rad > 0.0)) {
             return {OutcomeKind::degenerate, "the spot light's angle is not greater than zero"};
         }
-        if (light.outer_half_angle_rad > kWidestHalfAngle_rad) {
-            return {OutcomeKind::refused, "a spot light wider than 120 degrees does not fit one frustum"};
+        if (light.outer_half_angle_rad > kWidestSpot_rad) {
+            return {OutcomeKind::degenerate, "the spot light is wider than 180 degrees; its angle is in radians, from "
+                                             "the axis"};
         }
     }
     return {};
+}
+
+LightType layoutOf(const Light& light)
+{
+    const bool wide = light.type == LightType::spot && light.outer_half_angle_rad > kWidestHalfAngle_rad;
+    return wide ? LightType::point : light.type;
+}
+
+bool shinesInto(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad)
+{
+    if (light.type != LightType::spot) {
+        return true;
+    }
+    const double between_rad = std::acos(std::clamp(glm::dot(glm::normalize(light.direction_ws), axis_ws), -1.0, 1.0));
+    return between_rad < light.outer_half_angle_rad + half_angle_rad;
 }
 
 void axesAcross(const glm::dvec3& forward_ws, glm::dvec3& right_ws, glm::dvec3& up_ws)

@@ -53,7 +53,7 @@ Outcome Recipe::check(const Light& light) const
     if (!light.casts_shadow) {
         return {OutcomeKind::no_shadow_wanted, "the light casts no shadow"};
     }
-    if (const auto reason = refusal(light.type, asked)) {
+    if (const auto reason = refusal(layoutOf(light), asked)) {
         return {OutcomeKind::refused, *reason};
     }
     if (!resolution) {

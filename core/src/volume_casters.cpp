@@ -12,7 +12,7 @@ namespace gnomon {
 
 Outcome FrustumPlanner::listCasters(const FrustumInput& input, std::vector<std::uint32_t>& casters)
 {
-    if (input.light.type == LightType::point) {
+    if (layoutOf(input.light) == LightType::point) {
         return listCastersAround(input, casters);
     }
     const LightSpace space =

@@ -108,7 +108,8 @@ std::vector<Plane> planesOf(const LightPlane& plane, const Frame& frame, const P
     }
     constexpr int kSides = 24; // of the pyramid that stands for a light's cone
     const double tangent = std::tan(light.outer_half_angle_rad);
-    const bool cone = plane.perspective && light.type == LightType::spot;
+    const bool cone = plane.perspective && light.type == LightType::spot && layoutOf(light) == LightType::spot &&
+                      glm::dot(plane.forward_ws, glm::normalize(light.direction_ws)) > 0.9999; // not a face of a cube
     for (int i = 0; cone && i < kSides; ++i) {
         const double angle = i * glm::two_pi<double>() / kSides;
         const glm::dvec3 side = plane.x_ws * std::cos(angle) + plane.y_ws * std::sin(angle);

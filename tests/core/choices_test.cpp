@@ -114,7 +114,7 @@ TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoOther)
 {
     EXPECT_EQ(choiceRules()[0].refuses,
               "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart");
-    EXPECT_EQ(choiceRules()[1].refuses, "partition cube with every light but point");
+    EXPECT_EQ(choiceRules()[1].refuses, "partition cube with light directional");
     for (const ChoiceValue& partition : choiceValues()) {
         if (partition.choice != "partition")
             continue;

@@ -169,15 +169,15 @@ TEST(HostileLights, ThatAreNoLightSayWhy)
     };
     const Light lamp = spot({3, 20, 0}, {0, -1, 0}, 0.8);
     EXPECT_EQ(kindOf(lamp), OutcomeKind::ok);
-    for (const double angle_rad : {kNotANumber, 0.0, -0.5}) {
+    for (const double angle_rad : {kNotANumber, 0.0, -0.5, 1.6, 3.15, kWithoutEnd}) {
         Light light = lamp;
         light.outer_half_angle_rad = angle_rad;
         EXPECT_EQ(kindOf(light), OutcomeKind::degenerate) << angle_rad;
     }
-    for (const double angle_rad : {1.1, 1.5707963267948966, 3.15, kWithoutEnd}) {
+    for (const double angle_rad : {1.1, 1.5707963267948966}) {
         Light light = lamp;
         light.outer_half_angle_rad = angle_rad;
-        EXPECT_EQ(kindOf(light), OutcomeKind::refused) << angle_rad;
+        EXPECT_EQ(kindOf(light), OutcomeKind::ok) << angle_rad;
     }
     for (double Light::*const number : {&Light::radius_m, &Light::range_m, &Light::near_m}) {
         for (const double value : {kNotANumber, kWithoutEnd, -1.0}) {

@@ -34,12 +34,12 @@ double reachOf(const Light& light, const Aabb& scene_ws)
     return reach;
 }
 
-/// How far p is along the axis of the light's frustum that serves it: a spot light's own, or of a point light the
-/// nearest to it of the world's.
+/// How far p is along the axis of the light's frustum that serves it: a spot light's own, or of a light that no one
+/// frustum holds the nearest to it of the world's.
 double depthOf(const Light& light, const glm::dvec3& p)
 {
     const glm::dvec3 to = p - light.position_ws;
-    if (light.type == LightType::spot)
+    if (layoutOf(light) == LightType::spot)
         return glm::dot(to, light.direction_ws);
     return std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)});
 }
@@ -55,8 +55,8 @@ bool lightReaches(const Light& light, const Aabb& scene_ws, const glm::dvec3& p)
     const bool within = depth > 0.00101 * reach && (light.range_m == 0.0 || glm::length(to) < reach * 0.999);
     if (light.type == LightType::point)
         return within;
-    const double across = glm::length(to - light.direction_ws * depth);
-    return within && across < 0.999 * depth * std::tan(light.outer_half_angle_rad);
+    const double angle_rad = std::acos(glm::dot(to, light.direction_ws) / glm::length(to));
+    return within && angle_rad < light.outer_half_angle_rad - 0.001;
 }
 
 /// Where a box is along the line from p (0), t in steps of `way`; false when it is not.

@@ -262,7 +262,8 @@ TEST(Outcome, EachCanBeProvoked)
     refused.lights[0].type = LightType::point;
     EXPECT_EQ(refused.outcome({.technique = kPlainTechnique}), OutcomeKind::refused);
     refused.lights[0] = test::spot({0, 10, 0}, {0, -1, 0}, 1.2);
-    EXPECT_EQ(refused.outcome(), OutcomeKind::refused);
+    EXPECT_EQ(refused.outcome({.technique = kPlainTechnique}), OutcomeKind::refused) << "no one frustum holds it";
+    EXPECT_EQ(refused.outcome({.technique = {.partition = Partition::cube}}), OutcomeKind::ok);
     World full;
     full.lights.insert(full.lights.begin(), 2, test::sun({0, -1, 0}));
     Planner planner({.technique = kPlainTechnique, .map_size = 16, .max_layers = 2}); // smaller maps there are none

@@ -62,12 +62,15 @@ void addLights(Random& random, RandomScene& scene, const glm::dvec3& origin)
 }
 
 /// The same lights as points; a sun has a place then, on the way from where it shone.
-void shineAllAround(RandomScene& scene, const glm::dvec3& origin)
+/// Point lights, and spot lights that are wider than one frustum holds.
+void shineAround(std::uint64_t seed, RandomScene& scene, const glm::dvec3& origin)
 {
+    Random random(seed + 2000000);
     for (Light& light : scene.lights) {
         if (light.type == LightType::directional)
             light.position_ws = origin - light.direction_ws * (0.7 * scene.size_m);
-        light.type = LightType::point;
+        light.type = random.below(3) == 0 ? LightType::spot : LightType::point;
+        light.outer_half_angle_rad = random.uniform(1.05, 1.5707);
     }
 }
 
@@ -199,7 +202,7 @@ RandomScene randomScene(std::uint64_t seed, const Technique& technique)
     addLights(random, scene, origin);
     if (technique.partition == Partition::cube || technique.partition == Partition::paraboloid ||
         (technique.partition == Partition::multi && random.below(2) == 0))
-        shineAllAround(scene, origin);
+        shineAround(seed, scene, origin);
     scene.camera = randomCamera(random, scene, origin);
     scene.options.map_size = 16U << random.below(8);
     scene.options.border_texels = random.below(2) == 0 ? 4.0 : random.uniform(0.0, 64.0);

@@ -51,7 +51,9 @@ struct Light {
     LightType type = LightType::directional;    // which of the numbers below count
     glm::dvec3 position_ws{0.0};                // spot, point
     glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
-    double outer_half_angle_rad = 0.7853981634; // spot: (0, 1.0471] (60 degrees: a single frustum holds 120)
+    /// spot: (0, pi / 2], from the axis. One frustum holds 60 degrees (1.0471); a wider one is divided as a point light
+    /// is, by partition cube, multi, paraboloid or auto.
+    double outer_half_angle_rad = 0.7853981634;
     double range_m = 0.0;                       // spot, point: reach, > 0; 0 means "as far as the scene goes"
     double near_m = 0.0;                        // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
     /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
@@ -69,6 +71,9 @@ struct Light {
 
     bool operator==(const Light&) const = default;
 };
+
+/// As which type of light its maps are laid out: a spot light that is wider than one frustum holds as a point light.
+[[nodiscard]] GNOMON_API LightType layoutOf(const Light& light);
 
 /// How far along a spot or point light's rays things count.
 struct LightExtent {

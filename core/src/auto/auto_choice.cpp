@@ -53,7 +53,7 @@ void AutoChooser::follow(std::span<const Light> lights)
     types_.clear();
     for (const Light& light : lights) {
         keys_.push_back(light.key);
-        types_.push_back(light.type);
+        types_.push_back(layoutOf(light));
     }
     rows_.follow(keys_);
     memories_.resize(std::max<std::size_t>(memories_.size(), rows_.end()));

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The six faces of a cube around a point light, with a map each: the baseline that `multi` is measured against.
+// The six faces of a cube around a light that has a place, with a map each: the baseline that `multi` is measured
+// against.
 // Based on: T. Forsyth, "Extremely Practical Shadows", GDC 2006 (what omni lights were given before).
 // Departure: a fit takes what is seen of a face, so a face whose receivers fill a part of it has finer texels, and one
-// without any has no map.
+// without any has no map. Neither has one that a spot light's cone does not reach into.
+#include "light_space.h"
 #include "partition/partition.h"
 
 #include <glm/gtc/constants.hpp>
 
 namespace gnomon {
+namespace {
+
+constexpr double kFaceCorner_rad = 0.9553166181; // from a face's middle: acos(1 / sqrt(3))
+
+} // namespace
 
 Slice cubeFace(const Light& light, int face)
 {
@@ -27,7 +34,9 @@ Slice cubeFace(const Light& light, int face)
 void partitionCube(const PartitionInput& input, std::vector<Slice>& out)
 {
     for (int face = 0; face < static_cast<int>(kCubeFaces); ++face) {
-        out.push_back(cubeFace(input.light, face));
+        if (const Slice slice = cubeFace(input.light, face); shinesInto(input.light, slice.axis_ws, kFaceCorner_rad)) {
+            out.push_back(slice);
+        }
     }
 }
 

@@ -127,9 +127,9 @@ std::span<const GrownFrustum> MultiPartition::frustumsOf(std::size_t light) cons
 void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanner& frustums)
 {
     Memory& memory = memories_[rows_.rowOf(light)];
-    if (memory.type != input.light.type) { // its directions were others
+    if (memory.type != layoutOf(input.light)) { // its directions were others
         memory = {};
-        memory.type = input.light.type;
+        memory.type = layoutOf(input.light);
     }
     if (takesTurns(input)) {
         before_[rows_.rowOf(light)] = memory;
@@ -268,7 +268,7 @@ void MultiPartition::findWays(const Input& input)
         ways_.push_back(wholeSlice(input.light));
         return;
     }
-    if (input.light.type == LightType::spot) {
+    if (layoutOf(input.light) == LightType::spot) {
         ways_.push_back(countedAlong(input.light, wholeSlice(input.light)));
         return;
     }

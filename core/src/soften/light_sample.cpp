@@ -18,7 +18,7 @@ LightSample sampleOf(const Light& light, const ConvergeSample& sample)
         return made;
     }
     // A light that shines all around has no axis.
-    const bool all_around = light.type == LightType::point;
+    const bool all_around = layoutOf(light) == LightType::point;
     const glm::dvec3 axis_ws = all_around ? glm::dvec3(0.0, -1.0, 0.0) : glm::normalize(light.direction_ws);
     glm::dvec3 right_ws(0.0);
     glm::dvec3 up_ws(0.0);
