@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "framing.h"
 
+#include "surroundings.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace gnomon::app {
 namespace {
@@ -63,11 +69,11 @@ private:
 /// Where the shadow of a point falls on the ground, as far as a picture should make room for it.
 class ShadowPlace {
 public:
-    ShadowPlace(const Shot& shot, const Aabb& model)
+    ShadowPlace(const Shot& shot, const Aabb& model, bool has_ground)
     {
         const bool has_sun = !shot.lights.empty() && shot.lights.front().caster.type == LightType::directional &&
                              shot.lights.front().caster.direction_ws.y < 0.0;
-        if (!shot.ground || !has_sun) {
+        if (!has_ground || !has_sun) {
             return;
         }
         const glm::dvec3& way = shot.lights.front().caster.direction_ws;
@@ -91,18 +97,38 @@ private:
     glm::dvec2 per_metre_{0.0};
 };
 
-/// Every vertex that is drawn, in world space, but for those of the ground that was put in.
-template <typename Take>
-void eachVertex(const Shot& shot, const Take& take)
+/// For whose sake the scene is looked at.
+std::vector<const scene::Object*> modelOf(const scene::Scene& scene, const scene::State& state,
+                                          std::optional<std::uint32_t> ground)
 {
-    for (const scene::Object& object : shot.state.objects) {
-        if (object.node == shot.ground || object.bounds_ws.empty()) {
-            continue;
+    std::vector<const scene::Object*> objects;
+    for (const scene::Object& object : state.objects) {
+        if (object.node != ground && !object.bounds_ws.empty()) {
+            objects.push_back(&object);
         }
-        const bool is_deformed = object.deformed != scene::kNone;
-        const auto& positions = is_deformed ? shot.state.deformed[object.deformed].positions
-                                            : shot.scene.meshes[object.mesh].primitives[object.primitive].positions;
-        const glm::dmat4 world(object.world_from_object);
+    }
+    return withoutSurroundings(scene, std::move(objects));
+}
+
+Aabb boundsOf(std::span<const scene::Object* const> objects)
+{
+    Aabb bounds;
+    for (const scene::Object* const object : objects) {
+        bounds.min = glm::min(bounds.min, object->bounds_ws.min);
+        bounds.max = glm::max(bounds.max, object->bounds_ws.max);
+    }
+    return bounds;
+}
+
+/// Every vertex of these, in world space.
+template <typename Take>
+void eachVertex(const Shot& shot, std::span<const scene::Object* const> objects, const Take& take)
+{
+    for (const scene::Object* const object : objects) {
+        const bool is_deformed = object->deformed != scene::kNone;
+        const auto& positions = is_deformed ? shot.state.deformed[object->deformed].positions
+                                            : shot.scene.meshes[object->mesh].primitives[object->primitive].positions;
+        const glm::dmat4 world(object->world_from_object);
         for (const glm::vec3& position : positions) {
             take(glm::dvec3(world * glm::dvec4(position, 1.0)));
         }
@@ -111,8 +137,9 @@ void eachVertex(const Shot& shot, const Take& take)
 
 } // namespace
 
-Outlook outlookOn(const Aabb& bounds_ws)
+Outlook outlookOn(const scene::Scene& scene, const scene::State& state)
 {
+    const Aabb bounds_ws = boundsOf(modelOf(scene, state, std::nullopt));
     Outlook outlook;
     if (bounds_ws.empty()) {
         return outlook;
@@ -139,31 +166,25 @@ glm::dvec3 sunOf(const Outlook& outlook)
 
 Aabb modelBounds(const Shot& shot)
 {
-    Aabb bounds;
-    for (const scene::Object& object : shot.state.objects) {
-        if (object.node != shot.ground && !object.bounds_ws.empty()) {
-            bounds.min = glm::min(bounds.min, object.bounds_ws.min);
-            bounds.max = glm::max(bounds.max, object.bounds_ws.max);
-        }
-    }
-    return bounds;
+    return boundsOf(modelOf(shot.scene, shot.state, shot.ground));
 }
 
 host::Eye framedEye(const Shot& shot, double fov_y_rad, double aspect)
 {
-    const Aabb model = modelBounds(shot);
+    const std::vector<const scene::Object*> objects = modelOf(shot.scene, shot.state, shot.ground);
+    const Aabb model = boundsOf(objects);
     const glm::dvec3 centre = model.empty() ? glm::dvec3(0.0) : glm::dvec3(model.centre());
     const glm::dvec3 backward = towards(shot.outlook.azimuth_rad, shot.outlook.elevation_rad);
     const double tan_y = std::tan(fov_y_rad / 2.0) * kFilled;
     TightEye tight(backward, tan_y * aspect, tan_y);
-    const ShadowPlace shadow(shot, model);
+    const ShadowPlace shadow(shot, model, objects.size() < shot.state.objects.size());
     const auto add = [&](const glm::dvec3& p) {
         tight.add(p - centre); // far from the origin numbers are coarse
         if (shadow.falls()) {
             tight.add(shadow.of(p) - centre);
         }
     };
-    eachVertex(shot, add);
+    eachVertex(shot, objects, add);
     host::Eye eye;
     const glm::dvec3 place = tight.place();
     eye.position_ws = centre + place;

@@ -6,9 +6,9 @@
 
 namespace gnomon::app {
 
-/// From where a thing with these bounds shows most of itself: obliquely, flat things from higher up, tall ones from
-/// lower, long ones from their longer side. The light comes over the viewer's left shoulder.
-[[nodiscard]] Outlook outlookOn(const Aabb& bounds_ws);
+/// From where a scene shows most of itself: obliquely, flat things from higher up, tall ones from lower, long ones from
+/// their longer side. What lies around its detail does not count. The light comes over the viewer's left shoulder.
+[[nodiscard]] Outlook outlookOn(const scene::Scene& scene, const scene::State& state);
 
 /// Unit, the way the light of the sun travels.
 [[nodiscard]] glm::dvec3 sunOf(const Outlook& outlook);

@@ -295,7 +295,7 @@ bool furnish(Shot& shot, const Settings& settings)
     const bool at_rest = shot.state.time_s == 0.0 && settings.animation.empty();
     const scene::State other = at_rest ? scene::State() : scene::evaluate(shot.scene, 0.0);
     const scene::State& rest = at_rest ? shot.state : other;
-    shot.outlook = outlookOn(rest.bounds_ws);
+    shot.outlook = outlookOn(shot.scene, rest);
     const bool is_file = isFile(settings);
     if (is_file && settings.up_axis == UpAxis::y && looksFallen(shot.scene, rest)) {
         shot.notices.push_back("the model seems to stand on its side, as if z were up; --up-axis z turns it");

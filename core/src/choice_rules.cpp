@@ -35,12 +35,11 @@ constexpr std::array kRules{
         "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart",
         "a point light, or a spot light wider than 120 degrees, shines farther around than one frustum holds; it needs "
         "partition cube, paraboloid, multi or auto"},
-    ChoiceRule{
-        [](LightType light, const Technique& t) {
-            return light == LightType::directional && t.partition == Partition::cube;
-        },
-        "partition cube with light directional",
-        "cube is the six faces around a light that has a place; a sun needs another partition, or auto"},
+    ChoiceRule{[](LightType light, const Technique& t) {
+                   return light == LightType::directional && t.partition == Partition::cube;
+               },
+               "partition cube with light directional",
+               "cube is the six faces around a light that has a place; a sun needs another partition, or auto"},
     ChoiceRule{[](LightType, const Technique& t) { return t.partition == Partition::sdsm && t.motion != Motion::free; },
                "partition sdsm with every motion but free",
                "sdsm fits its maps on the GPU to each frame's depth buffer, so nobody can hold them still; it needs "

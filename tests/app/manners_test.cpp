@@ -151,6 +151,31 @@ TEST(Framing, HasAllOfAModelAndItsShadowAndFillsThePicture)
     }
 }
 
+// A file's own ground, however wide, and a dome around all of it do not count.
+TEST(Framing, IsOfTheDetailAndNotOfWhatLiesAroundIt)
+{
+    const test::Folder folder;
+    const Box house{{-2, 0, -1}, {2, 3, 1}};
+    const Box shed{{3, 0, 0}, {4, 1, 1}};
+    const Box shelf{{-1, 0.5F, -0.5F}, {1, 0.6F, 0.5F}};
+    const auto eyeOf = [&](const std::vector<Box>& around) {
+        std::vector<Box> boxes{house, shed, shelf};
+        boxes.insert(boxes.end(), around.begin(), around.end());
+        return shotOf({writeBoxes(folder.path(), boxes)}).eye;
+    };
+    const host::Eye near = eyeOf({{{-20, -0.1F, -20}, {20, 0, 20}}});
+    for (const Box& wide : {Box{{-300, -0.1F, -300}, {300, 0, 300}}, Box{{-3000, -1, -1000}, {9000, 0, 2000}}}) {
+        const host::Eye eye = eyeOf({wide});
+        EXPECT_NEAR(glm::distance(eye.position_ws, near.position_ws), 0.0, 1e-3);
+    }
+    const host::Eye domed = eyeOf({{{-300, -0.1F, -300}, {300, 0, 300}}, {{-500, -400, -500}, {500, 500, 500}}});
+    EXPECT_NEAR(glm::distance(domed.position_ws, near.position_ws), 0.0, 1e-3);
+    // A place that is built over is looked at as a whole.
+    const host::Eye town =
+        eyeOf({{{-100, 0, -100}, {-90, 9, -90}}, {{90, 0, 90}, {100, 9, 100}}, {{-100, -1, -100}, {100, 0, 100}}});
+    EXPECT_GT(glm::length(town.position_ws), 100.0);
+}
+
 TEST(Framing, HasAllOfSkinnedModelsAsTheyMove)
 {
     for (const char* const name : {"skinned/Fox.glb", "skinned/CesiumMan.glb", "kaykit_adventurers/Knight.glb",

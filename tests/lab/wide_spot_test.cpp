@@ -23,7 +23,8 @@ void addBox(scene::Scene& scene, const glm::vec3& low, const glm::vec3& high)
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
         for (const bool far : {false, true}) {
             const auto first = static_cast<std::uint32_t>(primitive.positions.size());
-            for (const std::array<bool, 2>& corner : {std::array{false, false}, {true, false}, {true, true}, {false, true}}) {
+            for (const std::array<bool, 2>& corner :
+                 {std::array{false, false}, {true, false}, {true, true}, {false, true}}) {
                 glm::vec3 p = far ? high : low;
                 const std::uint32_t u = (axis + 1) % 3;
                 const std::uint32_t v = (axis + 2) % 3;

@@ -47,15 +47,15 @@ struct Camera {
 /// several with one key the first is taken for the first of the frame before, and so on: where one of them goes, the
 /// others are drawn anew.
 struct Light {
-    std::uint32_t key = 0;                      // the same as long as it is the same light
-    LightType type = LightType::directional;    // which of the numbers below count
-    glm::dvec3 position_ws{0.0};                // spot, point
-    glm::dvec3 direction_ws{0.0, -1.0, 0.0};    // directional, spot: unit, the way light travels
+    std::uint32_t key = 0;                   // the same as long as it is the same light
+    LightType type = LightType::directional; // which of the numbers below count
+    glm::dvec3 position_ws{0.0};             // spot, point
+    glm::dvec3 direction_ws{0.0, -1.0, 0.0}; // directional, spot: unit, the way light travels
     /// spot: (0, pi / 2], from the axis. One frustum holds 60 degrees (1.0471); a wider one is divided as a point light
     /// is, by partition cube, multi, paraboloid or auto.
     double outer_half_angle_rad = 0.7853981634;
-    double range_m = 0.0;                       // spot, point: reach, > 0; 0 means "as far as the scene goes"
-    double near_m = 0.0;                        // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
+    double range_m = 0.0; // spot, point: reach, > 0; 0 means "as far as the scene goes"
+    double near_m = 0.0;  // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
     /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
     /// size make penumbrae of; 0 is a light without size, and hard.
     double angular_diameter_rad = 0.00925025;
