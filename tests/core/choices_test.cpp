@@ -110,7 +110,7 @@ TEST(Choices, ARuleRefusesWhatItAppliesToAndNothingElse)
         }
 }
 
-TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoOther)
+TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoSun)
 {
     EXPECT_EQ(choiceRules()[0].refuses,
               "light point with every partition but cube, paraboloid, multi and auto, filter volumes apart");
@@ -123,7 +123,8 @@ TEST(Choices, APointLightGoesWithWhatGoesAroundAndCubeWithNoOther)
                             partition.name == "auto";
         EXPECT_EQ(refusal(LightType::point, technique), around ? std::nullopt : std::optional(choiceRules()[0].reason));
         for (const LightType other : {LightType::directional, LightType::spot})
-            EXPECT_EQ(refusal(other, technique), partition.name == "cube" ? std::optional(choiceRules()[1].reason)
+            EXPECT_EQ(refusal(other, technique), partition.name == "cube" && other == LightType::directional
+                                                     ? std::optional(choiceRules()[1].reason)
                                                  : partition.name == "paraboloid"
                                                      ? std::optional(choiceRules()[8].reason)
                                                      : std::nullopt);
