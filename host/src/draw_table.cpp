@@ -161,8 +161,8 @@ std::vector<std::uint32_t> DrawTable::makeCasterBatches(const Materials& materia
             ids[i] = static_cast<std::uint32_t>(caster_batches.size());
             const float cutoff = material.alpha_cutoff / std::max(material.base_colour.a, 1e-6F);
             caster_batches.push_back({true, materials.all()[i].caster_set, cutoff, use.scale, use.offset,
-                                      use.rotation_rad, materials.all()[i].blended, material.base_colour, coloured[i]});
-            caster_batches.back().stained = material.stained;
+                                      use.rotation_rad, materials.all()[i].blended, material.base_colour, coloured[i],
+                                      material.stained});
         }
     }
     return ids;

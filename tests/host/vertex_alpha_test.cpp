@@ -76,7 +76,7 @@ scene::Scene sceneOf(ClearBy what, scene::AlphaMode mode)
     scene.materials.resize(2);
     scene::Material& material = scene.materials[1];
     material.alpha_mode = mode;
-    material.stained = true;
+    material.stained = mode == scene::AlphaMode::blend;
     material.double_sided = true;
     const bool blends = mode == scene::AlphaMode::blend;
     const glm::vec4 colour = blends ? kGlass : glm::vec4(1.0F, 1.0F, 1.0F, 0.75F);
