@@ -43,7 +43,7 @@ constexpr std::string_view kMotion = "motion";
 
 constexpr std::array kValues{
     ChoiceValue{kLight, "directional", number(LightType::directional), "a sun: parallel rays", kMarinescu},
-    ChoiceValue{kLight, "spot", number(LightType::spot), "a cone, with a cookie texture; one wider than 120 degrees is divided as a point light is",
+    ChoiceValue{kLight, "spot", number(LightType::spot), "a cone of up to 180 degrees, with a cookie texture",
                 kShastry},
     ChoiceValue{kLight, "point", number(LightType::point), "shines all around", kForsyth},
 

@@ -144,6 +144,7 @@ TEST(Clip, AMaskedCardAndAPaneOfGlassAreCutAsWell)
         scene.materials.resize(1);
         scene.materials[0].alpha_mode = mode;
         scene.materials[0].base_colour = {0.5F, 0.5F, 0.5F, 1.0F};
+        scene.materials[0].stained = true;
         place(scene, addQuad(scene, level(0.0F, 32.0F)));
         place(scene, addQuad(scene, ceiling(1.0F, -2.0F, 2.0F, 4.0F), 0)).clip_planes[0] = kLeftHalf;
         const Traced traced = trace(scene, lookDown(0.0, 0.9, 1.5, {16, 4}), sun({0.0, -1.0, 0.0}), hard());
