@@ -52,7 +52,7 @@ const std::vector<Wrong> kWrong{
     {"SunTwoNumbers", {"render", "--sun", "1,2"}, 2, "3 numbers"},
     {"SunOverflow", {"render", "--sun", "1e999,0,0"}, 2, "finite"},
     {"SpotAtItsTarget", {"render", "--spot", "1,2,3,1,2,3,40"}, 2, "direction is zero"},
-    {"SpotTooWide", {"render", "--spot", "0,5,0,0,0,0,150"}, 2, "0.1 to 120"},
+    {"SpotTooWide", {"render", "--spot", "0,5,0,0,0,0,200"}, 2, "0.1 to 180"},
     {"PointWithoutReach", {"render", "--point", "0,5,0,0"}, 2, "not above 0"},
     {"PointAndABit", {"render", "--point", "0,5,0,20,1"}, 2, "not four for each light"},
     {"SecondPointWithoutReach", {"render", "--point", "0,5,0,20,1,5,0,0"}, 2, "not above 0"},
