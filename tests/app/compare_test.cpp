@@ -356,7 +356,7 @@ TEST(Compare, RefusesInOneLineAndLeavesNothing)
     test::spill(place.folder / "file", "");
     const std::vector<Refused> all{
         {compareOf("a.gltf", {"--partition", "single"}), 1,
-         "comparing shadows of light light0: a point light shines all"},
+         "comparing shadows of light light0: a point light, or a spot"},
         {compareOf("planes", {"--light", "sunn"}), 2, "did you mean \"sun\""},
         {compareOf("planes", {"--light", "sun", "--light-size", "1", "--strict"}), 2, "only on a spot or point light"},
         {compareOf("planes", {"--report", "file"}), 1, "it is not a folder"},
