@@ -194,6 +194,7 @@ void giveIds(const ShadowOptions& options, Rendered& r)
 std::vector<std::byte> toBytes(const std::vector<double>& mask)
 {
     std::vector<std::byte> bytes;
+    bytes.reserve(mask.size());
     for (const double v : mask) {
         bytes.push_back(static_cast<std::byte>(std::lround(255.0 * v)));
     }
