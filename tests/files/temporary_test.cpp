@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -134,6 +135,31 @@ TEST(Temporary, ManyWriteOneFileAtATime)
         writer.join();
     }
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+}
+
+// Who looks for what was left behind finds a folder that is made and not yet locked, and removes it: that is no fault.
+TEST(Temporary, ManyMakeAFolderAtATime)
+{
+    const test::Folder folder;
+    std::atomic<int> failed = 0;
+    std::vector<std::thread> makers;
+    for (int i = 0; i < 4; ++i) {
+        makers.emplace_back([&] {
+            for (int round = 0; round < 500; ++round) {
+                try {
+                    const Temporary made(folder / "report", Temporary::Kind::folder);
+                    failed += fs::is_directory(made.path()) ? 0 : 1;
+                } catch (const Error&) {
+                    ++failed;
+                }
+            }
+        });
+    }
+    for (std::thread& maker : makers) {
+        maker.join();
+    }
+    EXPECT_EQ(failed, 0);
+    EXPECT_TRUE(folder.names().empty());
 }
 
 } // namespace
