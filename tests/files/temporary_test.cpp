@@ -115,6 +115,7 @@ TEST(Temporary, ManyWriteOneFileAtATime)
     constexpr int kRounds = 15;
     const test::Folder folder;
     std::vector<std::thread> writers;
+    writers.reserve(kWriters);
     for (int writer = 0; writer < kWriters; ++writer) {
         writers.emplace_back([&, writer] {
             const std::string bytes(std::size_t{1000} * (writer + 1), static_cast<char>('a' + writer));
@@ -142,8 +143,10 @@ TEST(Temporary, ManyMakeAFolderAtATime)
 {
     const test::Folder folder;
     std::atomic<int> failed = 0;
+    constexpr int kMakers = 4;
     std::vector<std::thread> makers;
-    for (int i = 0; i < 4; ++i) {
+    makers.reserve(kMakers);
+    for (int i = 0; i < kMakers; ++i) {
         makers.emplace_back([&] {
             for (int round = 0; round < 500; ++round) {
                 try {
