@@ -138,7 +138,8 @@ TEST(Temporary, ManyWriteOneFileAtATime)
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
 }
 
-// Who looks for what was left behind finds a folder that is made and not yet locked, and removes it: that is no fault.
+// A process that clears up may take a folder that is made and not yet locked for one left behind. Its maker makes
+// another.
 TEST(Temporary, ManyMakeAFolderAtATime)
 {
     const test::Folder folder;
