@@ -35,13 +35,20 @@ int openExisting(const fs::path& path, Temporary::Kind kind)
     return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC | folder);
 }
 
-/// -1 with errno EEXIST where the name is taken.
+/// -1 with errno EEXIST where the name is taken, or another has removed the folder before it was locked.
 int create(const fs::path& path, Temporary::Kind kind)
 {
     if (kind == Temporary::Kind::file) {
         return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
-    return ::mkdir(path.c_str(), 0777) != 0 ? -1 : openExisting(path, kind);
+    if (::mkdir(path.c_str(), 0777) != 0) {
+        return -1;
+    }
+    const int made = openExisting(path, kind);
+    if (made < 0 && errno == ENOENT) {
+        errno = EEXIST;
+    }
+    return made;
 }
 
 /// Whether `path` still is what the descriptor is open on, of that kind and no other's in its place.

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -114,6 +115,7 @@ TEST(Temporary, ManyWriteOneFileAtATime)
     constexpr int kRounds = 15;
     const test::Folder folder;
     std::vector<std::thread> writers;
+    writers.reserve(kWriters);
     for (int writer = 0; writer < kWriters; ++writer) {
         writers.emplace_back([&, writer] {
             const std::string bytes(std::size_t{1000} * (writer + 1), static_cast<char>('a' + writer));
@@ -134,6 +136,34 @@ TEST(Temporary, ManyWriteOneFileAtATime)
         writer.join();
     }
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+}
+
+// A process that clears up may take a folder that is made and not yet locked for one left behind. Its maker makes
+// another.
+TEST(Temporary, ManyMakeAFolderAtATime)
+{
+    const test::Folder folder;
+    std::atomic<int> failed = 0;
+    constexpr int kMakers = 4;
+    std::vector<std::thread> makers;
+    makers.reserve(kMakers);
+    for (int i = 0; i < kMakers; ++i) {
+        makers.emplace_back([&] {
+            for (int round = 0; round < 500; ++round) {
+                try {
+                    const Temporary made(folder / "report", Temporary::Kind::folder);
+                    failed += fs::is_directory(made.path()) ? 0 : 1;
+                } catch (const Error&) {
+                    ++failed;
+                }
+            }
+        });
+    }
+    for (std::thread& maker : makers) {
+        maker.join();
+    }
+    EXPECT_EQ(failed, 0);
+    EXPECT_TRUE(folder.names().empty());
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "read_error.h"
 
 #include "fixture.h"
+#include "moment_bench.h"
 #include "moment_numbers.h"
 #include "write_pgm.h"
 
@@ -194,6 +195,7 @@ void giveIds(const ShadowOptions& options, Rendered& r)
 std::vector<std::byte> toBytes(const std::vector<double>& mask)
 {
     std::vector<std::byte> bytes;
+    bytes.reserve(mask.size());
     for (const double v : mask) {
         bytes.push_back(static_cast<std::byte>(std::lround(255.0 * v)));
     }
@@ -278,21 +280,6 @@ ReadError errorOf(MapFormat format)
         return readErrorOf(VK_FORMAT_R16G16B16A16_SFLOAT);
     default:
         return readErrorOf(VK_FORMAT_R16G16B16A16_UNORM);
-    }
-}
-
-int channelsOf(MapFormat format)
-{
-    switch (format) {
-    case MapFormat::r32f:
-    case MapFormat::r16f:
-        return 1;
-    case MapFormat::rg32f:
-    case MapFormat::rg16f:
-    case MapFormat::rg16:
-        return 2;
-    default:
-        return 4;
     }
 }
 

@@ -60,8 +60,9 @@ Blocks blocksOf(const CpuMap& map)
         std::vector<int>& made = blocks.levels.emplace_back(side * side);
         for (std::size_t i = 0; i < made.size(); ++i) {
             for (std::size_t t = 0; t < texels * texels; ++t) {
-                const double depth =
-                    texelAt(map, 0, double(i % side * texels + t % texels), double(i / side * texels + t / texels)).x;
+                const std::size_t x = i % side * texels + t % texels;
+                const std::size_t y = i / side * texels + t / texels;
+                const double depth = texelAt(map, 0, double(x), double(y)).x;
                 // Texels that nobody drew hold anything, be it no number.
                 const int block = shared::blockOf(depth, depth);
                 made[i] = t == 0 ? block : shared::joinedBlocks(made[i], block);

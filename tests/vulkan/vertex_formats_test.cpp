@@ -151,7 +151,7 @@ protected:
     Bench bench_;
 };
 
-/// Texels whose depth is in no way between those of the same place and its eight neighbours in another map.
+/// How many texels are nearer or farther than all nine around the same place of another map.
 std::size_t beyondNeighbours(const std::vector<float>& map, const std::vector<float>& other)
 {
     const auto side = static_cast<std::ptrdiff_t>(std::lround(std::sqrt(double(map.size()))));
@@ -191,8 +191,14 @@ TEST_P(VertexFormats, giveTheSameMaps)
     });
     for (std::uint32_t layer = 0; layer < 2; ++layer) {
         const std::vector<float> map = bench_.readMap(layer);
-        EXPECT_LE(beyondNeighbours(map, expected[layer]), map.size() / 1000)
-            << "rounding may move an edge by a texel, and no more";
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < map.size(); ++i) {
+            off += std::abs(map[i] - expected[layer][i]) > 1e-5F ? 1 : 0;
+        }
+        // UNORM alone has other transforms, whose products a device may round otherwise: 111 of 16384 on one.
+        const std::size_t share = GetParam().position == VK_FORMAT_R16G16B16A16_UNORM ? 100 : 200;
+        EXPECT_LT(off, map.size() / share) << "rounding may move an edge by a texel";
+        EXPECT_LE(beyondNeighbours(map, expected[layer]), map.size() / 1000) << "and by no more";
     }
     expectSilence(gpu());
 }
