@@ -96,7 +96,7 @@ inline constexpr double kCreaseAngle_rad = 0.698; // 40 degrees
 /// `positions`. `normals` is always filled (the reader makes flat normals where a file has none). Quantised
 /// attributes are already expanded. Indices are a triangle list, each below positions.size().
 struct Primitive {
-    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> positions; // from `origin`
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents; // w = handedness
     std::vector<glm::vec2> uv0;
@@ -107,7 +107,10 @@ struct Primitive {
     std::vector<std::uint32_t> indices;
     std::vector<MorphTarget> morph_targets;
     std::uint32_t material = kNone; // kNone: the default material
-    Aabb bounds;                    // of the undeformed positions, object space
+    Aabb bounds;                    // of the undeformed positions, from `origin`
+    /// In the mesh's space. Not 0 where all of it lies far from there: single precision keeps its shape near 0. Made by
+    /// finishScene(); 0 of what a skin deforms.
+    glm::vec3 origin{0.0F};
     /// 1 at a vertex whose normal leans away from one of its triangles' by more than kCreaseAngle_rad: it rounds off an
     /// edge that is there, or is none of the surface's own, as of foliage. Made by finishScene().
     std::vector<std::uint8_t> creased;

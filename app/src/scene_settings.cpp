@@ -312,7 +312,7 @@ const std::vector<Setting>& rows()
         {.key = "spot.cone", .group = Group::light, .type = real, .form = "DEG", .unit = "degrees", .min = 0.1, .max = 180,
          .doc = "the whole cone of spot lights; else their own", .own_option = false, .apply = [](Settings& s, const Value& v) { s.cone_deg = v.real; }},
         {.key = "spot.near", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
-         .doc = "nothing nearer to a spot light casts; else its own, or its reach / 1000", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
+         .doc = "nothing nearer to a spot light casts; else its own, or found from what casts", .own_option = false, .apply = [](Settings& s, const Value& v) { s.near_m = v.real; }},
         {.key = "spot.range", .group = Group::light, .type = real, .form = "METRES", .unit = "m", .min = 0, .max = 1e6,
          .doc = "reach of spot lights; else their own, or as far as the scene goes", .own_option = false, .apply = [](Settings& s, const Value& v) { s.range_m = v.real; }},
         // clang-format on

@@ -5,8 +5,10 @@
 #include <gnomon/world_range.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon {
@@ -20,6 +22,12 @@ bool finite(const glm::dvec3& v)
 {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+/// A near distance, as a share of the reach, costs precision of depth: at the distance z a step of it is z * z / near *
+/// 2^-24. At the reach that is a fifth of a texel of 512 where the near distance is a 6000th.
+constexpr double kMostNear = 0.001;
+constexpr double kNearInBounds = 0.00025; // where a caster's bounds are around the light, and do not tell how near it is
+constexpr double kLeastNear = 1e-5;
 
 Outcome checkPlacedLight(const Light& light)
 {
@@ -131,9 +139,38 @@ LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws)
         }
     }
     if (!(extent.near_m > 0.0)) {
-        extent.near_m = 0.001 * extent.reach_m;
+        extent.near_m = kMostNear * extent.reach_m;
     }
     return extent;
+}
+
+double nearBefore(const Light& light, const ObjectSet& objects, std::vector<std::uint32_t>& scratch)
+{
+    const LightExtent extent = extentOf(light, objects.bounds());
+    const double side_m = 2.0 * extent.near_m;
+    const glm::dvec3& p = light.position_ws;
+    std::array<Plane, 6> around;
+    for (int i = 0; i < 6; ++i) {
+        glm::dvec3 normal(0.0);
+        normal[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+        around[static_cast<std::size_t>(i)] = {normal, side_m - glm::dot(normal, p)};
+    }
+    scratch.clear();
+    objects.query(around, ObjectSet::Want::casters, scratch);
+    double nearest_m = side_m;
+    double near_m = extent.near_m;
+    for (const std::uint32_t object : scratch) {
+        const Aabb box = objects.bounds(object);
+        const double away_m = glm::distance(p, glm::clamp(p, glm::dvec3(box.min), glm::dvec3(box.max)));
+        if (away_m > 0.0) {
+            nearest_m = std::min(nearest_m, away_m);
+        } else {
+            near_m = std::min(near_m, kNearInBounds * extent.reach_m);
+        }
+    }
+    // By powers of two: a caster that moves does not change all maps in every frame.
+    const double before_m = std::exp2(std::floor(std::log2(0.5 * nearest_m)));
+    return std::max(std::min(near_m, before_m), kLeastNear * extent.reach_m);
 }
 
 LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad, const Aabb& scene_ws)

@@ -53,6 +53,10 @@ struct LightSpace {
 [[nodiscard]] LightSpace lightSpaceOf(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad,
                                       const Aabb& scene_ws);
 
+/// The near distance of a light that gives none, metres: extentOf()'s, or less where the bounds of a caster begin
+/// nearer. Preconditions: as lightSpaceOf(); the light is a spot or point light. `scratch` keeps memory between calls.
+[[nodiscard]] double nearBefore(const Light& light, const ObjectSet& objects, std::vector<std::uint32_t>& scratch);
+
 /// Two axes across `forward_ws`, which depend on nothing else.
 void axesAcross(const glm::dvec3& forward_ws, glm::dvec3& right_ws, glm::dvec3& up_ws);
 

@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace gnomon {
@@ -47,6 +50,93 @@ MapBox boxOn(const View& view, const Aabb& box_ws)
     return {glm::max(box.low, glm::dvec2(-1.0)), glm::min(box.high, glm::dvec2(1.0))};
 }
 
+/// A plane across x, y or z that an object without thickness lies in.
+struct FlatPlace {
+    int axis = 0;
+    double at = 0.0;
+    double tolerance = 0.0; // metres by which one that is rounded otherwise may be beside it
+};
+
+std::optional<FlatPlace> flatPlaceOf(const Aabb& box)
+{
+    constexpr double kFlat = 1e-6; // of the box's size and of its distance from the origin
+    const glm::dvec3 low(box.min);
+    const glm::dvec3 size = glm::dvec3(box.max) - low;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double most = std::max(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+        const double tolerance = kFlat * std::max(most, std::abs(low[axis]));
+        if (most > 0.0 && size[axis] <= tolerance) {
+            return FlatPlace{axis, low[axis] + 0.5 * size[axis], tolerance};
+        }
+    }
+    return std::nullopt;
+}
+
+/// Does the object lie on a face of the box that looks towards the light, and nowhere beyond the face?
+bool liesOn(const Light& light, const Aabb& object, const FlatPlace& flat, const Aabb& box)
+{
+    for (int side = 1; side < 3; ++side) {
+        const int axis = (flat.axis + side) % 3;
+        if (static_cast<double>(box.min[axis]) > static_cast<double>(object.min[axis]) + flat.tolerance ||
+            static_cast<double>(box.max[axis]) < static_cast<double>(object.max[axis]) - flat.tolerance) {
+            return false;
+        }
+    }
+    const bool is_high = std::abs(static_cast<double>(box.max[flat.axis]) - flat.at) <= flat.tolerance;
+    const bool is_low = std::abs(static_cast<double>(box.min[flat.axis]) - flat.at) <= flat.tolerance;
+    const double towards = light.type == LightType::directional ? -light.direction_ws[flat.axis]
+                                                                : light.position_ws[flat.axis] - flat.at;
+    return (is_high && towards > 0.0) || (is_low && towards < 0.0);
+}
+
+/// The first box that the object lies on; the object itself where there is none.
+std::uint32_t boxUnder(const Light& light, const ObjectSet& objects, std::uint32_t object, const FlatPlace& flat,
+                       std::vector<std::uint32_t>& found)
+{
+    const Aabb box = objects.bounds(object);
+    std::array<Plane, 6> around;
+    for (int i = 0; i < 6; ++i) {
+        glm::dvec3 normal(0.0);
+        normal[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+        const glm::dvec3 corner(i % 2 == 0 ? box.min : box.max);
+        around[static_cast<std::size_t>(i)] = {normal, flat.tolerance - glm::dot(normal, corner)};
+    }
+    found.clear();
+    objects.query(around, ObjectSet::Want::casters, found);
+    const auto under = std::ranges::find_if(found, [&](std::uint32_t other) {
+        const Aabb bounds = objects.bounds(other);
+        return !flatPlaceOf(bounds) && liesOn(light, box, flat, bounds);
+    });
+    return under == found.end() ? object : *under;
+}
+
+/// See handOutIds(). `ids`: by object.
+void shareInPlanes(const Light& light, const ObjectSet& objects, const IdHandout& handout, IdScratch& scratch,
+                   std::span<std::uint16_t> ids)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        scratch.places.clear();
+        for (std::uint32_t object = 0; object < ids.size(); ++object) {
+            const std::optional<FlatPlace> flat =
+                ids[object] != 0 ? flatPlaceOf(objects.bounds(object)) : std::nullopt;
+            if (flat && flat->axis == axis && (handout.of == IdOf::object || objects.flags(object).pieces <= 1)) {
+                scratch.places.emplace_back(flat->at, object);
+            }
+        }
+        std::sort(scratch.places.begin(), scratch.places.end());
+        double before = 0.0;
+        std::uint16_t id = 0; // of those in the plane
+        for (const auto& [at, object] : scratch.places) {
+            const FlatPlace flat = *flatPlaceOf(objects.bounds(object));
+            id = id != 0 && at - before <= flat.tolerance ? id : ids[object];
+            before = at;
+            const std::uint32_t under =
+                handout.of == IdOf::object ? boxUnder(light, objects, object, flat, scratch.found) : object;
+            ids[object] = under == object ? id : ids[under];
+        }
+    }
+}
+
 /// The ids of one object: so many, from `first` on.
 struct IdRange {
     std::uint32_t first = 0;
@@ -69,19 +159,31 @@ std::uint32_t piecesOf(const Plan& plan, std::uint32_t light, std::uint32_t obje
 /// What overlaps in one map.
 void countPairs(const Plan& plan, const View& view, std::span<const std::uint16_t> ids, IdCollisions& counted)
 {
-    std::vector<std::pair<MapBox, IdRange>> boxes;
+    struct Drawn {
+        MapBox box;
+        IdRange ids;
+        Aabb bounds_ws;
+        bool is_flat = false;
+    };
+    std::vector<Drawn> drawn;
     for (std::uint32_t i = 0; i < view.caster_count; ++i) {
         const std::uint32_t object = plan.casters[view.first_caster + i];
         if (ids[object] != 0) {
-            boxes.emplace_back(boxOn(view, plan.object_bounds[object]),
-                               IdRange{ids[object], piecesOf(plan, view.light, object)});
+            const Aabb& bounds_ws = plan.object_bounds[object];
+            drawn.push_back({boxOn(view, bounds_ws),
+                             {ids[object], piecesOf(plan, view.light, object)},
+                             bounds_ws,
+                             flatPlaceOf(bounds_ws).has_value()});
         }
     }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            const bool touch = boxes[i].first.touches(boxes[k].first);
+            const Drawn& a = drawn[i];
+            const Drawn& b = drawn[k];
+            const bool touch = a.box.touches(b.box);
+            const bool in_one_plane = (a.is_flat || b.is_flat) && a.bounds_ws.overlaps(b.bounds_ws);
             counted.pairs += touch ? 1 : 0;
-            counted.collisions += touch && boxes[i].second.meets(boxes[k].second, counted.ids) ? 1 : 0;
+            counted.collisions += touch && !in_one_plane && a.ids.meets(b.ids, counted.ids) ? 1 : 0;
         }
     }
 }
@@ -105,33 +207,35 @@ IdSharing idSharingOf(Filter filter, IdOf of)
     return filter == Filter::depth_id && of == IdOf::object ? IdSharing::neighbours : IdSharing::far;
 }
 
-void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, std::vector<IdPlace>& scratch,
+void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, IdScratch& scratch,
                 std::vector<std::uint16_t>& out)
 {
     const double length = glm::length(light.direction_ws);
     const glm::dvec3 along_ws = length > 0.0 ? light.direction_ws / length : glm::dvec3(0.0, -1.0, 0.0);
     const std::span<const Aabb> bounds = objects.allBounds();
-    scratch.clear();
+    std::vector<std::pair<double, std::uint32_t>>& places = scratch.places;
+    places.clear();
     std::uint64_t wanted = 0;
     const auto takes = [&](std::uint32_t object) {
         return handout.of == IdOf::face ? std::max<std::uint32_t>(objects.flags(object).pieces, 1) : 1U;
     };
     for (std::uint32_t object = 0; object < bounds.size(); ++object) {
         if (objects.flags(object).casts && !bounds[object].empty()) {
-            scratch.emplace_back(farthestOf(light, along_ws, bounds[object]), object);
+            places.emplace_back(farthestOf(light, along_ws, bounds[object]), object);
             wanted += takes(object);
         }
     }
-    std::sort(scratch.begin(), scratch.end());
+    std::sort(places.begin(), places.end());
     const std::size_t first = out.size();
     out.resize(first + bounds.size(), 0);
     std::uint64_t taken = 0;
     const bool squeezed = handout.sharing == IdSharing::neighbours && wanted > handout.most;
-    for (const auto& [reach, object] : scratch) {
+    for (const auto& [reach, object] : places) {
         const std::uint64_t place = squeezed ? taken * handout.most / wanted : taken % handout.most;
         out[first + object] = static_cast<std::uint16_t>(place + 1);
         taken += takes(object);
     }
+    shareInPlanes(light, objects, handout, scratch, std::span(out).subspan(first));
 }
 
 IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light)

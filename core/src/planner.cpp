@@ -135,7 +135,9 @@ const Plan& Planner::plan(const Frame& given)
     s.suns_before = s.suns;
     s.spoilt = true;
     const bool again = s.told.holds(frame) && !frame.cut;
+    s.setNearDistances(frame);
     s.makePlan(frame);
+    frame.lights = given.lights;
     s.told.note(frame);
     // What remembers (AutoChooser, MultiPartition) has had its say on the same frame twice.
     s.settled =
@@ -217,6 +219,21 @@ void Planner::Impl::begin(const Frame& frame)
         setup.looked = false;
         setup.wide.looked = false;
     }
+}
+
+/// Where lights do not say how near their casters begin, the bounds of what casts do.
+void Planner::Impl::setNearDistances(Frame& frame)
+{
+    if (fault.kind != OutcomeKind::ok || frame.objects->bounds().empty()) {
+        return;
+    }
+    lights.assign(frame.lights.begin(), frame.lights.end());
+    for (Light& light : lights) {
+        if (light.type != LightType::directional && light.near_m == 0.0 && checkLight(light).kind == OutcomeKind::ok) {
+            light.near_m = nearBefore(light, *frame.objects, near_casters);
+        }
+    }
+    frame.lights = lights;
 }
 
 /// Which plan this is, and what of the pictures before it still holds.

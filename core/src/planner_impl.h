@@ -91,6 +91,8 @@ struct Planner::Impl {
     bool settled = false;     // and that it would be made from again: nothing in it was to be drawn or fading
 
     // Scratch.
+    std::vector<Light> lights; // this frame's, with their near distances
+    std::vector<std::uint32_t> near_casters;
     FrustumPlanner frustums;
     std::vector<Slice> slices;
     std::vector<PlannedSlice> planned_slices;
@@ -118,6 +120,7 @@ struct Planner::Impl {
     [[nodiscard]] bool repeats(const Frame& frame) const;
     void repeatPlan(const Frame& frame);
     void makePlan(const Frame& frame);
+    void setNearDistances(Frame& frame);
     void begin(const Frame& frame);
     void noteMovement(const Frame& frame);
     void look(const Frame& frame, Setup& setup);
@@ -158,7 +161,7 @@ struct Planner::Impl {
     void noteTurns(const Frame& frame);
     void drawViews(const Frame& frame);
     Outcome handOut(const Frame& frame, std::uint32_t index);
-    std::vector<IdPlace> id_order;
+    IdScratch id_scratch;
     [[nodiscard]] std::uint64_t idsKey(const View& view) const;
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;

@@ -84,7 +84,7 @@ Outcome Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
                {.most = idsOf(options.format()),
                 .of = options.ids().of,
                 .sharing = idSharingOf(options.filter(), options.ids().of)},
-               id_order, plan.object_ids);
+               id_scratch, plan.object_ids);
     return {};
 }
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -47,25 +48,6 @@ double smoothStep(double from, double to, double x)
 {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
-}
-
-// Where a light of a file is that shines from a place: what it gives in the middle of the scene stands for it, but
-// never as if it were nearer than a twentieth of the scene or farther than half its reach.
-double illuminanceOf(const ShadedLight& light, const Aabb& bounds)
-{
-    // A cookie is taken to let half of the light through.
-    const double passed = light.cookie == scene::kNone ? 1.0 : 0.5;
-    const double strength = passed * luminance(light.colour);
-    if (light.caster.type == LightType::directional) {
-        return strength;
-    }
-    const double diagonal = bounds.empty() ? 1.0 : glm::length(glm::dvec3(bounds.extent()));
-    const glm::dvec3 centre = bounds.empty() ? light.caster.position_ws : glm::dvec3(bounds.centre());
-    double distance = std::max(glm::length(light.caster.position_ws - centre), diagonal / 20.0);
-    if (light.caster.range_m > 0.0) {
-        distance = std::min(distance, light.caster.range_m * 0.5);
-    }
-    return strength / std::max(distance * distance, 1e-30);
 }
 
 double sineOf(const ShadedLight& light)
@@ -169,14 +151,14 @@ struct Hour {
     }
 
     /// A sun of ours says what it gives from above, one of a file what arrives.
-    void measure(std::span<const ShadedLight> lights, const Aabb& bounds)
+    void measure(std::span<const ShadedLight> lights, std::span<const double> given)
     {
         const double sun_lx = kSun_lx * luminance(lightThroughAir(ownSun() ? 1.0 : sineOf(*sun)));
         unit_lx = sun_lx / std::max(luminance(sun->colour), 1e-30);
         double others_lx = 0.0;
-        for (const ShadedLight& one : lights) {
-            if (&one != sun && &one != moon) {
-                others_lx = std::max(others_lx, unit_lx * illuminanceOf(one, bounds));
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            if (&lights[i] != sun && &lights[i] != moon) {
+                others_lx = std::max(others_lx, unit_lx * given[i]);
             }
         }
         exposure = camera * exposureFor({around.dome_lx + 0.25 * others_lx, around.sky_lx});
@@ -222,34 +204,33 @@ struct Hour {
 
 } // namespace
 
-double exposureOf(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
+double exposureOf(std::span<const double> given, const scene::Environment& environment)
 {
-    double most = 0.0;
-    for (const ShadedLight& light : lights) {
-        most = std::max(most, illuminanceOf(light, bounds));
-    }
+    const double most = given.empty() ? 0.0 : std::ranges::max(given);
     return most > 0.0 ? kKey * environment.exposure / most : environment.exposure;
 }
 
 const FrameLight& Daylight::at(SkyModel sky, double exposure_ev, std::span<const ShadedLight> lights,
-                               const Aabb& scene_bounds_ws, const scene::Environment& environment)
+                               std::span<const double> given, const scene::Environment& environment)
 {
+    assert(given.size() == lights.size());
     light_.bodies = {};
     light_.skylight = {};
     light_.physical = sky == SkyModel::physical && sunAmong(lights) != nullptr;
     if (light_.physical) {
-        fillPhysical(lights, scene_bounds_ws, environment, exposure_ev);
+        fillPhysical(lights, given, environment, exposure_ev);
     } else {
         scene::Environment exposed = environment;
         exposed.exposure *= static_cast<float>(std::exp2(exposure_ev));
-        fillPlain(lights, scene_bounds_ws, exposed);
+        fillPlain(lights, given, exposed);
     }
     return light_;
 }
 
-void Daylight::fillPlain(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment)
+void Daylight::fillPlain(std::span<const ShadedLight> lights, std::span<const double> given,
+                         const scene::Environment& environment)
 {
-    const double exposure = exposureOf(lights, bounds, environment);
+    const double exposure = exposureOf(given, environment);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         light_.colours[i] = glm::dvec3(lights[i].colour * lights[i].strength) * exposure;
     }
@@ -286,7 +267,7 @@ void Daylight::placeBody(std::size_t body, const ShadedLight& light)
     placed.cos_radius = std::cos(std::clamp(light.caster.angular_diameter_rad, 0.008, kLargest_rad));
 }
 
-void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bounds,
+void Daylight::fillPhysical(std::span<const ShadedLight> lights, std::span<const double> given,
                             const scene::Environment& environment, double exposure_ev)
 {
     Hour hour;
@@ -306,7 +287,7 @@ void Daylight::fillPhysical(std::span<const ShadedLight> lights, const Aabb& bou
         hour.outside[1] *= colour / std::max(luminance(colour), 1e-30);
     }
     hour.look(light_);
-    hour.measure(lights, bounds);
+    hour.measure(lights, given);
     hour.exposeLights(lights, light_);
     hour.exposeSky(environment, light_);
 }

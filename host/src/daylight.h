@@ -41,18 +41,17 @@ struct FrameLight {
     glm::dvec3 night{0.0};  // radiance of a sky without sun and moon
 };
 
-/// What brings the brightest light, at its full strength, to the range that the tone curve is made for; multiplies all
-/// light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only
+/// What brings the brightest of `given`, illuminance by light, to the range that the tone curve is made for; multiplies
+/// all light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only
 /// scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
-[[nodiscard]] double exposureOf(std::span<const ShadedLight> lights, const Aabb& scene_bounds_ws,
-                                const scene::Environment& environment);
+[[nodiscard]] double exposureOf(std::span<const double> given, const scene::Environment& environment);
 
 /// Keeps the tables of the last sun and moon. What it says is a function of its arguments alone.
 class Daylight {
 public:
-    /// Allocates nothing. Valid until the next call.
+    /// `given`: what each of the lights gives to what is seen (SeenLight). Allocates nothing. Valid until the next call.
     const FrameLight& at(SkyModel sky, double exposure_ev, std::span<const ShadedLight> lights,
-                         const Aabb& scene_bounds_ws, const scene::Environment& environment);
+                         std::span<const double> given, const scene::Environment& environment);
 
 private:
     struct Kept {
@@ -60,9 +59,10 @@ private:
         double sine = 2.0; // none
         std::uint64_t version = 0;
     };
-    void fillPlain(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment);
-    void fillPhysical(std::span<const ShadedLight> lights, const Aabb& bounds, const scene::Environment& environment,
-                      double exposure_ev);
+    void fillPlain(std::span<const ShadedLight> lights, std::span<const double> given,
+                   const scene::Environment& environment);
+    void fillPhysical(std::span<const ShadedLight> lights, std::span<const double> given,
+                      const scene::Environment& environment, double exposure_ev);
     void placeBody(std::size_t body, const ShadedLight& light);
 
     FrameLight light_;

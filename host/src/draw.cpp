@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame, from the scene's state to its submission.
 #include "frame_renderer_impl.h"
-#include "model_bounds.h"
 
 #include <gnomon/converge.h>
 #include <gnomon/error.h>
@@ -290,8 +289,8 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
 
 void FrameRenderer::Impl::lookAtSky(const scene::State& state, const std::vector<ShadedLight>& lights)
 {
-    const Aabb model_ws = scene.pipelines.fades() ? modelBounds(scene.scene, state) : state.bounds_ws;
-    all_light = &daylight.at(options.sky, options.exposure_ev, lights, model_ws, state.environment);
+    all_light = &daylight.at(options.sky, options.exposure_ev, lights, seen_light.find(lights, objects, sight),
+                             state.environment);
     brings_sky = sky_table && sky_table->bring(slot, *all_light);
 }
 

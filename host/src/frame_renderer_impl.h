@@ -4,6 +4,7 @@
 #include "frame_data.h"
 #include "scene_draws.h"
 #include "screen.h"
+#include "seen_light.h"
 #include "shadows.h"
 #include "sky_table.h"
 
@@ -47,6 +48,7 @@ struct FrameRenderer::Impl {
     std::shared_ptr<Screen> screen;
     std::shared_ptr<Shadows> shadows; // null: none are wanted
 
+    SeenLight seen_light;
     Daylight daylight;
     std::optional<SkyTable> sky_table; // null: no sky is physical
 

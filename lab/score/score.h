@@ -23,10 +23,10 @@ struct State;
 
 namespace gnomon::lab {
 
-/// A camera's rays and a light as the tracer takes them. Light::near_m 0 becomes what the planner makes of it
-/// (extentOf()). `scene_bounds_ws`: of all objects.
+/// A camera's rays and a light as the tracer takes them. Of a light whose near_m is 0 the truth lets all cast, however
+/// near it is.
 [[nodiscard]] truth::View truthView(const Camera& camera, glm::uvec2 size_px);
-[[nodiscard]] truth::Light truthLight(const Light& light, const Aabb& scene_bounds_ws);
+[[nodiscard]] truth::Light truthLight(const Light& light);
 
 /// Why pixels do not count, and how many do. A pixel that several reasons leave out belongs to the first of them.
 struct PixelCounts {

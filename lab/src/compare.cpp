@@ -32,7 +32,7 @@ truth::View truthView(const Subject& subject, glm::uvec2 size_px)
 
 truth::Light truthLight(const Subject& subject)
 {
-    return truthLight(judgedLight(subject), subject.state->bounds_ws);
+    return truthLight(judgedLight(subject));
 }
 
 CountedPixels countPixels(const Subject& subject, const truth::Surfaces& surfaces, const host::Picture& picture)

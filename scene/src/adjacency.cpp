@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -131,7 +132,8 @@ MeshClosure closureOf(const Mesh& mesh)
     // What is open of one may be closed by another.
     std::vector<glm::vec3> positions;
     for (const Primitive& primitive : mesh.primitives) {
-        positions.insert(positions.end(), primitive.positions.begin(), primitive.positions.end());
+        std::ranges::transform(primitive.positions, std::back_inserter(positions),
+                               [&](const glm::vec3& p) { return p + primitive.origin; });
     }
     const std::vector<std::uint32_t> welded = weld(positions);
     Adjacency all;

@@ -5,8 +5,10 @@
 
 #include <gnomon/error.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::scene {
@@ -176,6 +178,35 @@ void finishPrimitive(const Scene& scene, Primitive& primitive)
     }
 }
 
+/// The first vertex is on the grid that all of them were rounded to, so their differences are exact.
+void recentre(Primitive& primitive)
+{
+    constexpr float kFar = 64.0F; // sizes away; single precision has 18 of its 24 bits left there
+    const glm::vec3 away = glm::abs(primitive.bounds.centre());
+    const glm::vec3 size = primitive.bounds.extent();
+    const float size_m = std::max({size.x, size.y, size.z});
+    if (!(size_m > 0.0F && std::max({away.x, away.y, away.z}) > kFar * size_m)) {
+        return;
+    }
+    const glm::vec3 origin = primitive.positions.front();
+    for (glm::vec3& p : primitive.positions) {
+        p -= origin;
+    }
+    primitive.bounds = {primitive.bounds.min - origin, primitive.bounds.max - origin};
+    primitive.origin += origin;
+}
+
+std::vector<bool> skinnedMeshes(const Scene& scene)
+{
+    std::vector<bool> skinned(scene.meshes.size());
+    for (const Node& node : scene.nodes) {
+        if (node.skin != kNone && node.mesh < skinned.size()) {
+            skinned[node.mesh] = true;
+        }
+    }
+    return skinned;
+}
+
 } // namespace
 
 void finishScene(Scene& scene)
@@ -188,9 +219,13 @@ void finishScene(Scene& scene)
                         "order the nodes so that parents come first");
         }
     }
-    for (Mesh& mesh : scene.meshes) {
-        for (Primitive& primitive : mesh.primitives) {
+    const std::vector<bool> skinned = skinnedMeshes(scene);
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        for (Primitive& primitive : scene.meshes[mesh].primitives) {
             finishPrimitive(scene, primitive);
+            if (!skinned[mesh]) {
+                recentre(primitive);
+            }
         }
     }
     for (const Animation& animation : scene.animations) {

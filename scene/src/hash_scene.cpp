@@ -116,10 +116,10 @@ private:
     void add(const Primitive& primitive)
     {
         const auto& [positions, normals, tangents, uv0, uv1, colours, joints, weights, indices, morph_targets, material,
-                     bounds, creased] = primitive;
+                     bounds, origin, creased] = primitive;
         addEach(positions, normals, tangents, uv0, uv1, colours, joints, weights, indices);
         addEach(morph_targets);
-        addEach(material, bounds);
+        addEach(material, bounds, origin);
     }
 
     void add(const Mesh& mesh)

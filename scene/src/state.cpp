@@ -6,6 +6,7 @@
 
 #include "scene/clip.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -74,6 +75,10 @@ void placeObject(const Scene& scene, State& state, std::uint32_t index)
         object.world_from_object = object.instance == kNone
                                        ? world_from_node
                                        : multiplyAffine(world_from_node, node.instances[object.instance]);
+        const glm::vec3& origin = primitiveOf(scene, object).origin;
+        if (origin != glm::vec3(0.0F)) {
+            object.world_from_object = multiplyAffine(object.world_from_object, glm::translate(glm::mat4(1.0F), origin));
+        }
     }
     if (object.deformed != kNone) {
         deformObject(scene, state, object);
@@ -157,6 +162,9 @@ void addObjects(const Scene& scene, std::uint32_t node_index, State& state)
         object.casts = node.casts;
         object.receives = node.receives;
         object.clip_planes = node.clip_planes;
+        for (glm::vec4& plane : object.clip_planes) {
+            plane.w += glm::dot(glm::vec3(plane), primitive.origin);
+        }
         object.dynamic = dynamic;
         // Skinned vertices are in world space already, so there is one place only for them.
         const bool once = node.instances.empty() || (node.skin != kNone && deforms(node, primitive));

@@ -77,6 +77,7 @@ GpuView later_view; // of the later position
 #define GNOMON_TINTS_BINDING 11
 #define GNOMON_SMOOTHIES (GNOMON_DEPTH_HOLDING == kDepthSmoothies)
 #define GNOMON_SHOWS_RAYS kRaysAsMask
+#define GNOMON_SMOOTH kHasSmooth
 #define GNOMON_CONFIDENCE kConfidence
 #if GNOMON_FILTER == GNOMON_FILTER_ID || GNOMON_FILTER == GNOMON_FILTER_DEPTH_ID
 uint receiver_object;

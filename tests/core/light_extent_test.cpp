@@ -63,7 +63,43 @@ TEST(LightExtent, IsWhereThePlannersMapsBegin)
         Planner planner(ShadowOptions{.technique = kPlainTechnique});
         const Plan& plan = planner.plan(frame);
         ASSERT_EQ(plan.views.size(), 1U);
-        EXPECT_EQ(plan.views[0].metric.near_m, extentOf(lights[0], set.bounds()).near_m);
+        // Bounds around the light do not tell how near the caster is.
+        const LightExtent extent = extentOf(lights[0], set.bounds());
+        EXPECT_EQ(plan.views[0].metric.near_m, near_m > 0.0 ? near_m : 0.00025 * extent.reach_m);
+    }
+}
+
+TEST(NearDistance, IsBeforeTheNearestBoundsOfACaster)
+{
+    // A caster so far below the lamp, and the near distance, in a world of which a thousandth of the reach is 4.2 m.
+    const std::vector<std::pair<float, double>> all{
+        {9.0F, 4.0}, {0.7F, 0.25}, {0.3F, 0.125}, {0.06F, 0.04243}};
+    for (const auto& [below_m, near_m] : all) {
+        SCOPED_TRACE(below_m);
+        for (const bool is_point : {false, true}) {
+            ObjectSet set;
+            set.add({{-3000, 0, -3000}, {3000, 0, 3000}});
+            set.add({{-0.2F, 9.9F - below_m, -0.2F}, {0.2F, 10.0F - below_m, 0.2F}});
+            set.add({{-0.01F, 9.99F, -0.01F}, {0.01F, 9.995F, 0.01F}}, {.casts = false});
+            std::vector<Light> lights{lampOf(0.0, 0.0)};
+            lights[0].type = is_point ? LightType::point : LightType::spot;
+            Frame frame;
+            frame.camera = test::perspectiveCamera({30, 20, 0}, {0, 0, 0}, 1.0);
+            frame.lights = lights;
+            frame.objects = &set;
+            ShadowOptions options{.technique = kPlainTechnique};
+            options.technique.partition = is_point ? Partition::cube : Partition::single;
+            Planner planner(options);
+            const Plan& plan = planner.plan(frame);
+            ASSERT_FALSE(plan.views.empty());
+            double nearest_m = plan.views[0].metric.near_m;
+            for (const View& view : plan.views) {
+                nearest_m = std::min(nearest_m, view.metric.near_m);
+            }
+            EXPECT_GT(nearest_m, 0.999 * near_m);
+            EXPECT_LT(nearest_m, std::max(1.0 * below_m, 1.01 * near_m));
+            EXPECT_EQ(lights[0].near_m, 0.0) << "the host's own";
+        }
     }
 }
 

@@ -69,7 +69,7 @@ TEST(HandOutIds, GoesFromFrontToBackAndLeavesTheGround)
     set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
     set.add(cubeAt(0, 2, 0));
     set.add({});
-    std::vector<IdPlace> scratch;
+    IdScratch scratch;
     std::vector<std::uint16_t> ids;
     handOutIds(sunDown(), set, {.most = 255}, scratch, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{3, 1, 0, 2, 0}));
@@ -80,13 +80,42 @@ TEST(HandOutIds, GoesFromFrontToBackAndLeavesTheGround)
     EXPECT_EQ(std::vector<std::uint16_t>(ids.begin() + 5, ids.end()), (std::vector<std::uint16_t>{1, 1, 0, 2, 0}));
 }
 
+TEST(HandOutIds, SurfacesInOnePlaneShareOne)
+{
+    ObjectSet set;
+    set.add({{-6, 0, -6}, {6, 0, 6}});
+    set.add({{-3, 0, -3}, {3, 0, 3}});       // a road in the ground's plane
+    set.add(cubeAt(0, 0.5F, 0));             // stands on both
+    set.add({{-0.2F, 1, -0.2F}, {0.2F, 1, 0.2F}}); // a decal on its top
+    set.add({{0.5F, 0.3F, -0.2F}, {0.5F, 0.7F, 0.2F}}); // and on its side
+    set.add({{-2, 1.5F, -2}, {2, 1.5F, 2}}); // a canopy above
+    set.add({{-0.1F, 0, -0.1F}, {0.1F, 0, 0.1F}}); // a rug in the ground's plane, under the cube
+    IdScratch scratch;
+    std::vector<std::uint16_t> ids;
+    Light sun;
+    sun.direction_ws = {-0.6, -0.8, 0.0};
+    handOutIds(sun, set, {.most = 255}, scratch, ids);
+    EXPECT_EQ(ids[0], ids[1]);
+    EXPECT_EQ(ids[0], ids[6]);
+    EXPECT_EQ(ids[2], ids[3]);
+    EXPECT_EQ(ids[2], ids[4]);
+    EXPECT_NE(ids[2], ids[0]);
+    EXPECT_NE(ids[5], ids[0]);
+    EXPECT_NE(ids[5], ids[2]);
+    ids.clear();
+    sun.direction_ws = {0.6, -0.8, 0.0}; // the decal on the side is on the far side of the cube
+    handOutIds(sun, set, {.most = 255}, scratch, ids);
+    EXPECT_EQ(ids[2], ids[3]);
+    EXPECT_NE(ids[2], ids[4]);
+}
+
 TEST(HandOutIds, ThoseWithOneIdAreFarApart)
 {
     ObjectSet set;
     for (int i = 0; i < 1000; ++i) {
         set.add(cubeAt(0.0F, float(i * 37 % 1000), 0.0F));
     }
-    std::vector<IdPlace> scratch;
+    IdScratch scratch;
     std::vector<std::uint16_t> ids;
     handOutIds(sunDown(), set, {.most = 255}, scratch, ids);
     for (std::uint32_t a = 0; a < 1000; ++a) {
@@ -109,7 +138,7 @@ TEST(HandOutIds, NeighboursShareOneInOrder)
     ASSERT_EQ(shared.sharing, IdSharing::neighbours);
     EXPECT_EQ(idSharingOf(Filter::depth_id, IdOf::face), IdSharing::far);
     EXPECT_EQ(idSharingOf(Filter::id, IdOf::object), IdSharing::far);
-    std::vector<IdPlace> scratch;
+    IdScratch scratch;
     std::vector<std::uint16_t> ids;
     handOutIds(sunDown(), set, shared, scratch, ids);
     std::vector<int> sharing(256, 0);
@@ -146,7 +175,7 @@ TEST(HandOutIds, GivesEachPieceOne)
     set.add(cubeAt(0, 5, 0), inFaces());
     set.add({{-9, -2, -9}, {9, -1, 9}}, {false, true, false});
     set.add(cubeAt(0, 2, 0), inFaces(250));
-    std::vector<IdPlace> scratch;
+    IdScratch scratch;
     std::vector<std::uint16_t> ids;
     handOutIds(sunDown(), set, {.most = 255, .of = IdOf::face}, scratch, ids);
     EXPECT_EQ(ids, (std::vector<std::uint16_t>{2, 1, 0, 7})); // 7 to 255 and 1

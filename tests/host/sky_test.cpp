@@ -222,7 +222,8 @@ ShadedLight skyLight(scene::Body body, double height_deg)
 FrameLight lightOf(const std::vector<ShadedLight>& lights, double exposure_ev = 0.0)
 {
     Daylight daylight;
-    return daylight.at(SkyModel::physical, exposure_ev, lights, {}, {});
+    const std::vector<double> given(lights.size(), 0.0); // nothing beside sun and moon
+    return daylight.at(SkyModel::physical, exposure_ev, lights, given, {});
 }
 
 TEST(Daylight, IsForAnEyeThatIsUsedToIt)
@@ -268,14 +269,16 @@ TEST(Daylight, IsAFunctionOfItsArguments)
     const std::vector<ShadedLight> one{skyLight(scene::Body::sun, 12.0)};
     const std::vector<ShadedLight> other{skyLight(scene::Body::sun, -7.0), skyLight(scene::Body::moon, 20.0)};
     Daylight kept;
-    const FrameLight first = kept.at(SkyModel::physical, 0.0, one, {}, {});
+    const std::vector<double> given(2, 0.0);
+    const std::span<const double> of_one(given.data(), 1);
+    const FrameLight first = kept.at(SkyModel::physical, 0.0, one, of_one, {});
     const std::uint64_t version = first.bodies[0].version;
-    (void)kept.at(SkyModel::physical, 0.0, other, {}, {});
-    const FrameLight& again = kept.at(SkyModel::physical, 0.0, one, {}, {});
+    (void)kept.at(SkyModel::physical, 0.0, other, given, {});
+    const FrameLight& again = kept.at(SkyModel::physical, 0.0, one, of_one, {});
     EXPECT_EQ(again.colours[0], first.colours[0]);
     EXPECT_EQ(again.skylight.linear[1], first.skylight.linear[1]);
     EXPECT_NE(again.bodies[0].version, version) << "its tables have been made anew";
-    EXPECT_EQ(kept.at(SkyModel::physical, 0.0, one, {}, {}).bodies[0].version, version + 2) << "once";
+    EXPECT_EQ(kept.at(SkyModel::physical, 0.0, one, of_one, {}).bodies[0].version, version + 2) << "once";
 }
 
 TEST(Daylight, KeepsThePlainSky)

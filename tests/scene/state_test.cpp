@@ -45,6 +45,36 @@ Scene triangleScene()
     return scene;
 }
 
+TEST(FinishScene, RecentresWhatLiesFarFromItsMeshsOrigin)
+{
+    Scene scene = triangleScene();
+    const glm::vec3 away(100000.0F, 0.0F, -100000.0F);
+    scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
+    for (glm::vec3& p : scene.meshes[0].primitives[1].positions) {
+        p += away;
+    }
+    scene.nodes[0].transform.translation = -away;
+    scene.nodes[0].clip_planes[0] = {1.0F, 0.0F, 0.0F, 1.0F};
+    finishScene(scene);
+    const std::vector<Primitive>& primitives = scene.meshes[0].primitives;
+    EXPECT_EQ(primitives[0].origin, glm::vec3(0.0F));
+    EXPECT_EQ(primitives[1].origin, away);
+    EXPECT_EQ(primitives[1].positions, primitives[0].positions);
+    const State state = evaluate(scene, 0.0);
+    expectNear(glm::vec3(state.objects[1].world_from_object[3]), {0.0F, 0.0F, 0.0F}, 0.0F);
+    expectNear(state.objects[1].bounds_ws.max, {1.0F, 2.0F, 0.0F}, 0.0F);
+    EXPECT_EQ(state.objects[0].clip_planes[0].w, 1.0F);
+    EXPECT_EQ(state.objects[1].clip_planes[0].w, 100001.0F) << "the same plane";
+
+    Scene skinned = triangleScene();
+    for (glm::vec3& p : skinned.meshes[0].primitives[0].positions) {
+        p += away;
+    }
+    skinned.nodes[0].skin = 0;
+    finishScene(skinned);
+    EXPECT_EQ(skinned.meshes[0].primitives[0].origin, glm::vec3(0.0F)) << "its joints know where it is";
+}
+
 /// Two joints, the second one up the first; the triangle's corners hang on the first, the second, and half on each.
 Scene skinnedScene()
 {

@@ -187,7 +187,7 @@ void giveIds(const ShadowOptions& options, Rendered& r)
         r.plan.lights[i].first_object_id = static_cast<std::uint32_t>(r.plan.object_ids.size());
         const IdHandout handout{idsOf(formatOf(options)), options.ids.of,
                                 idSharingOf(options.technique.filter, options.ids.of)};
-        std::vector<IdPlace> scratch;
+        IdScratch scratch;
         handOutIds(r.lights[i], objects, handout, scratch, r.plan.object_ids);
     }
 }

@@ -55,7 +55,7 @@ struct Light {
     /// is, by partition cube, multi, paraboloid or auto.
     double outer_half_angle_rad = 0.7853981634;
     double range_m = 0.0; // spot, point: reach, > 0; 0 means "as far as the scene goes"
-    double near_m = 0.0;  // spot, point: nothing nearer along a map's axis casts; 0: reach / 1000
+    double near_m = 0.0;  // spot, point: nothing nearer along a map's axis casts; 0: found, see below
     /// Directional: how wide it is in the sky, 0 .. pi/2; 0.53 degrees is the sun. What filters that know the light's
     /// size make penumbrae of; 0 is a light without size, and hard.
     double angular_diameter_rad = 0.00925025;
@@ -81,8 +81,9 @@ struct LightExtent {
     double reach_m = 0.0; // nothing farther matters
 };
 /// What Light::near_m and range_m stand for, zeros included: a range of 0 reaches the farthest corner of the scene, but
-/// at least twice the near distance, or 1 m where the scene is but the light's own place. The bounds are those of all
-/// objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
+/// at least twice the near distance, or 1 m where the scene is but the light's own place. A near distance of 0 is a
+/// thousandth of the reach. A planner takes a smaller one, down to a 100,000th: half the way to the nearest bounds of a
+/// caster, and a 4000th where a caster's bounds are around the light. The bounds are those of all objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
 [[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
 /// All that planning asks of a host.

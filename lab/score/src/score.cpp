@@ -18,7 +18,7 @@ truth::View truthView(const Camera& camera, glm::uvec2 size_px)
     return {.eye_ws = camera.eye_ws, .world_from_clip = glm::inverse(clipFromWorld(camera)), .size_px = size_px};
 }
 
-truth::Light truthLight(const Light& light, const Aabb& scene_bounds_ws)
+truth::Light truthLight(const Light& light)
 {
     truth::Light out;
     switch (light.type) {
@@ -36,7 +36,7 @@ truth::Light truthLight(const Light& light, const Aabb& scene_bounds_ws)
     out.direction_ws = light.direction_ws;
     out.angular_diameter_rad = light.angular_diameter_rad;
     out.radius_m = light.radius_m;
-    out.near_m = extentOf(light, scene_bounds_ws).near_m;
+    out.near_m = light.near_m;
     return out;
 }
 

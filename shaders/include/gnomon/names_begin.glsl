@@ -11,6 +11,7 @@
 #define GpuRule gnomon_GpuRule
 #define GpuScreen gnomon_GpuScreen
 #define GpuView gnomon_GpuView
+#define GrazedPoint gnomon_GrazedPoint
 #define Hankel gnomon_Hankel
 #define IdRule gnomon_IdRule
 #define LightPoint gnomon_LightPoint
@@ -119,6 +120,8 @@
 #define frameWeight gnomon_frameWeight
 #define gaussianWeights gnomon_gaussianWeights
 #define gradientOf gnomon_gradientOf
+#define grazedPoint gnomon_grazedPoint
+#define grazedVisibility gnomon_grazedVisibility
 #define hamburgerOccluders gnomon_hamburgerOccluders
 #define hamburgerVisibility gnomon_hamburgerVisibility
 #define hasFlag gnomon_hasFlag

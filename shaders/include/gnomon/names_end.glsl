@@ -11,6 +11,7 @@
 #undef GpuRule
 #undef GpuScreen
 #undef GpuView
+#undef GrazedPoint
 #undef Hankel
 #undef IdRule
 #undef LightPoint
@@ -119,6 +120,8 @@
 #undef frameWeight
 #undef gaussianWeights
 #undef gradientOf
+#undef grazedPoint
+#undef grazedVisibility
 #undef hamburgerOccluders
 #undef hamburgerVisibility
 #undef hasFlag

@@ -37,7 +37,7 @@ public:
         const truth::Options options{.kind = truth::Kind::hard, .threads = 1};
         const truth::View view = truthView(camera, kSize_px);
         traced.surfaces = tracer.see(view, options).value();
-        traced.visibility = tracer.trace(traced.surfaces, view, truthLight(sun, state.bounds_ws), options).value();
+        traced.visibility = tracer.trace(traced.surfaces, view, truthLight(sun), options).value();
         depth = ImageF(kSize_px.x, kSize_px.y, 1, 1.0F);
         for (std::size_t i = 0; i < depth.values.size(); ++i) {
             if (traced.surfaces.object_ids.values[i] != 0) {

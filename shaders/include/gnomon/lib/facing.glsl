@@ -50,6 +50,25 @@ GN_FN LightPoint lightPoint(real3 p, real3 n, SmoothSurface s, real3 to_light)
     return at;
 }
 
+// A point that light all but grazes, and how.
+struct GrazedPoint {
+    real3 p;
+    real sine; // of the light's height over the plane there; 0: it is higher than that, or wide
+};
+
+// Of the same triangle; `at`: its lightPoint(). `light_sine`: of the light's radius, as it is seen. A triangle that faces
+// the light takes it by itself, whatever lies over it.
+GN_FN GrazedPoint grazedPoint(LightPoint at, real3 p, real3 n, real3 to_light, real light_sine)
+{
+    real facing = dot(n, normalize(to_light));
+    bool by_itself = facing > light_sine;
+    GrazedPoint grazed;
+    grazed.p = by_itself ? p : at.p;
+    grazed.sine = max(by_itself ? facing : dot(at.n, normalize(to_light)), real(1.0) / kSteepestBias);
+    grazed.sine = facing < kHardlyFaces && light_sine < kHardlyFaces ? grazed.sine : real(0.0);
+    return grazed;
+}
+
 // From a surface's eye-relative point `p` to the light's centre, as FilterInput has it.
 GN_FN real3 towardLight(GN_VEC4 place, real3 p)
 {

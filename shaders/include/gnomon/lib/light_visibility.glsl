@@ -125,6 +125,11 @@ vec2 discPoint(int i)
 float lookup_confidence; // less than 0: no map was asked
 #endif
 
+// Whether there may be smooth surfaces, a constant. Light that all but grazes flat ones is too little to be seen.
+#ifndef GNOMON_SMOOTH
+#define GNOMON_SMOOTH true
+#endif
+
 // A surface's point as filters need it.
 struct Receiver {
     vec3 p; // eye-relative
@@ -132,6 +137,7 @@ struct Receiver {
     vec3 own_tint;
     PixelSteps steps;
     bool asks; // some view's map
+    GrazedPoint grazed;
     float off_plane_m; // BiasRule
 };
 
@@ -295,6 +301,9 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                 MapRows rows = rowsAt(read, r.p);
                 MapPoint point = projectReceiver(rows, bias, r.p, r.n);
                 float here = viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n);
+                if (GNOMON_SMOOTH && GNOMON_FILTER_NUMBER <= kFilterRaymarch && GNOMON_AUTOMATIC_BIAS && r.grazed.sine > 0.0) {
+                    here = min(here, grazedVisibility(read, bias, f, r.grazed.p, r.grazed.sine));
+                }
 #ifdef GNOMON_HAS_TINTS
                 if (GNOMON_TINTS) {
                     vec4 tint = viewTint(read, point, r.own_tint);
@@ -358,6 +367,7 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     FilterInput f = filterInput(pixel);
     f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);
+    r.grazed = grazedPoint(at, p, n, f.toward, f.spread / length(f.toward));
 #ifdef GNOMON_OBJECT
     placeObject(f, light.options, at.p);
     f.lifted = at.p == p ? 0.0 : 1.0;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much light the lights give to what is seen: the exposure follows it.
+#pragma once
+
+#include "frame_data.h"
+
+#include "host/view.h"
+
+#include <gnomon/object_set.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::host {
+
+/// Estimated from the bounds of objects on the CPU. So a picture's exposure does not depend on the picture before it.
+class SeenLight {
+public:
+    /// For each light, at its full strength, the illuminance of the surfaces that it shines on and the camera sees: lux,
+    /// or the unit of the scene's lights. A directional light has its own. Of spot and point lights the 16 of most
+    /// candela count, the others have 0. Where a lamp's place in the picture is small, or beside it, it has less, but
+    /// not less than a 16th of what it gives there. Valid until the next call.
+    std::span<const double> find(std::span<const ShadedLight> lights, const ObjectSet& objects, const Sight& sight);
+
+private:
+    [[nodiscard]] double lampGives(const Light& lamp, const ObjectSet& objects, const Sight& sight);
+
+    std::vector<double> given_;
+    std::vector<std::uint32_t> lamps_;
+    std::vector<std::uint32_t> near_;
+    std::vector<Aabb> boxes_;
+};
+
+} // namespace gnomon::host
