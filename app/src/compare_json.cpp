@@ -67,6 +67,12 @@ Json popFrameJson(const PathResult& path, const TechniqueOnPath& technique)
     return popped ? Json(path.frames.first + technique.stability->pop_frame) : Json(nullptr);
 }
 
+/// Is it worth a column? Light all but grazes a few pixels of any round body.
+bool showsGrazing(const lab::PixelCounts& pixels)
+{
+    return pixels.grazing * 50 > pixels.counted;
+}
+
 Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathResult>& path)
 {
     const lab::Score& score = technique.score;
@@ -76,6 +82,9 @@ Json techniqueJson(const ComparedTechnique& technique, const std::optional<PathR
               {"error",
                errorJson(score.error, score.classification ? std::optional(score.classification->errors) : std::nullopt,
                          {{"ssim", numberJson(score.ssim)}, {"flip", numberJson(score.flip)}})}};
+    if (showsGrazing(score.pixels.counts)) {
+        json["grazing"] = {{"pixels", score.pixels.counts.grazing}, {"rmse", numberJson(score.grazing_rmse)}};
+    }
     if (path && path->frames.first != path->frames.last) {
         json["stability"] = stabilityJson(*technique.path, score);
         json["pop_frame"] = popFrameJson(*path, *technique.path);
@@ -158,7 +167,8 @@ Json pixelsJson(const lab::PixelCounts& pixels)
               {"other_object", pixels.other_object},
               {"facing_away", pixels.facing_away},
               {"unlit", pixels.unlit},
-              {"no_receiver", pixels.no_receiver}}}};
+              {"no_receiver", pixels.no_receiver},
+              {"grazing", pixels.grazing}}}};
 }
 
 Json truthJson(const TruthFacts& truth, const std::optional<double>& standard_error)

@@ -44,6 +44,8 @@ constexpr Column kColumns[] = {
      "share of the squared error in light inside a shadow, far behind what casts it"},
     {"term%", "", "/error/terminator", 1, Form::share_of_squared_rmse,
      "share of the squared error where smooth-shaded bodies turn away from the light"},
+    {"graze", "/results/0/grazing", "/grazing/rmse", 4, Form::plain,
+     "rmse of the pixels that light all but grazes, which are in no other number; 0 is best"},
     {"ssim", "/baseline", "/error/ssim", 3, Form::plain, "structural similarity of the mask to the truth; 1 is best"},
     {"flip", "/baseline", "/error/flip", 3, Form::plain, "what an eye sees when mask and truth alternate; 0 is best"},
     {"ratio", "/baseline", "/frame_ratio", 2, Form::plain,
@@ -268,7 +270,8 @@ std::string pixelsText(const Json& pixels)
         {"other_object", "where the sides see different objects"},
         {"facing_away", "facing away"},
         {"unlit", "outside the light's reach"},
-        {"no_receiver", "that receive no shadow"}};
+        {"no_receiver", "that receive no shadow"},
+        {"grazing", "that light all but grazes"}};
     std::string left;
     for (const auto& [key, reason] : kReasons) {
         if (const Json& count = pixels.at("left_out_by_reason").at(key); count != 0) {

@@ -39,7 +39,7 @@ private:
         [[nodiscard]] std::optional<double> ifAny() const { return count == 0 ? std::nullopt : std::optional(of()); }
     };
     struct ErrorMeans {
-        Mean squared, mae, bias, p99, ssim, flip, edge, acne, detached, bleeding, terminator;
+        Mean squared, grazing_squared, mae, bias, p99, ssim, flip, edge, acne, detached, bleeding, terminator;
     };
     struct DensityMeans {
         Mean p01, p50, p99, facing_p01, facing_p50, facing_p99, one_to_four, fit_efficiency;

@@ -34,19 +34,21 @@ struct PixelCounts {
     std::uint64_t terminator = 0;   // of those that count
     std::uint64_t background = 0;   // neither side sees anything
     std::uint64_t other_object = 0; // the sides see different objects
-    std::uint64_t facing_away = 0;  // N·L of the smooth surface, else of the triangle, is 0.05 or less
+    std::uint64_t facing_away = 0;  // N·L of the smooth surface, else of the triangle, is 0 or less
     std::uint64_t unlit = 0;        // outside the light's cone or farther than its range: nothing to shadow
     std::uint64_t no_receiver = 0;  // the object receives no shadow
+    std::uint64_t grazing = 0;      // N·L is more than 0 and at most 0.05: light all but grazes it
 
     [[nodiscard]] std::uint64_t leftOut() const
     {
-        return background + other_object + facing_away + unlit + no_receiver;
+        return background + other_object + facing_away + unlit + no_receiver + grazing;
     }
 };
 struct CountedPixels {
     Counted counted;
     /// 1 where the smooth surface faces the light and the triangle under it does not: the terminator.
     Counted terminator;
+    Counted grazing; // 1 where PixelCounts::grazing has it
     PixelCounts counts;
 };
 
@@ -66,6 +68,7 @@ struct Score {
     ImageF mask;
     Outcome outcome; // of the light's map: without one the mask is all lit
     std::optional<ErrorNumbers> error;
+    std::optional<double> grazing_rmse; // of the pixels that light all but grazes; absent where there are none
     std::optional<double> ssim;
     std::optional<double> flip;
     std::optional<Classification> classification;

@@ -79,6 +79,7 @@ void expectCounts(const PixelCounts& counts, const PixelCounts& expected)
     EXPECT_EQ(counts.facing_away, expected.facing_away);
     EXPECT_EQ(counts.unlit, expected.unlit);
     EXPECT_EQ(counts.no_receiver, expected.no_receiver);
+    EXPECT_EQ(counts.grazing, expected.grazing);
 }
 
 constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
@@ -146,9 +147,10 @@ TEST(CountPixels, TheTerminatorIsWhereTheSmoothNormalAloneFacesTheLight)
     at(-0.1F, 0.04F);
     at(-0.1F, 0.06F, 2);
     const CountedPixels pixels = all.count();
-    expectCounts(pixels.counts, {.counted = 2, .terminator = 1, .facing_away = 3, .no_receiver = 1});
+    expectCounts(pixels.counts, {.counted = 2, .terminator = 1, .facing_away = 1, .no_receiver = 1, .grazing = 2});
     EXPECT_EQ(pixels.counted.values, (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0}));
     EXPECT_EQ(pixels.terminator.values, (std::vector<std::uint8_t>{0, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(pixels.grazing.values, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 0}));
 }
 
 TEST(TruthLight, HasANearDistanceOnlyWhereTheLightGivesOne)

@@ -34,23 +34,30 @@ public:
             return &PixelCounts::background;
         }
         const glm::dvec3 point_ws = judged_.camera.eye_ws + vectorAt(surfaces_.points, x, y);
-        if (!faces(surfaces_.smooth_normals, x, y)) {
+        const double facing = facingAt(surfaces_.smooth_normals, x, y);
+        if (!(facing > 0.0)) {
             return &PixelCounts::facing_away;
         }
         if (!shinesOn(judged_.light, point_ws)) {
             return &PixelCounts::unlit;
         }
-        return judged_.state.objects[id - 1].receives ? &PixelCounts::counted : &PixelCounts::no_receiver;
+        if (!judged_.state.objects[id - 1].receives) {
+            return &PixelCounts::no_receiver;
+        }
+        return facing > kFacing ? &PixelCounts::counted : &PixelCounts::grazing;
     }
 
     /// Of a pixel that counts.
-    [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const { return !faces(surfaces_.normals, x, y); }
+    [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const 
+    {
+        return !(facingAt(surfaces_.normals, x, y) > kFacing);
+    }
 
 private:
-    [[nodiscard]] bool faces(const ImageF& normals_ws, std::uint32_t x, std::uint32_t y) const
+    [[nodiscard]] double facingAt(const ImageF& normals_ws, std::uint32_t x, std::uint32_t y) const
     {
         const glm::dvec3 point_ws = judged_.camera.eye_ws + vectorAt(surfaces_.points, x, y);
-        return glm::dot(vectorAt(normals_ws, x, y), towardsLight(judged_.light, point_ws)) > kFacing;
+        return glm::dot(vectorAt(normals_ws, x, y), towardsLight(judged_.light, point_ws));
     }
 
     const Judged& judged_;
@@ -68,11 +75,13 @@ CountedPixels countPixels(const Judged& judged, const truth::Surfaces& surfaces,
     CountedPixels result;
     result.counted = Counted(object_ids.width, object_ids.height, 1);
     result.terminator = Counted(object_ids.width, object_ids.height, 1);
+    result.grazing = Counted(object_ids.width, object_ids.height, 1);
     for (std::uint32_t y = 0; y < object_ids.height; ++y) {
         for (std::uint32_t x = 0; x < object_ids.width; ++x) {
             std::uint64_t PixelCounts::*tally = judge.tallyOf(x, y);
             ++(result.counts.*tally);
             *result.counted.pixel(x, y) = tally == &PixelCounts::counted ? 1 : 0;
+            *result.grazing.pixel(x, y) = tally == &PixelCounts::grazing ? 1 : 0;
             if (tally == &PixelCounts::counted && judge.isTerminator(x, y)) {
                 *result.terminator.pixel(x, y) = 1;
                 ++result.counts.terminator;

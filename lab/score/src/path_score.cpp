@@ -22,6 +22,9 @@ void PathScore::add(const Score& frame)
         errors_.bias.add(frame.error->bias);
         errors_.p99.add(frame.error->p99);
     }
+    if (frame.grazing_rmse) {
+        errors_.grazing_squared.add(*frame.grazing_rmse * *frame.grazing_rmse);
+    }
     errors_.ssim.add(frame.ssim);
     errors_.flip.add(frame.flip);
     if (frame.classification) {
@@ -41,6 +44,7 @@ void PathScore::add(const Score& frame)
     pixels.facing_away += counts.facing_away;
     pixels.unlit += counts.unlit;
     pixels.no_receiver += counts.no_receiver;
+    pixels.grazing += counts.grazing;
     sums_.density.counted += frame.density.counted;
     sums_.density.left_out += frame.density.left_out;
     if (frame.density.counted != 0) {
@@ -62,6 +66,9 @@ Score PathScore::mean() const
     if (errors_.squared.count != 0) {
         score.error =
             ErrorNumbers{std::sqrt(errors_.squared.of()), errors_.mae.of(), errors_.bias.of(), errors_.p99.of()};
+    }
+    if (errors_.grazing_squared.count != 0) {
+        score.grazing_rmse = std::sqrt(errors_.grazing_squared.of());
     }
     score.ssim = errors_.ssim.ifAny();
     score.flip = errors_.flip.ifAny();

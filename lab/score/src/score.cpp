@@ -51,6 +51,9 @@ Score scoreMask(const Judged& judged, const truth::Traced& truth, const ImageOf<
     score.density.map = ImageF(mask.width, mask.height, 1);
     const Counted& counted = score.pixels.counted;
     score.error = errorNumbers(mask, exact, counted);
+    if (const std::optional<ErrorNumbers> grazing = errorNumbers(mask, exact, score.pixels.grazing)) {
+        score.grazing_rmse = grazing->rmse;
+    }
     score.classification =
         classifyErrors(mask, exact, counted, score.pixels.terminator, truth.visibility.first_blocker_m,
                        glm::length(glm::dvec3(judged.state.bounds_ws.extent())));
