@@ -72,8 +72,18 @@ std::optional<FlatPlace> flatPlaceOf(const Aabb& box)
     return std::nullopt;
 }
 
-/// Does the object lie on a face of the box that looks towards the light, and nowhere beyond the face?
-bool liesOn(const Light& light, const Aabb& object, const FlatPlace& flat, const Aabb& box)
+/// Which faces of a box count.
+enum class Face : std::uint8_t { low, high, any };
+
+Face towards(const Light& light, const FlatPlace& flat)
+{
+    const double way =
+        light.type == LightType::directional ? -light.direction_ws[flat.axis] : light.position_ws[flat.axis] - flat.at;
+    return way > 0.0 ? Face::high : Face::low;
+}
+
+/// Does the object lie on such a face of the box, and nowhere beyond it?
+bool liesOn(const Aabb& object, const FlatPlace& flat, const Aabb& box, Face face)
 {
     for (int side = 1; side < 3; ++side) {
         const int axis = (flat.axis + side) % 3;
@@ -84,13 +94,11 @@ bool liesOn(const Light& light, const Aabb& object, const FlatPlace& flat, const
     }
     const bool is_high = std::abs(static_cast<double>(box.max[flat.axis]) - flat.at) <= flat.tolerance;
     const bool is_low = std::abs(static_cast<double>(box.min[flat.axis]) - flat.at) <= flat.tolerance;
-    const double towards = light.type == LightType::directional ? -light.direction_ws[flat.axis]
-                                                                : light.position_ws[flat.axis] - flat.at;
-    return (is_high && towards > 0.0) || (is_low && towards < 0.0);
+    return (is_high && face != Face::low) || (is_low && face != Face::high);
 }
 
 /// The first box that the object lies on; the object itself where there is none.
-std::uint32_t boxUnder(const Light& light, const ObjectSet& objects, std::uint32_t object, const FlatPlace& flat,
+std::uint32_t boxUnder(const ObjectSet& objects, std::uint32_t object, const FlatPlace& flat, Face face,
                        std::vector<std::uint32_t>& found)
 {
     const Aabb box = objects.bounds(object);
@@ -105,36 +113,54 @@ std::uint32_t boxUnder(const Light& light, const ObjectSet& objects, std::uint32
     objects.query(around, ObjectSet::Want::casters, found);
     const auto under = std::ranges::find_if(found, [&](std::uint32_t other) {
         const Aabb bounds = objects.bounds(other);
-        return !flatPlaceOf(bounds) && liesOn(light, box, flat, bounds);
+        return !flatPlaceOf(bounds) && liesOn(box, flat, bounds, face);
     });
     return under == found.end() ? object : *under;
+}
+
+/// Calls take(object, its plane, the first object in the same plane) for all objects without thickness that `counts`.
+template <typename Counts, typename Take>
+void eachInPlane(const ObjectSet& objects, IdScratch& scratch, const Counts& counts, const Take& take)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        scratch.places.clear();
+        for (std::uint32_t object = 0; object < objects.allBounds().size(); ++object) {
+            const std::optional<FlatPlace> flat = flatPlaceOf(objects.allBounds()[object]);
+            if (flat && flat->axis == axis && counts(object)) {
+                scratch.places.emplace_back(flat->at, object);
+            }
+        }
+        std::sort(scratch.places.begin(), scratch.places.end());
+        double before = 0.0;
+        std::uint32_t first = kNoIndex;
+        for (const auto& [at, object] : scratch.places) {
+            const FlatPlace flat = *flatPlaceOf(objects.allBounds()[object]);
+            first = first != kNoIndex && at - before <= flat.tolerance ? first : object;
+            before = at;
+            take(object, flat, first);
+        }
+    }
 }
 
 /// See handOutIds(). `ids`: by object.
 void shareInPlanes(const Light& light, const ObjectSet& objects, const IdHandout& handout, IdScratch& scratch,
                    std::span<std::uint16_t> ids)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        scratch.places.clear();
-        for (std::uint32_t object = 0; object < ids.size(); ++object) {
-            const std::optional<FlatPlace> flat =
-                ids[object] != 0 ? flatPlaceOf(objects.bounds(object)) : std::nullopt;
-            if (flat && flat->axis == axis && (handout.of == IdOf::object || objects.flags(object).pieces <= 1)) {
-                scratch.places.emplace_back(flat->at, object);
-            }
-        }
-        std::sort(scratch.places.begin(), scratch.places.end());
-        double before = 0.0;
-        std::uint16_t id = 0; // of those in the plane
-        for (const auto& [at, object] : scratch.places) {
-            const FlatPlace flat = *flatPlaceOf(objects.bounds(object));
-            id = id != 0 && at - before <= flat.tolerance ? id : ids[object];
-            before = at;
-            const std::uint32_t under =
-                handout.of == IdOf::object ? boxUnder(light, objects, object, flat, scratch.found) : object;
+    std::uint32_t plane = kNoIndex;
+    std::uint16_t id = 0; // of those in the plane
+    eachInPlane(
+        objects, scratch,
+        [&](std::uint32_t object) {
+            return ids[object] != 0 && (handout.of == IdOf::object || objects.flags(object).pieces <= 1);
+        },
+        [&](std::uint32_t object, const FlatPlace& flat, std::uint32_t first) {
+            id = first == plane ? id : ids[first];
+            plane = first;
+            const std::uint32_t under = handout.of == IdOf::object
+                                            ? boxUnder(objects, object, flat, towards(light, flat), scratch.found)
+                                            : object;
             ids[object] = under == object ? id : ids[under];
-        }
-    }
+        });
 }
 
 /// The ids of one object: so many, from `first` on.
@@ -236,6 +262,31 @@ void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& h
         taken += takes(object);
     }
     shareInPlanes(light, objects, handout, scratch, std::span(out).subspan(first));
+}
+
+void shareIdBounds(const ObjectSet& objects, IdScratch& scratch, std::vector<Aabb>& bounds_ws)
+{
+    const std::span<const Aabb> own = objects.allBounds();
+    bounds_ws.assign(own.begin(), own.end());
+    scratch.links.clear();
+    const auto counts = [&](std::uint32_t object) {
+        return objects.flags(object).casts;
+    };
+    eachInPlane(objects, scratch, counts, [&](std::uint32_t object, const FlatPlace& flat, std::uint32_t first) {
+        scratch.links.emplace_back(object, first);
+        scratch.links.emplace_back(object, boxUnder(objects, object, flat, Face::any, scratch.found));
+    });
+    // Bounds pass on along links until all that are linked have the same.
+    bool grows = true;
+    while (grows) {
+        grows = false;
+        for (const auto& [a, b] : scratch.links) {
+            const Aabb both = merge(bounds_ws[a], bounds_ws[b]);
+            grows = grows || !bounds_ws[a].contains(both) || !bounds_ws[b].contains(both);
+            bounds_ws[a] = both;
+            bounds_ws[b] = both;
+        }
+    }
 }
 
 IdCollisions countIdCollisions(const Plan& plan, std::uint32_t light)

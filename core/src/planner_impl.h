@@ -162,6 +162,7 @@ struct Planner::Impl {
     void drawViews(const Frame& frame);
     Outcome handOut(const Frame& frame, std::uint32_t index);
     IdScratch id_scratch;
+    std::vector<bool> shares_bounds; // by object: Plan::object_bounds has more than its own
     [[nodiscard]] std::uint64_t idsKey(const View& view) const;
     void planLight(const Frame& frame, std::uint32_t index);
     [[nodiscard]] bool hasRoom(std::uint32_t index, const Setup& setup) const;

@@ -8,6 +8,7 @@
 #include <gnomon/object_ids.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 namespace gnomon {
@@ -76,8 +77,12 @@ Outcome Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
         light.direction_ws = planned.steps.earlier_ws;
     }
     if (plan.object_bounds.empty()) {
-        const std::span<const Aabb> bounds = objects.allBounds();
-        plan.object_bounds.assign(bounds.begin(), bounds.end());
+        shareIdBounds(objects, id_scratch, plan.object_bounds);
+        shares_bounds.assign(plan.object_bounds.size(), false);
+        for (const auto& [a, b] : id_scratch.links) {
+            shares_bounds[a] = shares_bounds[a] || a != b;
+            shares_bounds[b] = shares_bounds[b] || a != b;
+        }
     }
     planned.first_object_id = static_cast<std::uint32_t>(plan.object_ids.size());
     handOutIds(light, objects,
@@ -88,7 +93,8 @@ Outcome Planner::Impl::handOut(const Frame& frame, std::uint32_t index)
     return {};
 }
 
-/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991) over the ids of a view's casters: other ids, another key.
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991) over the ids of a view's casters, and over bounds that are not their
+/// own alone: other ids, another key.
 std::uint64_t Planner::Impl::idsKey(const View& view) const
 {
     const std::span<const std::uint16_t> ids = objectIdsOf(plan, view.light);
@@ -97,7 +103,18 @@ std::uint64_t Planner::Impl::idsKey(const View& view) const
     }
     std::uint64_t key = 14695981039346656037ULL;
     for (std::uint32_t i = 0; i < view.caster_count; ++i) {
-        key = (key ^ ids[plan.casters[view.first_caster + i]]) * 1099511628211ULL;
+        const std::uint32_t object = plan.casters[view.first_caster + i];
+        const auto add = [&](std::uint32_t number) {
+            key = (key ^ number) * 1099511628211ULL;
+        };
+        add(ids[object]);
+        const Aabb& box = plan.object_bounds[object];
+        if (shares_bounds[object]) {
+            for (int axis = 0; axis < 3; ++axis) {
+                add(std::bit_cast<std::uint32_t>(box.min[axis]));
+                add(std::bit_cast<std::uint32_t>(box.max[axis]));
+            }
+        }
     }
     return std::max<std::uint64_t>(key, 1);
 }

@@ -23,7 +23,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double candelaOf(const ShadedLight& light)
 {
-    const double passed = light.cookie == scene::kNone ? 1.0 : 0.5; // a cookie is taken to let half of the light through
+    const double passed =
+        light.cookie == scene::kNone ? 1.0 : 0.5; // a cookie is taken to let half of the light through
     return passed * glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
@@ -90,7 +91,7 @@ double seenAs(const glm::dvec3& p_ws, double size_m, const Sight& sight)
     const double beside = std::max(std::abs(glm::dot(to, sight.right_ws)) / sight.tan_x,
                                    std::abs(glm::dot(to, sight.up_ws)) / sight.tan_y) /
                           depth_m;
-    const double inside = 1.0 - glm::smoothstep(1.0, 2.0, beside);
+    const double inside = 1.0 - glm::smoothstep(1.0, 3.0, beside);
     constexpr double kLarge = 0.25; // of half the picture's height: a patch that counts in full
     return inside * std::min(size_m / (kLarge * sight.tan_y * depth_m), 1.0);
 }
@@ -146,9 +147,8 @@ std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, con
             lamps_.push_back(i);
         }
     }
-    std::ranges::stable_sort(lamps_, [&](std::uint32_t a, std::uint32_t b) {
-        return candelaOf(lights[a]) > candelaOf(lights[b]);
-    });
+    std::ranges::stable_sort(
+        lamps_, [&](std::uint32_t a, std::uint32_t b) { return candelaOf(lights[a]) > candelaOf(lights[b]); });
     lamps_.resize(objects.bounds().empty() ? 0 : std::min(lamps_.size(), kMostLamps));
     for (const std::uint32_t lamp : lamps_) {
         given_[lamp] = candelaOf(lights[lamp]) * lampGives(lights[lamp].caster, objects, sight);

@@ -17,8 +17,8 @@ namespace gnomon::host {
 /// Estimated from the bounds of objects on the CPU. So a picture's exposure does not depend on the picture before it.
 class SeenLight {
 public:
-    /// For each light, at its full strength, the illuminance of the surfaces that it shines on and the camera sees: lux,
-    /// or the unit of the scene's lights. A directional light has its own. Of spot and point lights the 16 of most
+    /// For each light, at its full strength, the illuminance of the surfaces that it shines on and the camera sees:
+    /// lux, or the unit of the scene's lights. A directional light has its own. Of spot and point lights the 16 of most
     /// candela count, the others have 0. Where a lamp's place in the picture is small, or beside it, it has less, but
     /// not less than a 16th of what it gives there. Valid until the next call.
     std::span<const double> find(std::span<const ShadedLight> lights, const ObjectSet& objects, const Sight& sight);

@@ -84,12 +84,12 @@ TEST(HandOutIds, SurfacesInOnePlaneShareOne)
 {
     ObjectSet set;
     set.add({{-6, 0, -6}, {6, 0, 6}});
-    set.add({{-3, 0, -3}, {3, 0, 3}});       // a road in the ground's plane
-    set.add(cubeAt(0, 0.5F, 0));             // stands on both
-    set.add({{-0.2F, 1, -0.2F}, {0.2F, 1, 0.2F}}); // a decal on its top
+    set.add({{-3, 0, -3}, {3, 0, 3}});                  // a road in the ground's plane
+    set.add(cubeAt(0, 0.5F, 0));                        // stands on both
+    set.add({{-0.2F, 1, -0.2F}, {0.2F, 1, 0.2F}});      // a decal on its top
     set.add({{0.5F, 0.3F, -0.2F}, {0.5F, 0.7F, 0.2F}}); // and on its side
-    set.add({{-2, 1.5F, -2}, {2, 1.5F, 2}}); // a canopy above
-    set.add({{-0.1F, 0, -0.1F}, {0.1F, 0, 0.1F}}); // a rug in the ground's plane, under the cube
+    set.add({{-2, 1.5F, -2}, {2, 1.5F, 2}});            // a canopy above
+    set.add({{-0.1F, 0, -0.1F}, {0.1F, 0, 0.1F}});      // a rug in the ground's plane, under the cube
     IdScratch scratch;
     std::vector<std::uint16_t> ids;
     Light sun;
@@ -102,6 +102,11 @@ TEST(HandOutIds, SurfacesInOnePlaneShareOne)
     EXPECT_NE(ids[2], ids[0]);
     EXPECT_NE(ids[5], ids[0]);
     EXPECT_NE(ids[5], ids[2]);
+    std::vector<Aabb> bounds;
+    shareIdBounds(set, scratch, bounds);
+    EXPECT_EQ(bounds[1].max.x, 6.0F) << "depths of one id are counted within the same bounds";
+    EXPECT_EQ(bounds[3].min.y, bounds[2].min.y);
+    EXPECT_EQ(bounds[5].max, set.bounds(5U).max);
     ids.clear();
     sun.direction_ws = {0.6, -0.8, 0.0}; // the decal on the side is on the far side of the cube
     handOutIds(sun, set, {.most = 255}, scratch, ids);

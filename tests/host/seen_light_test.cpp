@@ -71,7 +71,8 @@ TEST(SeenLight, ChangesLittleWithAStepOfTheCamera)
     double before = 0.0;
     for (int degrees = 0; degrees < 360; ++degrees) { // it turns on its place
         const double turn_rad = degrees * 3.14159265358979 / 180.0;
-        const double now = given(lamp, ground, {0, 4, 12}, {12.0 * std::sin(turn_rad), 1, 12.0 - 12.0 * std::cos(turn_rad)});
+        const double now =
+            given(lamp, ground, {0, 4, 12}, {12.0 * std::sin(turn_rad), 1, 12.0 - 12.0 * std::cos(turn_rad)});
         if (degrees > 0) {
             EXPECT_LT(std::abs(std::log2(now / before)), 0.2) << degrees;
         }

@@ -45,8 +45,9 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
     case Filter::msm:
         return of(GN_CODES(msm));
     case Filter::id:
-        return of(GN_CODES(id));
-    case Filter::depth_id: // has no module for one view: shaders/CMakeLists.txt
+        return of(
+            {mask_id_frag, mask_id_orthographic_frag, {}}); // nor has depth_id one for one view: shaders/CMakeLists.txt
+    case Filter::depth_id:
         return of({mask_depth_id_frag, mask_depth_id_orthographic_frag, {}});
     case Filter::pcf:
     case Filter::volumes:   // counts no texels: what it has of a map is never read
@@ -95,8 +96,8 @@ VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
         const bool pairs = key.filter == Filter::hard || key.filter == Filter::pcf; // mask.frag
-        const bool has_module =
-            vertex_one_ && key.filter != Filter::depth_id && (pairs || key.constants.paired == VK_FALSE);
+        const bool has_module = vertex_one_ && key.filter != Filter::id && key.filter != Filter::depth_id &&
+                                (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
         key.orthographic = key.orthographic && !has_module;
         key.constants.paired = has_module ? key.constants.paired : VK_FALSE;

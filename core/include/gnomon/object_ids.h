@@ -48,17 +48,22 @@ struct IdHandout {
 struct IdScratch {
     std::vector<std::pair<double, std::uint32_t>> places; // how far an object's box reaches, and its index
     std::vector<std::uint32_t> found;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> links; // objects that share bounds
 };
 
 /// Appends one for each object of the set: 0 of what does not cast or is nowhere, then 1 .. `most` in the order of the
 /// farthest points of their boxes, by depth along a sun or by distance from a lamp: so what stands on the ground is
 /// before the ground. Of objects as far as each other the lower index is first. With IdOf::face each piece takes one,
 /// and what is appended is that of an object's first.
-/// Surfaces in one plane never shade each other, and a map cannot tell which is in front: objects without thickness in a
-/// plane across x, y or z share an id, and one that lies on the face of a box that it does not reach beyond has the
+/// Surfaces in one plane never shade each other, and a map cannot tell which is in front: objects without thickness in
+/// a plane across x, y or z share an id, and one that lies on the face of a box that it does not reach beyond has the
 /// box's (with IdOf::object). `scratch`: whatever was in it.
 GNOMON_API void handOutIds(const Light& light, const ObjectSet& objects, const IdHandout& handout, IdScratch& scratch,
                            std::vector<std::uint16_t>& out);
+
+/// By object, the bounds by which filter depth-id counts depths within it (Plan::object_bounds): its own, and of
+/// objects that may share an id because they are in one plane, the bounds around them all.
+GNOMON_API void shareIdBounds(const ObjectSet& objects, IdScratch& scratch, std::vector<Aabb>& bounds_ws);
 
 /// Filters id and depth-id have the index of a pixel's object and its piece in one number (pixelObject()); so many
 /// objects can be told apart by it.

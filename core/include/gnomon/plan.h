@@ -398,7 +398,8 @@ struct Plan {
     /// Filters id and depth-id (object_ids.h): for each light that has any, one for each object of `object_bounds`; 0
     /// of what does not cast.
     std::vector<std::uint16_t> object_ids;
-    /// Those of the frame's objects, by index. Empty where no light has ids.
+    /// By index, the bounds within which filter depth-id counts an object's depths (shareIdBounds()). Empty where no
+    /// light has ids.
     std::vector<Aabb> object_bounds;
     /// ObjectFlags::pieces of them. Empty where no light has ids of pieces (IdOf::face).
     std::vector<std::uint16_t> object_pieces;

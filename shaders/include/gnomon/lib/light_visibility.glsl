@@ -129,6 +129,9 @@ float lookup_confidence; // less than 0: no map was asked
 #ifndef GNOMON_SMOOTH
 #define GNOMON_SMOOTH true
 #endif
+#if !defined(GNOMON_FILTER) || GNOMON_FILTER <= GNOMON_FILTER_RAYMARCH
+#define GNOMON_ASKS_GRAZED // filters that compare the depths of a map
+#endif
 
 // A surface's point as filters need it.
 struct Receiver {
@@ -137,7 +140,9 @@ struct Receiver {
     vec3 own_tint;
     PixelSteps steps;
     bool asks; // some view's map
+#ifdef GNOMON_ASKS_GRAZED
     GrazedPoint grazed;
+#endif
     float off_plane_m; // BiasRule
 };
 
@@ -301,9 +306,11 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
                 MapRows rows = rowsAt(read, r.p);
                 MapPoint point = projectReceiver(rows, bias, r.p, r.n);
                 float here = viewVisibility(GNOMON_FILTER_NUMBER, read, rows, point, f, r.steps, r.p, r.n);
+#ifdef GNOMON_ASKS_GRAZED
                 if (GNOMON_SMOOTH && GNOMON_FILTER_NUMBER <= kFilterRaymarch && GNOMON_AUTOMATIC_BIAS && r.grazed.sine > 0.0) {
-                    here = min(here, grazedVisibility(read, bias, f, r.grazed.p, r.grazed.sine));
+                    here = min(here, grazedVisibility(read, rows, point.texel_depth, bias, f, r.grazed.p, r.grazed.sine));
                 }
+#endif
 #ifdef GNOMON_HAS_TINTS
                 if (GNOMON_TINTS) {
                     vec4 tint = viewTint(read, point, r.own_tint);
@@ -367,7 +374,9 @@ vec4 lightVisibility(uint index, vec3 p, vec3 n, SmoothSurface s, vec3 own_tint,
     FilterInput f = filterInput(pixel);
     f.toward = towardLight(light.place, at.p);
     f.spread = lightSpread(light.place, f.toward, light.size.x);
+#ifdef GNOMON_ASKS_GRAZED
     r.grazed = grazedPoint(at, p, n, f.toward, f.spread / length(f.toward));
+#endif
 #ifdef GNOMON_OBJECT
     placeObject(f, light.options, at.p);
     f.lifted = at.p == p ? 0.0 : 1.0;

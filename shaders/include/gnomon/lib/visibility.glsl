@@ -172,31 +172,26 @@ GN_FN real boundedVisibility(real v)
 // plane rises over a texel: its neighbours on a body, by turns from texel to texel. So the map is asked once more, at the
 // point itself, between the four texels around it, where a surface's own texels and its neighbours' both are what they
 // are. Of a convex body none of the four is before the plane. What is farther before it makes an edge as ever.
-// `p`, `sine`: of grazedPoint().
-GN_FN real grazedVisibility(GpuView view, BiasRule rule, FilterInput f, real3 p, real sine)
+// `rows`, `texel_depth`: of the receiver (MapPoint); `p`, `sine`: of grazedPoint().
+GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRule rule, FilterInput f, real3 p, real sine)
 {
-    MapRows rows = rowsAt(view, p);
-    real w = mapW(rows, p);
-    real2 texel = texelAt(rows, p, w);
-    real4 tile = real4(view.whole);
-    real2 shifted = clamp(texel, real2(tile.x, tile.y) + real2(real(1.0)), real2(tile.z, tile.w) - real2(real(1.0))) -
-                    real2(real(0.5));
-    real2 cell = floor(shifted);
-    real2 part = shifted - cell;
+    real2 low = real2(real(view.whole.x), real(view.whole.y)) + real2(real(0.5));
+    real2 high = real2(real(view.whole.z), real(view.whole.w)) - real2(real(1.5));
+    real2 shifted = clamp(texelAt(rows, p, mapW(rows, p)) - real2(real(0.5)), low, high);
+    real2 part = shifted - floor(shifted);
     FilterInput input_here = f;
     input_here.near_over_far = real(view.more.z);
-    real4 four = storedMetric(input_here, mapGather(cell + real2(real(1.0)), real(view.scale.z), real(view.scale.w)));
+    real4 four = storedMetric(
+        input_here, mapGather(floor(shifted) + real2(real(1.0)), real(view.scale.z), real(view.scale.w)));
+    real4 shares = real4(real(1.0) - part.x, part.x, part.x, real(1.0) - part.x) *
+                   real4(part.y, part.y, real(1.0) - part.y, real(1.0) - part.y);
     real m = dotRow(rows.metric, p);
-    real texel_depth = texelExtent(rows, texel, w) / rows.range_m;
     real rise = texel_depth / sine;
     real bias = rule.quantum + kSteepest * texel_depth + rule.snap_texels * rise +
                 rule.off_plane_m / (rows.range_m * sine);
-    real4 lit = step(real4(m - rise - bias), four);
-    real far = mix(mix(lit.w, lit.z, part.x), mix(lit.x, lit.y, part.x), part.y);
-    four = min(four, real4(m + rise));
-    real between = mix(mix(four.w, four.z, part.x), mix(four.x, four.y, part.x), part.y);
-    real near = between < min(m, real(1.0)) - bias ? real(0.0) : real(1.0);
-    return !(w > real(0.0)) ? real(1.0) : (far < real(1.0) ? far : near);
+    real far = dot(shares, step(real4(m - rise - bias), four));
+    real between = dot(shares, min(four, real4(m + rise)));
+    return far < real(0.999) ? far : step(min(m, real(1.0)) - bias, between);
 }
 
 // Of a receiver inside the view: `rows` are rowsAt() its place, `point` what projectReceiver() makes of it; `p` eye-relative,
