@@ -49,9 +49,9 @@ constexpr std::array kPresets{
     // adapts to the view. `--fit scene` is its own, made once.
     Preset{"rts-2011", "A. Marinescu, soft shadows of a real-time strategy game, 2011: two layers of variance", R"({
   "scene": "rts", "camera": "camp", "partition": "single", "fit": "lispsm-simple", "filter": "lvsm",
-  "map-size": 1024, "map-format": "rgba16", "lvsm.world": [6.5, 12, 10, 40], "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
+  "map-size": 1024, "map-format": "rgba16", "lvsm.world": [7, 13, 12, 40], "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25,
   "map-sampling": "bilinear", "min-variance": 0.01, "bleeding.power": 1.3, "lighten": 0.39, "lighten.as": "add",
-  "sky": "plain", "bloom": true, "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
+  "sky": "plain", "bloom": true, "bloom.threshold": 0.3, "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
     // The whole screen blended between two positions of the sun, whose depths share the bytes of a colour texel. The
     // world's clock is the document's: one minute a second.
@@ -71,11 +71,13 @@ constexpr std::array kPresets{
   "msaa": 4, "blur": "gaussian", "blur.sigma": 1.25, "map-sampling": "trilinear",
   "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},
-    // Frustums as the receivers ask for them, each with the talk's simplified warp. Its densities lie between one and
-    // four times what is needed, and 2 is the middle. The four nearest texels of a depth map stand for the ids that the
-    // talk turns to after that (filter depth-id).
-    Preset{"startopia-2006", "T. Forsyth, Extremely Practical Shadows, 2006: many frustums a lamp, a warp in each", R"({
-  "scene": "ring", "camera": "deck", "partition": "multi", "multi.texels-per-pixel": 2, "fit": "lispsm-simple",
+    // Frustums as the receivers ask for them, that pan by whole texels and fade over where they have to change. Their
+    // densities lie between one and four times what is needed, and 2 is the middle. The talk's simplified warp follows
+    // the viewer, so that its texels cannot be held: with `--motion free --fit lispsm-simple` it is there. The four
+    // nearest texels of a depth map stand for the ids that the talk turns to after that (filter depth-id).
+    Preset{"startopia-2006", "T. Forsyth, Extremely Practical Shadows, 2006: many frustums a lamp, held still", R"({
+  "scene": "ring", "camera": "deck", "partition": "multi", "multi.texels-per-pixel": 2, "multi.most-times": 4,
+  "motion": "snap", "fit": "uniform",
   "filter": "pcf", "pcf.kernel": "2x2", "map-format": "d32f", "bias": "auto",
   "aa": "none", "ambient-occlusion": "off", "tone": "filmic", "dither": false
 })"},

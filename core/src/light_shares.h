@@ -12,9 +12,9 @@
 namespace gnomon {
 
 /// A light's share is how many of the points in sight it lights: of each point so much of one as it gives of what all
-/// lights give there. By screen area and brightness, as T. Forsyth ranks lights in "Extremely Practical Shadows", GDC
-/// 2006, and beside the other lights: a lamp in the sun counts for little. Which way a surface faces is not known. A
-/// light whose reach is in view, but at none of the points, has a small share.
+/// lights give there. That is screen area and brightness beside the other lights: a lamp in the sun counts for little.
+/// Which way a surface faces is not known. A light whose reach is in view, but at none of the points, has a small
+/// share.
 class LightShares {
 public:
     /// Takes time in proportion to the lights, and nothing from the heap once warm.

@@ -222,9 +222,10 @@ TEST(MomentSettings, ThePresetIsThePapersSetUp)
     EXPECT_EQ(settings.shadow.lighten, 0.39F); // of linear light: 0.65 of what is displayed
     EXPECT_EQ(settings.shadow.lighten_as, LightenAs::add);
     EXPECT_EQ(moments.placement, LayerPlacement::world);
-    EXPECT_EQ(moments.world_layers[0], (WorldLayer{6.5, 12.0}));
-    EXPECT_EQ(moments.world_layers[1], (WorldLayer{10.0, 40.0}));
+    EXPECT_EQ(moments.world_layers[0], (WorldLayer{7.0, 13.0}));
+    EXPECT_EQ(moments.world_layers[1], (WorldLayer{12.0, 40.0}));
     EXPECT_TRUE(settings.bloom.on);
+    EXPECT_EQ(settings.bloom.threshold, 0.3F); // so that it is seen
 }
 
 std::vector<std::string> namesOf(const std::vector<app::Settings>& techniques)

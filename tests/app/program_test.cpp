@@ -395,17 +395,19 @@ TEST(Presets, AllAreValidAndShastryIsAsPublished)
     }
 }
 
-TEST(Presets, StartopiaHasFrustumsForEachOfManyLamps)
+TEST(Presets, StartopiaHasFrustumsForEachOfManyLampsAndHoldsThem)
 {
     app::Settings settings = app::defaultSettings();
     app::applyPreset(settings, "startopia-2006", app::kRender);
     app::completeTechnique(settings);
     EXPECT_EQ(settings.scene, "ring");
     EXPECT_EQ(settings.shadow.technique.partition, Partition::multi);
-    EXPECT_EQ(settings.shadow.technique.fit, Fit::lispsm_simple);
+    EXPECT_EQ(settings.shadow.technique.motion, Motion::snap); // "can pan by whole texels"
+    EXPECT_EQ(settings.shadow.technique.fit, Fit::uniform);    // which no warp can
     EXPECT_EQ(settings.shadow.technique.filter, Filter::pcf);
     EXPECT_EQ(settings.shadow.pcf.kernel, PcfKernel::bilinear_2x2);
     EXPECT_EQ(settings.shadow.multi.texels_per_pixel, 2.0);
+    EXPECT_EQ(settings.shadow.multi.most_times, 4.0); // "heuristic factor of ~4x allowed"
     EXPECT_EQ(formatOf(settings.shadow), MapFormat::d32f);
     EXPECT_TRUE(settings.shadow.bias.automatic);
 }

@@ -106,6 +106,11 @@ double ClaimRuns::passMs(std::size_t run, std::string_view technique, std::strin
     return kNothing;
 }
 
+double ClaimRuns::shadowMs(std::size_t run, std::string_view technique) const
+{
+    return of(run, technique, "/time_ms/maps") + of(run, technique, "/time_ms/mask");
+}
+
 double ClaimRuns::ratio(std::string_view technique, std::string_view other, const char* pointer) const
 {
     return of(technique, pointer) / of(other, pointer);

@@ -35,6 +35,8 @@ public:
     [[nodiscard]] double ratio(std::string_view technique, std::string_view other, const char* pointer) const;
     /// Milliseconds of a technique's pass by its name; NaN where there is none.
     [[nodiscard]] double passMs(std::size_t run, std::string_view technique, std::string_view pass) const;
+    /// Milliseconds of maps and the mask with its blur, which are all that a technique adds.
+    [[nodiscard]] double shadowMs(std::size_t run, std::string_view technique) const;
     /// The number that `pointer` leads to in a run's JSON as a whole.
     [[nodiscard]] double number(std::size_t run, const char* pointer) const;
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What T. Forsyth claims of projections and of many frustums a lamp. claims_2006_depth.cpp and claims_2006_ids.cpp
-// have the rest.
+// What T. Forsyth claims of projections. claims_2006_frustums.cpp has those of frustums,
+// claims_2006_depth.cpp and claims_2006_ids.cpp the rest.
 #include "claim.h"
 #include "claim_runs.h"
 #include "claims_2006_depth.h"
+#include "claims_2006_frustums.h"
 #include "claims_2006_ids.h"
 #include "shared_commands.h"
 #include "worked_out.h"
-
-#include <set>
-#include <string>
 
 namespace gnomon::app {
 namespace {
@@ -25,16 +23,6 @@ constexpr std::string_view kLongWarps =
 constexpr std::string_view kAgainstTheSun =
     "gnomon compare sundial --preset plain --eye 0,1.7,0 --target 0,3,-20 --sun 0,-0.35,1 --size 320x180 --truth hard "
     "--repetitions 1 --warmup 0 --map-size 512 --techniques hard,hard+lispsm,hard+lispsm-simple,hard+tsm,hard+psm";
-constexpr std::string_view kLanternTwo =
-    "gnomon compare ring --camera duel --light \"lantern 2\" --light-size 0.02 --size 320x180 --samples 64 "
-    "--repetitions 1 --warmup 0 --texels 1048576 --techniques hard+multi,hard+cube";
-constexpr std::string_view kPendant =
-    "gnomon compare ring --camera bar --light \"pendant 13\" --light-size 0.02 --size 320x180 --samples 64 "
-    "--repetitions 1 --warmup 0 --texels 1048576 --techniques hard+multi,hard+cube";
-constexpr std::string_view kPendantOfDeck =
-    "gnomon compare ring --camera deck --light \"pendant 15\" --light-size 0.02 --size 320x180 --samples 64 "
-    "--repetitions 1 --warmup 0 --texels 1048576 --techniques hard+multi,hard+cube";
-constexpr std::string_view kDuelPlan = "gnomon plan ring --camera duel --partition multi --json";
 /// The rmse of a warp by that of the map without one.
 double warpRmse(const Runs& runs, std::string_view warp)
 {
@@ -55,46 +43,6 @@ double fallenBack(const Runs& runs)
         count += runs.json(i).at("lights").at(0).at("outcome") == "fallback" ? 1.0 : 0.0;
     }
     return count;
-}
-
-/// The lights of a plan that have maps, of all that cast shadows.
-double lightsWithMaps(const Json& plan)
-{
-    double with = 0.0;
-    double casting = 0.0;
-    for (const Json& light : plan.at("lights")) {
-        with += light.at("view_count") > 0 ? 1.0 : 0.0;
-        casting += light.at("outcome") == "no_shadow_wanted" ? 0.0 : 1.0;
-    }
-    return with / casting;
-}
-
-/// Of the light by that name.
-Json viewsOf(const Json& plan, std::string_view name)
-{
-    Json found = Json::array();
-    for (const Json& view : plan.at("views")) {
-        if (plan.at("lights").at(view.at("light").get<std::size_t>()).at("name") == name) {
-            found.push_back(view);
-        }
-    }
-    return found;
-}
-
-/// How many ranges of depth they are in.
-double shellsOf(const Json& views)
-{
-    std::set<std::string> shells;
-    for (const Json& view : views) {
-        shells.insert(view.at("slice").at("begin_m").dump());
-    }
-    return static_cast<double>(shells.size());
-}
-
-/// How uneven texels are on what faces eye and lamp: the finest hundredth by the coarsest.
-double unevenness(const Runs& runs, std::size_t run, std::string_view technique)
-{
-    return runs.of(run, technique, "/texel_density/facing/p99") / runs.of(run, technique, "/texel_density/facing/p01");
 }
 
 const std::vector<Claim>& projections2006()
@@ -175,101 +123,6 @@ const std::vector<Claim>& projections2006()
          .verdict = Verdict::holds,
          .quick = true,
          .why = "So 120 degrees are where the talk's own band of 1 to 4 ends. At 150 it is 15 times."},
-    };
-    return table;
-}
-
-const std::vector<Claim>& frustums2006()
-{
-    static const std::vector<Claim> table{
-        {.id = "2006-even-texels",
-         .claim = "With many frustums texels are even: the best has 4 times those of the worst",
-         .commands = {kLanternTwo, kPendant},
-         .parts = {{"lantern 2: finest over coarsest hundredth", "",
-                    [](const Runs& r) { return unevenness(r, 0, "hard+multi"); }, 0.0, 4.5},
-                   {"pendant 13:", "", [](const Runs& r) { return unevenness(r, 1, "hard+multi"); }, 0.0, 4.5}},
-         .verdict = Verdict::partly,
-         .quick = true,
-         .why = "Of surfaces that face eye and lamp. Shells are made where they save texels; `multi.most-times` makes "
-                "them by this rule, and errs more."},
-        {.id = "2006-near-more-texels",
-         .claim = "Objects close to the viewer get more texels",
-         .commands = {kLanternTwo, kPendant},
-         .parts = {{"lantern 2: texels a pixel of the coarsest hundredth,", "times cube's",
-                    [](const Runs& r) { return r.ratio("hard+multi", "hard+cube", "/texel_density/p01"); }, 1.2},
-                   {"pendant 13:", "times cube's",
-                    [](const Runs& r) {
-                        return r.of(1, "hard+multi", "/texel_density/p01") / r.of(1, "hard+cube", "/texel_density/p01");
-                    },
-                    1.2}},
-         .verdict = Verdict::holds,
-         .quick = true,
-         .why = "What is nearest has the fewest texels with a cube, at the same number in all."},
-        {.id = "2006-better-than-cubes",
-         .claim = "It is better than cube maps",
-         .commands = {kLanternTwo, kPendant, kPendantOfDeck},
-         .parts =
-             {{"lantern 2: rmse", "of cube's",
-               [](const Runs& r) { return r.ratio("hard+multi", "hard+cube", "/error/rmse"); }, 0.0, 0.995},
-              {"pendant 13:", "of cube's",
-               [](const Runs& r) { return r.of(1, "hard+multi", "/error/rmse") / r.of(1, "hard+cube", "/error/rmse"); },
-               0.0, 0.995},
-              {"pendant 15:", "of cube's",
-               [](const Runs& r) { return r.of(2, "hard+multi", "/error/rmse") / r.of(2, "hard+cube", "/error/rmse"); },
-               0.0, 0.995}},
-         .verdict = Verdict::partly,
-         .quick = true,
-         .why = "With a million texels each. On the last lamp it takes fewer texels than it may have; the table of "
-                "`multi` has more lamps."},
-        {.id = "2006-few-regions",
-         .claim = "A duel takes 3 or 4 regions at the extreme",
-         .commands = {kDuelPlan},
-         .parts = {{"ranges of depth", "of the lamp that is looked into",
-                    [](const Runs& r) { return shellsOf(viewsOf(r.json(0), "lantern 2")); }, 1.0, 4.0},
-                   {"frustums", "in them",
-                    [](const Runs& r) { return static_cast<double>(viewsOf(r.json(0), "lantern 2").size()); }, 1.0,
-                    6.0}},
-         .verdict = Verdict::partly,
-         .quick = true,
-         .why = "Each range is seen in several directions of the lamp, and each of these has a frustum."},
-        {.id = "2006-unseen-sides",
-         .claim = "Sides that nobody sees are never considered",
-         .commands = {kDuelPlan},
-         .parts = {{"lamps with a map", "of all that cast", [](const Runs& r) { return lightsWithMaps(r.json(0)); },
-                    0.0, 0.5}},
-         .verdict = Verdict::holds,
-         .quick = true,
-         .why = "The others light nothing in sight."},
-        {.id = "2006-popping",
-         .claim = "Popping is kept down if frustums pan by whole texels and receivers are blended over",
-         .commands = {"gnomon compare ring --preset plain --partition cube --camera duel --light \"lantern 2\" "
-                      "--map-size auto --size 240x135 --truth hard --frames 0-7 --path orbit --techniques "
-                      "hard+multi,hard+multi+snap"},
-         .parts = {{"the worst frame changes", "of what it does without",
-                    [](const Runs& r) { return r.ratio("hard+multi+snap", "hard+multi", "/stability/pop"); }, 0.0,
-                    0.5}},
-         .verdict = Verdict::holds,
-         .quick = false,
-         .why = "Motion `snap` of `multi` does so; frustums fade into others over eight frames."},
-        {.id = "2006-soft-seams",
-         .claim = "Soft shadows help to hide seams between frustums",
-         .commands = {"gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --filter hard --set "
-                      "multi.most-times=2 --set cascades.blend=0 --size 240x135 -o hard_seams.png",
-                      "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --filter hard --set "
-                      "multi.most-times=2 --set cascades.blend=0.5 --size 240x135 -o hard_faded.png",
-                      "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --filter raymarch "
-                      "--light-size 0.2 --set multi.most-times=2 --set cascades.blend=0 --size 240x135 -o "
-                      "soft_seams.png",
-                      "gnomon render planes --camera side --point -3.5,3,0.3,40 --partition multi --filter raymarch "
-                      "--light-size 0.2 --set multi.most-times=2 --set cascades.blend=0.5 --size 240x135 -o "
-                      "soft_faded.png",
-                      "gnomon metrics hard_seams.png hard_faded.png --json",
-                      "gnomon metrics soft_seams.png soft_faded.png --json"},
-         .parts = {{"what fading changes of a soft picture, rmse,", "of what it changes of a hard one",
-                    [](const Runs& r) { return r.number(5, "/error/rmse") / r.number(4, "/error/rmse"); }, 0.0, 0.5}},
-         .verdict = Verdict::holds,
-         .quick = true,
-         .why = "As far as there is something to hide: both are below 0.003."},
     };
     return table;
 }

@@ -21,18 +21,19 @@ constexpr std::string_view kSunOverMeadow =
     "gnomon compare sundial --preset plain --camera meadow --light sun --time 120 --path day --frames 0-19 --fps 10 "
     "--size 256x144 --samples 256 --map-size 1024 --techniques pcf,pcf+snap,pcf+step-jump,pcf+step-band,"
     "pcf+step-blend";
+/// As the document has it: nine samples, two depths in the channels of one texture, both drawn anew in every frame.
 constexpr std::string_view kSunTimes =
-    "gnomon bench sundial --preset plain --camera meadow --time 120 --path day --frames 0-9 --size 320x180 --map-size "
-    "1024 --techniques pcf,pcf+step-jump,pcf+step-band,pcf+step-blend,pcf+step-alternate";
+    "gnomon bench --preset icefall-2010 --time 300 --path day --frames 0-9 --fps 15 --size 640x360 --set "
+    "keep-still=never --techniques pcf+snap,pcf+step-band,pcf+step-blend,pcf+step-alternate";
 constexpr std::string_view kTwoInOne =
     "gnomon compare sundial --preset plain --camera meadow --size 64x36 --truth hard --repetitions 1 --warmup 0 "
     "--map-size 1024 --techniques pcf+map-format=d32f,pcf+step-blend+map-format=rgba8,pcf+step-blend+map-format=d16,"
     "pcf+step-blend+map-format=d32f";
 
-/// A frame that keeps what holds, by that of a single map that follows the sun.
+/// A frame by that of a single map that follows the sun.
 double frameOver(const Runs& runs, std::string_view technique)
 {
-    return runs.ratio(technique, "pcf", "/static_time_ms/frame");
+    return runs.ratio(technique, "pcf+snap", "/time_ms/frame");
 }
 
 const std::vector<Claim>& table2010()
@@ -93,8 +94,9 @@ const std::vector<Claim>& table2010()
                     [](const Runs& r) { return frameOver(r, "pcf+step-band"); }, 1.04, 1.2}},
          .verdict = Verdict::fails,
          .quick = false,
-         .why = "It is cheaper: between steps the maps are kept, and what moves is drawn over them. The document draws "
-                "both in every frame."},
+         .why = "Nothing is kept here, as in the document: every caster is drawn twice in every frame, which is what "
+                "takes a software rasteriser its time. Where maps are kept between steps, as they are by default, a "
+                "frame takes less than with one map."},
         {.id = "2010-blend-cost",
          .claim = "The full blend takes 13 ms more than 48 (+27 %), on the Xbox 9.5 more than 26 (+37 %)",
          .commands = {kSunTimes},
@@ -102,11 +104,14 @@ const std::vector<Claim>& table2010()
                     [](const Runs& r) { return frameOver(r, "pcf+step-blend"); }, 1.2, 1.5}},
          .verdict = Verdict::fails,
          .quick = false,
-         .why = "As of the band. So what was too dear there is the one to take."},
+         .why = "As of the band, which saves samples alone."},
         {.id = "2010-alternate",
          .claim = "To draw the two positions in alternate frames would be cheaper than the full blend",
          .commands = {kSunTimes},
-         .parts = {{"with maps drawn anew it draws", "of the blend's triangles",
+         .parts = {{"a frame takes", "of the blend's",
+                    [](const Runs& r) { return r.ratio("pcf+step-alternate", "pcf+step-blend", "/time_ms/frame"); },
+                    0.0, 0.95},
+                   {"it draws", "of the blend's triangles",
                     [](const Runs& r) {
                         return r.ratio("pcf+step-alternate", "pcf+step-blend", "/counters/primitives");
                     },
@@ -117,7 +122,7 @@ const std::vector<Claim>& table2010()
          .verdict = Verdict::partly,
          .quick = false,
          .why = "It draws one map a frame instead of two. What was shown in the frame before has to be kept, as the "
-                "document says. Where maps are kept between steps, the blend draws none either."},
+                "document says."},
         {.id = "2010-two-in-one",
          .claim = "Two maps in the channels of one texture save memory",
          .commands = {kTwoInOne},

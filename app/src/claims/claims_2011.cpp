@@ -12,6 +12,16 @@ namespace {
 
 using Runs = ClaimRuns;
 
+/// Each means against aliasing by itself, beside a map that is read bilinearly and has none.
+constexpr std::string_view kBilinear = "vsm+msaa=1+blur=none";
+constexpr std::string_view kMeans =
+    "gnomon compare canopies --preset plain --camera side --size 320x180 --samples 64 --repetitions 1 --warmup 0 "
+    "--map-size 512 --techniques vsm+msaa=1+blur=none,vsm+blur=none,vsm+msaa=1,"
+    "vsm+msaa=1+blur=none+map-sampling=trilinear,vsm+msaa=1+blur=none+map-sampling=anisotropic";
+constexpr std::string_view kMeansInMotion =
+    "gnomon compare rts --preset plain --camera camp --path orbit --frames 0-3 --size 192x108 --truth hard --map-size "
+    "1024 --techniques vsm+msaa=1+blur=none,vsm+blur=none+map-sampling=anisotropic";
+
 /// The largest range of depth that a layer of the plan's first view has, in metres.
 double thickestLayer(const Json& plan)
 {
@@ -20,6 +30,20 @@ double thickestLayer(const Json& plan)
         thickest = std::max(thickest, layer.at("far_m").get<double>() - layer.at("near_m").get<double>());
     }
     return thickest;
+}
+
+/// A camera that pans beside a box, under lamps in one direction.
+constexpr std::string_view kLampAt10m =
+    "gnomon compare planes --preset plain --partition multi --camera side --point=-3,9,3,20 --map-size auto --texels "
+    "262144 --path pan --frames 0-3 --size 192x108 --truth hard --techniques hard+snap";
+constexpr std::string_view kLampAt100km =
+    "gnomon compare planes --preset plain --partition multi --camera side --point=-30000,90000,30000,200000 --map-size "
+    "auto --texels 262144 --path pan --frames 0-3 --size 192x108 --truth hard --techniques hard+snap";
+
+/// How many times the triangles of the second command the first draws.
+double trianglesOver(const Runs& runs)
+{
+    return runs.of(0, "hard", "/counters/primitives") / runs.of(1, "hard", "/counters/primitives");
 }
 
 /// Casters that the first view draws, of all objects that cast.
@@ -50,6 +74,20 @@ const std::vector<Claim>& table2011()
          .quick = true,
          .why = "A plain map keeps far finer steps. A map of moments keeps far coarser ones, because a variance is the "
                 "difference of two squares."},
+        {.id = "2011-flicker",
+         .claim =
+             "Errors of floats make the boundary of shadows flicker, the more the farther light and camera are apart",
+         .commands = {kLampAt10m, kLampAt100km},
+         .parts = {{"shimmer of a map that holds still, the lamp 100 km away, less that at 10 m", "",
+                    [](const Runs& r) {
+                        return r.of(1, "hard+snap", "/stability/shimmer") - r.of(0, "hard+snap", "/stability/shimmer");
+                    },
+                    1e-3}},
+         .verdict = Verdict::fails,
+         .quick = true,
+         .why =
+             "The paper's own remedy is always on: a map's planes are close around what is seen. Matrices are made in "
+             "double precision, relative to the eye."},
         {.id = "2011-vertex-distance",
          .claim = "Under a sun the distance to the light's plane may be worked out per vertex; that to a place may not",
          .parts = {{"interpolated distance to a plane errs by", "m", [](const Runs&) { return errorOfPlaneDistance(); },
@@ -160,44 +198,66 @@ const std::vector<Claim>& table2011()
          .why = "The default, `gaps`, looks for where the least light bleeds."},
         {.id = "2011-filtering-cheap",
          .claim = "Blur, mip levels, anisotropic reading and samples make variance maps much better",
-         .commands = {kCanopies},
-         .parts =
-             {{"rmse with blur and four samples", "of that without",
-               [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none+map-sampling=nearest", "/error/rmse"); },
-               0.0, 0.85},
-              {"with error at edges", "of that without",
-               [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none+map-sampling=nearest", "/error/edge"); },
-               0.0, 0.5}},
-         .verdict = Verdict::holds,
+         .commands = {kMeans, kMeansInMotion},
+         .parts = {{"beside bilinear reads, rmse with four samples", "of that without",
+                    [](const Runs& r) { return r.ratio("vsm+blur=none", kBilinear, "/error/rmse"); }, 0.0, 0.85},
+                   {"with a blur", "of it",
+                    [](const Runs& r) { return r.ratio("vsm+msaa=1", kBilinear, "/error/rmse"); }, 0.0, 0.85},
+                   {"with mip levels", "of it",
+                    [](const Runs& r) {
+                        return r.ratio("vsm+msaa=1+blur=none+map-sampling=trilinear", kBilinear, "/error/rmse");
+                    },
+                    0.0, 0.85},
+                   {"with anisotropic reads", "of it",
+                    [](const Runs& r) {
+                        return r.ratio("vsm+msaa=1+blur=none+map-sampling=anisotropic", kBilinear, "/error/rmse");
+                    },
+                    0.0, 0.85},
+                   {"shimmer under a camera that goes round, with samples and anisotropic reads,", "of that without",
+                    [](const Runs& r) {
+                        return r.of(1, "vsm+blur=none+map-sampling=anisotropic", "/stability/shimmer") /
+                               r.of(1, kBilinear, "/stability/shimmer");
+                    },
+                    0.0, 0.85}},
+         .verdict = Verdict::partly,
          .quick = true,
-         .why = "Averages have penumbrae. They also bleed, which takes back a part."},
+         .why = "Samples do, in a still picture. Mip levels, anisotropic reads and a blur make variances of wider "
+                "places, which bleed; under a camera that moves they flicker less, which is what they are for."},
         {.id = "2011-filtering-cost",
-         .claim = "and at almost no extra cost",
+         .claim = "Mip levels, anisotropic reading and samples do so at almost no extra cost",
          .commands = {kTimes},
-         .parts = {{"a frame with blur and four samples takes", "times that without",
-                    [](const Runs& r) { return r.ratio("vsm", "vsm+msaa=1+blur=none", "/time_ms/frame"); }, 0.0, 1.1},
+         .parts = {{"a frame with all three takes", "times that without",
+                    [](const Runs& r) {
+                        return r.ratio("vsm+blur=none+map-sampling=anisotropic", kBilinear, "/time_ms/frame");
+                    },
+                    0.0, 1.1},
                    {"memory", "times as much",
-                    [](const Runs& runs) { return runs.ratio("vsm", "vsm+msaa=1+blur=none", "/memory_bytes"); }, 0.0,
-                    1.1}},
+                    [](const Runs& r) {
+                        return r.ratio("vsm+blur=none+map-sampling=anisotropic", kBilinear, "/memory_bytes");
+                    },
+                    0.0, 1.1}},
          .verdict = Verdict::fails,
          .quick = false,
          .why = "On a software rasteriser, which has no fixed units for samples and filters. No GPU was measured."},
         {.id = "2011-bloom",
          .claim = "Bloom helps to hide what artefacts remain",
-         .commands =
-             {"gnomon render rts --preset plain --camera camp --size 320x180 --truth area --samples 64 -o truth.png",
-              "gnomon render rts --preset plain --camera camp --size 320x180 --truth area --samples 64 --set "
-              "bloom=1 -o truth_bloom.png",
-              "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 -o "
-              "vsm.png",
-              "gnomon render rts --preset plain --camera camp --size 320x180 --filter vsm --map-size 512 --set "
-              "bloom=1 -o vsm_bloom.png",
-              "gnomon metrics vsm.png truth.png --json", "gnomon metrics vsm_bloom.png truth_bloom.png --json"},
-         .parts = {{"FLIP to the truth with bloom in both", "of that without",
+         .commands = {"gnomon render --preset rts-2011 --set bloom=0 --size 320x180 --truth area --samples 64 -o "
+                      "truth.png",
+                      "gnomon render --preset rts-2011 --size 320x180 --truth area --samples 64 -o truth_bloom.png",
+                      "gnomon render --preset rts-2011 --set lighten=0 --set bloom=0 --size 320x180 -o plain.png",
+                      "gnomon render --preset rts-2011 --set lighten=0 --size 320x180 -o bloom.png",
+                      "gnomon metrics plain.png truth.png --json", "gnomon metrics bloom.png truth_bloom.png --json",
+                      "gnomon metrics bloom.png plain.png --json"},
+         .parts = {{"bloom itself changes the picture by", "rmse",
+                    [](const Runs& r) { return r.number(6, "/error/rmse"); }, 0.02},
+                   {"rmse to the truth with bloom in both", "of that without",
+                    [](const Runs& r) { return r.number(5, "/error/rmse") / r.number(4, "/error/rmse"); }, 0.0, 0.95},
+                   {"FLIP", "of that without",
                     [](const Runs& r) { return r.number(5, "/error/flip") / r.number(4, "/error/flip"); }, 0.0, 0.95}},
-         .verdict = Verdict::fails,
+         .verdict = Verdict::partly,
          .quick = true,
-         .why = "Bloom adds to what is bright; an edge that is wrong lies beside it as before."},
+         .why = "It lowers the contrast at edges, and with it an error in numbers. The eye sees it as before. With "
+                "`bloom.threshold` 0.3, as in the preset; at 0.8 bloom could not be seen."},
         {.id = "2011-4096",
          .claim = "There are situations in which even a map of 4096 texels is too small",
          .commands = {"gnomon compare rts --preset plain --camera unit --size 320x180 --truth hard --repetitions 1 "
@@ -227,7 +287,27 @@ const std::vector<Claim>& table2011()
          .parts = {{"casters drawn", "of all", [](const Runs& r) { return drawnShare(r.json(0)); }, 0.0, 0.5}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "Of a view to the horizon; those that cannot shadow anything in sight are left out."},
+         .why = "Of a view to the horizon; those that cannot shadow anything in sight are left out. How much sooner a "
+                "tree finds them "
+                "than a list is not tried."},
+        {.id = "2011-complexity",
+         .claim = "Shadow maps depend little on a scene's complexity, shadow volumes highly",
+         .commands = {kTimesAtCamp, kTimesOfBox},
+         .parts = {{"from one box to a camp a map draws", "times the triangles",
+                    [](const Runs& r) { return trianglesOver(r); }, 100.0},
+                   {"maps and mask take", "times as long",
+                    [](const Runs& r) { return r.shadowMs(0, "hard") / r.shadowMs(1, "hard"); }, 0.0, 10.0},
+                   {"with volumes", "times as long as that",
+                    [](const Runs& r) {
+                        constexpr std::string_view kVolumes = "volumes+volumes.open=skip";
+                        return r.shadowMs(0, kVolumes) / r.shadowMs(1, kVolumes) /
+                               (r.shadowMs(0, "hard") / r.shadowMs(1, "hard"));
+                    },
+                    2.0}},
+         .verdict = Verdict::holds,
+         .quick = false,
+         .why = "A map's time is mostly that of texels and pixels. A volume is drawn over all that lies behind its "
+                "caster, and at camp there are 833."},
         {.id = "2011-world-layers",
          .claim = "Two layers are to be volumes of the world, with a least variance of 0.01",
          .commands = {"gnomon compare --preset rts-2011 --camera camp --set lighten=0 --size 320x180 --samples 64 "
@@ -240,8 +320,19 @@ const std::vector<Claim>& table2011()
                     0.5}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "Over a slab of 5.5 m, 0.01 is a deviation of half a metre. Over the whole range it is too large "
+         .why = "Over a slab of 6 m, 0.01 is a deviation of 0.6 m. Over the whole range it is too large "
                 "(2011-published-variance)."},
+        {.id = "2011-animated",
+         .claim = "All geometry casts soft shadows, units with an animation system too",
+         .commands = {"gnomon compare --preset rts-2011 --camera giant --set lighten=0 --size 320x180 --samples 64 "
+                      "--repetitions 1 --warmup 0 --techniques lvsm"},
+         .parts = {{"before the one unit with a skin, light at contacts, mean square,", "",
+                    [](const Runs& r) { return r.of("lvsm", "/error/detached"); }, 0.0, 1e-4},
+                   {"rmse", "", [](const Runs& r) { return r.of("lvsm", "/error/rmse"); }, 0.0, 0.125}},
+         .verdict = Verdict::holds,
+         .quick = true,
+         .why = "His vertices are made anew in each frame, and the ground that he walks on is in the layer of the "
+                "ground."},
         {.id = "2011-matrices-once",
          .claim = "The light's matrices need making only once, when a map is loaded",
          .commands = {"gnomon compare planes --preset plain --camera side --path pan --frames 0-5 --size 192x108 "

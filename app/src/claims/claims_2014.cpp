@@ -10,6 +10,11 @@ namespace {
 
 using Runs = ClaimRuns;
 
+/// What the article's lights are, which do not move: /static_time_ms has maps that hold kept.
+constexpr std::string_view kStillLights =
+    "gnomon bench spotlit --preset plain --camera stage --size 640x360 --map-size 512 --repetitions 21 --warmup 1 "
+    "--techniques pcf+pcf.kernel=7x7,vsm";
+
 const std::vector<Claim>& table2014()
 {
     static const std::vector<Claim> table{
@@ -81,18 +86,19 @@ const std::vector<Claim>& table2014()
          .commands = {kClose},
          .parts = {{"mean error grows by", "towards light",
                     [](const Runs& r) {
-                        return r.of("vsm+bias=none+caster-faces=back", "/error/bias") -
+                        return r.of("vsm+bias=none+caster-cull=front", "/error/bias") -
                                r.of("vsm+bias=none", "/error/bias");
                     },
                     0.002},
                    {"light at contacts", "times as much",
                     [](const Runs& r) {
-                        return r.ratio("vsm+bias=none+caster-faces=back", "vsm+bias=none", "/error/detached");
+                        return r.ratio("vsm+bias=none+caster-cull=front", "vsm+bias=none", "/error/detached");
                     },
                     1.03}},
          .verdict = Verdict::holds,
          .quick = true,
-         .why = "Of closed meshes alone; open ones are drawn whole here, for culled they would cast nothing."},
+         .why = "Every shadow begins at the far side of its caster, and what is open, as cloth and leaves, loses the "
+                "half of it that faces the light."},
         {.id = "2014-esm-better",
          .claim = "Exponential shadow maps are better than variance shadow maps",
          .commands = {kCanopies, kCamp, kStage},
@@ -122,15 +128,19 @@ const std::vector<Claim>& table2014()
              "not what takes the time, hardly differ; no GPU was measured."},
         {.id = "2014-vsm-fast",
          .claim = "Variance maps are fast, because they are filtered before they are read",
-         .commands = {kTimes},
-         .parts = {{"a frame takes", "of that of pcf 7x7",
-                    [](const Runs& runs) { return runs.ratio("vsm", "pcf+pcf.kernel=7x7", "/time_ms/frame"); }, 0.0,
+         .commands = {kStillLights},
+         .parts = {{"the mask takes", "of the time of that of pcf 7x7",
+                    [](const Runs& r) { return r.ratio("vsm", "pcf+pcf.kernel=7x7", "/static_time_ms/mask"); }, 0.0,
+                    0.75},
+                   {"a frame whose lights stand still, as the article's do,", "of that of pcf 7x7",
+                    [](const Runs& r) { return r.ratio("vsm", "pcf+pcf.kernel=7x7", "/static_time_ms/frame"); }, 0.0,
                     0.75}},
-         .verdict = Verdict::fails,
+         .verdict = Verdict::partly,
          .quick = false,
-         .why =
-             "Reading is cheap. Making the map is not, where it is drawn anew in every frame, and for few pixels: four "
-             "samples and a blur. No GPU was measured."},
+         .why = "Reading takes two thirds of the time. Of a frame in which nothing moves, all else is the same. "
+                "Where lights move a frame takes as long as with pcf 7x7 or longer: four samples and a blur are made "
+                "anew. "
+                "No GPU was measured."},
     };
     return table;
 }

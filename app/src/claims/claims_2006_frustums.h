@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// What T. Forsyth claims of many frustums a lamp: a part of claimsOf2006().
+#pragma once
+
+#include "claim.h"
+
+namespace gnomon::app {
+
+[[nodiscard]] const std::vector<Claim>& frustums2006();
+
+} // namespace gnomon::app
