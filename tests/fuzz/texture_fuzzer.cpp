@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a texture's bytes are, PNG or JPEG, they are texels or a sentence that says why not.
+// Whatever a texture's bytes are, PNG, JPEG or WebP, they are texels or a sentence that says why not.
 #include "gltf/decode.h"
 #include "png_checksums.h"
 
@@ -24,13 +24,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             throw TooLarge("over the limit"); // as a scene's limit would
         }
     };
-    const bool png = gltf::sniff(std::as_bytes(std::span(data, size))) == gltf::ImageFormat::png;
+    const gltf::ImageFormat format = gltf::sniff(std::as_bytes(std::span(data, size)));
+    const bool png = format == gltf::ImageFormat::png;
+    const gltf::Decoder known = gltf::decoderOf(format);
+    const gltf::Decoder decoder = known != nullptr ? known : gltf::decodeJpeg;
     const std::string bytes =
         png ? gnomon::fuzz::withRightChecksums(data, size) : std::string(reinterpret_cast<const char*>(data), size);
     gnomon::scene::Image image;
     try {
-        const std::string wrong = png ? gltf::decodePng(std::as_bytes(std::span(bytes)), check, image)
-                                      : gltf::decodeJpeg(std::as_bytes(std::span(bytes)), check, image);
+        const std::string wrong = decoder(std::as_bytes(std::span(bytes)), check, image);
         if (wrong.empty() && image.rgba.size() != std::size_t{image.width} * image.height * 4) {
             std::abort();
         }

@@ -223,24 +223,11 @@ void attachSparse(const Document& document, const JsonView& view, Accessor& acce
     }
 }
 
-/// Smallest and largest value per component; fails on NaN and infinities.
-std::vector<ComponentRange> measure(const JsonView& view, const Accessor& accessor)
-{
-    std::vector<ComponentRange> ranges = measureComponents(view.context(), accessor);
-    for (const ComponentRange& range : ranges) {
-        if (range.not_finite != kNone) {
-            view.failFound("the accessor's data must be finite",
-                           "NaN or infinity in element " + std::to_string(range.not_finite));
-        }
-    }
-    return ranges;
-}
-
 /// Declared bounds are for whoever does not read the data; exporters round them. The data count.
 void checkBounds(const JsonView& view, const Accessor& accessor)
 {
     const std::vector<ComponentRange> ranges =
-        accessor.hasContent() ? measure(view, accessor) : std::vector<ComponentRange>{};
+        accessor.hasContent() ? requireFinite(view, accessor) : std::vector<ComponentRange>{};
     bool differ = false;
     for (const char* key : {"min", "max"}) {
         const std::optional<JsonView> bound = view.find(key);
@@ -281,6 +268,18 @@ Accessor readAccessor(const Document& document, const JsonView& view, const Uses
 }
 
 } // namespace
+
+std::vector<ComponentRange> requireFinite(const JsonView& view, const Accessor& accessor)
+{
+    std::vector<ComponentRange> ranges = measureComponents(view.context(), accessor);
+    for (const ComponentRange& range : ranges) {
+        if (range.not_finite != kNone) {
+            view.failFound("the accessor's data must be finite",
+                           "NaN or infinity in element " + std::to_string(range.not_finite));
+        }
+    }
+    return ranges;
+}
 
 void readAccessors(Document& document)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/document.h"
+#include "gltf/meshopt.h"
 #include "gltf/uri.h"
 
 namespace gnomon::scene::gltf {
@@ -9,8 +10,11 @@ namespace {
 Buffer readBuffer(const Document& document, const JsonView& view, bool first)
 {
     Buffer buffer;
-    checkExtensions(view, Place::other);
+    checkExtensions(view, Place::buffer);
     buffer.length = view.at("byteLength").uint(1);
+    if (isMeshoptFallback(view)) {
+        return buffer; // for readers that cannot unpack the views on it
+    }
     if (const std::optional<JsonView> uri = view.find("uri")) {
         buffer.owned = fetch(*uri).bytes;
         buffer.bytes = buffer.owned;
@@ -32,9 +36,9 @@ Buffer readBuffer(const Document& document, const JsonView& view, bool first)
     return buffer;
 }
 
-BufferView readView(const Document& document, const JsonView& view)
+BufferView readView(Document& document, const JsonView& view)
 {
-    checkExtensions(view, Place::other);
+    checkExtensions(view, Place::buffer_view);
     BufferView out;
     out.buffer = view.at("buffer").index(document.buffers.size());
     out.offset = view.uint("byteOffset", 0);
@@ -60,6 +64,11 @@ BufferView readView(const Document& document, const JsonView& view)
         if (out.use == ViewUse::none) {
             target->fail("the target must be 34962 or 34963");
         }
+    }
+    if (const std::optional<JsonView> packed = meshoptOf(view)) {
+        out.bytes = unpackMeshopt(document, *packed, out.length);
+        out.has_content = !out.bytes.empty();
+        return out;
     }
     out.has_content = buffer.has_content;
     if (buffer.has_content) {

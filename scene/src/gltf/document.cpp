@@ -13,13 +13,21 @@ constexpr std::string_view kSupported[] = {"KHR_lights_punctual",
                                            "KHR_materials_emissive_strength",
                                            "KHR_materials_pbrSpecularGlossiness",
                                            "KHR_mesh_quantization",
+                                           "KHR_draco_mesh_compression",
+                                           "EXT_meshopt_compression",
+                                           "KHR_meshopt_compression",
+                                           "EXT_texture_webp",
                                            "KHR_node_visibility",
                                            "EXT_mesh_gpu_instancing"};
 
 /// Without effect here, and a file may require them: they change neither where surfaces are nor where these are seen
-/// through. So may all whose second word is "materials".
+/// through, or a notice says that they do, as of textures in formats without a decoder. So may all whose second word
+/// is "materials".
 constexpr std::string_view kLeavesGeometry[] = {"KHR_xmp",
                                                 "KHR_xmp_json_ld",
+                                                "KHR_texture_basisu",
+                                                "EXT_texture_avif",
+                                                "MSFT_texture_dds",
                                                 "KHR_node_selectability",
                                                 "KHR_node_hoverability",
                                                 "KHR_interactivity",
@@ -56,12 +64,17 @@ struct Rule {
 constexpr Rule kPlaces[] = {
     {"KHR_lights_punctual", Place::root, Place::node},
     {"KHR_texture_transform", Place::texture_info, Place::texture_info},
-    {"KHR_materials_variants", Place::root, Place::other}, // before the prefix below: it stands on primitives
+    {"KHR_materials_variants", Place::root, Place::primitive}, // before the prefix below: it stands on primitives
     {"KHR_materials_", Place::material, Place::material},
     {"EXT_mesh_gpu_instancing", Place::node, Place::node},
     {"KHR_node_visibility", Place::node, Place::node},
     {"KHR_animation_pointer", Place::channel_target, Place::channel_target},
-    {"EXT_texture_webp", Place::texture, Place::texture},
+    {"KHR_draco_mesh_compression", Place::primitive, Place::primitive},
+    {"EXT_meshopt_compression", Place::buffer, Place::buffer_view},
+    {"KHR_meshopt_compression", Place::buffer, Place::buffer_view},
+    {"EXT_texture_", Place::texture, Place::texture},
+    {"KHR_texture_basisu", Place::texture, Place::texture},
+    {"MSFT_texture_dds", Place::texture, Place::texture},
 };
 
 bool isSupported(std::string_view name)

@@ -8,25 +8,39 @@
 #include "gltf/json_view.h"
 
 #include <array>
+#include <deque>
 #include <set>
 #include <vector>
 
 namespace gnomon::scene::gltf {
 
 /// Where an extension may stand. `ignored` extensions without a line in the table may stand anywhere.
-enum class Place : std::uint8_t { root, node, material, texture_info, texture, channel, channel_target, other };
+enum class Place : std::uint8_t {
+    root,
+    buffer,
+    buffer_view,
+    primitive,
+    node,
+    material,
+    texture_info,
+    texture,
+    channel,
+    channel_target,
+    other
+};
 
 struct Document {
     JsonView root;
     Container container;
     Scene scene; // grows as parts are read
 
-    bool quantization = false; // KHR_mesh_quantization is used
+    bool quantization = false;                   // KHR_mesh_quantization is used
+    std::deque<std::vector<std::byte>> unpacked; // where bytes lie that the file has compressed
     std::vector<Buffer> buffers;
     std::vector<BufferView> views;
     std::vector<Accessor> accessors;
-    std::vector<ImageFormat> image_formats; // as many as scene.images
-    std::vector<std::uint32_t> cameras;     // glTF index -> index into scene.cameras, or kNone
+    std::vector<bool> images_read;      // as many as scene.images: false where nothing could be decoded
+    std::vector<std::uint32_t> cameras; // glTF index -> index into scene.cameras, or kNone
     std::vector<std::uint32_t> lights;
     std::vector<std::uint64_t> vertex_counts; // per mesh, of all its primitives once they have normals
     std::vector<std::uint32_t> joint_limits;  // per mesh: 1 + the largest joint its primitives name
@@ -55,6 +69,8 @@ void readNodes(Document& document);
 void readSkins(Document& document);
 void readAnimations(Document& document);
 
+/// Fails at `view` where the accessor has a NaN or an infinity; else returns smallest and largest value per component.
+std::vector<ComponentRange> requireFinite(const JsonView& view, const Accessor& accessor);
 /// Says so where the view of an accessor that is not of vertices has a stride. `what` it is of, in the plural.
 void noticeStride(const Document& document, const Accessor& accessor, const std::string& what);
 /// Refuses a known extension in a place where it has no meaning.

@@ -14,8 +14,8 @@ namespace {
 struct Encoded {
     Resource resource; // owns the bytes when they come from a URI
     std::span<const std::byte> bytes;
-    bool has_content = true;
-    JsonView where; // whom to blame for a wrong media type
+    std::string missing; // why there are none; empty: there are
+    JsonView where;      // whom to blame for a wrong media type
 };
 
 Encoded findEncoded(const Document& document, const JsonView& view)
@@ -26,7 +26,11 @@ Encoded findEncoded(const Document& document, const JsonView& view)
         view.failFound("an image needs either a uri or a bufferView", uri ? "both" : "neither");
     }
     if (uri) {
-        Encoded out{fetch(*uri), {}, true, *uri};
+        std::optional<Resource> resource = fetchIfThere(*uri);
+        if (!resource) {
+            return {{}, {}, "names a file that is not there, " + uri->string(), *uri};
+        }
+        Encoded out{std::move(*resource), {}, {}, *uri};
         out.bytes = out.resource.bytes;
         return out;
     }
@@ -34,10 +38,10 @@ Encoded findEncoded(const Document& document, const JsonView& view)
     if (data.stride != 0) {
         view.context().notice("the buffer view of image " + view.pointer() + " has a byteStride, which has no effect");
     }
-    return {{}, data.bytes, data.has_content, *buffer_view};
+    return {{}, data.bytes, data.has_content ? "" : "has no data", *buffer_view};
 }
 
-/// One white texel, for what cannot be decoded or has no data.
+/// One white texel, for what cannot be decoded or has no data. No texture uses it.
 void makeWhite(Image& image)
 {
     image.width = 1;
@@ -45,15 +49,27 @@ void makeWhite(Image& image)
     image.rgba.assign(4, 0xFF);
 }
 
-void checkMediaType(const Encoded& encoded, const std::string& declared, ImageFormat format)
+/// What the data are; fails where they are not what the file says, or none at all.
+ImageFormat formatOf(const Encoded& encoded, const std::string& declared)
 {
-    if (!declared.empty() && declared != mediaType(format)) {
-        encoded.where.failFound(
-            "the image's data are " + std::string(mediaType(format)) + ", not what its media type says", declared);
+    const ImageFormat format = sniff(encoded.bytes);
+    if (encoded.bytes.empty()) {
+        encoded.where.failFound("the image's data are invalid", "no data");
     }
+    // A data URI may be vague about its type; it must not be wrong about it.
+    const bool vague = declared.empty() || declared == "application/octet-stream";
+    const bool known = format != ImageFormat::unknown || decoderOf(formatNamed(declared)) != nullptr;
+    if (!vague && known && declared != mediaType(format)) {
+        encoded.where.failFound(format == ImageFormat::unknown
+                                    ? "the image's data are not what its media type says"
+                                    : "the image's data are " + std::string(mediaType(format)) +
+                                          ", not what its media type says",
+                                declared);
+    }
+    return format;
 }
 
-void decode(const JsonView& view, std::span<const std::byte> bytes, ImageFormat format, Image& image)
+void decode(const JsonView& view, std::span<const std::byte> bytes, Decoder decoder, Image& image)
 {
     Context& context = view.context();
     const SizeCheck check = [&](std::uint32_t width, std::uint32_t height) {
@@ -64,44 +80,36 @@ void decode(const JsonView& view, std::span<const std::byte> bytes, ImageFormat 
         }
         context.chargeBytes(std::uint64_t{width} * height * 4, view.pointer());
     };
-    const std::string wrong =
-        format == ImageFormat::png ? decodePng(bytes, check, image) : decodeJpeg(bytes, check, image);
+    const std::string wrong = decoder(bytes, check, image);
     if (!wrong.empty()) {
         view.failFound("the image's data are invalid", wrong);
     }
 }
 
-/// Returns the format, so that textures can refuse what core glTF has no decoder for.
-ImageFormat readImage(Document& document, const JsonView& view)
+/// Adds the image to the scene. Returns whether it could be read; textures do without one that could not.
+bool readImage(Document& document, const JsonView& view)
 {
     checkExtensions(view, Place::other);
     Image image;
     image.name = view.string("name", "");
     const Encoded encoded = findEncoded(document, view);
-    const std::string declared = view.string("mimeType", encoded.resource.media_type);
-    ImageFormat format = ImageFormat::png;
-    if (!encoded.has_content) {
-        makeWhite(image);
-        document.context().notice("image " + view.pointer() + " has no data and was replaced by white");
-    } else {
-        format = sniff(encoded.bytes);
-        if (format == ImageFormat::unknown) {
-            view.failFound("the image is neither PNG nor JPEG",
-                           encoded.bytes.empty() ? "no data" : "an unknown format");
-        }
-        // A data URI may be vague about its type; it must not be wrong about it.
-        const bool vague = declared.empty() || declared == "application/octet-stream";
-        checkMediaType(encoded, vague ? std::string() : declared, format);
-        if (format == ImageFormat::png || format == ImageFormat::jpeg) {
-            decode(view, encoded.bytes, format, image);
+    std::string missing = encoded.missing;
+    if (missing.empty()) {
+        const ImageFormat format = formatOf(encoded, view.string("mimeType", encoded.resource.media_type));
+        if (const Decoder decoder = decoderOf(format)) {
+            decode(view, encoded.bytes, decoder, image);
         } else {
-            makeWhite(image);
-            document.context().notice("image " + view.pointer() + " is " + mediaType(format) +
-                                      ", which is not decoded; textures use their PNG or JPEG fallback");
+            missing = "is " + std::string(format == ImageFormat::unknown ? "of an unknown format" : mediaType(format)) +
+                      ", which cannot be decoded";
         }
     }
+    if (!missing.empty()) {
+        makeWhite(image);
+        document.context().notice("image " + view.pointer() + " " + missing +
+                                  "; textures use another source, or are left out");
+    }
     document.scene.images.push_back(std::move(image));
-    return format;
+    return missing.empty();
 }
 
 Wrap readWrap(const JsonView& view, const char* key)
@@ -146,18 +154,23 @@ Texture readSampler(const JsonView& view)
     return texture;
 }
 
-/// Checks the source of EXT_texture_webp, which we do not decode.
-void checkWebp(const Document& document, const JsonView& view)
+/// The first image of a texture that could be read, those of extensions before the plain one; kNone without any.
+std::uint32_t readSource(const Document& document, const JsonView& view)
 {
-    const std::optional<JsonView> webp = extension(view, "EXT_texture_webp");
-    const std::optional<JsonView> source = webp ? webp->find("source") : std::nullopt;
-    if (!source) {
-        return;
+    std::uint32_t source = kNone;
+    const auto take = [&](const JsonView& owner) {
+        const std::uint32_t image = owner.index("source", document.scene.images.size());
+        if (source == kNone && image != kNone && document.images_read[image]) {
+            source = image;
+        }
+    };
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+        if (const std::optional<JsonView> other = extension(view, name)) {
+            take(*other);
+        }
     }
-    const std::uint32_t image = source->index(document.scene.images.size());
-    if (document.image_formats[image] != ImageFormat::webp) {
-        source->failFound("the texture's image must be image/webp", mediaType(document.image_formats[image]));
-    }
+    take(view);
+    return source;
 }
 
 } // namespace
@@ -166,7 +179,7 @@ void readImages(Document& document)
 {
     const std::size_t count = topLevelCount(document, "images");
     for (std::size_t i = 0; i < count; ++i) {
-        document.image_formats.push_back(readImage(document, document.root.at("images").element(i)));
+        document.images_read.push_back(readImage(document, document.root.at("images").element(i)));
     }
 }
 
@@ -183,14 +196,7 @@ void readTextures(Document& document)
         checkExtensions(view, Place::texture);
         const std::uint32_t sampler = view.index("sampler", samplers.size());
         Texture texture = sampler == kNone ? Texture{} : samplers[sampler];
-        texture.image = view.index("source", document.scene.images.size());
-        if (texture.image != kNone) {
-            const ImageFormat format = document.image_formats[texture.image];
-            if (format != ImageFormat::png && format != ImageFormat::jpeg) {
-                view.at("source").failFound("a texture's image must be image/png or image/jpeg", mediaType(format));
-            }
-        }
-        checkWebp(document, view);
+        texture.image = readSource(document, view);
         document.scene.textures.push_back(texture);
     }
 }

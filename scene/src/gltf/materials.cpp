@@ -103,23 +103,43 @@ void readEmission(const JsonView& view, Material& material)
     }
 }
 
+/// Without the alpha of its texture a leaf is a card, in the picture and in shadows: nobody may find out by that.
+void noticeSolid(const JsonView& view, const Material& material, const std::optional<JsonView>& base_colour)
+{
+    if (base_colour && material.base_colour_texture.texture == kNone && material.alpha_mode != AlphaMode::opaque) {
+        view.context().notice("material " + view.pointer() +
+                              (material.name.empty() ? "" : " '" + escapeKey(material.name) + "'") +
+                              " lacks the texture that says where it is seen through; without it there are no holes, "
+                              "in the surface as in its shadow");
+    }
+}
+
 Material readMaterial(const Document& document, const JsonView& view)
 {
     checkExtensions(view, Place::material);
     Material material;
     material.name = view.string("name", "");
-    if (const std::optional<JsonView> pbr = view.find("pbrMetallicRoughness")) {
+    const std::optional<JsonView> pbr = view.find("pbrMetallicRoughness");
+    const std::optional<JsonView> older = extension(view, "KHR_materials_pbrSpecularGlossiness");
+    if (pbr) {
         readMetallicRoughness(document, *pbr, material);
     }
-    if (const std::optional<JsonView> older = extension(view, "KHR_materials_pbrSpecularGlossiness")) {
+    if (older) {
         readSpecularGlossiness(document, *older, material);
     }
     readAlpha(view, material);
+    noticeSolid(view, material,
+                older ? older->find("diffuseTexture")
+                : pbr ? pbr->find("baseColorTexture")
+                      : std::nullopt);
     readEmission(view, material);
     material.double_sided = view.boolean("doubleSided", false);
     material.normal_texture = readUse(document, view, "normalTexture");
     material.occlusion_texture = readUse(document, view, "occlusionTexture");
     material.emissive_texture = readUse(document, view, "emissiveTexture");
+    if (view.has("emissiveTexture") && material.emissive_texture.texture == kNone) {
+        material.emissive = glm::vec3(0.0F); // rather dark than bright all over
+    }
     if (const std::optional<JsonView> info = view.find("normalTexture")) {
         material.normal_scale = info->number("scale", 1.0F, -kAny, kAny);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/attributes.h"
+#include "gltf/draco.h"
 
 #include <algorithm>
 #include <array>
@@ -82,17 +83,25 @@ void readTargets(Document& document, const JsonView& view, Primitive& primitive)
 /// Empty positions: there is nothing that could cast or show.
 Primitive readPrimitive(Document& document, const JsonView& view)
 {
-    checkExtensions(view, Place::other);
+    checkExtensions(view, Place::primitive);
     Primitive primitive;
     const std::optional<JsonView> mode_view = view.find("mode");
-    const std::uint64_t mode = mode_view ? mode_view->uint(0, 6) : kTriangles;
+    std::uint64_t mode = mode_view ? mode_view->uint(0, 6) : kTriangles;
     primitive.material = view.index("material", document.scene.materials.size());
+    std::vector<std::uint32_t> indices;
+    const bool draco = isDraco(view);
+    if (draco) {
+        indices = unpackDraco(document, view);
+        mode = kTriangles; // strips are taken apart, too
+    }
     const bool has_positions = readAttributes(document, view.at("attributes"), primitive);
     if (!has_positions) {
         document.context().notice("primitive " + view.pointer() + " has no positions and was left out");
         return {};
     }
-    std::vector<std::uint32_t> indices = readIndices(document, view, primitive.positions.size());
+    if (!draco) {
+        indices = readIndices(document, view, primitive.positions.size());
+    }
     readTargets(document, view, primitive);
     if (mode < kTriangles) {
         document.context().notice("points and lines (" + view.pointer() + ") are not drawn and cast no shadow");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode.h"
 
-#include <cstring>
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 
 namespace gnomon::scene::gltf {
@@ -27,25 +28,44 @@ ImageFormat sniff(std::span<const std::byte> bytes)
     return text.starts_with("DDS ") ? ImageFormat::dds : ImageFormat::unknown;
 }
 
-const char* mediaType(ImageFormat format)
+Decoder decoderOf(ImageFormat format)
 {
     switch (format) {
     case ImageFormat::png:
-        return "image/png";
+        return decodePng;
     case ImageFormat::jpeg:
-        return "image/jpeg";
+        return decodeJpeg;
     case ImageFormat::webp:
-        return "image/webp";
-    case ImageFormat::ktx2:
-        return "image/ktx2";
-    case ImageFormat::avif:
-        return "image/avif";
-    case ImageFormat::dds:
-        return "image/vnd-ms.dds";
-    case ImageFormat::unknown:
-        break;
+        return decodeWebp;
+    default:
+        return nullptr;
     }
-    return "";
+}
+
+namespace {
+
+struct Name {
+    ImageFormat format;
+    const char* media_type;
+};
+constexpr Name kNames[] = {{ImageFormat::png, "image/png"},   {ImageFormat::jpeg, "image/jpeg"},
+                           {ImageFormat::webp, "image/webp"}, {ImageFormat::ktx2, "image/ktx2"},
+                           {ImageFormat::avif, "image/avif"}, {ImageFormat::dds, "image/vnd-ms.dds"}};
+
+} // namespace
+
+const char* mediaType(ImageFormat format)
+{
+    const auto* const name =
+        std::find_if(std::begin(kNames), std::end(kNames), [&](const Name& n) { return n.format == format; });
+    return name != std::end(kNames) ? name->media_type : "";
+}
+
+ImageFormat formatNamed(std::string_view media_type)
+{
+    const auto* const name =
+        std::find_if(std::begin(kNames), std::end(kNames), [&](const Name& n) { return n.media_type == media_type; });
+    return name != std::end(kNames) ? name->format : ImageFormat::unknown;
 }
 
 } // namespace gnomon::scene::gltf

@@ -118,8 +118,8 @@ Resource decodeDataUri(const JsonView& uri, std::string_view text)
     return resource;
 }
 
-/// The path that `text` names below the asset's folder.
-fs::path resolve(const JsonView& uri, const std::string& text)
+/// The path that `text` names below the asset's folder; nothing where there is no such file.
+std::optional<fs::path> resolve(const JsonView& uri, const std::string& text)
 {
     const std::optional<std::string> decoded = percentDecode(text);
     if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos) {
@@ -140,6 +140,9 @@ fs::path resolve(const JsonView& uri, const std::string& text)
     std::error_code error;
     const fs::path folder = fs::canonical(uri.context().folder(), error);
     const fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
+    if (error == std::errc::no_such_file_or_directory) {
+        return std::nullopt;
+    }
     if (error) {
         uri.fail("the file cannot be found (" + error.message() + ")");
     }
@@ -172,7 +175,7 @@ std::vector<std::byte> readFile(Context& context, const fs::path& file, std::str
     return bytes;
 }
 
-Resource fetch(const JsonView& uri)
+std::optional<Resource> fetchIfThere(const JsonView& uri)
 {
     const auto* string = uri.value().get_ptr<const std::string*>(); // a data URI is too large to copy for nothing
     if (string == nullptr) {
@@ -182,7 +185,17 @@ Resource fetch(const JsonView& uri)
     if (text.starts_with("data:")) {
         return decodeDataUri(uri, text);
     }
-    return {readFile(uri.context(), resolve(uri, text), uri.pointer()), {}};
+    const std::optional<fs::path> file = resolve(uri, text);
+    return file ? std::optional<Resource>({readFile(uri.context(), *file, uri.pointer()), {}}) : std::nullopt;
+}
+
+Resource fetch(const JsonView& uri)
+{
+    std::optional<Resource> resource = fetchIfThere(uri);
+    if (!resource) {
+        uri.fail("the file cannot be found (No such file or directory)");
+    }
+    return std::move(*resource);
 }
 
 } // namespace gnomon::scene::gltf
