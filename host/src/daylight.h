@@ -49,7 +49,8 @@ struct FrameLight {
 /// Keeps the tables of the last sun and moon. What it says is a function of its arguments alone.
 class Daylight {
 public:
-    /// `given`: what each of the lights gives to what is seen (SeenLight). Allocates nothing. Valid until the next call.
+    /// `given`: what each of the lights gives to what is seen (SeenLight). Allocates nothing. Valid until the next
+    /// call.
     const FrameLight& at(SkyModel sky, double exposure_ev, std::span<const ShadedLight> lights,
                          std::span<const double> given, const scene::Environment& environment);
 

@@ -98,8 +98,8 @@ private:
 
     void add(const Material& material)
     {
-        const auto& [name, model, alpha_mode, alpha_cutoff, double_sided, base_colour, metallic, roughness,
-                     stained, phong_exponent, lit_by_night, emissive, normal_scale, occlusion_strength, base_colour_texture,
+        const auto& [name, model, alpha_mode, alpha_cutoff, double_sided, base_colour, metallic, roughness, stained,
+                     phong_exponent, lit_by_night, emissive, normal_scale, occlusion_strength, base_colour_texture,
                      metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture] = material;
         addEach(model, alpha_mode, alpha_cutoff, double_sided, base_colour, metallic, roughness, phong_exponent);
         addEach(stained, lit_by_night);

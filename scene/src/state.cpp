@@ -77,7 +77,8 @@ void placeObject(const Scene& scene, State& state, std::uint32_t index)
                                        : multiplyAffine(world_from_node, node.instances[object.instance]);
         const glm::vec3& origin = primitiveOf(scene, object).origin;
         if (origin != glm::vec3(0.0F)) {
-            object.world_from_object = multiplyAffine(object.world_from_object, glm::translate(glm::mat4(1.0F), origin));
+            object.world_from_object =
+                multiplyAffine(object.world_from_object, glm::translate(glm::mat4(1.0F), origin));
         }
     }
     if (object.deformed != kNone) {

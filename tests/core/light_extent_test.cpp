@@ -72,8 +72,7 @@ TEST(LightExtent, IsWhereThePlannersMapsBegin)
 TEST(NearDistance, IsBeforeTheNearestBoundsOfACaster)
 {
     // A caster so far below the lamp, and the near distance, in a world of which a thousandth of the reach is 4.2 m.
-    const std::vector<std::pair<float, double>> all{
-        {9.0F, 4.0}, {0.7F, 0.25}, {0.3F, 0.125}, {0.06F, 0.04243}};
+    const std::vector<std::pair<float, double>> all{{9.0F, 4.0}, {0.7F, 0.25}, {0.3F, 0.125}, {0.06F, 0.04243}};
     for (const auto& [below_m, near_m] : all) {
         SCOPED_TRACE(below_m);
         for (const bool is_point : {false, true}) {

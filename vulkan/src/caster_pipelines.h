@@ -30,7 +30,7 @@ struct CasterPipelineKey {
 struct CasterMaterial {
     glm::vec4 uv_u{1.0F, 0.0F, 0.0F, 0.0F};
     glm::vec4 uv_v{0.0F, 1.0F, 0.0F, 0.0F};
-    float cutoff = 0.5F; // of blended ones: 1 where they are stained
+    float cutoff = 0.5F;         // of blended ones: 1 where they are stained
     std::int32_t first_view = 0; // of several that the GPU has placed; pushed apart from the rest
     glm::vec2 unused{0.0F};
     glm::vec4 tint{1.0F}; // caster_tint.frag

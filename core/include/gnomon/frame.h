@@ -83,7 +83,8 @@ struct LightExtent {
 /// What Light::near_m and range_m stand for, zeros included: a range of 0 reaches the farthest corner of the scene, but
 /// at least twice the near distance, or 1 m where the scene is but the light's own place. A near distance of 0 is a
 /// thousandth of the reach. A planner takes a smaller one, down to a 100,000th: half the way to the nearest bounds of a
-/// caster, and a 4000th where a caster's bounds are around the light. The bounds are those of all objects, not empty. Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
+/// caster, and a 4000th where a caster's bounds are around the light. The bounds are those of all objects, not empty.
+/// Precondition: the light's numbers are finite and not negative. For a directional light, zeros.
 [[nodiscard]] GNOMON_API LightExtent extentOf(const Light& light, const Aabb& scene_bounds_ws);
 
 /// All that planning asks of a host.

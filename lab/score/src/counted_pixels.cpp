@@ -48,7 +48,7 @@ public:
     }
 
     /// Of a pixel that counts.
-    [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const 
+    [[nodiscard]] bool isTerminator(std::uint32_t x, std::uint32_t y) const
     {
         return !(facingAt(surfaces_.normals, x, y) > kFacing);
     }
