@@ -189,8 +189,8 @@ const std::vector<Claim>& depths2006()
                     [](const Runs& r) { return r.number(4, "/error/flip") / r.number(5, "/error/flip"); }, 0.0, 0.85}},
          .verdict = Verdict::partly,
          .quick = true,
-         .why = "Under a sun of 2 degrees. Where a shadow is as dark as the pattern is strong, some of its error is "
-                "lost in it; on grass and earth hardly any."},
+         .why = "Under a sun of 2 degrees. Where a pattern is as strong as a shadow is dark, some of the error is lost "
+                "in it; on grass and earth nothing is."},
     };
     return table;
 }
