@@ -77,7 +77,10 @@ public:
         host::fillObjectSet(shot.state, objects_,
                             counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>(),
                             settings.shadow.ids.of == IdOf::face ? host::pieceCounts(shot.scene, shot.state)
-                                                                 : std::vector<std::uint16_t>());
+                                                                 : std::vector<std::uint16_t>(),
+                            settings.shadow.multi.divide == MultiDivide::receivers
+                                ? host::joinedObjects(shot.scene, shot.state)
+                                : std::vector<std::uint8_t>());
     }
     void planAll(PlanLayers& layers)
     {
