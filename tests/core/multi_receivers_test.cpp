@@ -80,6 +80,30 @@ bool lightReaches(const RandomScene& scene, const Light& light, const glm::dvec3
     return in_cone && far_m > 2.0 * extent.near_m && (light.range_m == 0.0 || far_m < light.range_m * 0.999);
 }
 
+/// Does something cast on p? Then its receiver's frustum has a map.
+bool isBlocked(const RandomScene& scene, const Light& light, const glm::dvec3& p)
+{
+    const bool sunny = light.type == LightType::directional;
+    const double near_m = 3.0 * extentOf(light, scene.set.bounds()).near_m; // nothing that is nearer need cast
+    const glm::dvec3 way = sunny ? -light.direction_ws : glm::normalize(light.position_ws - p);
+    const double way_m = sunny ? 1e12 : glm::distance(light.position_ws, p) - near_m;
+    for (std::uint32_t object = 0; object < scene.set.size(); ++object) {
+        const Aabb& box = scene.set.bounds(object);
+        double enter = 0.0;
+        double leave = way_m;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = (static_cast<double>(box.min[axis]) - p[axis]) / way[axis];
+            const double b = (static_cast<double>(box.max[axis]) - p[axis]) / way[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        if (scene.set.flags(object).casts && enter <= leave) {
+            return true;
+        }
+    }
+    return false;
+}
+
 struct Held {
     int points = 0;
     int limited = 0; // points whose frustums have the largest map that there may be
@@ -90,9 +114,7 @@ void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, s
                Held& held)
 {
     const LightPlan& lit = plan.lights[light];
-    if (!lit.outcome.hasMap()) {
-        return; // nothing casts on what is seen
-    }
+    ASSERT_TRUE(lit.outcome.hasMap());
     double finest_m = std::numeric_limits<double>::infinity();
     bool is_largest = false;
     bool holds = false;
@@ -103,9 +125,7 @@ void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, s
             is_largest = is_largest || view.tile.width == largestSide(scene.options);
         }
     }
-    if (!holds) {
-        return; // of a slice in which nobody casts, which judge() looks into
-    }
+    ASSERT_TRUE(holds);
     ++held.points;
     if (finest_m > pixelAt_m(frame, p) * 1.0001) {
         ASSERT_TRUE(is_largest) << "coarser by " << finest_m / pixelAt_m(frame, p);
@@ -137,7 +157,7 @@ TEST(MultiReceivers, HoldEachReceiverWithTheTexelsThatItWants)
             const glm::dvec3 p = random.inBox(glm::dvec3(box.min), glm::dvec3(box.max));
             for (std::size_t light = 0; light < scene.lights.size(); ++light) {
                 if (scene.set.flags(object).receives && cameraSees(scene, p) &&
-                    lightReaches(scene, scene.lights[light], p)) {
+                    lightReaches(scene, scene.lights[light], p) && isBlocked(scene, scene.lights[light], p)) {
                     ASSERT_NO_FATAL_FAILURE(checkHeld(scene, frame, plan, light, p, held));
                 }
             }
@@ -160,8 +180,12 @@ TEST(MultiReceivers, TakeAFewFrustumsInADuel)
     Planner planner(hall.options);
     const Plan& plan = planner.plan(hall.frame);
     ASSERT_TRUE(plan.lights[0].outcome.hasMap());
-    EXPECT_GE(plan.views.size(), 2U);
-    EXPECT_LE(plan.views.size(), 4U);
+    // Regions: of the directions from the lamp to the eye, in which a texel is worth most near the eye.
+    const auto regions = std::ranges::count_if(
+        plan.views, [&](const View& view) { return view.sector.holds(hall.frame.camera.eye_ws); });
+    EXPECT_GE(regions, 2);
+    EXPECT_LE(regions, 4);
+    EXPECT_LE(plan.views.size(), 9U) << "all around the lamp";
 }
 
 TEST(MultiReceivers, AreNoWiderThan120Degrees)
@@ -191,7 +215,7 @@ TEST(MultiReceivers, ShareASeamByHalves)
     ObjectSet set;
     set.add({{-8, -0.1F, -6}, {0, 0, 6}}, {.joined = true});
     set.add({{0, -0.1F, -6}, {8, 0, 6}}, {.joined = true});
-    set.add(test::boxAt({0, 1, 0}, {2, 0.1, 2}));
+    set.add(test::boxAt({0, 1, 0}, {2, 0.1, 2}), {.receives = false});
     Hall hall = hallOfReceivers();
     hall.set = std::move(set);
     hall.addLamp({0, 3, 0}, 20.0);
@@ -200,7 +224,7 @@ TEST(MultiReceivers, ShareASeamByHalves)
     Planner planner(hall.options);
     const Plan& plan = planner.plan(hall.frame);
     ASSERT_GE(plan.views.size(), 2U);
-    const glm::dvec3 p(0.0, 0.0, 3.5);
+    const glm::dvec3 p(0.0, 0.0, 1.0);
     std::vector<double> counts;
     double left = 1.0;
     for (const View& view : plan.views) {
@@ -210,7 +234,7 @@ TEST(MultiReceivers, ShareASeamByHalves)
         }
     }
     ASSERT_GE(counts.size(), 2U);
-    EXPECT_NEAR(counts[0] / (1.0 - left), 0.5, 0.02);
+    EXPECT_NEAR(counts[0] / (1.0 - left), 0.5, 0.03); // the boxes are a rounding larger than the tiles
 }
 
 TEST(MultiReceivers, ChopWhatSurroundsTheLamp)
@@ -271,7 +295,7 @@ TEST(MultiReceivers, LiveOn)
         fading_frames += fades ? 1 : 0;
     }
     EXPECT_GT(compared, 240);
-    EXPECT_LT(known.size(), 60U) << "hardly ever other texels";
+    EXPECT_LT(static_cast<int>(known.size()), compared / 15) << "hardly ever other texels";
     EXPECT_GT(fading_frames, 6);
     EXPECT_LT(fading_frames, 200);
     EXPECT_EQ(at_once, 0);

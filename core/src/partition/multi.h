@@ -81,6 +81,7 @@ private:
         LightType type = LightType::directional; // nothing is remembered of a light that was another
         HeldFrustums held;                       // with motion snap
         std::vector<ReceiverCone> cones;         // and gathered receivers
+        std::vector<ReceiverHome> homes;
         std::uint32_t next_cone = 1;             // ReceiverCone::id of the next one that is held
         std::vector<GrownFrustum> last;          // of a light that takes turns: what divide() came to
     };

@@ -36,12 +36,11 @@ void MultiPartition::gather(const Input& input, Memory& memory, FrustumPlanner& 
     const ShadowOptions& options = input.recipe.options;
     const bool steady = input.recipe.steady();
     const double most_times = options.multi.most_times > 0.0 ? std::max(options.multi.most_times, 2.0) : 4.0;
-    // What holds still is finer than need be, so that it lasts.
-    const double largest = innerTexels(input, largestSide(input)) * (steady ? 0.6 : 1.0);
+    const double largest = innerTexels(input, largestSide(input));
     gathered_ = cones_.gather({input.light, input.camera, *input.frame.objects, input.receivers,
                                pixelSide_m(input.frame, input.camera), options.multi.texels_per_pixel, most_times,
                                largest, options.cascades.blend, steady},
-                              memory.cones);
+                              memory.cones, memory.homes);
     const std::size_t first = frustums_.size();
     for (ReceiverCone& cone : gathered_) {
         if (steady && !cone.held) {
@@ -86,6 +85,7 @@ void MultiPartition::orderCones(const Input& input, Memory& memory, std::size_t 
     }
     if (input.recipe.steady()) {
         holdCones(input, memory, std::span(frustums_).subspan(first, count));
+        cones_.listHomes(memory.homes);
         addFadingCones(input, memory);
     }
     std::ranges::sort(std::span(frustums_).subspan(first), {},

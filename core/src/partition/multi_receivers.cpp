@@ -13,7 +13,7 @@
 
 #include "light_reach.h"
 #include "partition/depth_shells.h"
-#include "partition/held_frustums.h"
+#include "region.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -36,6 +36,8 @@ constexpr double kWidestTangent = 1.7320508;
 constexpr std::uint32_t kMostCuts = kCubeFaces;
 /// The texels of a frustum that holds still are so much finer than its receivers want at first, so that they last.
 constexpr double kFinerHeld = 0.7;
+/// And one that begins to hold still takes so much of the largest map: what it holds will move.
+constexpr double kLargestHeld = 0.6;
 /// Less is as good as nothing: half a rectangle's width, as LightRect has it.
 constexpr double kLeastHalf = 1e-6;
 
@@ -52,11 +54,6 @@ glm::dvec3 axisOf(const Light& light, const LightCone& cone)
 double between(const Light& light, const glm::dvec3& a, const glm::dvec3& b)
 {
     return isSun(light) ? glm::distance(a, b) : std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-bool holds(const Light& light, const LightCone& cone, const LightCone& other)
-{
-    return between(light, cone.centre, other.centre) + other.radius <= cone.radius;
 }
 
 /// The smallest one around both; with `fixed` the smallest with a's own centre.
@@ -130,7 +127,8 @@ double pixelSide_m(const Frame& frame, const CameraView& camera)
     return side_m;
 }
 
-std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<const ReceiverCone> held)
+std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<const ReceiverCone> held,
+                                              std::span<const ReceiverHome> homes)
 {
     cones_.assign(held.begin(), held.end());
     for (ReceiverCone& cone : cones_) {
@@ -142,7 +140,7 @@ std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<cons
     listPieces(input);
     std::ranges::sort(pieces_, {}, [](const Piece& one) { return std::tuple(one.depth_m, one.object, one.number); });
     for (Piece& piece : pieces_) {
-        place(input, piece);
+        place(input, homes, piece);
     }
     measure(input);
     return cones_;
@@ -249,81 +247,108 @@ ReceiverCones::Piece ReceiverCones::pieceOf(const Input& input, std::uint32_t ob
 
 /// Nearly the smallest. Based on: M. Badoiu, K. Clarkson, "Smaller core-sets for balls", 2003: from any centre on, one
 /// goes towards the farthest point by ever smaller shares of the way.
-LightCone ReceiverCones::coneAround(const Input& input, std::span<const glm::dvec3> points) const
+LightCone ReceiverCones::coneAround(const Input& input, std::span<const glm::dvec3> points)
 {
     const Light& light = input.light;
     const LightSpace space = lightSpaceOf(light, light.direction_ws, 0.0, input.camera.scene_ws);
-    const auto seenAt = [&](const glm::dvec3& p) {
-        const glm::dvec3 across = space.coordinates(p);
-        return isSun(light) ? glm::dvec3(across.x, across.y, 0.0) : glm::normalize(p - light.position_ws);
-    };
-    constexpr int kSteps = 16;
-    LightCone best{{}, kInfinity};
+    seen_.clear();
     glm::dvec3 centre(0.0);
     for (const glm::dvec3& p : points) {
-        centre += seenAt(p) / static_cast<double>(points.size());
+        const glm::dvec3 across = space.coordinates(p);
+        seen_.push_back(isSun(light) ? glm::dvec3(across.x, across.y, 0.0) : glm::normalize(p - light.position_ws));
+        centre += seen_.back() / static_cast<double>(points.size());
     }
+    constexpr int kSteps = 16;
+    LightCone best{{}, kInfinity};
     for (int step = 0; step < kSteps; ++step) {
         const double length = glm::length(centre);
         if (!isSun(light)) {
-            centre = length > 0.0 ? centre / length : seenAt(points.front());
+            centre = length > 0.0 ? centre / length : seen_.front();
         }
-        LightCone tried{centre, 0.0};
-        glm::dvec3 farthest = centre;
-        for (const glm::dvec3& p : points) {
-            const double apart = between(light, centre, seenAt(p));
-            if (apart > tried.radius) {
-                tried.radius = apart;
-                farthest = seenAt(p);
-            }
-        }
-        best = tried.radius < best.radius ? tried : best;
+        const glm::dvec3 farthest = *std::ranges::max_element(seen_, {}, [&](const glm::dvec3& p) {
+            return glm::dot(p - centre, p - centre); // of unit directions the larger, the larger the angle
+        });
+        const double radius = between(light, centre, farthest);
+        best = radius < best.radius ? LightCone{centre, radius} : best;
         centre += (farthest - centre) / (step + 2.0);
     }
     return best;
 }
 
-void ReceiverCones::place(const Input& input, Piece& piece)
+/// Makes a cone hold a piece, too. False: it cannot.
+bool ReceiverCones::grow(const Input& input, const Piece& piece, ReceiverCone& cone)
 {
-    const Light& light = input.light;
-    const double spread = input.steady ? input.most_times * kFinerHeld : input.most_times;
-    ReceiverCone grown_best;
+    const bool begins = input.steady && !cone.held; // to hold still: what is in it will move
+    const double most_times = input.most_times * (begins ? kFinerHeld : 1.0);
+    cone.cone = joined(input.light, cone.cone, piece.cone, cone.held);
+    cone.texel = cone.held ? cone.texel : std::min(cone.texel, piece.texel);
+    cone.coarsest = std::max(cone.coarsest, piece.texel);
+    return cone.texel <= piece.texel && cone.coarsest <= cone.texel * most_times &&
+           sideOf(input, cone) <= input.largest_texels * (begins ? kLargestHeld : 1.0);
+}
+
+void ReceiverCones::put(std::size_t in, const ReceiverCone& grown, Piece& piece)
+{
+    ReceiverCone& cone = cones_[in];
+    cone = grown;
+    cone.joined = cone.joined || piece.joined;
+    ++cone.pieces;
+    piece.in = static_cast<std::uint32_t>(in);
+}
+
+bool ReceiverCones::putHome(const Input& input, std::span<const ReceiverHome> homes, Piece& piece)
+{
+    const auto home = std::ranges::lower_bound(homes, piece.key(), {}, &ReceiverHome::piece);
+    if (home == homes.end() || home->piece != piece.key()) {
+        return false;
+    }
+    const auto cone = std::ranges::find(cones_, home->cone, &ReceiverCone::id);
+    if (cone == cones_.end()) {
+        return false;
+    }
+    ReceiverCone grown = *cone;
+    const bool holds = grow(input, piece, grown);
+    if (holds) {
+        put(static_cast<std::size_t>(cone - cones_.begin()), grown, piece);
+    }
+    return holds;
+}
+
+void ReceiverCones::place(const Input& input, std::span<const ReceiverHome> homes, Piece& piece)
+{
+    if (putHome(input, homes, piece)) {
+        return;
+    }
+    ReceiverCone best;
+    best.id = piece.object * (kMostCuts + 1) + piece.number;
+    best.cone = piece.cone;
+    best.texel = best.coarsest = piece.texel;
+    std::size_t in = cones_.size();
     double least = kInfinity;
-    std::uint32_t best = 0;
-    for (std::uint32_t i = 0; i < cones_.size(); ++i) {
-        ReceiverCone cone = cones_[i];
-        const bool finer = cone.texel <= piece.texel;
-        if (cone.pieces > 0 && finer && piece.texel <= cone.texel * spread && holds(light, cone.cone, piece.cone)) {
-            grown_best = cone;
-            best = i;
-            least = 0.0;
-            break;
-        }
-        const double texels = sideOf(input, cone) * sideOf(input, cone);
-        cone.cone = joined(light, cone.cone, piece.cone, cone.held);
-        cone.texel = cone.held ? cone.texel : std::min(cone.texel, piece.texel);
-        const double coarsest = std::max(cone.coarsest, piece.texel);
-        const double side = sideOf(input, cone);
-        const bool suits = cone.texel <= piece.texel && coarsest <= cone.texel * (cone.held ? input.most_times : spread);
-        if (suits && side <= input.largest_texels && side * side - texels < least) {
-            grown_best = cone;
-            best = i;
-            least = side * side - texels;
+    for (std::size_t i = 0; i < cones_.size() && least > 0.0; ++i) {
+        ReceiverCone grown = cones_[i];
+        const double texels = grown.pieces > 0 ? sideOf(input, grown) * sideOf(input, grown) : 0.0;
+        const bool holds = grow(input, piece, grown);
+        const double more = sideOf(input, grown) * sideOf(input, grown) - texels;
+        if (holds && more < least) {
+            best = grown;
+            in = i;
+            least = more;
         }
     }
-    if (least == kInfinity) {
-        best = static_cast<std::uint32_t>(cones_.size());
-        grown_best = {};
-        grown_best.id = piece.object * (kMostCuts + 1) + piece.number;
-        grown_best.cone = piece.cone;
-        grown_best.texel = piece.texel;
+    if (in == cones_.size()) {
         cones_.emplace_back();
     }
-    grown_best.coarsest = std::max(grown_best.coarsest, piece.texel);
-    grown_best.joined = grown_best.joined || piece.joined;
-    ++grown_best.pieces;
-    cones_[best] = grown_best;
-    piece.in = best;
+    put(in, best, piece);
+}
+
+void ReceiverCones::listHomes(std::vector<ReceiverHome>& out) const
+{
+    out.clear();
+    for (const Piece& piece : pieces_) {
+        out.push_back({piece.key(), cones_[piece.in].id});
+    }
+    std::ranges::sort(out, {}, &ReceiverHome::piece);
 }
 
 /// The rectangles around what is in the cones, each across its own axis.

@@ -37,6 +37,12 @@ struct ReceiverCone {
     double sum = 0.0;           // FacingTexels::sum_px
 };
 
+/// Which cone a receiver, or a piece of one, was in.
+struct ReceiverHome {
+    std::uint64_t piece = 0;
+    std::uint32_t cone = 0; // ReceiverCone::id
+};
+
 /// Gathers the receivers of one light. Keeps its memory.
 class ReceiverCones {
 public:
@@ -52,10 +58,13 @@ public:
         double blend = 0.0;          // of half the width of joined receivers: by how much their frustums are wider
         bool steady = false;
     };
-    /// Near receivers first, each is put into the first cone that suits it, else the one that has to grow least for it,
-    /// else one of its own. Begins with `held`, which come first in what is returned; those without pieces are no
-    /// longer of use. Valid until the next call.
-    [[nodiscard]] std::span<ReceiverCone> gather(const Input& input, std::span<const ReceiverCone> held);
+    /// Near receivers first, each is put into the cone that it was in, else the first that suits it, else the one that
+    /// has to grow least for it, else one of its own. Begins with `held`, which come first in what is returned; those
+    /// without pieces are no longer of use. `homes` ascend by piece. Valid until the next call.
+    [[nodiscard]] std::span<ReceiverCone> gather(const Input& input, std::span<const ReceiverCone> held,
+                                                 std::span<const ReceiverHome> homes);
+    /// Of what gather() found, by the ids that its cones have by now.
+    void listHomes(std::vector<ReceiverHome>& out) const;
 
 private:
     /// A receiver, or a part of one that is too large for one frustum, as far as camera and light see it.
@@ -69,17 +78,22 @@ private:
         std::uint32_t point_count = 0;
         bool joined = false;
         std::uint32_t in = 0; // which of cones_
+        [[nodiscard]] std::uint64_t key() const { return std::uint64_t{object} << 3U | number; }
     };
     void listPieces(const Input& input);
     void chop(const Input& input, const Piece& whole);
     Piece pieceOf(const Input& input, std::uint32_t object, std::uint32_t number);
-    LightCone coneAround(const Input& input, std::span<const glm::dvec3> points) const;
-    void place(const Input& input, Piece& piece);
+    LightCone coneAround(const Input& input, std::span<const glm::dvec3> points);
+    void place(const Input& input, std::span<const ReceiverHome> homes, Piece& piece);
+    [[nodiscard]] bool putHome(const Input& input, std::span<const ReceiverHome> homes, Piece& piece);
+    [[nodiscard]] static bool grow(const Input& input, const Piece& piece, ReceiverCone& cone);
+    void put(std::size_t in, const ReceiverCone& grown, Piece& piece);
     void measure(const Input& input);
 
     std::vector<ReceiverCone> cones_;
     std::vector<Piece> pieces_;
     std::vector<glm::dvec3> points_; // corners of pieces, world space
+    std::vector<glm::dvec3> seen_; // by the light, of one piece
     ConvexBody body_;
     ConvexBody whole_;
 };
