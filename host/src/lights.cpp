@@ -88,8 +88,7 @@ void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<cons
             const bool is_closed = i < closed.size() && closed[i] != 0;
             const std::uint16_t count = i < pieces.size() ? pieces[i] : std::uint16_t{0};
             const bool is_joined = i < joined.size() && joined[i] != 0;
-            objects.add(object.bounds_ws,
-                        {object.casts, object.receives, object.dynamic, is_closed, count, is_joined});
+            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed, count, is_joined});
         } else if (object.dynamic) {
             (void)objects.update(objects.idAt(i), object.bounds_ws);
         }

@@ -74,9 +74,9 @@ bool lightReaches(const RandomScene& scene, const Light& light, const glm::dvec3
     const LightExtent extent = extentOf(light, scene.set.bounds());
     const glm::dvec3 to = p - light.position_ws;
     const double far_m = glm::length(to);
-    const bool in_cone = light.type == LightType::point ||
-                         std::acos(std::clamp(glm::dot(to, light.direction_ws) / far_m, -1.0, 1.0)) <
-                             light.outer_half_angle_rad - 0.001;
+    const bool in_cone =
+        light.type == LightType::point ||
+        std::acos(std::clamp(glm::dot(to, light.direction_ws) / far_m, -1.0, 1.0)) < light.outer_half_angle_rad - 0.001;
     return in_cone && far_m > 2.0 * extent.near_m && (light.range_m == 0.0 || far_m < light.range_m * 0.999);
 }
 

@@ -82,8 +82,8 @@ private:
         HeldFrustums held;                       // with motion snap
         std::vector<ReceiverCone> cones;         // and gathered receivers
         std::vector<ReceiverHome> homes;
-        std::uint32_t next_cone = 1;             // ReceiverCone::id of the next one that is held
-        std::vector<GrownFrustum> last;          // of a light that takes turns: what divide() came to
+        std::uint32_t next_cone = 1;    // ReceiverCone::id of the next one that is held
+        std::vector<GrownFrustum> last; // of a light that takes turns: what divide() came to
     };
     [[nodiscard]] static std::uint32_t largestSide(const Input& input);
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }

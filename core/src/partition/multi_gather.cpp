@@ -3,6 +3,9 @@
 // what of them lives on from frame to frame.
 #include "partition/multi.h"
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -22,6 +25,20 @@ double innerTexels(const MultiPartition::Input& input, std::uint32_t side)
 int finerStep(double texel)
 {
     return static_cast<int>(std::floor(4.0 * std::log2(texel))) - 1;
+}
+
+/// 1 m before a perspective camera, or anywhere before another.
+double pixelSide_m(const Frame& frame, const CameraView& camera)
+{
+    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
+    const double unit = camera.perspective ? glm::length(glm::dvec3(rows[3])) : std::abs(rows[3].w);
+    double side_m = 0.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::dvec3 row(rows[axis]);
+        const double across = glm::length(row - camera.forward_ws * glm::dot(camera.forward_ws, row));
+        side_m = std::max(side_m, 2.0 * unit / (across * frame.size_px[axis]));
+    }
+    return side_m;
 }
 
 double shareOfFade(const MultiPartition::Input& input)

@@ -17,7 +17,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -76,9 +75,8 @@ LightCone joined(const Light& light, const LightCone& a, const LightCone& b, boo
     } else { // along the great circle from a to b
         const glm::dvec3 aside = b.centre - a.centre * glm::dot(a.centre, b.centre);
         const double length = glm::length(aside);
-        both.centre = length > 0.0
-                          ? glm::normalize(a.centre * std::cos(gone) + aside / length * std::sin(gone))
-                          : a.centre;
+        both.centre =
+            length > 0.0 ? glm::normalize(a.centre * std::cos(gone) + aside / length * std::sin(gone)) : a.centre;
         both.radius = std::max(between(light, both.centre, a.centre) + a.radius,
                                between(light, both.centre, b.centre) + b.radius);
     }
@@ -113,19 +111,6 @@ Plane acrossView(const CameraView& camera, double depth_m, double sign)
 }
 
 } // namespace
-
-double pixelSide_m(const Frame& frame, const CameraView& camera)
-{
-    const glm::dmat4 rows = glm::transpose(camera.clip_from_world);
-    const double unit = camera.perspective ? glm::length(glm::dvec3(rows[3])) : std::abs(rows[3].w);
-    double side_m = 0.0;
-    for (int axis = 0; axis < 2; ++axis) {
-        const glm::dvec3 row(rows[axis]);
-        const double across = glm::length(row - camera.forward_ws * glm::dot(camera.forward_ws, row));
-        side_m = std::max(side_m, 2.0 * unit / (across * frame.size_px[axis]));
-    }
-    return side_m;
-}
 
 std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<const ReceiverCone> held,
                                               std::span<const ReceiverHome> homes)
@@ -206,7 +191,9 @@ void ReceiverCones::chop(const Input& input, const Piece& whole)
                 body_.clip(planeOf(face.w + side));
             }
         } else if (count > 1) {
-            const auto end = [&](std::uint32_t slice) { return near_m * std::pow(far_m / near_m, double(slice) / count); };
+            const auto end = [&](std::uint32_t slice) {
+                return near_m * std::pow(far_m / near_m, double(slice) / count);
+            };
             body_.clip(acrossView(input.camera, i > 0 ? end(i) - input.camera.pad_m : 0.0, 1.0));
             body_.clip(acrossView(input.camera, (i + 1 < count ? end(i + 1) : far_m) + input.camera.pad_m, -1.0));
         }
@@ -361,8 +348,7 @@ void ReceiverCones::measure(const Input& input)
     }
     for (const Piece& piece : pieces_) {
         ReceiverCone& cone = cones_[piece.in];
-        const LightSpace space =
-            lightSpaceOf(input.light, axisOf(input.light, cone.cone), 0.0, input.camera.scene_ws);
+        const LightSpace space = lightSpaceOf(input.light, axisOf(input.light, cone.cone), 0.0, input.camera.scene_ws);
         for (const glm::dvec3& p : std::span(points_).subspan(piece.first_point, piece.point_count)) {
             const glm::dvec2 q(space.project(p));
             cone.rect.low = glm::min(cone.rect.low, q);

@@ -22,19 +22,19 @@ struct LightCone {
 
 /// A frustum around some receivers.
 struct ReceiverCone {
-    std::uint32_t id = 0;       // of its light: the same from frame to frame
-    LightCone cone;             // around its receivers
-    LightRect rect;             // around them, across the cone's axis
-    double texel = 0.0;         // as LightRect has it: the largest that is fine enough for all of them
-    double coarsest = 0.0;      // the largest that is fine enough for one of them
-    std::uint32_t pieces = 0;   // receivers in it, or pieces of them
-    bool joined = false;        // one of them is ObjectFlags::joined
-    bool held = false;          // it is of an earlier frame: neither its axis nor `texel` changes
-    int promised = 0;           // with motion snap: the step (texelOfStep()) of `texel`
-    int step = 0;               // and of the texels that it is drawn with, which are no finer
-    double opacity = 1.0;       // View::faded_in
-    std::uint32_t side = 0;     // of its map, texels
-    double sum = 0.0;           // FacingTexels::sum_px
+    std::uint32_t id = 0;     // of its light: the same from frame to frame
+    LightCone cone;           // around its receivers
+    LightRect rect;           // around them, across the cone's axis
+    double texel = 0.0;       // as LightRect has it: the largest that is fine enough for all of them
+    double coarsest = 0.0;    // the largest that is fine enough for one of them
+    std::uint32_t pieces = 0; // receivers in it, or pieces of them
+    bool joined = false;      // one of them is ObjectFlags::joined
+    bool held = false;        // it is of an earlier frame: neither its axis nor `texel` changes
+    int promised = 0;         // with motion snap: the step (texelOfStep()) of `texel`
+    int step = 0;             // and of the texels that it is drawn with, which are no finer
+    double opacity = 1.0;     // View::faded_in
+    std::uint32_t side = 0;   // of its map, texels
+    double sum = 0.0;         // FacingTexels::sum_px
 };
 
 /// Which cone a receiver, or a piece of one, was in.
@@ -93,15 +93,12 @@ private:
     std::vector<ReceiverCone> cones_;
     std::vector<Piece> pieces_;
     std::vector<glm::dvec3> points_; // corners of pieces, world space
-    std::vector<glm::dvec3> seen_; // by the light, of one piece
+    std::vector<glm::dvec3> seen_;   // by the light, of one piece
     ConvexBody body_;
     ConvexBody whole_;
 };
 
 /// What a frustum around receivers serves: the pyramid around its rectangle, or of a sun the box.
 [[nodiscard]] Slice sliceOf(const ReceiverCone& cone, const Light& light, const CameraView& camera, double blend);
-
-/// Side of a pixel 1 m before a perspective camera, or anywhere before another.
-[[nodiscard]] double pixelSide_m(const Frame& frame, const CameraView& camera);
 
 } // namespace gnomon

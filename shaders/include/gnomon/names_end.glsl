@@ -136,6 +136,7 @@
 #undef interleavedGradientNoise
 #undef isEdge
 #undef isLayer
+#undef isLayered
 #undef isLeft
 #undef isSameSurface
 #undef isSplitOff
@@ -414,6 +415,7 @@
 #undef varianceOfRounding
 #undef viewAt
 #undef viewContains
+#undef viewOpacity
 #undef viewShare
 #undef viewTint
 #undef viewVisibility

@@ -107,7 +107,7 @@ vec2 discPoint(int i)
 #include "visibility.glsl"
 // A pass may define GNOMON_LAYERED, whether views may be View::layered ones: a constant.
 #ifndef GNOMON_LAYERED
-#define GNOMON_LAYERED true
+#define GNOMON_LAYERED false
 #endif
 // A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
 #ifndef GNOMON_TINTS
