@@ -171,6 +171,41 @@ TEST(MultiReceivers, HoldEachReceiverWithTheTexelsThatItWants)
     EXPECT_GT(tally.blocked, 10 * kScenes);
 }
 
+// And whatever else is asked for, a view has all that casts on what it serves, also while frustums fade.
+TEST(MultiReceivers, GoWithEveryFitAndMotion)
+{
+    constexpr int kScenes = 150;
+    const Technique techniques[]{
+        {.partition = Partition::multi, .fit = Fit::automatic, .filter = Filter::pcf},
+        {.partition = Partition::multi, .fit = Fit::lispsm, .filter = Filter::vsm},
+        {.partition = Partition::multi, .fit = Fit::uniform, .filter = Filter::pcf, .motion = Motion::snap},
+        {.partition = Partition::multi, .fit = Fit::uniform, .filter = Filter::hard, .soften = Soften::converge}};
+    test::Tally tally;
+    for (const Technique& technique : techniques) {
+        for (int seed = 1; seed <= kScenes; ++seed) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            RandomScene scene = randomScene(seed, technique);
+            scene.options.multi.divide = MultiDivide::receivers;
+            scene.options.draw_budget_texels = seed % 3 == 0 ? 1U << 16U : 0;
+            Planner planner(scene.options);
+            Frame frame = scene.frame();
+            Random random(seed + 1000000);
+            for (int step = 0; step < 3; ++step) {
+                frame.index = static_cast<std::uint64_t>(step);
+                const Plan& plan = planner.plan(frame);
+                if (technique.soften == Soften::none && scene.options.draw_budget_texels == 0) {
+                    ASSERT_NO_FATAL_FAILURE(judge(scene, plan, random, tally));
+                }
+                scene.camera.eye_ws.x += 0.02 * scene.size_m;
+                scene.camera.clip_from_world =
+                    glm::translate(scene.camera.clip_from_world, glm::dvec3(-0.02 * scene.size_m, 0.0, 0.0));
+                frame.camera = scene.camera;
+            }
+        }
+    }
+    EXPECT_GT(tally.blocked, 10 * kScenes);
+}
+
 TEST(MultiReceivers, TakeAFewFrustumsInADuel)
 {
     Hall hall = hallOfReceivers();
