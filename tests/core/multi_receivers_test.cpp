@@ -109,7 +109,7 @@ struct Held {
     int limited = 0; // points whose frustums have the largest map that there may be
 };
 
-/// Of the views that hold a point, one has at least the texels that its receiver wants there, or the largest map.
+/// One of the views that hold a point has at least the texels that its receiver wants there, or the largest map.
 void checkHeld(const RandomScene& scene, const Frame& frame, const Plan& plan, std::size_t light, const glm::dvec3& p,
                Held& held)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What MultiPartition makes of a light's receivers once they are gathered (multi_receivers.h): frustums with maps, and
-// what of them lives on from frame to frame.
+// MultiPartition's part once a light's receivers are gathered (multi_receivers.h): it gives the cones maps, and keeps
+// them from frame to frame.
 #include "partition/multi.h"
 
 #include <glm/geometric.hpp>
@@ -14,7 +14,7 @@
 namespace gnomon {
 namespace {
 
-/// Of a frustum's map: what is left of its side for what it has to show.
+/// The part of a map's side that is left for what its frustum has to show.
 double innerTexels(const MultiPartition::Input& input, std::uint32_t side)
 {
     const double still = input.recipe.steady() ? 1.0 : 0.0; // that much a map that pans may be off its place
@@ -146,7 +146,7 @@ void MultiPartition::holdCones(const Input& input, Memory& memory, std::span<Gro
     }
 }
 
-/// What no receiver is in any longer fades out, and is forgotten.
+/// A cone that no receiver is in any longer fades out, and is forgotten.
 void MultiPartition::addFadingCones(const Input& input, Memory& memory)
 {
     for (ReceiverCone& cone : memory.cones) {

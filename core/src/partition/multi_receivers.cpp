@@ -131,7 +131,7 @@ std::span<ReceiverCone> ReceiverCones::gather(const Input& input, std::span<cons
     return cones_;
 }
 
-/// What camera and light see of each receiver, cut where it is too large.
+/// Clips each receiver to the part that camera and light see, and cuts it where it is too large.
 void ReceiverCones::listPieces(const Input& input)
 {
     pieces_.clear();
@@ -203,7 +203,7 @@ void ReceiverCones::chop(const Input& input, const Piece& whole)
     }
 }
 
-/// Of the body. Depth over distance is quasi-concave on it, so the corners have its least.
+/// The body as a piece. Depth over distance is quasi-concave on it, so its corners have the least.
 ReceiverCones::Piece ReceiverCones::pieceOf(const Input& input, std::uint32_t object, std::uint32_t number)
 {
     Piece piece;

@@ -13,8 +13,8 @@
 
 namespace gnomon {
 
-/// The places that a light sees within `radius` of `centre`. Of a lamp these are a unit direction and an angle: a cone.
-/// Of a sun they are a point across its rays (z is 0) and metres: a cylinder.
+/// All that a light sees within `radius` of `centre`. For a lamp these are a unit direction and an angle: a cone. For a
+/// sun they are a point across its rays (z is 0) and metres: a cylinder.
 struct LightCone {
     glm::dvec3 centre{0.0};
     double radius = 0.0;
@@ -63,7 +63,7 @@ public:
     /// without pieces are no longer of use. `homes` ascend by piece. Valid until the next call.
     [[nodiscard]] std::span<ReceiverCone> gather(const Input& input, std::span<const ReceiverCone> held,
                                                  std::span<const ReceiverHome> homes);
-    /// Of what gather() found, by the ids that its cones have by now.
+    /// The homes of all that gather() found, by the ids that its cones have by now.
     void listHomes(std::vector<ReceiverHome>& out) const;
 
 private:
@@ -98,7 +98,7 @@ private:
     ConvexBody whole_;
 };
 
-/// What a frustum around receivers serves: the pyramid around its rectangle, or of a sun the box.
+/// The part of the world that a frustum around receivers serves: the pyramid around its rectangle, or of a sun the box.
 [[nodiscard]] Slice sliceOf(const ReceiverCone& cone, const Light& light, const CameraView& camera, double blend);
 
 } // namespace gnomon
