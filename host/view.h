@@ -49,9 +49,12 @@ inline constexpr std::size_t kMaxLights = 128;
 [[nodiscard]] Camera cameraOf(const Eye& eye, std::uint32_t width, std::uint32_t height, const Aabb& scene_bounds_ws);
 /// Fills an ObjectSet with a state's objects (index by index) or updates it. `closed`: closedObjects(), for
 /// ObjectFlags::closed of those that it adds; empty: none is. `pieces`: pieceCounts(), for ObjectFlags::pieces
-/// likewise; empty: it is not said.
+/// likewise; empty: it is not said. `joined`: joinedObjects(), for ObjectFlags::joined; empty: none is.
 void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed = {},
-                   std::span<const std::uint16_t> pieces = {});
+                   std::span<const std::uint16_t> pieces = {}, std::span<const std::uint8_t> joined = {});
+/// By object, 1 where it stands still and shares a vertex with another one that does, with normals that differ by less
+/// than scene::kCreaseAngle_rad.
+[[nodiscard]] std::vector<std::uint8_t> joinedObjects(const scene::Scene& scene, const scene::State& state);
 /// For each object of a state, of how many pieces its primitive is (scene::piecesOf()).
 [[nodiscard]] std::vector<std::uint16_t> pieceCounts(const scene::Scene& scene, const scene::State& state);
 

@@ -74,10 +74,12 @@ public:
     PlannedFrames(Shot& shot, const Settings& settings) : shot_(shot), settings_(settings), planner_(settings.shadow)
     {
         const bool counts = !hasMaps(settings.shadow);
-        host::fillObjectSet(shot.state, objects_,
-                            counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>(),
-                            settings.shadow.ids.of == IdOf::face ? host::pieceCounts(shot.scene, shot.state)
-                                                                 : std::vector<std::uint16_t>());
+        host::fillObjectSet(
+            shot.state, objects_, counts ? host::closedObjects(shot.scene, shot.state) : std::vector<std::uint8_t>(),
+            settings.shadow.ids.of == IdOf::face ? host::pieceCounts(shot.scene, shot.state)
+                                                 : std::vector<std::uint16_t>(),
+            settings.shadow.multi.divide == MultiDivide::receivers ? host::joinedObjects(shot.scene, shot.state)
+                                                                   : std::vector<std::uint8_t>());
     }
     void planAll(PlanLayers& layers)
     {

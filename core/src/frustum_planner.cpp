@@ -197,6 +197,8 @@ Outcome FrustumPlanner::plan(const FrustumInput& input, View& view, std::vector<
     view.slice = input.slice.depth;
     view.sector = input.slice.sector;
     view.faded_in = input.slice.faded_in;
+    view.layered = input.slice.layered;
+    view.rim = input.slice.rim;
     view.parallel = !space.perspective;
     view.orthographic = !space.perspective && !warp.warped();
     // Between a placed light and its near distance nothing casts, so there the rasteriser cuts.

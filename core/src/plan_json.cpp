@@ -260,6 +260,9 @@ void writeView(JsonWriter& json, const Plan& plan, const View& view)
     if (view.faded_in < 1.0) {
         json.value("faded_in", view.faded_in);
     }
+    if (view.layered) {
+        json.value("rim", view.rim);
+    }
     if (view.sector.bounded()) {
         json.openLine("sector", '{');
         json.vector("x", view.sector.x, 4);

@@ -7,12 +7,14 @@
 layout(constant_id = 3) const bool kEmissiveOnly = false;
 layout(constant_id = 8) const bool kOpaque = false; // else blended
 layout(constant_id = 10) const bool kTints = true;  // blended casters may tint the light
+layout(constant_id = 25) const bool kLayered = false; // views may be View::layered ones
 #include "shown.glsl" // first: the library's headers take the macros of portability.h back
 #include "gnomon/shared/blended_tint.h"
 #ifdef GNOMON_FILTER
 #include "by_vertex.glsl" // kInSoftware
 #define GNOMON_SET 2
 #define GNOMON_TINTS kTints
+#define GNOMON_LAYERED kLayered
 #define GNOMON_IN_SOFTWARE kInSoftware
 #define GNOMON_CONSTANT_ID 11
 #include "gnomon/technique_constants.glsl"

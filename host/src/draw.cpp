@@ -169,7 +169,7 @@ void FrameRenderer::Impl::finish()
 void FrameRenderer::Impl::update(const scene::State& state)
 {
     if (objects.size() == 0) {
-        fillObjectSet(state, objects, scene.table.closed, scene.table.pieces);
+        fillObjectSet(state, objects, scene.table.closed, scene.table.pieces, scene.table.joined);
         const float radius_m = options.ambient_occlusion.radius_m;
         occlusion_radius_m = radius_m > 0.0F ? radius_m : scene.occlusionRadius_m();
     }

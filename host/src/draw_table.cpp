@@ -98,6 +98,7 @@ DrawTable::DrawTable(const Geometry& geometry, const Materials& materials, const
     }
     const std::vector<std::uint32_t> caster_ids = makeCasterBatches(materials, scene);
     closed = closedObjects(scene, state, closed_meshes);
+    joined = joinedObjects(scene, state);
     outlined = outlinedObjects(scene, state);
     OtherBatches other_batches(caster_batches, cuts);
     std::map<Key, std::uint32_t> part_ids;

@@ -43,6 +43,7 @@ struct DrawTable {
     std::vector<std::uint8_t> closed;   // closedObjects()
     std::vector<std::uint8_t> outlined; // outlinedObjects()
     std::vector<std::uint16_t> pieces;  // pieceCounts()
+    std::vector<std::uint8_t> joined;   // joinedObjects()
     // Of opaque objects.
     bool all_receive = true;
     bool any_smooth = false; // Geometry::isSmooth()

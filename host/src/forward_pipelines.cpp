@@ -75,6 +75,7 @@ const KindPipelines& Pipelines::forwardFor(const ForwardFacts& facts)
         wish.constants[kOpaque] = VK_TRUE;
         wish.constants[kEmits] = emissive.whole != VK_NULL_HANDLE ? VK_TRUE : VK_FALSE;
         wish.constants[kTints] = facts.tints ? VK_TRUE : VK_FALSE;
+        wish.constants[kLayered] = facts.layered ? VK_TRUE : VK_FALSE;
         std::memcpy(&wish.constants[kTechnique], &facts.technique, sizeof facts.technique);
         wish.scene = true;
         wish.depth = true;

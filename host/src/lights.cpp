@@ -79,7 +79,7 @@ std::vector<std::uint16_t> pieceCounts(const scene::Scene& scene, const scene::S
 }
 
 void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<const std::uint8_t> closed,
-                   std::span<const std::uint16_t> pieces)
+                   std::span<const std::uint16_t> pieces, std::span<const std::uint8_t> joined)
 {
     const std::uint32_t known = objects.size();
     for (std::uint32_t i = 0; i < state.objects.size(); ++i) {
@@ -87,7 +87,8 @@ void fillObjectSet(const scene::State& state, ObjectSet& objects, std::span<cons
         if (i >= known) {
             const bool is_closed = i < closed.size() && closed[i] != 0;
             const std::uint16_t count = i < pieces.size() ? pieces[i] : std::uint16_t{0};
-            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed, count});
+            const bool is_joined = i < joined.size() && joined[i] != 0;
+            objects.add(object.bounds_ws, {object.casts, object.receives, object.dynamic, is_closed, count, is_joined});
         } else if (object.dynamic) {
             (void)objects.update(objects.idAt(i), object.bounds_ws);
         }

@@ -25,12 +25,13 @@ enum Constant : std::uint32_t {
     kOccluded,
     kFilmic,
     kDither,
+    kLayered,
     kMostConstants
 };
 
 // forward.frag, by_vertex.glsl, shade.frag, tone.glsl
 static_assert(kTechnique == 11 && kInSoftware == 19 && kDrawsSky == 20 && kNight == 21 && kOccluded == 22 &&
-              kDither == 24);
+              kDither == 24 && kLayered == 25);
 
 struct Pipelines::Wish {
     const char* name = "";

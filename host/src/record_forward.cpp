@@ -46,6 +46,7 @@ void FrameRenderer::Impl::chooseForward(const ShadedBy& by)
         if (facts.technique.few_views == 1 && resolved.filter() != Filter::hard && resolved.filter() != Filter::pcf) {
             facts.technique.few_views = 0;
         }
+        facts.layered = std::ranges::any_of(plan->views, &View::layered);
         facts.tints = shadows->renderer.tints().image != VK_NULL_HANDLE;
     }
     forward.pipelines = &scene.pipelines.forwardFor(facts);

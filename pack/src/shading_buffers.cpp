@@ -53,14 +53,14 @@ shared::GpuView gpuView(const View& view, const glm::dmat4& world_from_eye, doub
     const glm::dvec3 y = glm::dvec4(gpu.y);
     const glm::dvec3 metric = glm::dvec4(gpu.metric);
     const glm::dvec3 across = glm::cross(x, y);
-    gpu.plane_x = glm::dvec4(glm::cross(metric, y), 0.0);
+    constexpr double kAtOnce = 1e6; // one over the width of a blend that is next to none
+    gpu.plane_x = glm::dvec4(glm::cross(metric, y), !view.layered ? 0.0 : view.rim > 0.0 ? 1.0 / view.rim : kAtOnce);
     gpu.plane_y = glm::dvec4(glm::cross(x, metric), 0.0);
     gpu.plane_w = glm::dvec4(across, 1e-6 * glm::length(across));
     gpu.whole = glm::dvec4(x0, y0, x0 + tile.width, y0 + tile.height);
     const ViewSlice& slice = view.slice;
     // A shader need not know infinities.
     constexpr double kEndless = 1e30;
-    constexpr double kAtOnce = 1e6; // one over the width of a blend that is next to none
     gpu.slice = glm::dvec4(std::max(slice.begin_m, -kEndless), std::min(slice.end_m, kEndless),
                            slice.blend_m > 0.0   ? 1.0 / slice.blend_m
                            : view.faded_in < 1.0 ? kAtOnce

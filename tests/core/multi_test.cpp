@@ -194,6 +194,40 @@ TEST(Multi, KeepsToALightsTexels)
     }
 }
 
+/// Forty lamps over boxes, and the texels that their maps take together.
+std::uint64_t texelsOfFortyLamps(std::uint32_t most_of_a_light)
+{
+    Hall hall;
+    hall.set = {};
+    test::Random random(40);
+    for (int z = -12; z < 12; z += 4) {
+        for (int x = -16; x < 16; x += 4) {
+            hall.set.add({{x, -0.1F, z}, {x + 4, 0.0F, z + 4}});
+        }
+    }
+    for (int i = 0; i < 60; ++i) {
+        const glm::dvec3 half = random.inBox({0.2, 0.2, 0.2}, {0.7, 1.0, 0.7});
+        const glm::dvec3 at = random.inBox({-15, 0, -11}, {15, 0, 11});
+        hall.set.add(test::boxAt({at.x, half.y, at.z}, half));
+    }
+    for (int i = 0; i < 40; ++i) {
+        hall.addLamp({-14.0 + 4.0 * (i % 8), 2.5, -10.0 + 5.0 * (i / 8)}, 7.0);
+    }
+    hall.options.max_texels = most_of_a_light;
+    hall.look({16, 10, 16}, {0, 0, 0});
+    Planner planner(hall.options);
+    return texelsOf(planner.plan(hall.frame));
+}
+
+// A texel as large as a pixel is not yet fine enough: edges gain until it is half as large.
+TEST(Multi, HasUseForMoreThanATexelAPixel)
+{
+    const std::uint64_t few = texelsOfFortyLamps(1U << 20U);
+    const std::uint64_t many = texelsOfFortyLamps(4U << 20U);
+    EXPECT_GT(few, 40U * (1U << 19U)) << "more than half of what a light may have";
+    EXPECT_GT(2 * many, 3 * few);
+}
+
 TEST(Multi, DrawsNothingForLampsThatStandStill)
 {
     Hall hall;

@@ -66,11 +66,35 @@ Seams seamsOf(const ImageF& mask, const ImageF& shares)
     return seams;
 }
 
+/// The world `planes` on 64 tiles that join.
+scene::Scene planesOnTiles()
+{
+    scene::Scene scene = scene::makePlanes(1);
+    constexpr float kTile_m = 5.0F;
+    for (scene::Node& node : scene.nodes) {
+        if (node.mesh == scene::kNone || scene.meshes[node.mesh].primitives[0].bounds.max.y > 0.0F) {
+            continue;
+        }
+        scene::Primitive tile;
+        tile.material = scene.meshes[node.mesh].primitives[0].material;
+        tile.positions = {{0, 0, kTile_m}, {kTile_m, 0, kTile_m}, {kTile_m, 0, 0}, {0, 0, 0}};
+        tile.normals.assign(4, {0.0F, 1.0F, 0.0F});
+        tile.indices = {0, 1, 2, 0, 2, 3};
+        scene.meshes[node.mesh].primitives = {tile};
+        for (int i = 0; i < 64; ++i) {
+            glm::mat4 place(1.0F);
+            place[3] = {kTile_m * static_cast<float>(i % 8 - 4), 0.0F, kTile_m * static_cast<float>(i / 8 - 4), 1.0F};
+            node.instances.push_back(place);
+        }
+    }
+    scene::finishScene(scene);
+    return scene;
+}
+
 class MultiSeams : public testing::TestWithParam<Filter> {
 protected:
-    Seams draw(double blend)
+    Seams draw(const scene::Scene& scene, MultiDivide divide, double blend)
     {
-        const scene::Scene scene = scene::makePlanes(1);
         const scene::State state = scene::evaluate(scene, 0.0);
         std::vector<host::ShadedLight> lights = host::lightsOf(scene, state);
         lights.resize(1);
@@ -82,7 +106,7 @@ protected:
         options.height = 270;
         options.shadow.technique = {.partition = Partition::multi, .fit = Fit::uniform, .filter = GetParam()};
         options.shadow.max_texels = 1U << 20U;
-        options.shadow.multi.most_times = 2.0;
+        options.shadow.multi = {.divide = divide, .texels_per_pixel = 1.0, .most_times = 2.0};
         options.shadow.cascades.blend = blend;
         const host::Eye eye{.position_ws = {6.0, 2.0, 5.0}, .target_ws = {0.0, 0.0, 0.0}, .fov_y_rad = 0.9};
         host::Gpu gpu({.gpu = "software", .validate = true});
@@ -97,18 +121,26 @@ protected:
         EXPECT_EQ(gpu.messages(), std::vector<std::string>{});
         Seams seams = seamsOf(picture.masks[0], shares);
         seams.views = renderer.plan().lights[0].view_count;
+        RecordProperty("pairs", static_cast<int>(seams.pairs));
+        RecordProperty("views", static_cast<int>(seams.views));
+        RecordProperty("median_step", std::to_string(seams.median_step));
+        RecordProperty("largest_step", std::to_string(seams.largest_step));
         return seams;
     }
 };
 
 TEST_P(MultiSeams, AreNotToBeSeen)
 {
-    const Seams seams = draw(0.1);
-    RecordProperty("pairs", static_cast<int>(seams.pairs));
-    RecordProperty("views", static_cast<int>(seams.views));
-    RecordProperty("median_step", std::to_string(seams.median_step));
-    RecordProperty("largest_step", std::to_string(seams.largest_step));
+    const Seams seams = draw(scene::makePlanes(1), MultiDivide::space, 0.1);
     ASSERT_GE(seams.views, 4U);
+    ASSERT_GE(seams.pairs, 20U) << "no shadow's edge crosses a border of frustums";
+    EXPECT_LE(seams.median_step, 1.0 / 255.0);
+}
+
+TEST_P(MultiSeams, OfJoinedReceiversAreNotToBeSeen)
+{
+    const Seams seams = draw(planesOnTiles(), MultiDivide::receivers, 0.2);
+    ASSERT_GE(seams.views, 3U);
     ASSERT_GE(seams.pairs, 20U) << "no shadow's edge crosses a border of frustums";
     EXPECT_LE(seams.median_step, 1.0 / 255.0);
 }

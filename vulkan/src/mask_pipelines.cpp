@@ -70,6 +70,9 @@ MaskPipelineKey maskPipelineKey(const ResolvedOptions& options, MaskShape shape)
     key.constants.has_smooth = shape.smooth ? VK_TRUE : VK_FALSE;
     key.constants.paraboloid = options.technique().partition == Partition::paraboloid ? VK_TRUE : VK_FALSE;
     key.constants.has_ids = shape.ids ? VK_TRUE : VK_FALSE;
+    const bool layered =
+        options.technique().partition == Partition::multi && options.multi().divide == MultiDivide::receivers;
+    key.constants.layered = layered ? VK_TRUE : VK_FALSE;
     return key;
 }
 

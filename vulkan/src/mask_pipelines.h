@@ -28,6 +28,7 @@ struct MaskConstants {
     VkBool32 slices_alone = VK_FALSE;   // by MaskPipelineKey::told_apart
     VkBool32 paired = VK_FALSE;         // pack::MaskDraw::paired; of modules for one view alone
     std::uint32_t pixels_per_texel = 1; // DrawnAs::half: 2
+    VkBool32 layered = VK_FALSE;        // views may be View::layered
 
     bool operator==(const MaskConstants&) const = default;
 };

@@ -32,6 +32,9 @@ struct ObjectFlags {
     /// IdOf::face: of how many pieces its triangles are, 1 .. kMostPieces, each of which shades the others. 0: nobody
     /// said so, and lights that tell pieces apart are refused.
     std::uint16_t pieces = 0;
+    /// Its surface goes on in others' without an edge, as those of floor tiles do. MultiDivide::receivers then has
+    /// frustums fade over into each other there. Nothing else asks.
+    bool joined = false;
 };
 
 /// Names an object for as long as it lives. Its index is its place in plans and in the host's own arrays; when the

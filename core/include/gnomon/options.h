@@ -53,13 +53,22 @@ struct CascadeOptions {
     bool operator==(const CascadeOptions&) const = default;
 };
 
+/// How partition multi divides what a light shines on.
+enum class MultiDivide : std::uint8_t {
+    space,     // by directions, and by how fine texels have to be
+    receivers, // objects are gathered into cones of at most 120 degrees: T. Forsyth, GDC 2006
+};
+[[nodiscard]] GNOMON_API std::string_view nameOf(MultiDivide value);
+
 /// Partition multi.
 struct MultiOptions {
+    MultiDivide divide = MultiDivide::space;
     /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
-    double texels_per_pixel = 1.0;
+    double texels_per_pixel = 2.0;
     /// A frustum serves no two places of which one needs so many times as many texels a pixel as the other: 2 .. 1024,
     /// by powers of two, rounded down; less is 2. Of four in one direction the last serves all that is left. 0:
-    /// frustums are divided where that saves texels. T. Forsyth (GDC 2006) has 4.
+    /// frustums are divided where that saves texels. T. Forsyth (GDC 2006) has 4. With MultiDivide::receivers no
+    /// receiver has more than so many times the texels per degree that it wants, whatever the number; 0 is 4.
     double most_times = 0.0;
     /// With motion snap: frames over which frustums fade over into others, where their texels or what they serve
     /// change; 0 .. 64. 0: at once.
@@ -297,6 +306,8 @@ public:
     [[nodiscard]] const MomentOptions& moments() const { return asked_.moments; }
     /// ShadowOptions::cascades
     [[nodiscard]] const CascadeOptions& cascades() const { return asked_.cascades; }
+    /// How partition multi divides a light.
+    [[nodiscard]] const MultiOptions& multi() const { return asked_.multi; }
     /// ShadowOptions::screen_blur
     [[nodiscard]] const ScreenBlurOptions& screen_blur() const { return asked_.screen_blur; }
     /// Texels around what is fitted; what was asked for, or what the filter needs.

@@ -232,6 +232,18 @@ struct View {
     /// How far it has faded in over the light's views before it, where they serve the same place: 0 .. 1. Less than 1
     /// only while frustums of partition multi change under motion snap (MultiOptions::fade_frames).
     double faded_in = 1.0;
+    /// MultiDivide::receivers: its light's views overlap, finest first. Each counts for its opacityAt() a point, but no
+    /// more than those before it leave, and all together for 1.
+    bool layered = false;
+    double rim = 0.0; // layered: share of half its sector's width over which it fades out towards the sector's border
+    /// Layered, of a point in its sector: 0 .. 1.
+    [[nodiscard]] double opacityAt(const glm::dvec3& p_ws) const
+    {
+        const glm::dvec4 p(p_ws, 1.0);
+        const double across = std::max(std::abs(glm::dot(sector.x, p)), std::abs(glm::dot(sector.y, p)));
+        const double inside = 1.0 - across / glm::dot(sector.w, p);
+        return (rim > 0.0 ? std::clamp(inside / rim, 0.0, 1.0) : 1.0) * faded_in;
+    }
     /// What it counts for at a depth (ViewSlice::depthAt()) where a view before it serves the place, too: 0 .. 1.
     [[nodiscard]] double shareAt(double depth_m) const
     {

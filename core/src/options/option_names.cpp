@@ -21,6 +21,10 @@ std::string_view nameOf(CascadePass value)
 {
     return nameIn(std::array<std::string_view, 3>{"auto", "each", "layered"}, value);
 }
+std::string_view nameOf(MultiDivide value)
+{
+    return nameIn(std::array<std::string_view, 2>{"space", "receivers"}, value);
+}
 std::string_view nameOf(Quality value)
 {
     return nameIn(std::array<std::string_view, 3>{"fast", "balanced", "best"}, value);

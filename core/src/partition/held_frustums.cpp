@@ -53,6 +53,13 @@ int stepFor(double size, double texels)
     return static_cast<int>(std::ceil(4.0 * std::log2(texel)));
 }
 
+int stepFrom(std::optional<int> held, double size, double texels, bool stays)
+{
+    const int least = stepFor(size, texels);
+    const int best = stepFor(size * kRoom, texels);
+    return held && *held >= least && (stays || *held <= best + kTooCoarse) ? *held : best;
+}
+
 void HeldFrustums::cut()
 {
     now.clear();
@@ -62,11 +69,8 @@ void HeldFrustums::cut()
 
 int HeldFrustums::stepOf(const FrustumPart& part, double size, double texels) const
 {
-    const int least = stepFor(size, texels);
-    const int best = stepFor(size * kRoom, texels);
     const HeldFrustum* const held = findPart(now, part);
-    const bool stays = held != nullptr && held->step >= least && (fading() || held->step <= best + kTooCoarse);
-    return stays ? held->step : best;
+    return stepFrom(held != nullptr ? std::optional(held->step) : std::nullopt, size, texels, fading());
 }
 
 void HeldFrustums::take(std::span<HeldFrustum> found, std::uint32_t frames)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct HeldFrustum {
 [[nodiscard]] double texelOfStep(int step);
 /// The finest step of which so many texels show `size`.
 [[nodiscard]] int stepFor(double size, double texels);
+/// The same with some room to pan, or `held` (none: it was not there), while that fits and is not much too coarse, or
+/// while it `stays` for other reasons.
+[[nodiscard]] int stepFrom(std::optional<int> held, double size, double texels, bool stays);
 
 /// Of one light.
 struct HeldFrustums {

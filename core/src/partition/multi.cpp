@@ -93,13 +93,13 @@ int widestShell(const MultiOptions& options)
     return options.most_times > 0.0 ? std::max(1, static_cast<int>(std::floor(std::log2(options.most_times)))) : 0;
 }
 
-std::uint32_t largestSide(const MultiPartition::Input& input)
+} // namespace
+
+std::uint32_t MultiPartition::largestSide(const Input& input)
 {
     const std::uint32_t largest = input.recipe.resolved.largest_side();
     return input.light.map_size != 0 ? std::clamp(input.light.map_size, kSmallestMap, largest) : largest;
 }
-
-} // namespace
 
 void MultiPartition::follow(std::span<const Light> lights)
 {
@@ -138,10 +138,18 @@ void MultiPartition::divide(const Input& input, std::size_t light, FrustumPlanne
     range.first = frustums_.size();
     if (input.frame.cut) {
         memory.held.cut();
+        memory.cones.clear();
     }
-    findFrustums(input, memory, range.first, frustums);
+    const bool gathers = input.recipe.options.multi.divide == MultiDivide::receivers;
+    if (gathers) {
+        gather(input, memory, frustums);
+    } else {
+        findFrustums(input, memory, range.first, frustums);
+    }
     sizeFrustums(input, memory, std::span(frustums_).subspan(range.first));
-    if (input.recipe.steady()) {
+    if (gathers) {
+        orderCones(input, memory, range.first);
+    } else if (input.recipe.steady()) {
         hold(input, memory.held, range.first);
     }
     range.count = frustums_.size() - range.first;
@@ -218,6 +226,13 @@ double MultiPartition::addShells(const Input& input, const Memory& memory, Frust
     for (std::size_t i = 0; i < shells_.shells().size(); ++i) {
         addShell(input, i);
     }
+    return predict(input, memory, first, frustums);
+}
+
+/// Finds out what the frustums from `first` on have to hold, and removes those that hold nothing. Returns how many
+/// texels they want together.
+double MultiPartition::predict(const Input& input, const Memory& memory, std::size_t first, FrustumPlanner& frustums)
+{
     const std::uint32_t largest = largestSide(input);
     const double border = 2.0 * input.recipe.resolved.borderOf(largest);
     double texels = 0.0;

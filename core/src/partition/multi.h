@@ -7,6 +7,7 @@
 #include "frustum_planner.h"
 #include "partition/depth_shells.h"
 #include "partition/held_frustums.h"
+#include "partition/multi_receivers.h"
 #include "store/light_rows.h"
 #include "store/texel_shares.h"
 
@@ -23,6 +24,7 @@ struct GrownFrustum {
     FrustumPart part;
     Slice slice;
     double size = 0.0;             // Prediction::size
+    double texel = 0.0;            // of gathered receivers: what its map comes to, as LightRect has it
     double wanted = 0.0;           // texels on a side of its map
     double sum = 0.0;              // FacingTexels::sum_px, of a map of the largest side
     std::uint32_t side_before = 0; // of the frame before; 0: it was not there
@@ -57,7 +59,7 @@ public:
     void restoreMemory(std::size_t light);
     void restoreFrustums(const Input& input, std::size_t light);
     /// In the order in which they fade over into each other: near ones first, what fades out before what comes in its
-    /// place, then by direction. Holds until the next divide().
+    /// place, then by direction. Those of gathered receivers: finest first. Holds until the next divide().
     [[nodiscard]] std::span<const GrownFrustum> frustumsOf(std::size_t light) const;
     /// Of the receivers that were given, those that a frustum may serve.
     [[nodiscard]] std::span<const std::uint32_t> receiversOf(const GrownFrustum& frustum) const
@@ -78,8 +80,12 @@ private:
         bool divides = false;                    // into shells
         LightType type = LightType::directional; // nothing is remembered of a light that was another
         HeldFrustums held;                       // with motion snap
-        std::vector<GrownFrustum> last;          // of a light that takes turns: what divide() came to
+        std::vector<ReceiverCone> cones;         // and gathered receivers
+        std::vector<ReceiverHome> homes;
+        std::uint32_t next_cone = 1;    // ReceiverCone::id of the next one that is held
+        std::vector<GrownFrustum> last; // of a light that takes turns: what divide() came to
     };
+    [[nodiscard]] static std::uint32_t largestSide(const Input& input);
     [[nodiscard]] static bool takesTurns(const Input& input) { return input.recipe.takesTurns(); }
     struct Range {
         std::size_t first = 0;
@@ -94,8 +100,17 @@ private:
     void listReceivers(const Input& input, GrownFrustum& frustum);
     void sizeFrustums(const Input& input, Memory& memory, std::span<GrownFrustum> found);
     double addShells(const Input& input, const Memory& memory, FrustumPlanner& frustums);
+    double predict(const Input& input, const Memory& memory, std::size_t first, FrustumPlanner& frustums);
     void hold(const Input& input, HeldFrustums& held, std::size_t first);
     void addFading(const Input& input, const HeldFrustums& held);
+
+    // MultiDivide::receivers: multi_gather.cpp.
+    void gather(const Input& input, Memory& memory, FrustumPlanner& frustums);
+    [[nodiscard]] ReceiverCone& coneOf(std::uint32_t id);
+    void addCone(const Input& input, const ReceiverCone& cone);
+    void orderCones(const Input& input, Memory& memory, std::size_t first);
+    void holdCones(const Input& input, Memory& memory, std::span<GrownFrustum> found);
+    void addFadingCones(const Input& input, Memory& memory);
 
     LightRows rows_;
     std::vector<Memory> memories_; // by row
@@ -111,6 +126,8 @@ private:
     std::vector<TexelClaim> claims_;
     DepthShells shells_;
     std::vector<HeldFrustum> found_;
+    ReceiverCones cones_;
+    std::span<ReceiverCone> gathered_; // of the light that is being divided
     ConvexBody body_;
 };
 

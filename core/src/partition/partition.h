@@ -24,6 +24,8 @@ struct Slice {
     /// motion finds it.
     double texel = 0.0;
     double faded_in = 1.0; // View::faded_in
+    bool layered = false;  // View::layered
+    double rim = 0.0;      // View::rim
     /// A half space around the light's place along the axis, whole, as View::paraboloid has it: nothing is fitted.
     bool paraboloid = false;
 };

@@ -6,9 +6,6 @@
 namespace gnomon {
 namespace {
 
-/// A side that is so little too small is good enough.
-constexpr double kTooSmall = 1.05;
-
 /// Of two that gain alike the first comes first.
 bool comesLater(const std::pair<double, std::uint32_t>& a, const std::pair<double, std::uint32_t>& b)
 {
@@ -28,7 +25,7 @@ void TexelShares::enter(std::span<const TexelClaim> claims, std::uint32_t claim)
 {
     const TexelClaim& one = claims[claim];
     const bool had = one.before >= 2 * one.side;
-    if (2 * one.side > one.largest || one.wanted <= kTooSmall * one.side / (had ? one.staying : 1.0)) {
+    if (2 * one.side > one.largest || one.wanted <= kTooSmallSide * one.side / (had ? one.staying : 1.0)) {
         return;
     }
     constexpr double kLeastWeight = 1e-30;

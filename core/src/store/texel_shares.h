@@ -12,6 +12,9 @@ namespace gnomon {
 /// No map has fewer texels on a side because others need room.
 inline constexpr std::uint32_t kSmallestMap = 16;
 
+/// A side that is so little too small is good enough.
+inline constexpr double kTooSmallSide = 1.05;
+
 /// What one or several maps of one side ask for, and get.
 struct TexelClaim {
     double weight = 0.0;                   // > 0: the error of the picture, times the side

@@ -104,7 +104,8 @@ std::uint64_t texelsRead(const Sight& seen, const Counted& counted, std::span<co
             bool found = false;
             for (std::size_t v = 0; surface && v < views.size(); ++v) {
                 const auto texel = texelOf(views[v], surface->point_ws);
-                const bool serving = !found || views[v].slice.blend_m > 0.0 || views[v].faded_in < 1.0;
+                const bool serving =
+                    !found || views[v].slice.blend_m > 0.0 || views[v].faded_in < 1.0 || views[v].rim > 0.0;
                 if (serving && texel && serves(views[v], surface->point_ws, *texel, reach_texels)) {
                     read[v].add(*texel, reach_texels);
                     found = true;

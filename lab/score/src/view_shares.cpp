@@ -16,6 +16,7 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
               float* shares)
 {
     bool found = false;
+    double left = 1.0; // of layered views: what those before leave
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         const auto texel = texelOf(view, point_ws);
@@ -24,7 +25,11 @@ void shareOut(std::span<const View> views, const glm::dvec3& point_ws, double re
         }
         // The first that serves the point counts for all of it, and each after it for what has faded over so far.
         double share = 1.0;
-        if (found) {
+        if (view.layered) {
+            const double counts = std::min(left, std::max(view.opacityAt(point_ws), 1e-4));
+            left -= counts;
+            share = counts > 0.0 ? counts / (1.0 - left) : 0.0;
+        } else if (found) {
             share = view.shareAt(view.slice.depthAt(point_ws));
         }
         for (std::size_t before = 0; before < i; ++before) {

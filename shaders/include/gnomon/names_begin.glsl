@@ -139,6 +139,7 @@
 #define interleavedGradientNoise gnomon_interleavedGradientNoise
 #define isEdge gnomon_isEdge
 #define isLayer gnomon_isLayer
+#define isLayered gnomon_isLayered
 #define isLeft gnomon_isLeft
 #define isSameSurface gnomon_isSameSurface
 #define isSplitOff gnomon_isSplitOff
@@ -417,6 +418,7 @@
 #define varianceOfRounding gnomon_varianceOfRounding
 #define viewAt gnomon_viewAt
 #define viewContains gnomon_viewContains
+#define viewOpacity gnomon_viewOpacity
 #define viewShare gnomon_viewShare
 #define viewTint gnomon_viewTint
 #define viewVisibility gnomon_viewVisibility

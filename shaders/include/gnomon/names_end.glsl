@@ -139,6 +139,7 @@
 #undef interleavedGradientNoise
 #undef isEdge
 #undef isLayer
+#undef isLayered
 #undef isLeft
 #undef isSameSurface
 #undef isSplitOff
@@ -417,6 +418,7 @@
 #undef varianceOfRounding
 #undef viewAt
 #undef viewContains
+#undef viewOpacity
 #undef viewShare
 #undef viewTint
 #undef viewVisibility

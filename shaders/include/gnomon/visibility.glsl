@@ -9,6 +9,8 @@
 //                   which the options must have. Without it all of them are, and GpuRule says which.
 //   GNOMON_ORTHOGRAPHIC_ONLY  all views are orthographic (View::orthographic), which costs less
 //   GNOMON_TINTS    true, or a constant that says so: blended casters tint the light, which takes a seventh binding
+//   GNOMON_LAYERED  true, or a constant that says so: options may have MultiDivide::receivers. Without it frustums that
+//                   overlap do not fade over into each other
 //   GNOMON_IN_SOFTWARE  true, or a constant that says so: a software rasteriser runs it, which is then quicker. Without it
 //                   all invocations ask a light's views in turn, and a GPU has a view's numbers in scalar registers
 //   GNOMON_SMOOTHIES  true, or a constant that says so: options may have soften smoothies (hard and pcf) or

@@ -105,6 +105,10 @@ vec2 discPoint(int i)
 #define GNOMON_KNOWN_VIEW GNOMON_SLICES_ALONE
 #endif
 #include "visibility.glsl"
+// A pass may define GNOMON_LAYERED, whether views may be View::layered ones: a constant.
+#ifndef GNOMON_LAYERED
+#define GNOMON_LAYERED false
+#endif
 // A pass may define GNOMON_TINTS, whether blended casters have maps, and GNOMON_TINTS_BINDING for those.
 #ifndef GNOMON_TINTS
 #define GNOMON_TINTS false
@@ -255,6 +259,7 @@ struct Search {
     uint next;
     uint end;
     uint slices; // of few views: a bit for each that is left
+    float left;  // of layered views: what those before leave of 1
 };
 
 bool isLeft(Search s)
@@ -278,6 +283,11 @@ float nextShare(inout Search s, bool is_first, Receiver r, out uint view)
         share = is_first ? 1.0 : viewShare(asked, GNOMON_SLICES_ALONE ? sharedDepth(r.p) : sliceDepth(asked, r.p));
         bool is_within = viewContains(asked, r.p);
         share = is_within && is_held && r.asks ? share : 0.0;
+        if (GNOMON_LAYERED && isLayered(asked)) {
+            float counts = is_within && is_held && r.asks ? min(s.left, viewOpacity(asked, r.p)) : 0.0;
+            s.left -= counts;
+            share = counts > 0.0 ? counts / (1.0 - s.left) : 0.0; // of a mean over those so far
+        }
     } while (GNOMON_IN_SOFTWARE && share == 0.0 && isLeft(s));
     return share;
 }
@@ -290,7 +300,7 @@ vec4 viewsVisibility(uint first, uint end, FilterInput f, Receiver r)
     float seen = r.asks ? 1.0 : 0.0;
     vec3 colour = vec3(seen);
     uint view = first;
-    Search s = Search(first, end, slicesAt(r.p));
+    Search s = Search(first, end, slicesAt(r.p), 1.0);
     bool is_first = true;
     float share = nextShare(s, true, r, view);
     // Of one view alone nearly every pixel is in it: in software none branches, and what lies outside throws away what it
