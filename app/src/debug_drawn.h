@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the views of `--debug` are made of, and those of them that colour receivers by what the plan has for them.
+// What the views of `--debug` are made of, those that colour receivers by what the plan has for them, and that of
+// the octree.
 #pragma once
 
 #include "app/shot.h"
@@ -27,6 +28,8 @@ void requireMap(const Drawn& drawn, std::string_view what);
 [[nodiscard]] Image8 viewsView(const Drawn& drawn);
 /// With partition multi and motion snap: what is shadowed from maps that fade in, and what from those they fade over.
 [[nodiscard]] Image8 fadedView(const Drawn& drawn);
+/// The cells of the octree that hold objects, and the spheres around what the light's maps draw.
+[[nodiscard]] Image8 octreeView(const Drawn& drawn);
 /// How many of all lights reach a pixel and have maps; whatever light the settings name.
 [[nodiscard]] Image8 lightCountView(const Drawn& drawn);
 /// How filter raymarch fared: where blocks knew the answer, where rays did, and where they came to their ceiling.

@@ -205,6 +205,7 @@ constexpr std::array kViews{
               "filter lvsm: the others have no layers of depth", layersPicture},
     DebugView{"light-count", always, "a technique that has a map", lightCountView},
     DebugView{"map", isMapped, "a technique that has a map", mapsPicture},
+    DebugView{"octree", isMapped, "a technique that has a map", octreeView},
     DebugView{"rays",
               [](const Settings& s) {
                   return filterOf(s.shadow) == Filter::raymarch && s.shadow.technique.soften == Soften::none &&

@@ -373,4 +373,15 @@ void ObjectSet::query(std::span<const Plane> planes, Want want, std::vector<std:
     appendSet(found, out);
 }
 
+std::vector<OctreeCell> ObjectSet::cells() const
+{
+    std::vector<OctreeCell> cells;
+    for (const Octree& tree : read().trees) {
+        tree.visitCells([&](const glm::dvec3& centre, double half, std::uint32_t objects) {
+            cells.push_back({{glm::vec3(centre - half), glm::vec3(centre + half)}, objects});
+        });
+    }
+    return cells;
+}
+
 } // namespace gnomon

@@ -137,6 +137,37 @@ TEST(DebugViews, DensityGrowsWithTheMap)
     EXPECT_GT(brightness("512"), 1.5 * coarse);
 }
 
+/// Lines over a grey picture: orange are spheres, blue the largest cells.
+TEST(DebugViews, OctreeHasCellsAndSpheres)
+{
+    const test::Folder folder;
+    const auto pixels = [&](const ImageF& view, auto wanted) {
+        std::size_t count = 0;
+        for (std::uint32_t y = 0; y < kHeight; ++y) {
+            for (std::uint32_t x = 0; x < kWidth; ++x) {
+                count += wanted(view.pixel(x, y)) ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    const auto is_grey = [](const float* rgb) {
+        return rgb[0] == rgb[1] && rgb[1] == rgb[2];
+    };
+    const auto is_orange = [](const float* rgb) {
+        return rgb[0] > rgb[1] && rgb[1] > 2.0F * rgb[2];
+    };
+    const auto is_blue = [](const float* rgb) {
+        return rgb[2] > rgb[1] && rgb[1] > 2.0F * rgb[0];
+    };
+    const ImageF view = drawn(folder, {"render", "planes", "--camera", "side", "--debug", "octree"});
+    EXPECT_GT(pixels(view, is_grey), std::size_t{kWidth} * kHeight / 2);
+    EXPECT_GT(pixels(view, is_orange), 50U) << "the box has a sphere";
+    EXPECT_GT(pixels(view, is_blue), 50U) << "and the root a cell";
+    const ImageF away =
+        drawn(folder, {"render", "planes", "--eye", "0,1.5,-4", "--target", "0,0,-9", "--debug", "octree"});
+    EXPECT_EQ(pixels(away, is_orange), 0U) << "what is behind the eye is not drawn";
+}
+
 TEST(DebugViews, LightCountHasTheLightsThatReachAPixel)
 {
     const test::Folder folder;

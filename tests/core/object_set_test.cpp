@@ -72,6 +72,33 @@ TEST(ObjectSet, QueryEqualsBruteForceOverRandomMoves)
     EXPECT_GT(total, 10000U);
 }
 
+TEST(ObjectSet, CellsHoldEveryObjectOnce)
+{
+    Random random(11);
+    ObjectSet set;
+    EXPECT_TRUE(set.cells().empty());
+    for (int i = 0; i < 300; ++i) {
+        set.add(randomBox(random), {.dynamic = random.below(2) != 0});
+    }
+    for (std::uint32_t i = 0; i < 300; i += 3) {
+        set.remove(set.idAt(i));
+    }
+    std::uint32_t held = 0;
+    for (const OctreeCell& cell : set.cells()) {
+        EXPECT_GE(cell.objects, 1U);
+        EXPECT_NEAR(cell.bounds_ws.extent().x, cell.bounds_ws.extent().z, 1e-3F * cell.bounds_ws.extent().x);
+        held += cell.objects;
+    }
+    EXPECT_EQ(held, 200U);
+    for (std::uint32_t i = 1; i < 300; i += 3) {
+        const std::vector<OctreeCell> cells = set.cells();
+        EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), [&](const OctreeCell& cell) {
+            const glm::vec3 loose = cell.bounds_ws.extent() * 0.5F;
+            return Aabb{cell.bounds_ws.min - loose, cell.bounds_ws.max + loose}.contains(set.bounds(i));
+        })) << i;
+    }
+}
+
 TEST(ObjectSet, QueryAppendsAndTakesManyPlanes)
 {
     ObjectSet set;

@@ -49,6 +49,12 @@ struct ObjectId {
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
+/// A cell of an ObjectSet's octree. What it holds may reach beyond it, by half its size on every side.
+struct OctreeCell {
+    Aabb bounds_ws;            // a cube
+    std::uint32_t objects = 0; // that hang in it and in no smaller one; 1 at least
+};
+
 /// No coordinate of an object's bounds may be larger; metres. The set's own arithmetic is sound up to here. That is
 /// more than a world may be (kFarthestPlace_m in world_range.h): what lies between is found, and plans say that it is
 /// too far.
@@ -117,6 +123,9 @@ public:
     /// Appends, in ascending order, the index of every live object whose bounds the convex region `planes` (inward) may
     /// touch. No object inside is ever left out. `out` is not cleared.
     void query(std::span<const Plane> planes, Want want, std::vector<std::uint32_t>& out) const;
+
+    /// The cells of its octrees that have objects of their own, in no order to rely on. For pictures.
+    [[nodiscard]] std::vector<OctreeCell> cells() const;
 
 private:
     struct GNOMON_LOCAL Impl;

@@ -50,6 +50,17 @@ public:
     void query(const TreeObjects& objects, const Aabb& around_ws, const RegionTest& region, std::uint32_t want,
                std::span<std::uint64_t> bits) const;
 
+    /// Hands the middle, half the size and the number of objects of each cell that has some to `visit`.
+    template <typename Visit>
+    void visitCells(const Visit& visit) const
+    {
+        for (const Node& node : nodes_) { // those that are free have none
+            if (node.count != 0) {
+                visit(node.centre, node.half, node.count);
+            }
+        }
+    }
+
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
     static constexpr std::uint32_t kSplitAbove = 24; // objects in an undivided cell
