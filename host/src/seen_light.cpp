@@ -123,15 +123,16 @@ double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const S
             continue;
         }
         const double weight = seenAs(lamp.position_ws + way * length_m, length_m, sight);
-        all += 1.0 / (length_m * length_m);
+        all += 1.0 / length_m;
         ends += 1.0;
-        seen += weight / (length_m * length_m);
+        seen += weight / length_m;
         seen_ends += weight;
     }
-    const auto mean = [](double sum, double count) {
-        return count > 0.0 ? sum / count : 0.0;
+    // Squares of means of 1 / distance: near surfaces count for more, but a lamp's own post does not rule.
+    const auto perSquare = [](double sum, double count) {
+        return count > 0.0 ? sum * sum / (count * count) : 0.0;
     };
-    return std::max(mean(seen, seen_ends) * std::min(seen_ends / kEnough, 1.0), kUnseen * mean(all, ends));
+    return std::max(perSquare(seen, seen_ends) * std::min(seen_ends / kEnough, 1.0), kUnseen * perSquare(all, ends));
 }
 
 std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, const ObjectSet& objects,

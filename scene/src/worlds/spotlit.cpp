@@ -37,7 +37,7 @@ StagePalette addPalette(Scene& scene)
     p.brass = addMaterial(scene, "brass", {.base_colour = rgb(0xD9B35B), .phong_exponent = 50.0F});
     p.wood = addMaterial(scene, "wood", {.roughness = 0.85F, .texture = boards});
     p.iron = addMaterial(scene, "iron", {.base_colour = rgb(0x2B2C30), .roughness = 0.6F});
-    p.glow = addMaterial(scene, "glow", {.emissive = {6.0F, 5.4F, 4.6F}});
+    p.glow = addMaterial(scene, "glow", {.emissive = {12.5F, 11.2F, 9.6F}});
     return p;
 }
 
@@ -196,11 +196,11 @@ Scene makeSpotlit(std::uint64_t /*seed*/)
     turning.gear_lamp = addLamps(scene, palette);
     turning.gear_rest = scene.nodes[turning.gear_lamp].transform.rotation;
     scene.nodes[turning.gear_lamp].dynamic = true;
-    scene.environment.sky_zenith = {0.010F, 0.012F, 0.020F};
-    scene.environment.sky_horizon = {0.030F, 0.030F, 0.038F};
-    scene.environment.ground = {0.020F, 0.016F, 0.012F};
+    scene.environment.sky_zenith = {0.021F, 0.025F, 0.042F};
+    scene.environment.sky_horizon = {0.062F, 0.062F, 0.079F};
+    scene.environment.ground = {0.042F, 0.033F, 0.025F};
     scene.environment.ambient = 1.7F;
-    scene.environment.exposure = 1.25F;
+    scene.environment.exposure = 0.6F;
     scene.views = {
         {.name = "stage", .eye = {0.9F, 3.3F, 10.6F}, .target = {0.1F, 2.05F, -1.0F}, .fov_y_rad = 0.72F},
         {.name = "close", .eye = {4.6F, 2.1F, 6.2F}, .target = {0.9F, 1.15F, 0.4F}, .fov_y_rad = 0.68F},
