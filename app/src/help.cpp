@@ -50,7 +50,7 @@ constexpr Pair kPairs[] = {
     {"ground", "up-axis", "--ground WHEN --up-axis AXIS",
      "a ground (auto: under files without one); what is up in a file ({1})"},
     {"blended", "override-material", "--blended AS --override-material NAME",
-     "blended: by coverage or stained; one material: none or diffuse"},
+     "blended: coverage or stained; one material: none or diffuse"},
     {"map-size", "texels", "--map-size N --texels N", "side of a map ({0}); texels of a light's maps together ({1})"},
     {"sun-angle", "light-size", "--sun-angle DEG --light-size M",
      "across: of suns, of lamps; else their own, or 0.53 and 0"},

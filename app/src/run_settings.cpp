@@ -271,7 +271,7 @@ const std::vector<Setting>& rows()
         {.key = "mask", .group = Group::result, .type = flag, .default_text = "0", .doc = "write the visibility of one light instead of the picture",
          .subcommands = kRender, .apply = [](Settings& s, const Value& v) { s.mask = v.flag; }},
         {.key = "debug", .group = Group::result, .type = choice, .form = "VIEW", .default_text = "none", .choices = debugViewNames,
-         .doc = "shows density faded layers light-count map octree rays steps views", .subcommands = kRender | kView, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
+         .doc = "density faded layers light-count map octree rays steps views", .subcommands = kRender | kView, .apply = [](Settings& s, const Value& v) { s.debug = v.text; }},
         {.key = "light", .group = Group::result, .type = text, .form = "NAME", .doc = "the light that is looked at; else the first", .subcommands = kRender | kPlan | kCompare | kView,
          .used = judgesALight, .used_when = "--mask, a --debug of one light or --draw, or in compare", .apply = [](Settings& s, const Value& v) { s.light = v.text; }},
         {.key = "draw", .group = Group::result, .type = text, .form = "FILE", .doc = "a picture of the light's maps instead of the JSON (.svg)",

@@ -278,7 +278,7 @@ const std::vector<Setting>& rows()
          .doc = "which axis of a file is up: y, as glTF has it, or z", .apply = [](Settings& s, const Value& v) { s.up_axis = v.text == "z" ? UpAxis::z : UpAxis::y; }},
         {.key = "blended", .group = Group::picture, .type = choice, .form = "AS", .default_text = "coverage",
          .choices = [] { return std::vector<std::string_view>{"coverage", "stained"}; },
-         .doc = "blended surfaces take all light they cover, or stained what their colour lacks",
+         .doc = "light that blended surfaces take: coverage, or stained",
          .apply = [](Settings& s, const Value& v) { s.stained = v.text == "stained"; }},
         {.key = "override-material", .group = Group::picture, .type = choice, .form = "NAME", .default_text = "none",
          .choices = [] { return std::vector<std::string_view>{"none", "diffuse"}; }, .doc = "draw everything in one material: none or diffuse",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame, from the scene's state to its submission.
 #include "frame_renderer_impl.h"
+#include "model_bounds.h"
 
 #include <gnomon/converge.h>
 #include <gnomon/error.h>
@@ -289,8 +290,13 @@ void FrameRenderer::Impl::makePlan(Maps maps, bool masked_instead)
 
 void FrameRenderer::Impl::lookAtSky(const scene::State& state, const std::vector<ShadedLight>& lights)
 {
-    all_light = &daylight.at(options.sky, options.exposure_ev, lights, seen_light.find(lights, objects, sight),
-                             state.environment);
+    // A ground that was put in is as large as it has to be, and changes nothing of what stands on it.
+    fading_objects.assign(scene.pipelines.fades() ? state.objects.size() : 0, 0);
+    for (std::size_t i = 0; i < fading_objects.size(); ++i) {
+        fading_objects[i] = fades(scene.scene, state.objects[i]) ? 1 : 0;
+    }
+    all_light = &daylight.at(options.sky, options.exposure_ev, lights,
+                             seen_light.find(lights, objects, sight, fading_objects), state.environment);
     brings_sky = sky_table && sky_table->bring(slot, *all_light);
 }
 

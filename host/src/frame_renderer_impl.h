@@ -49,6 +49,7 @@ struct FrameRenderer::Impl {
     std::shared_ptr<Shadows> shadows; // null: none are wanted
 
     SeenLight seen_light;
+    std::vector<std::uint8_t> fading_objects; // by object: it fades into the sky
     Daylight daylight;
     std::optional<SkyTable> sky_table; // null: no sky is physical
 

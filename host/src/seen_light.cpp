@@ -98,7 +98,8 @@ double seenAs(const glm::dvec3& p_ws, double size_m, const Sight& sight)
 
 } // namespace
 
-double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const Sight& sight)
+double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const Sight& sight,
+                            std::span<const std::uint8_t> left_out)
 {
     const double reach_m = extentOf(lamp, objects.bounds()).reach_m;
     std::array<Plane, 6> around;
@@ -111,7 +112,9 @@ double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const S
     objects.query(around, ObjectSet::Want::all, near_);
     boxes_.clear();
     for (const std::uint32_t object : near_) {
-        boxes_.push_back(objects.bounds(object));
+        if (left_out.empty() || left_out[object] == 0) {
+            boxes_.push_back(objects.bounds(object));
+        }
     }
     double all = 0.0;
     double ends = 0.0;
@@ -136,7 +139,7 @@ double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const S
 }
 
 std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, const ObjectSet& objects,
-                                        const Sight& sight)
+                                        const Sight& sight, std::span<const std::uint8_t> left_out)
 {
     given_.assign(lights.size(), 0.0);
     lamps_.clear();
@@ -151,7 +154,7 @@ std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, con
         lamps_, [&](std::uint32_t a, std::uint32_t b) { return candelaOf(lights[a]) > candelaOf(lights[b]); });
     lamps_.resize(objects.bounds().empty() ? 0 : std::min(lamps_.size(), kMostLamps));
     for (const std::uint32_t lamp : lamps_) {
-        given_[lamp] = candelaOf(lights[lamp]) * lampGives(lights[lamp].caster, objects, sight);
+        given_[lamp] = candelaOf(lights[lamp]) * lampGives(lights[lamp].caster, objects, sight, left_out);
     }
     return given_;
 }

@@ -202,10 +202,11 @@ TEST(DebugViews, FadedShowsWhatComes)
 {
     const test::Folder folder;
     // A camera that goes quickly around a lamp.
-    const std::vector<std::string> shot{"render",       "planes",   "--eye",    "12,2,0",  "--target",
-                                        "0,0.5,0",      "--point",  "0,2,0,30", "--path",  "orbit",
-                                        "--partition",  "multi",    "--motion", "snap",    "--set",
-                                        "path.speed=4", "--frames", "0-12",     "--debug", "faded"};
+    const std::vector<std::string> shot{
+        "render",   "planes",   "--eye",   "12,2,0",       "--target",    "0,0.5,0",
+        "--point",  "0,2,0,30", "--path",  "orbit",        "--partition", "multi",
+        "--motion", "snap",     "--set",   "path.speed=4", "--set",       "multi.texels-per-pixel=1",
+        "--frames", "0-12",     "--debug", "faded"};
     const test::Ran refused = inFolder(folder, {"render", "planes", "--point", "0,3,0,30", "--debug", "faded"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find("motion snap"), std::string::npos) << refused.err;

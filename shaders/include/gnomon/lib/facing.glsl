@@ -8,9 +8,9 @@
 #include "../shared/smooth_surface.h"
 GN_BEGIN
 
-// A surface faces a light when the sine of the light's height over it exceeds this (0.023 degrees). Stored normals err
+// A surface faces a light when the sine of the light's height over it exceeds this (0.11 degrees). Stored normals err
 // by about 2e-4, so at zero a face that the light grazes would be lit and dark by turns, pixel by pixel.
-GN_CONST real kGrazing = real(0.0004);
+GN_CONST real kGrazing = real(0.002);
 
 // Does a surface with normal `n` face a light in direction `to_light` (any length)?
 GN_FN bool facesDirection(real3 n, real3 to_light)
