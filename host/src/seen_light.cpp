@@ -91,7 +91,7 @@ double seenAs(const glm::dvec3& p_ws, double size_m, const Sight& sight)
     const double beside = std::max(std::abs(glm::dot(to, sight.right_ws)) / sight.tan_x,
                                    std::abs(glm::dot(to, sight.up_ws)) / sight.tan_y) /
                           depth_m;
-    const double inside = 1.0 - glm::smoothstep(1.0, 3.0, beside);
+    const double inside = 1.0 - glm::smoothstep(1.0, 4.0, beside);
     constexpr double kLarge = 0.25; // of half the picture's height: a patch that counts in full
     return inside * std::min(size_m / (kLarge * sight.tan_y * depth_m), 1.0);
 }
@@ -150,8 +150,11 @@ std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, con
             lamps_.push_back(i);
         }
     }
-    std::ranges::stable_sort(
-        lamps_, [&](std::uint32_t a, std::uint32_t b) { return candelaOf(lights[a]) > candelaOf(lights[b]); });
+    std::ranges::sort(lamps_, [&](std::uint32_t a, std::uint32_t b) { // a stable sort would allocate
+        const double first = candelaOf(lights[a]);
+        const double second = candelaOf(lights[b]);
+        return first > second || (first == second && a < b);
+    });
     lamps_.resize(objects.bounds().empty() ? 0 : std::min(lamps_.size(), kMostLamps));
     for (const std::uint32_t lamp : lamps_) {
         given_[lamp] = candelaOf(lights[lamp]) * lampGives(lights[lamp].caster, objects, sight, left_out);

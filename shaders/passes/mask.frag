@@ -51,8 +51,12 @@ layout(constant_id = 20) const bool kPaired = false; // two positions of the sun
 #ifdef GNOMON_ONE_VIEW
 #define GNOMON_LAYERED false
 #else
+#if defined(GNOMON_ORTHOGRAPHIC_ONLY) || defined(GNOMON_ONE_VIEW) // lamps alone have them, and one leaves nothing to others
+#define GNOMON_LAYERED false
+#else
 layout(constant_id = 22) const bool kLayered = false; // views may be View::layered ones
 #define GNOMON_LAYERED kLayered
+#endif
 #endif
 layout(constant_id = 21) const int kPixelsPerTexel = 1; // along x and y, of what is drawn to: mask-size=half
 layout(push_constant) uniform Lights

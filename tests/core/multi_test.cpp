@@ -214,6 +214,7 @@ std::uint64_t texelsOfFortyLamps(std::uint32_t most_of_a_light)
         hall.addLamp({-14.0 + 4.0 * (i % 8), 2.5, -10.0 + 5.0 * (i / 8)}, 7.0);
     }
     hall.options.max_texels = most_of_a_light;
+    hall.options.multi.texels_per_pixel = 2.0;
     hall.look({16, 10, 16}, {0, 0, 0});
     Planner planner(hall.options);
     return texelsOf(planner.plan(hall.frame));

@@ -120,6 +120,7 @@ void addMaterials(scene::Scene& scene)
     scene.materials[1].double_sided = true;
     scene.materials[1].base_colour_texture.texture = 0;
     scene.materials[2].alpha_mode = scene::AlphaMode::blend;
+    scene.materials[2].stained = true;
     scene.materials[2].base_colour = {0.25F, 0.5F, 1.0F, 0.5F};
     scene.materials[2].double_sided = true;
     scene.materials[3].emissive = {0.5F, 0.4F, 0.1F};

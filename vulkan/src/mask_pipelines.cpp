@@ -39,14 +39,13 @@ std::span<const std::uint32_t> fragmentCode(Filter filter, MaskModule module)
     case Filter::lvsm:
         return of(GN_CODES(lvsm));
     case Filter::esm:
-        return of(GN_CODES(esm));
+        return of({mask_esm_frag, mask_esm_orthographic_frag, {}});
     case Filter::evsm:
         return of(GN_CODES(evsm));
     case Filter::msm:
         return of(GN_CODES(msm));
     case Filter::id:
-        return of(
-            {mask_id_frag, mask_id_orthographic_frag, {}}); // nor has depth_id one for one view: shaders/CMakeLists.txt
+        return of({mask_id_frag, mask_id_orthographic_frag, {}});
     case Filter::depth_id:
         return of({mask_depth_id_frag, mask_depth_id_orthographic_frag, {}});
     case Filter::pcf:
@@ -99,8 +98,9 @@ VkPipeline MaskPipelines::get(MaskPipelineKey key, VkPipelineLayout layout)
 {
     if (key.told_apart == pack::ToldApart::alone) { // one module for both kinds of view, where there is one
         const bool pairs = key.filter == Filter::hard || key.filter == Filter::pcf; // mask.frag
-        const bool has_module = vertex_one_ && key.filter != Filter::id && key.filter != Filter::depth_id &&
-                                (pairs || key.constants.paired == VK_FALSE);
+        const bool few_take_it = // so it has no module for one view: shaders/CMakeLists.txt
+            key.filter == Filter::esm || key.filter == Filter::id || key.filter == Filter::depth_id;
+        const bool has_module = vertex_one_ && !few_take_it && (pairs || key.constants.paired == VK_FALSE);
         key.told_apart = has_module ? pack::ToldApart::alone : pack::ToldApart::tests;
         key.orthographic = key.orthographic && !has_module;
         key.constants.paired = has_module ? key.constants.paired : VK_FALSE;

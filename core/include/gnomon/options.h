@@ -64,7 +64,7 @@ enum class MultiDivide : std::uint8_t {
 struct MultiOptions {
     MultiDivide divide = MultiDivide::space;
     /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
-    double texels_per_pixel = 2.0;
+    double texels_per_pixel = 1.0;
     /// A frustum serves no two places of which one needs so many times as many texels a pixel as the other: 2 .. 1024,
     /// by powers of two, rounded down; less is 2. Of four in one direction the last serves all that is left. 0:
     /// frustums are divided where that saves texels. T. Forsyth (GDC 2006) has 4. With MultiDivide::receivers no
