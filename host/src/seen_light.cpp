@@ -135,7 +135,8 @@ double SeenLight::lampGives(const Light& lamp, const ObjectSet& objects, const S
     const auto perSquare = [](double sum, double count) {
         return count > 0.0 ? sum * sum / (count * count) : 0.0;
     };
-    return std::max(perSquare(seen, seen_ends) * std::min(seen_ends / kEnough, 1.0), kUnseen * perSquare(all, ends));
+    const double in_sight = perSquare(seen, seen_ends) * std::min(seen_ends / kEnough, 1.0);
+    return kUnseen * perSquare(all, ends) + (1.0 - kUnseen) * in_sight;
 }
 
 std::span<const double> SeenLight::find(std::span<const ShadedLight> lights, const ObjectSet& objects,

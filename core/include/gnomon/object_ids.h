@@ -46,8 +46,8 @@ struct IdHandout {
 };
 /// What handOutIds() keeps between calls, so that it allocates nothing once all is large enough.
 struct IdScratch {
-    std::vector<std::pair<double, std::uint32_t>> places; // how far an object's box reaches, and its index
-    std::vector<std::uint32_t> found;
+    std::vector<std::pair<double, std::uint32_t>> places;       // how far an object's box reaches, and its index
+    std::vector<std::uint32_t> found;                           // objects of a query
     std::vector<std::pair<std::uint32_t, std::uint32_t>> links; // objects that share bounds
 };
 

@@ -62,7 +62,7 @@ enum class MultiDivide : std::uint8_t {
 
 /// Partition multi.
 struct MultiOptions {
-    MultiDivide divide = MultiDivide::space;
+    MultiDivide divide = MultiDivide::space; // what is divided among frustums
     /// What each part of the picture is given, as long as a light's texels last: 0.125 .. 8.
     double texels_per_pixel = 1.0;
     /// A frustum serves no two places of which one needs so many times as many texels a pixel as the other: 2 .. 1024,
