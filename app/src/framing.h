@@ -7,7 +7,7 @@
 namespace gnomon::app {
 
 /// From where a scene shows most of itself: obliquely, flat things from higher up, tall ones from lower, long ones from
-/// their longer side. What lies around its detail does not count. The light comes over the viewer's left shoulder.
+/// their longer side. Surroundings of its detail do not count. The light comes over the viewer's left shoulder.
 [[nodiscard]] Outlook outlookOn(const scene::Scene& scene, const scene::State& state);
 
 /// Unit, the way the light of the sun travels.

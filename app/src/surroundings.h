@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies around a scene's detail: a wide ground, a sky's dome, a backdrop.
+// The surroundings of a scene's detail: a wide ground, a sky's dome, a backdrop.
 #pragma once
 
 #include "scene/model.h"

@@ -26,9 +26,9 @@ bool finite(const glm::dvec3& v)
 /// A near distance, as a share of the reach, costs precision of depth: at the distance z a step of it is z * z / near *
 /// 2^-24. At the reach that is a fifth of a texel of 512 where the near distance is a 6000th.
 constexpr double kMostNear = 0.001;
-constexpr double kNearInBounds =
-    0.00025; // where a caster's bounds are around the light, and do not tell how near it is
 constexpr double kLeastNear = 1e-5;
+/// Where a caster's bounds are around the light, and do not tell how near it is.
+constexpr double kNearInBounds = 0.00025;
 
 Outcome checkPlacedLight(const Light& light)
 {

@@ -46,7 +46,7 @@ struct LightSpace {
 /// ok, or why this light cannot have a map whatever it shines on.
 [[nodiscard]] Outcome checkLight(const Light& light);
 
-/// Of a light that has a place: does its cone, if it has one, reach into the cone of this axis (unit) and half angle?
+/// Does the cone of a light that has a place, if it has one, reach into the cone of this axis (unit) and half angle?
 [[nodiscard]] bool shinesInto(const Light& light, const glm::dvec3& axis_ws, double half_angle_rad);
 
 /// Precondition: checkLight() is ok. `axis_ws` unit; `scene_ws` not empty (it bounds a reach of 0).

@@ -18,7 +18,7 @@ namespace gnomon::host {
 class SeenLight {
 public:
     /// For each light, at its full strength, the illuminance of the surfaces that it shines on and the camera sees:
-    /// lux, or the unit of the scene's lights. A directional light has its own. Of spot and point lights the 16 of most
+    /// lux, or the unit of the scene's lights. A directional light has its own. The 16 spot and point lights of most
     /// candela count, the others have 0. Where a lamp's place in the picture is small, or beside it, it has less, but
     /// not less than a 16th of what it gives there. `left_out`: by object, 1 for those that do not count; empty: all
     /// do. Valid until the next call.

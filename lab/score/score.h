@@ -23,7 +23,7 @@ struct State;
 
 namespace gnomon::lab {
 
-/// A camera's rays and a light as the tracer takes them. Of a light whose near_m is 0 the truth lets all cast, however
+/// A camera's rays and a light as the tracer takes them. Where a light's near_m is 0 the truth lets all cast, however
 /// near it is.
 [[nodiscard]] truth::View truthView(const Camera& camera, glm::uvec2 size_px);
 [[nodiscard]] truth::Light truthLight(const Light& light);

@@ -44,7 +44,7 @@ struct IdHandout {
     IdOf of = IdOf::object;             // what has an id of its own
     IdSharing sharing = IdSharing::far; // what happens when there are more
 };
-/// What handOutIds() keeps between calls, so that it allocates nothing once all is large enough.
+/// Memory that handOutIds() keeps between calls, so that it allocates nothing once all is large enough.
 struct IdScratch {
     std::vector<std::pair<double, std::uint32_t>> places;       // how far an object's box reaches, and its index
     std::vector<std::uint32_t> found;                           // objects of a query

@@ -49,7 +49,7 @@ struct ObjectId {
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
-/// A cell of an ObjectSet's octree. What it holds may reach beyond it, by half its size on every side.
+/// A cell of an ObjectSet's octree. Its objects may reach beyond it, by half its size on every side.
 struct OctreeCell {
     Aabb bounds_ws;            // a cube
     std::uint32_t objects = 0; // that hang in it and in no smaller one; 1 at least

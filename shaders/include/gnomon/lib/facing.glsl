@@ -56,7 +56,7 @@ struct GrazedPoint {
     real sine; // of the light's height over the plane there; 0: it is higher than that, or wide
 };
 
-// Of the same triangle; `at`: its lightPoint(). `light_sine`: of the light's radius, as it is seen. A triangle that faces
+// The triangle is that of `at`, its lightPoint(). `light_sine`: of the light's radius, as it is seen. A triangle that faces
 // the light takes it by itself, whatever lies over it.
 GN_FN GrazedPoint grazedPoint(LightPoint at, real3 p, real3 n, real3 to_light, real light_sine)
 {

@@ -185,7 +185,7 @@ GN_FN real boundedVisibility(real v)
 // Where light all but grazes a surface, filters hardly follow its plane, and let pass what is before it by less than the
 // plane rises over a texel: its neighbours on a body, by turns from texel to texel. So the map is asked once more, at the
 // point itself, between the four texels around it, where a surface's own texels and its neighbours' both are what they
-// are. Of a convex body none of the four is before the plane. What is farther before it makes an edge as ever.
+// are. None of the four is before the plane of a convex body. Casters farther before it make edges as ever.
 // `rows`, `texel_depth`: of the receiver (MapPoint); `p`, `sine`: of grazedPoint().
 GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRule rule, FilterInput f, real3 p, real sine)
 {

@@ -11,7 +11,8 @@ GN_BEGIN
 // A step of 16 bits, which vertex colours may be stored as; half of it is what they are off by.
 GN_CONST real kAlphaStep = real(1.0 / 65536.0);
 
-// What alpha is compared with for this cutoff, 0 or above. What is quite clear stays so: above 0 it is above 0.
+// The limit that alpha is compared with for this cutoff, 0 or above. Quite clear alpha stays so: the limit is above 0
+// where the cutoff is.
 GN_FN real alphaLimit(real cutoff)
 {
     return cutoff - min(kAlphaStep, real(0.5) * cutoff);

@@ -7,7 +7,7 @@
 #include "portability.h"
 GN_BEGIN
 
-// Of red, green and blue light, [0, 1]. `colour`: linear, its alpha the coverage, all [0, 1]. `stained`: 1 where it
+// The share of red, green and blue light that goes on, [0, 1]. `colour`: linear, its alpha the coverage, all [0, 1]. `stained`: 1 where it
 // takes from the light what its colour does not have, 0 where it takes all.
 GN_FN real3 blendedTint(real4 colour, real stained)
 {
