@@ -41,9 +41,9 @@ struct FrameLight {
     glm::dvec3 night{0.0};  // radiance of a sky without sun and moon
 };
 
-/// The factor that brings the brightest of `given`, illuminance by light, to the range that the tone curve is made for; multiplies
-/// all light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and are only
-/// scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
+/// The factor that brings the brightest of `given`, illuminance by light, to the range that the tone curve is made for;
+/// multiplies all light that the scene's lights give. Sky, hemisphere light and emission are given relative to that and
+/// are only scaled by Environment::exposure, so lights in lux, candela or any other unit fit the same sky.
 [[nodiscard]] double exposureOf(std::span<const double> given, const scene::Environment& environment);
 
 /// Keeps the tables of the last sun and moon. What it says is a function of its arguments alone.

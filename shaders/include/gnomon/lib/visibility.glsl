@@ -187,7 +187,8 @@ GN_FN real boundedVisibility(real v)
 // point itself, between the four texels around it, where a surface's own texels and its neighbours' both are what they
 // are. None of the four is before the plane of a convex body. Casters farther before it make edges as ever.
 // `rows`, `texel_depth`: of the receiver (MapPoint); `p`, `sine`: of grazedPoint().
-GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRule rule, FilterInput f, real3 p, real sine)
+GN_FN real grazedVisibility(GpuView view, MapRows rows, real texel_depth, BiasRule rule, FilterInput f, real3 p,
+                            real sine)
 {
     real2 low = real2(real(view.whole.x), real(view.whole.y)) + real2(real(0.5));
     real2 high = real2(real(view.whole.z), real(view.whole.w)) - real2(real(1.5));

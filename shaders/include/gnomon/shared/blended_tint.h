@@ -7,8 +7,8 @@
 #include "portability.h"
 GN_BEGIN
 
-// The share of red, green and blue light that goes on, [0, 1]. `colour`: linear, its alpha the coverage, all [0, 1]. `stained`: 1 where it
-// takes from the light what its colour does not have, 0 where it takes all.
+// The share of red, green and blue light that goes on, [0, 1]. `colour`: linear, its alpha the coverage, all [0, 1].
+// `stained`: 1 where it takes from the light what its colour does not have, 0 where it takes all.
 GN_FN real3 blendedTint(real4 colour, real stained)
 {
     real3 kept = stained * real3(colour.x, colour.y, colour.z);
